@@ -1,0 +1,49 @@
+"""What a force element hands to `compile()`: signals, data and states, all plain numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from mbs.affine import Affine
+from mbs.elements.types import ElementType
+
+
+@dataclass(frozen=True)
+class Output:
+    """One value an element computes beside its force."""
+
+    name: str
+    unit: str
+    description: str
+
+
+@dataclass(frozen=True)
+class ElementRecord:
+    """A force element in the terms of the System file.
+
+    Parameters
+    ----------
+    name : str
+        Unique among the elements of a model.
+    type : ElementType
+        Kernel type; it fixes the meaning and order of all that follows.
+    signals : sequence of Affine
+        Local variables u, in the order of the type.
+    real, integer : sequence
+        Data of the element; `integer` holds input and road numbers.
+    states : sequence of float
+        Initial values of its slots.
+    outputs : sequence of Output
+        What it computes beside its force.
+    """
+
+    name: str
+    type: ElementType
+    signals: Sequence[Affine]
+    real: Sequence[float] = ()
+    integer: Sequence[int] = ()
+    states: Sequence[float] = ()
+    outputs: Sequence[Output] = field(default_factory=tuple)
+    real_names: Sequence[str] = ()
+    """Names of the entries of `real`, so that a parameter can be tied to one."""

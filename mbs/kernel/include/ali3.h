@@ -1,0 +1,106 @@
+/* ALi3 kernel: loads a System, steps a State, evaluates sensors. C11, libc and libm only.
+ *
+ * A system is immutable and may be shared by threads; an instance belongs to one thread at a time.
+ * After ali3_instance_new nothing allocates. A call that fails leaves the last accepted state untouched.
+ */
+#ifndef ALI3_H
+#define ALI3_H
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define ALI3_API __declspec(dllexport)
+#else
+#define ALI3_API __attribute__((visibility("default")))
+#endif
+
+#define ALI3_SYSTEM_VERSION 1
+#define ALI3_STATE_VERSION 1
+
+typedef enum {
+  ALI3_OK = 0,
+  ALI3_BAD_ARGUMENT,      /* a null pointer, a non-finite number, an index or size out of range */
+  ALI3_BAD_FILE,          /* the bytes are not a valid System file; the message says where */
+  ALI3_BAD_STATE,         /* the bytes are not a state of this System */
+  ALI3_NO_MEMORY,
+  ALI3_NOT_INITIALISED,   /* step or sensors before ali3_initialise */
+  ALI3_NOT_ASSEMBLED,     /* the position problem did not close */
+  ALI3_NOT_CONVERGED,     /* Newton iterations exhausted, also after halving the step */
+  ALI3_SINGULAR,          /* the tangent could not be factorised */
+  ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
+  ALI3_STATUS_COUNT
+} ali3_status;
+
+typedef struct ali3_system ali3_system;
+typedef struct ali3_instance ali3_instance;
+
+enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
+
+typedef struct {
+  double alpha;             /* penalty, 1/s^2; 0: rule alpha = 1/(eps_rel h^2) */
+  double eps_rel;           /* used by the rule */
+  double tolerance_r;       /* on max_i |r_i| / m_i, coordinate units (m) */
+  double tolerance_phi;     /* on the constraint violation, m */
+  int32_t max_iterations;
+  int32_t max_halvings;     /* depth of step bisection; 0: never */
+  int32_t project;          /* 1: velocity and acceleration projections (24), (25) */
+  int32_t update;           /* ALI3_UPDATE_* */
+  int32_t geometric;        /* 1: exact geometric term sum lam_k H_k in the tangent */
+  int32_t reserved;
+} ali3_settings;
+
+typedef struct {
+  int64_t steps, iterations, factorizations, solves, halvings, failures; /* since the last initialise */
+  int32_t last_iterations, max_iterations;
+  int32_t last_status, negative_pivots;
+  double residual, violation;       /* of the last step: max |r_i|/m_i, max |Phi| in m */
+  double velocity_violation;        /* max |Phi_q qd + Phi_t| * row_measure after projection */
+  int32_t worst_row, worst_coordinate;
+} ali3_report;
+
+typedef struct { int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, reserved; } ali3_sizes;
+
+ALI3_API const char *ali3_status_text(ali3_status s); /* one sentence per code */
+ALI3_API uint32_t ali3_version(void);
+
+ALI3_API ali3_status ali3_system_load(const void *bytes, size_t size, ali3_system **out, char *message, size_t message_size);
+ALI3_API void ali3_system_free(ali3_system *s);
+ALI3_API ali3_sizes ali3_system_sizes(const ali3_system *s);
+
+ALI3_API ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out);
+ALI3_API void ali3_instance_free(ali3_instance *in);
+ALI3_API ali3_status ali3_reset(ali3_instance *in);   /* back to q0, qd0, y0, default inputs, parameters and settings */
+ALI3_API ali3_settings ali3_default_settings(void);
+ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
+ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value);
+ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value); /* range checked */
+ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
+ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed);
+ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
+/* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and multipliers. */
+ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
+/* Static equilibrium near the present position with all rates zero; then as ali3_initialise. */
+ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
+ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
+/* steps: inputs is (n_steps x nu) row major, one row per step, or NULL (keep); every k-th state's sensors go to out
+   (n_steps/every x ns). *done is the number of accepted steps. */
+ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every, double *out, int64_t *done);
+ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
+ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
+ALI3_API double ali3_time(const ali3_instance *in);
+
+/* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit, parameters and settings too. */
+ALI3_API size_t ali3_state_size(const ali3_system *s);
+ALI3_API ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size);
+ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size);
+
+/* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
+   phi, lam and jacobian are those of the stored (mass-normalised) rows. */
+ALI3_API ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam, double *y);
+ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, const double *y, double t, double *phi, double *jacobian_values,
+                                   double *phi_t, double *gamma /* d(Phi_q)/dt qd + d(Phi_t)/dt */, double *force /* Q, nq */, double *outputs);
+/* The tangent (23) as a dense symmetric nq x nq matrix at the present state for step h with multipliers lam (NULL: present). */
+ALI3_API ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense);
+/* One element step in isolation: slots y_old -> y_new over h at (q, qd); force (nq) may be NULL. */
+ALI3_API ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old, double h, double *y_new, double *force);
+#endif
