@@ -1,0 +1,42 @@
+"""Relative angle as an unwrapped coordinate: one coordinate and one row."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.model.body import Body
+from mbs.model.checks import direction, number, perpendicular
+from mbs.model.core import Coordinate, ModelCore
+from mbs.model.equation import AnglePart, Equation, dot_products
+from mbs.model.errors import ModelError
+from mbs.model.joints.joint import Joint
+from mbs.model.joints.points import different
+
+
+def relative_angle(model: ModelCore, name: str, body_1: Body, body_2: Body, axis: ArrayLike | None, zero: float) -> tuple[Coordinate, Joint]:
+    """The row ``cos(theta) S - sin(theta) C = 0`` with C = v.e1, S = v.e2; regular at every angle, and theta is not wrapped.
+
+    v is a vector of body 2, e1 and e2 are perpendicular vectors of body 1, all perpendicular to the axis in the reference
+    configuration, where theta is `zero`.
+    """
+    what = f"relative angle '{name}'"
+    different(body_1, body_2, what)
+    for body in (body_1, body_2):
+        if model.owned(body, f"The {what}").is_point:
+            raise ModelError(f"The {what} needs bodies with axes; '{body.name}' is a point mass.")
+    if model.dimension == 2:
+        if axis is not None:
+            raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
+        x, y = np.eye(2)
+    else:
+        if axis is None:
+            raise ModelError(f"The {what} needs an axis in a spatial model.")
+        x, y = perpendicular(direction(axis, 3, f"the axis of {what}"))
+    start = number(zero, f"zero of {what}")
+    # measured from where theta would be 0: v is turned by `zero` against e1 in the reference configuration
+    v = body_2.vector(np.cos(start) * x + np.sin(start) * y)
+    e1, e2 = body_1.vector(x), body_1.vector(y)
+    theta = model.new_coordinate(name, "angle", start)
+    row = Equation(name, "angle", angle=AnglePart(theta, dot_products(v, e1), dot_products(v, e2)))
+    return Coordinate(name, theta, "rad"), Joint(name, "relative_angle", [row])

@@ -1,0 +1,171 @@
+"""Rigid bodies, point masses and the ground in natural coordinates.
+
+A spatial body has the full coordinates r (3), a, b, c (3 each): its centre of mass and its axes, which are the earth axes in
+the reference configuration; a planar body has r (2) and a (2), with b = (-a_y, a_x). Every point and vector of it is affine in
+these, and its mass matrix is constant (pseudo-inertia).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.affine import Affine, AffineVector
+from mbs.model.checks import Vector, vector
+from mbs.model.errors import ModelError
+
+if TYPE_CHECKING:
+    from mbs.model.core import ModelCore
+
+
+class Body:
+    """A rigid body; made by `Model.body`.
+
+    Attributes
+    ----------
+    name : str
+    com : ndarray, shape (dimension,)
+        Centre of mass in earth axes in the reference configuration, m; origin of the body frame.
+    start : int
+        Number of its first full coordinate.
+    """
+
+    is_ground = False
+    is_point = False
+
+    def __init__(self, model: ModelCore, name: str, com: Vector, start: int) -> None:
+        self.model = model
+        self.name = name
+        self.com = com
+        self.start = start
+        self.number = -1
+        self.joint_points: list[Vector] = []
+        self.joint_axes: list[Vector] = []
+        # zeroth, first and second moments of mass about `com` in the body axes
+        self.mass = 0.0
+        self.first_moment: Vector = np.zeros(3)
+        self.second_moment: NDArray[np.float64] = np.zeros((3, 3))
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name!r}>"
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return len(self.com)
+
+    @property
+    def size(self) -> int:
+        """Number of its full coordinates."""
+        return 12 if self.dimension == 3 else 4
+
+    def point(self, position: ArrayLike) -> AffineVector:
+        """The material point at `position` (earth axes, reference configuration, m)."""
+        local = vector(position, self.dimension, f"a point of body '{self.name}'") - self.com
+        return self._expression(local, 1.0)
+
+    def vector(self, components: ArrayLike) -> AffineVector:
+        """The vector fixed in the body that is `components` (earth axes) in the reference configuration."""
+        return self._expression(vector(components, self.dimension, f"a vector of body '{self.name}'"), 0.0)
+
+    def _expression(self, local: Vector, origin: float) -> AffineVector:
+        s = self.start
+        if self.dimension == 2:
+            x, y = float(local[0]), float(local[1])
+            return AffineVector((_affine([(s, origin), (s + 2, x), (s + 3, -y)]), _affine([(s + 1, origin), (s + 2, y), (s + 3, x)])))
+        return AffineVector(
+            tuple(_affine([(s + k, origin), *((s + 3 * (m + 1) + k, float(local[m])) for m in range(3))]) for k in range(3))
+        )
+
+    def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
+        """Add a rigidly attached mass: `centre` in earth axes (reference), `second_moment` (3x3) about that centre."""
+        arm = np.zeros(3)
+        arm[: self.dimension] = centre - self.com
+        self.mass += mass
+        self.first_moment = self.first_moment + mass * arm
+        self.second_moment = self.second_moment + second_moment + mass * np.outer(arm, arm)
+
+    def mass_block(self) -> NDArray[np.float64]:
+        """Constant mass matrix of its full coordinates (unit axes), shape (size, size)."""
+        s, J = self.first_moment, self.second_moment
+        if self.dimension == 2:
+            polar = J[0, 0] + J[1, 1]
+            return np.array(
+                [
+                    [self.mass, 0.0, s[0], -s[1]],
+                    [0.0, self.mass, s[1], s[0]],
+                    [s[0], s[1], polar, 0.0],
+                    [-s[1], s[0], 0.0, polar],
+                ]
+            )
+        moments = np.zeros((4, 4))
+        moments[0, 0] = self.mass
+        moments[0, 1:] = moments[1:, 0] = s
+        moments[1:, 1:] = J
+        return np.kron(moments, np.eye(3))
+
+    def reference(self) -> NDArray[np.float64]:
+        """Full coordinates in the reference configuration, shape (size,)."""
+        axes = np.eye(3).ravel() if self.dimension == 3 else np.array([1.0, 0.0])
+        return np.concatenate([self.com, axes])
+
+    def velocity(self, linear: Vector, angular: ArrayLike) -> NDArray[np.float64]:
+        """Rates of the full coordinates in the reference configuration, shape (size,)."""
+        if self.dimension == 2:
+            return np.array([*linear, 0.0, float(np.asarray(angular))])
+        return np.concatenate([linear, *(np.cross(np.asarray(angular), e) for e in np.eye(3))])
+
+
+class PointMass(Body):
+    """A particle; made by `Model.point_mass`. It has a position only."""
+
+    is_point = True
+
+    @property
+    def size(self) -> int:
+        """Number of its full coordinates."""
+        return self.dimension
+
+    def point(self, position: ArrayLike | None = None) -> AffineVector:
+        """The particle itself; `position` may only be its own."""
+        if position is not None:
+            given = vector(position, self.dimension, f"the point of point mass '{self.name}'")
+            if np.linalg.norm(given - self.com) > 1e-9 * max(1.0, float(np.linalg.norm(self.com))):
+                raise ModelError(f"Point mass '{self.name}' is at {self.com.tolist()}; it has no point at {given.tolist()}.")
+        return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(self.dimension)))
+
+    def vector(self, components: ArrayLike) -> AffineVector:
+        """Refused: a particle has no directions."""
+        raise ModelError(f"Point mass '{self.name}' has no axes; use a body where directions matter.")
+
+    def mass_block(self) -> NDArray[np.float64]:
+        """Mass matrix, shape (dimension, dimension)."""
+        return self.mass * np.eye(self.dimension)
+
+    def reference(self) -> NDArray[np.float64]:
+        """Position in the reference configuration."""
+        return self.com
+
+    def velocity(self, linear: Vector, angular: ArrayLike) -> NDArray[np.float64]:
+        """Rates of its coordinates."""
+        return linear
+
+
+class Ground(Body):
+    """The earth: points and vectors of it are constants."""
+
+    is_ground = True
+
+    @property
+    def size(self) -> int:
+        """It has no coordinates."""
+        return 0
+
+    def _expression(self, local: Vector, origin: float) -> AffineVector:
+        return AffineVector.constant(local)
+
+
+def _affine(pairs: list[tuple[int, float]]) -> Affine:
+    return Affine({i: c for i, c in pairs if c != 0.0})

@@ -1,0 +1,208 @@
+"""The register of a model: coordinates, bodies, equations, elements; the vocabulary in the other files writes into it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import Affine, AffineVector
+from mbs.elements.record import ElementRecord
+from mbs.model.body import Body, Ground, PointMass
+from mbs.model.checks import Vector, direction, inertia_matrix, number, positive, vector
+from mbs.model.errors import ModelError
+
+if TYPE_CHECKING:
+    from mbs.model.guides import Guide
+    from mbs.model.inputs import Input
+    from mbs.model.joints.joint import Joint
+    from mbs.model.parameters import Parameter
+    from mbs.model.sensors import Sensor
+    from mbs.model.spin import Spin
+
+
+@dataclass(frozen=True)
+class CoordinateInfo:
+    """What a full coordinate is: ``kind`` point, vector, angle or spin, and its component 0..2 in earth axes."""
+
+    name: str
+    kind: str
+    component: int
+    reference: float
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A scalar coordinate a model added: an unwrapped relative angle or a spin."""
+
+    name: str
+    index: int
+    unit: str
+
+    @property
+    def affine(self) -> Affine:
+        """The coordinate as an expression."""
+        return Affine({self.index: 1.0})
+
+
+class ModelCore:
+    """Bodies and the register; `Model` adds the vocabulary.
+
+    Parameters
+    ----------
+    name : str
+    dimension : {2, 3}
+    gravity : array_like, shape (dimension,)
+        Acceleration of gravity in earth axes, m/s2.
+    """
+
+    def __init__(self, name: str, dimension: int = 3, gravity: ArrayLike | None = None) -> None:
+        if dimension not in (2, 3):
+            raise ModelError(f"The dimension of model '{name}' is {dimension!r}; it must be 2 or 3.")
+        self.name = str(name)
+        self.dimension = dimension
+        fall = np.array([0.0, -9.81]) if dimension == 2 else np.array([0.0, 0.0, -9.81])
+        self.gravity: Vector = fall if gravity is None else vector(gravity, dimension, f"gravity of model '{name}'")
+        self.floating = False
+        self.stop_time = 10.0
+        self.step = 0.01
+        self.ground: Body = Ground(self, "ground", np.zeros(dimension), 0)
+        self.bodies: list[Body] = []
+        self.coordinates: list[CoordinateInfo] = []
+        self.joints: list[Joint] = []
+        self.elements: list[ElementRecord] = []
+        self.inertias: dict[int, float] = {}
+        self.spins: list[Spin] = []
+        self.inputs: list[Input] = []
+        self.guides: list[Guide] = []
+        self.roads: list[Any] = []
+        self.sensors: list[Sensor] = []
+        self.parameters: list[Parameter] = []
+        self.body_velocities: dict[int, np.ndarray] = {}
+        self.coordinate_rates: dict[int, float] = {}
+        self._names: dict[str, set[str]] = {}
+
+    # --- register -----------------------------------------------------------------------------------------------------------------
+    def unique(self, family: str, name: str) -> str:
+        """Claim `name` among the things of a family."""
+        if not isinstance(name, str) or not name.strip():
+            raise ModelError(f"A {family} needs a name that is not empty, got {name!r}.")
+        names = self._names.setdefault(family, set())
+        if name in names:
+            raise ModelError(f"The model '{self.name}' already has a {family} named '{name}'; names must be unique.")
+        names.add(name)
+        return name
+
+    def owned(self, body: Body, what: str) -> Body:
+        """`body` if it is one of this model."""
+        if not isinstance(body, Body):
+            raise ModelError(f"{what} needs a body, got {body!r}.")
+        if body.model is not self:
+            raise ModelError(f"{what}: body '{body.name}' belongs to model '{body.model.name}', not to '{self.name}'.")
+        return body
+
+    def anchor(self, body: Body, position: ArrayLike | None, what: str) -> AffineVector:
+        """A joint point of a body; remembered so that compile can choose short rigid-body equations."""
+        self.owned(body, what)
+        if body.is_point:
+            return body.point(position)  # type: ignore[arg-type]
+        local = vector(position, self.dimension, f"the point of {what} on body '{body.name}'")  # type: ignore[arg-type]
+        if not body.is_ground:
+            body.joint_points.append(local - body.com)
+        return body.point(local)
+
+    def anchor_axis(self, body: Body, axis: ArrayLike, what: str) -> AffineVector:
+        """A unit joint axis of a body; remembered like a joint point."""
+        self.owned(body, what)
+        unit = direction(axis, self.dimension, f"the axis of {what} on body '{body.name}'")
+        if not body.is_ground and not body.is_point:
+            body.joint_axes.append(unit)
+        return body.vector(unit)
+
+    def new_coordinate(self, name: str, kind: str, reference: float) -> int:
+        """Register a scalar full coordinate and return its number."""
+        self.coordinates.append(CoordinateInfo(name, kind, 0, reference))
+        return len(self.coordinates) - 1
+
+    def _register(self, body: Body) -> None:
+        parts = ["r"] if body.is_point else ["r", "a", "b", "c"] if self.dimension == 3 else ["r", "a"]
+        values = iter(body.reference())
+        for part in parts:
+            for k in range(self.dimension):
+                kind = "point" if part == "r" else "vector"
+                self.coordinates.append(CoordinateInfo(f"{body.name}.{part}{'xyz'[k]}", kind, k, float(next(values))))
+        body.number = len(self.bodies)
+        self.bodies.append(body)
+
+    # --- bodies -------------------------------------------------------------------------------------------------------------------
+    def body(self, name: str, *, mass: float, com: ArrayLike, inertia: Any) -> Body:
+        """A rigid body.
+
+        Parameters
+        ----------
+        mass : float
+            kg.
+        com : array_like, shape (dimension,)
+            Centre of mass in earth axes in the reference configuration, m.
+        inertia : float or array_like
+            About the centre of mass in earth axes in the reference configuration, kg m2: planar a number, spatial
+            3 principal values or a 3x3 matrix.
+        """
+        self.unique("body", name)
+        m = positive(mass, f"The mass of body '{name}'")
+        centre = vector(com, self.dimension, f"the centre of mass of body '{name}'")
+        I = inertia_matrix(inertia, self.dimension, f"The inertia of body '{name}'")
+        # second moments of mass from moments of inertia: J = tr(I)/2 - I; planar: only the polar moment counts
+        J = 0.5 * np.trace(I) * np.eye(3) - I if self.dimension == 3 else np.diag([0.5 * I[2, 2], 0.5 * I[2, 2], 0.0])
+        new = Body(self, name, centre, len(self.coordinates))
+        new.add_mass(m, centre, J)
+        self._register(new)
+        return new
+
+    def point_mass(self, name: str, *, mass: float, position: ArrayLike) -> PointMass:
+        """A particle of `mass` (kg) at `position` (m)."""
+        self.unique("body", name)
+        m = positive(mass, f"The mass of point mass '{name}'")
+        centre = vector(position, self.dimension, f"the position of point mass '{name}'")
+        new = PointMass(self, name, centre, len(self.coordinates))
+        new.add_mass(m, centre, np.zeros((3, 3)))
+        self._register(new)
+        return new
+
+    def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
+        """Start velocity of a body at its centre of mass (m/s, earth axes) and its angular velocity (rad/s).
+
+        Bodies without one take what the joints ask for with the least kinetic energy.
+        """
+        what = f"initial velocity of body '{getattr(body, 'name', body)}'"
+        self.owned(body, f"The {what}")
+        if body.is_ground:
+            raise ModelError("The ground cannot have an initial velocity.")
+        v = np.zeros(self.dimension) if linear is None else vector(linear, self.dimension, f"the linear {what}")
+        w: ArrayLike
+        if self.dimension == 2:
+            w = 0.0 if angular is None else number(angular, f"The angular {what}")
+        else:
+            w = np.zeros(3) if angular is None else vector(angular, 3, f"the angular {what}")
+        self.body_velocities[body.number] = body.velocity(v, w)
+
+    def initial_rate(self, coordinate: Coordinate, rate: float) -> None:
+        """Start rate of a relative angle or a spin, rad/s."""
+        self.coordinate_rates[coordinate.index] = number(rate, f"The initial rate of '{coordinate.name}'")
+
+    def add(self, element: ElementRecord) -> ElementRecord:
+        """Add a force element by its record."""
+        if not isinstance(element, ElementRecord):
+            raise ModelError(f"Model.add needs an ElementRecord, got {element!r}.")
+        self.unique("element", element.name)
+        self.elements.append(element)
+        return element
+
+    def joint_named(self, name: str) -> Joint:
+        """The joint of that name."""
+        for joint in self.joints:
+            if joint.name == name:
+                return joint
+        raise ModelError(f"The model '{self.name}' has no joint named '{name}'.")

@@ -1,0 +1,75 @@
+"""Constraint equations over the full coordinates, as the joints write them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.affine import Affine, AffineVector
+
+Product = tuple[float, Affine, Affine]
+
+
+@dataclass(frozen=True)
+class GuideTerm:
+    """``s_guide**power * (sum c * A * B + linear)`` with power 1 or 2."""
+
+    guide: int
+    power: int
+    products: Sequence[Product] = ()
+    linear: Affine = field(default_factory=Affine)
+
+
+@dataclass(frozen=True)
+class AnglePart:
+    """``cos(theta) * S - sin(theta) * C``; C and S are sums of products, theta a full coordinate."""
+
+    theta: int
+    cosine: Sequence[Product]
+    sine: Sequence[Product]
+
+
+@dataclass(frozen=True)
+class Equation:
+    """``sum c * A * B + linear + guide terms + angle part = 0``.
+
+    Parameters
+    ----------
+    name : str
+        Name of the joint, or of its part, for messages and the list of rows.
+    kind : str
+        What the equation states: point, axis, distance, angle ...
+    """
+
+    name: str
+    kind: str
+    products: Sequence[Product] = ()
+    linear: Affine = field(default_factory=Affine)
+    guides: Sequence[GuideTerm] = ()
+    angle: AnglePart | None = None
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether it is a constant linear equation of the coordinates."""
+        return not self.guides and self.angle is None and all(not a.terms or not b.terms for _, a, b in self.products)
+
+    def linear_form(self) -> Affine:
+        """The equation as one affine expression; only if `is_linear`."""
+        total = self.linear
+        for c, a, b in self.products:
+            total = total + (b * (c * a.constant) if not a.terms else a * (c * b.constant))
+        return total
+
+
+def dot_products(a: AffineVector, b: AffineVector, factor: float = 1.0) -> list[Product]:
+    """The terms of ``factor * a . b``."""
+    return [(factor, x, y) for x, y in zip(a.components, b.components, strict=True)]
+
+
+def products_value(products: Sequence[Product], q_full: NDArray[np.float64]) -> float:
+    """Value of a sum of products at full coordinates."""
+    return sum(c * a.value(q_full) * b.value(q_full) for c, a, b in products)
+

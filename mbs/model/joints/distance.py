@@ -1,0 +1,57 @@
+"""Constant or driven distance between two points: a massless rod is one row."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mbs.affine import Affine, AffineVector
+from mbs.model.body import Body
+from mbs.model.checks import positive
+from mbs.model.core import ModelCore
+from mbs.model.equation import Equation, GuideTerm, dot_products
+from mbs.model.errors import ModelError
+from mbs.model.joints.joint import Joint
+from mbs.model.slide import SlidingPoint
+
+End = Any  # (body, point), a point mass, or a SlidingPoint
+
+
+def end_point(model: ModelCore, end: End, what: str) -> tuple[AffineVector, SlidingPoint | None]:
+    """The point at an end, at guide value zero if it slides."""
+    if isinstance(end, SlidingPoint):
+        model.owned(end.body, what)
+        return end.start, end
+    if isinstance(end, Body):
+        end = (end, None if end.is_point else end.com)
+    try:
+        body, point = end
+    except (TypeError, ValueError):
+        raise ModelError(f"An end of {what} must be (body, point), a point mass or a sliding point; got {end!r}.") from None
+    return model.anchor(body, point, what), None
+
+
+def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float | None) -> Joint:
+    """``(|p1 - p2|^2 - length^2)/2 = 0``; its multiplier times the length is the tension of the rod."""
+    what = f"distance '{name}'"
+    p1, slide_1 = end_point(model, end_1, what)
+    p2, slide_2 = end_point(model, end_2, what)
+    if slide_1 is not None and slide_2 is not None:
+        raise ModelError(f"Both ends of {what} slide; only one end may be a sliding point.")
+    gap = p1 - p2
+    if not any(c.terms for c in gap.components):
+        raise ModelError(f"The {what} joins two points of the ground; one end must be able to move.")
+    reference = np.array([c.reference for c in model.coordinates])
+    drawn = float(np.linalg.norm(gap.value(reference)))
+    if length is None:
+        if drawn <= 0.0:
+            raise ModelError(f"The {what} has zero length; use a spherical joint for points that coincide.")
+        length = drawn
+    length = positive(length, f"The length of {what}")
+    constant = Affine({}, -0.5 * length * length)
+    slide, sign = (slide_1, 1.0) if slide_1 is not None else (slide_2, -1.0)
+    guides = []
+    if slide is not None:
+        guides = [GuideTerm(slide.guide, 1, dot_products(gap, slide.direction, sign)), GuideTerm(slide.guide, 2, linear=Affine({}, 0.5))]
+    return Joint(name, "distance", [Equation(name, "distance", dot_products(gap, gap, 0.5), constant, guides)], rows_weight=length)

@@ -1,0 +1,58 @@
+"""What every joint is: a name and its equations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from mbs.affine import AffineVector
+from mbs.model.equation import Equation
+from mbs.model.errors import ModelError
+
+
+class Joint:
+    """A constraint of the model.
+
+    Attributes
+    ----------
+    name, type : str
+    equations : list of Equation
+    keep : bool
+        Its point equations stay rows so that the multipliers (the joint force) exist; a joint-force sensor sets it.
+    rows_weight : float
+        Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
+    """
+
+    def __init__(self, name: str, type: str, equations: Sequence[Equation], rows_weight: float = 0.0) -> None:
+        self.name = name
+        self.type = type
+        self.equations = list(equations)
+        self.rows_weight = rows_weight
+        self.keep = False
+
+    def __repr__(self) -> str:
+        return f"<Joint {self.name!r} ({self.type})>"
+
+    @property
+    def force_equations(self) -> list[int]:
+        """Numbers of the equations whose multipliers are its force."""
+        return [k for k, e in enumerate(self.equations) if e.kind in ("point", "distance", "drive")]
+
+
+def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> list[Equation]:
+    """The equations ``a - b = 0``, one per component."""
+    return [Equation(name, kind, linear=x - y) for x, y in zip(a.components, b.components, strict=True)]
+
+
+def point_pair(point: Any, dimension: int, what: str) -> tuple[ArrayLike, ArrayLike]:
+    """`point` for both bodies; a pair of points where the drawing does not close."""
+    try:
+        if len(point) == 2 and all(hasattr(p, "__len__") for p in point):
+            return point[0], point[1]
+        if len(point) == dimension:
+            return point, point
+    except TypeError:
+        pass
+    raise ModelError(f"The point of {what} must be {dimension} numbers, or a pair of points, one per body; got {point!r}.")

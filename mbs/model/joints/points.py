@@ -1,0 +1,73 @@
+"""Joints that share a point: spherical, revolute and universal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import Affine
+from mbs.model.body import Body
+from mbs.model.checks import direction
+from mbs.model.core import ModelCore
+from mbs.model.equation import Equation, dot_products
+from mbs.model.errors import ModelError
+from mbs.model.joints.joint import Joint, equal_vectors, point_pair
+
+_BIG = 1.0 - 1e-12
+
+
+def shared_point(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, what: str) -> list[Equation]:
+    """The point of body 1 is the point of body 2."""
+    p1, p2 = point_pair(point, model.dimension, what)
+    return equal_vectors(name, "point", model.anchor(body_1, p1, what), model.anchor(body_2, p2, what))
+
+
+def shared_axis(model: ModelCore, name: str, body_1: Body, body_2: Body, axis: Any, what: str) -> list[Equation]:
+    """The unit vector of body 1 is the unit vector of body 2."""
+    a1, a2 = point_pair(axis, model.dimension, what)
+    return equal_vectors(name, "axis", model.anchor_axis(body_1, a1, what), model.anchor_axis(body_2, a2, what))
+
+
+def different(body_1: Body, body_2: Body, what: str) -> None:
+    """Refuse a joint of a body with itself."""
+    if body_1 is body_2:
+        raise ModelError(f"The {what} joins body '{body_1.name}' with itself; it needs two bodies.")
+
+
+def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any) -> Joint:
+    """Shared point (spatial: ball joint)."""
+    what = f"spherical joint '{name}'"
+    different(body_1, body_2, what)
+    return Joint(name, "spherical", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
+
+
+def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike | None) -> Joint:
+    """Shared point and, in space, shared axis: all equations are linear."""
+    what = f"revolute joint '{name}'"
+    different(body_1, body_2, what)
+    equations = shared_point(model, name, body_1, body_2, point, what)
+    if model.dimension == 3:
+        if axis is None:
+            raise ModelError(f"The {what} needs an axis in a spatial model.")
+        equations += shared_axis(model, name, body_1, body_2, axis, what)
+    elif axis is not None:
+        raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
+    return Joint(name, "revolute", equations, rows_weight=1.0)
+
+
+def universal(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis_1: ArrayLike, axis_2: ArrayLike) -> Joint:
+    """Shared point, and the angle between an axis of each body stays what it is (one quadratic row)."""
+    what = f"universal joint '{name}'"
+    if model.dimension == 2:
+        raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
+    different(body_1, body_2, what)
+    u1, u2 = direction(axis_1, 3, f"axis_1 of {what}"), direction(axis_2, 3, f"axis_2 of {what}")
+    cosine = float(np.dot(u1, u2))
+    if abs(cosine) > _BIG:
+        raise ModelError(f"The axes of {what} are parallel; a universal joint needs two different directions.")
+    a1, a2 = model.anchor_axis(body_1, u1, what), model.anchor_axis(body_2, u2, what)
+    equations = shared_point(model, name, body_1, body_2, point, what)
+    equations.append(Equation(name, "axes", dot_products(a1, a2), Affine({}, -cosine)))
+    return Joint(name, "universal", equations, rows_weight=1.0)

@@ -1,0 +1,84 @@
+"""Joints that slide along a line: point on line, cylindrical and prismatic; and the weld."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import AffineVector
+from mbs.model.body import Body
+from mbs.model.checks import direction, perpendicular
+from mbs.model.core import ModelCore
+from mbs.model.equation import Equation, dot_products
+from mbs.model.errors import ModelError
+from mbs.model.joints.joint import Joint, equal_vectors, point_pair
+from mbs.model.joints.points import different, shared_axis, shared_point
+
+
+def _normals(model: ModelCore, body: Body, axis: ArrayLike, what: str) -> list[AffineVector]:
+    """Vectors of `body` that are perpendicular to the axis: one in the plane, two in space."""
+    if model.dimension == 2:
+        u = direction(axis, 2, f"the axis of {what}")
+        return [model.anchor_axis(body, np.array([-u[1], u[0]]), what)]
+    return [model.anchor_axis(body, e, what) for e in perpendicular(direction(axis, 3, f"the axis of {what}"))]
+
+
+def on_line(model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike, what: str) -> list[Equation]:
+    """The point of body 1 stays on the line through the point of body 2 along an axis fixed in body 2."""
+    body_2 = model.owned(end_2[0], f"The {what}")
+    if body_2.is_point:
+        raise ModelError(f"The line of {what} needs a body with axes; '{body_2.name}' is a point mass.")
+    gap = model.anchor(end_1[0], end_1[1], what) - model.anchor(body_2, end_2[1], what)
+    return [Equation(name, "line", dot_products(gap, n)) for n in _normals(model, body_2, axis, what)]
+
+
+def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, what: str) -> list[Equation]:
+    """Body 1 does not turn against body 2: all axes are shared (linear)."""
+    axes = np.eye(model.dimension)[: 1 if model.dimension == 2 else 3]
+    for body in (body_1, body_2):
+        if model.owned(body, f"The {what}").is_point:
+            raise ModelError(f"The {what} needs bodies with axes; '{body.name}' is a point mass.")
+    return [e for u in axes for e in equal_vectors(name, "axis", body_1.vector(u), body_2.vector(u))]
+
+
+def point_on_line(model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike) -> Joint:
+    """Point of body 1 on a line fixed in body 2."""
+    what = f"point-on-line joint '{name}'"
+    different(end_1[0], end_2[0], what)
+    return Joint(name, "point_on_line", on_line(model, name, end_1, end_2, axis, what))
+
+
+def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
+    """Shared axis direction, and the point of body 1 on the axis of body 2."""
+    what = f"cylindrical joint '{name}'"
+    if model.dimension == 2:
+        raise ModelError(f"The {what} needs a spatial model; in the plane use point_on_line.")
+    different(body_1, body_2, what)
+    p1, p2 = point_pair(point, 3, what)
+    equations = shared_axis(model, name, body_1, body_2, axis, what)
+    return Joint(name, "cylindrical", equations + on_line(model, name, (body_1, p1), (body_2, p2), axis, what))
+
+
+def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
+    """Shared orientation, and the point of body 1 on the axis of body 2; without a point, the centre of mass of a moving body."""
+    what = f"prismatic joint '{name}'"
+    different(body_1, body_2, what)
+    if point is None:
+        point = body_2.com if body_1.is_ground else body_1.com
+    p1, p2 = point_pair(point, model.dimension, what)
+    equations = same_orientation(model, name, body_1, body_2, what)
+    return Joint(name, "prismatic", equations + on_line(model, name, (body_1, p1), (body_2, p2), axis, what))
+
+
+def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
+    """Both bodies move as one; all equations are linear."""
+    what = f"weld '{name}'"
+    different(body_1, body_2, what)
+    point = body_2.com if body_1.is_ground else body_1.com
+    if body_1.is_point or body_2.is_point:
+        point = body_1.com if body_1.is_point else body_2.com
+        return Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
+    equations = shared_point(model, name, body_1, body_2, point, what)
+    return Joint(name, "weld", equations + same_orientation(model, name, body_1, body_2, what), rows_weight=1.0)

@@ -1,0 +1,86 @@
+"""An axisymmetric wheel reduced to one coordinate: its absolute axial rate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import Affine, AffineVector
+from mbs.elements.record import ElementRecord
+from mbs.elements.types import ElementType
+from mbs.model.body import Body
+from mbs.model.checks import direction, not_negative, perpendicular, positive, vector
+from mbs.model.core import Coordinate, ModelCore
+from mbs.model.errors import ModelError
+
+
+@dataclass(frozen=True)
+class Spin(Coordinate):
+    """A wheel on its carrier.
+
+    The coordinate is a quasi coordinate: its rate is the absolute angular velocity of the wheel along `axis`; its value has
+    no meaning. Mass and diametral inertia are lumped on the carrier, with zero axial inertia.
+
+    Attributes
+    ----------
+    centre, axis, f, g : AffineVector
+        Wheel centre and unit vectors of the carrier with axis = f x g.
+    rolling_radius : float
+        Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none.
+    """
+
+    carrier: Body
+    centre: AffineVector
+    axis: AffineVector
+    f: AffineVector
+    g: AffineVector
+    spin_inertia: float
+    rolling_radius: float
+    axis_reference: tuple[float, ...]
+
+    @property
+    def coordinate(self) -> Affine:
+        """The spin coordinate; its rate is the absolute axial angular velocity, rad/s."""
+        return self.affine
+
+
+def spin(
+    model: ModelCore,
+    name: str,
+    carrier: Body,
+    centre: ArrayLike,
+    axis: ArrayLike,
+    mass: float,
+    spin_inertia: float,
+    diametral_inertia: float,
+    rolling_radius: float,
+) -> Spin:
+    """Lump the wheel on its carrier and add its spin and gyroscopic moment."""
+    what = f"spin '{name}'"
+    if model.dimension == 2:
+        raise ModelError(f"The {what} needs a spatial model; in the plane a wheel is a body.")
+    model.owned(carrier, f"The {what}")
+    if carrier.is_ground or carrier.is_point:
+        raise ModelError(f"The carrier of {what} must be a rigid body, not '{carrier.name}'.")
+    m = positive(mass, f"The mass of {what}")
+    I_s = positive(spin_inertia, f"The spin inertia of {what}")
+    I_d = not_negative(diametral_inertia, f"The diametral inertia of {what}")
+    if I_s > 2.0 * I_d * (1.0 + 1e-9):
+        raise ModelError(f"The spin inertia {I_s:g} of {what} is more than twice its diametral inertia {I_d:g}; no wheel is like that.")
+    radius = not_negative(rolling_radius, f"The rolling radius of {what}")
+    e = direction(axis, 3, f"the axis of {what}")
+    c = vector(centre, 3, f"the centre of {what}")
+    x, y = perpendicular(e)
+    # I = I_d (1 - e e'), zero about the axis, has the second moment J = tr(I)/2 - I = I_d e e'
+    carrier.add_mass(m, c, I_d * np.outer(e, e))
+    index = model.new_coordinate(name, "spin", 0.0)
+    model.inertias[index] = I_s
+    new = Spin(
+        name, index, "rad", carrier, carrier.point(c), carrier.vector(e), carrier.vector(x), carrier.vector(y), I_s, radius, tuple(e)
+    )
+    signals = [*new.f.components, *new.g.components, new.affine]
+    model.add(ElementRecord(f"{name}.gyroscopic", ElementType.GYROSCOPIC_SPIN, signals, [I_s], real_names=("spin_inertia",)))
+    model.spins.append(new)
+    return new
