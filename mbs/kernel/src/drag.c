@@ -1,0 +1,29 @@
+/* Aerodynamic drag F = -rho CdA |v| v / 2 at a point in still air.
+ * Signals: p (2 or 3). Reals: air density kg/m^3, drag area m^2. Outputs: drag N (size of the force). */
+#include "element.h"
+#include "element_math.h"
+
+static void evaluate(ali3_element_args *a) {
+  const int32_t n = a->nsig;
+  const double factor = 0.5 * a->real[0] * a->real[1];
+  double square = 0.0;
+  for (int32_t i = 0; i < n; i++) square += a->ud[i] * a->ud[i];
+  const double speed = sqrt(square);
+  for (int32_t i = 0; i < n; i++) a->f[i] = -factor * speed * a->ud[i];
+  a->out[0] = factor * square;
+  a->potential = 0.0;
+  if (!a->S) return;
+  for (int32_t i = 0; i < n; i++) a->S[i * n + i] = a->wC * factor * speed;
+  if (speed > 0.0) ali3_add_outer(a->S, n, a->wC * factor / speed, a->ud);
+}
+
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint, int32_t n_inputs,
+                         int32_t n_roads) {
+  (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+  if (nsig != 2 && nsig != 3) return "drag needs the 2 or 3 components of a point";
+  if (real[0] < 0.0 || real[1] < 0.0) return "the air density and the drag area must not be negative";
+  return 0;
+}
+
+extern const ali3_element_type ali3_drag;
+const ali3_element_type ali3_drag = {evaluate, 0, -1, 2, 0, 0, 1, check};

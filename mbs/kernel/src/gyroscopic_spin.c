@@ -1,0 +1,19 @@
+/* Gyroscopic moment -I Omega d(f x g)/dt of an axisymmetric wheel reduced to one coordinate on its carrier.
+ * Signals: f (3), g (3) orthonormal on the carrier with f x g along the spin axis, chi with chi' = Omega the absolute axial rate.
+ * Reals: axial moment of inertia. Outputs: none. It does no work. */
+#include "element.h"
+
+static void evaluate(ali3_element_args *a) {
+  const double inertia = a->real[0], momentum = inertia * a->ud[6];
+  for (int i = 0; i < 3; i++) {
+    a->f[i] = -momentum * a->ud[3 + i];
+    a->f[3 + i] = momentum * a->ud[i];
+    if (!a->S) continue; /* the coupling of f and g is antisymmetric, that with chi has a symmetric half */
+    a->S[i * 7 + 6] = a->S[6 * 7 + i] = 0.5 * a->wC * inertia * a->ud[3 + i];
+    a->S[(3 + i) * 7 + 6] = a->S[6 * 7 + 3 + i] = -0.5 * a->wC * inertia * a->ud[i];
+  }
+  a->potential = 0.0;
+}
+
+extern const ali3_element_type ali3_gyroscopic_spin;
+const ali3_element_type ali3_gyroscopic_spin = {evaluate, 0, 7, 1, 0, 0, 0, 0};
