@@ -73,6 +73,7 @@ ALI3_API ali3_status ali3_reset(ali3_instance *in);   /* back to q0, qd0, y0, de
 ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
 ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value);
+ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value); /* range checked */
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed);

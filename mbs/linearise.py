@@ -1,0 +1,227 @@
+"""Linear model about a state: state-space matrix, natural frequencies, damping ratios, mode shapes.
+
+With the columns of ``V`` (nq, n) a basis of the null space of Phi_q with ``V' M V = 1``, every admissible motion near
+the state (q0, qd0) is ``z = V' M (q - q0)``. Equation (15) of the paper times V' is free of constraint forces, and its
+variation is
+
+    zdd = V' [dQ/dq V z + dQ/dqd dqd + dQ/dy y] - V' G V z,     G = sum_k lam_k H_k
+    dqd = V zd + N z,      N = -W (Phi_q W)^+ d(Phi_q qd0 + Phi_t)/dq V
+
+with H_k the second derivative of row k, W the complement ``V' M W = 0`` and y the element states, ``yd = g(q, qd, y)``.
+N is the velocity that keeps the constraints satisfied when a moving mechanism is shifted; it is zero at rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import NDArray
+
+from mbs.simulation import Simulation, State
+from mbs.system import System
+
+Array = NDArray[np.float64]
+
+SHIFT = 1e-6  # of coordinates (m), velocities (m/s) and element states in the central differences
+STATE_STEP = 1e-5  # s, of the element steps that give the rates of element states
+RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the largest count as zero
+STATE_TOLERANCE = 1e-9  # rates of change of slots below this, per unit of any state, count as none
+OSCILLATION_TOLERANCE = 1e-9  # imaginary part over modulus of an eigenvalue below which it counts as real
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One natural motion ``shape * exp(eigenvalue * t)``.
+
+    Parameters
+    ----------
+    eigenvalue : complex
+        1/s; of a conjugate pair the one with positive imaginary part.
+    shape : array of shape (nq,), complex
+        Displacement by coordinate, in the order of `LinearModel.coordinates`, scaled so that the largest is 1.
+    """
+
+    eigenvalue: complex
+    shape: NDArray[np.complex128]
+
+    @property
+    def frequency_hz(self) -> float:
+        """Undamped natural frequency ``|s| / 2 pi``, Hz."""
+        return float(abs(self.eigenvalue) / (2.0 * np.pi))
+
+    @property
+    def damping_ratio(self) -> float:
+        """``-Re(s) / |s|``: 0 undamped, 1 without oscillation, negative unstable; 0 for a free motion."""
+        return float(-self.eigenvalue.real / abs(self.eigenvalue)) if self.eigenvalue else 0.0
+
+
+@dataclass(frozen=True)
+class LinearModel:
+    """Linear model ``xd = A x`` about a state, with x = (z, zd, y).
+
+    Parameters
+    ----------
+    A : array of shape (2 n + ny, 2 n + ny)
+        State-space matrix, 1/s. Element slots without dynamics of their own have been dropped from y.
+    basis : array of shape (nq, n)
+        Displacement of the coordinates per unit of z; ``basis' M basis`` is the unit matrix.
+    slots : tuple of int
+        Numbers of the element states that are part of x.
+    coordinates : tuple of str
+        Names of the nq coordinates.
+    modes : tuple of Mode
+        By rising frequency.
+    """
+
+    A: Array
+    basis: Array
+    slots: tuple[int, ...]
+    coordinates: tuple[str, ...]
+    modes: tuple[Mode, ...]
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Number n of independent displacements."""
+        return self.basis.shape[1]
+
+    def oscillating_modes(self) -> tuple[Mode, ...]:
+        """The modes with a complex eigenvalue."""
+        return tuple(m for m in self.modes if abs(m.eigenvalue.imag) > OSCILLATION_TOLERANCE * abs(m.eigenvalue))
+
+    def __str__(self) -> str:
+        lines = [f"{self.degrees_of_freedom} degrees of freedom, {len(self.slots)} element states"]
+        for mode in self.modes:
+            main = np.argsort(-np.abs(mode.shape), kind="stable")[:3]
+            parts = ", ".join(
+                f"{self.coordinates[i]} {mode.shape[i].real:+.2f}{mode.shape[i].imag:+.2f}j" for i in main
+            )
+            lines.append(f"{mode.frequency_hz:10.4f} Hz  damping {mode.damping_ratio:+.4f}  {parts}")
+        return "\n".join(lines)
+
+
+def linearise(simulation: Simulation) -> LinearModel:
+    """Linearise about the present state, which stays as it is.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        At a static equilibrium, a steady motion, or any state: the result is the variation about the motion through it.
+
+    Returns
+    -------
+    LinearModel
+        Its modes have a meaning where the state is an equilibrium or a steady motion.
+    """
+    evaluator = _Evaluator(simulation)
+    state = evaluator.state
+    M = evaluator.mass()
+    jacobian = evaluator.constraints(state.q)[0]
+    V, W = _admissible(M, jacobian, simulation.system)
+    n = V.shape[1]
+    N = np.zeros_like(V)
+    GV = np.zeros_like(V)
+    for j in range(n):
+        ahead, drift_ahead = evaluator.constraints(state.q + SHIFT * V[:, j])
+        behind, drift_behind = evaluator.constraints(state.q - SHIFT * V[:, j])
+        drift = (drift_ahead - drift_behind) / (2 * SHIFT)
+        N[:, j] = -W @ np.linalg.lstsq(jacobian @ W, drift, rcond=RANK_TOLERANCE)[0]
+        GV[:, j] = (ahead - behind).T @ state.lam / (2 * SHIFT)
+    ny = len(state.y)
+    columns = (
+        [_difference(evaluator.rates, state, dq=V[:, j], dqd=N[:, j]) for j in range(n)]
+        + [_difference(evaluator.rates, state, dqd=V[:, j]) for j in range(n)]
+        + [_difference(evaluator.rates, state, dy=e) for e in np.eye(ny)]
+    )
+    slope = np.array(columns).T  # (nq + ny, 2 n + ny): of forces and of slot rates
+    A = np.zeros((2 * n + ny, 2 * n + ny))
+    A[:n, n : 2 * n] = np.eye(n)
+    A[n : 2 * n] = V.T @ slope[: len(state.q)]
+    A[n : 2 * n, :n] -= V.T @ GV
+    A[2 * n :] = slope[len(state.q) :]
+    slots = [k for k in range(ny) if np.abs(A[2 * n + k]).max() > STATE_TOLERANCE]
+    kept = [*range(2 * n), *(2 * n + k for k in slots)]
+    A = A[np.ix_(kept, kept)]
+    names = tuple(simulation.system.meta["coordinates"])
+    return LinearModel(A, V, tuple(slots), names, _modes(A, V))
+
+
+class _Evaluator:
+    """Forces, slot rates and constraint derivatives of the kernel near a state, as dense arrays."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self.instance = simulation.instance
+        self.arrays = simulation.system.arrays
+        self.time = simulation.time
+        self.state = simulation.state
+
+    def mass(self) -> Array:
+        """Mass matrix (nq, nq)."""
+        return _dense(self.arrays["mass_ptr"], self.arrays["mass_col"], self.arrays["mass_val"], len(self.state.q))
+
+    def constraints(self, q: Array) -> tuple[Array, Array]:
+        """Phi_q (nc, nq) of the stored rows at `q` (nq,), and their rate Phi_q qd + Phi_t (nc,)."""
+        values = self.instance.evaluate(q, self.state.qd, self.state.y, self.time)
+        jacobian = _dense(self.arrays["row_ptr"], self.arrays["row_col"], np.array(values["jacobian"]), len(q))
+        return jacobian, jacobian @ self.state.qd + np.array(values["phi_t"])
+
+    def rates(self, q: Array, qd: Array, y: Array) -> Array:
+        """Forces Q (nq,) and slot rates g (ny,) in one vector; Richardson's rule removes the first-order error of g."""
+        force = np.array(self.instance.evaluate(q, qd, y, self.time)["force"])
+        if not len(y):
+            return force
+        whole = (self._element_step(q, qd, y, STATE_STEP) - y) / STATE_STEP
+        half = (self._element_step(q, qd, y, STATE_STEP / 2) - y) / (STATE_STEP / 2)
+        return np.concatenate([force, 2.0 * half - whole])
+
+    def _element_step(self, q: Array, qd: Array, y: Array, h: float) -> Array:
+        return np.array(self.instance.element_step(q, qd, y, h)[0])
+
+
+def _difference(
+    function: Callable[[Array, Array, Array], Array],
+    state: State,
+    dq: Array | float = 0.0,
+    dqd: Array | float = 0.0,
+    dy: Array | float = 0.0,
+) -> Array:
+    """Central difference of `function` (q, qd, y) along a direction."""
+    ahead = function(state.q + SHIFT * dq, state.qd + SHIFT * dqd, state.y + SHIFT * dy)
+    behind = function(state.q - SHIFT * dq, state.qd - SHIFT * dqd, state.y - SHIFT * dy)
+    result: Array = (ahead - behind) / (2.0 * SHIFT)
+    return result
+
+
+def _admissible(M: Array, jacobian: Array, system: System) -> tuple[Array, Array]:
+    """Null space V (nq, n) of Phi_q with ``V' M V = 1``, and its complement W (nq, nq - n) with ``V' M W = 0``."""
+    null = scipy.linalg.null_space(jacobian, rcond=RANK_TOLERANCE) if len(jacobian) else np.eye(len(M))
+    inertia = null.T @ M @ null
+    values, vectors = np.linalg.eigh(inertia)
+    if len(values) and values[0] <= RANK_TOLERANCE * values[-1]:
+        motion = null @ vectors[:, 0]
+        name = system.meta["coordinates"][int(np.argmax(np.abs(motion)))]
+        raise ValueError(
+            f"The System can move {name!r} without moving any mass; give it mass or inertia to linearise it."
+        )
+    V = null @ vectors / np.sqrt(values)
+    return V, scipy.linalg.null_space(V.T @ M) if V.shape[1] else np.eye(len(M))
+
+
+def _modes(A: Array, V: Array) -> tuple[Mode, ...]:
+    values, vectors = np.linalg.eig(A)
+    modes = []
+    for s, x in zip(values, vectors.T, strict=True):
+        if s.imag < 0.0:
+            continue
+        shape = V @ x[: V.shape[1]]
+        largest = shape[np.argmax(np.abs(shape))] if len(shape) else 0.0
+        modes.append(Mode(complex(s), np.asarray(shape / largest if largest else shape, complex)))
+    return tuple(sorted(modes, key=lambda m: (m.frequency_hz, m.damping_ratio)))
+
+
+def _dense(ptr: NDArray[np.int32], col: NDArray[np.int32], val: Array, columns: int) -> Array:
+    matrix = np.zeros((len(ptr) - 1, columns))
+    matrix[np.repeat(np.arange(len(ptr) - 1), np.diff(ptr)), col] = val
+    return matrix

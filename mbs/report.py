@@ -1,0 +1,55 @@
+"""Counters and residuals of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+
+
+@dataclass(frozen=True)
+class Report:
+    """What the solver did since the last initialisation, and how well it ended.
+
+    Parameters
+    ----------
+    steps, iterations, factorizations, solves, halvings, failures : int
+        Counts; a halving is a step split in two because it did not converge.
+    last_iterations, max_iterations : int
+        Newton iterations of the last step, and the most any step took.
+    residual : float
+        ``max |r_i| / m_i`` of the last step, coordinate units (m).
+    violation : float
+        ``max |Phi|`` of the last step, m.
+    velocity_violation : float
+        ``max |Phi_q qd + Phi_t|`` of the last step after projection, m/s.
+    """
+
+    steps: int
+    iterations: int
+    factorizations: int
+    solves: int
+    halvings: int
+    failures: int
+    last_iterations: int
+    max_iterations: int
+    negative_pivots: int
+    residual: float
+    violation: float
+    velocity_violation: float
+
+    @classmethod
+    def from_kernel(cls, values: Mapping[str, float]) -> Report:
+        """From the report of a kernel instance."""
+        return cls(**{f.name: values[f.name] for f in fields(cls)})  # type: ignore[arg-type]
+
+    @property
+    def mean_iterations(self) -> float:
+        """Newton iterations per step."""
+        return self.iterations / max(self.steps, 1)
+
+    def __str__(self) -> str:
+        return (
+            f"{self.steps} steps, {self.mean_iterations:.2f} Newton iterations each (at most {self.max_iterations}), "
+            f"{self.factorizations} factorizations, {self.halvings} halvings; "
+            f"last step: residual {self.residual:.1e} m, violation {self.violation:.1e} m"
+        )

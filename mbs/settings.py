@@ -1,0 +1,71 @@
+"""The numbers that steer the integrator, in one place."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+
+UPDATES = ("linearised", "paper")
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How a step is solved; the defaults are those of the kernel.
+
+    Parameters
+    ----------
+    alpha : float
+        Penalty of the mass-normalised constraint rows, 1/s^2. 0 takes the rule ``1 / (eps_rel * h**2)``.
+    eps_rel : float
+        Regularisation of the multipliers relative to h^2, used by the rule.
+    tolerance_r : float
+        Bound on the residual ``max |r_i| / m_i`` of a converged step, coordinate units (m).
+    tolerance_phi : float
+        Bound on the constraint violation of a converged step, m.
+    max_iterations : int
+        Newton iterations of one step.
+    max_halvings : int
+        How often a step that does not converge is halved; 0 never.
+    project : bool
+        Project velocities and accelerations, equations (24) and (25) of the paper.
+    update : {"linearised", "paper"}
+        Multiplier update: with the linearised constraint, or equation (16) of the paper.
+    geometric : bool
+        Exact geometric term of the quadratic constraints in the tangent (23).
+    """
+
+    alpha: float = 0.0
+    eps_rel: float = 1e-8
+    tolerance_r: float = 1e-10
+    tolerance_phi: float = 1e-10
+    max_iterations: int = 20
+    max_halvings: int = 4
+    project: bool = True
+    update: str = "linearised"
+    geometric: bool = True
+
+    def __post_init__(self) -> None:
+        for name, value in asdict(self).items():
+            if isinstance(value, float) and not math.isfinite(value):
+                raise ValueError(f"Setting {name!r} is {value}; it must be a finite number.")
+        if self.alpha < 0.0:
+            raise ValueError(
+                f"Setting 'alpha' is {self.alpha}; it must be positive, or 0 for the rule 1/(eps_rel h^2)."
+            )
+        for name in ("eps_rel", "tolerance_r", "tolerance_phi"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"Setting {name!r} is {getattr(self, name)}; it must be positive.")
+        for name, least in (("max_iterations", 1), ("max_halvings", 0)):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, int) or value < least:
+                raise ValueError(f"Setting {name!r} is {value!r}; it must be a whole number of at least {least}.")
+        if self.update not in UPDATES:
+            raise ValueError(f"Setting 'update' is {self.update!r}; it must be one of {', '.join(map(repr, UPDATES))}.")
+
+    def kernel_fields(self) -> dict[str, float | int]:
+        """Values by the field names of `ali3_settings`."""
+        fields: dict[str, float | int] = asdict(self)
+        fields["project"] = int(self.project)
+        fields["geometric"] = int(self.geometric)
+        fields["update"] = UPDATES.index(self.update)
+        return fields

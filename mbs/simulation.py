@@ -1,0 +1,352 @@
+"""Stepping a System: by hand with `Simulation`, or a whole run with `simulate`."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import astuple, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.input_signals import InputSignals, Signal
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.progress import progress_for
+from mbs.report import Report
+from mbs.settings import Settings
+from mbs.system import System
+from mbs.trajectory import Trajectory
+
+CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where a scene that is not tied to the ground starts.
+
+    Parameters
+    ----------
+    x, y, z : float
+        Shift from the reference configuration, earth axes, m.
+    yaw : float
+        Turn about the vertical, rad.
+    speed : float
+        Along the turned forward direction, m/s.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    yaw: float = 0.0
+    speed: float = 0.0
+
+
+@dataclass(frozen=True)
+class State:
+    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,)."""
+
+    q: NDArray[np.float64]
+    qd: NDArray[np.float64]
+    qdd: NDArray[np.float64]
+    lam: NDArray[np.float64]
+    y: NDArray[np.float64]
+
+
+class SimulationError(RuntimeError):
+    """A step, an initialisation or a restore that the kernel refused; the last good state is kept.
+
+    Attributes
+    ----------
+    time : float
+        Of the last good state, s.
+    status : int
+        Code of the kernel.
+    trajectory : Trajectory or None
+        What a run had recorded so far.
+    """
+
+    def __init__(self, message: str, time: float, status: int, trajectory: Trajectory | None = None) -> None:
+        super().__init__(message)
+        self.time = time
+        self.status = status
+        self.trajectory = trajectory
+
+
+class Simulation:
+    """A System in motion.
+
+    Parameters
+    ----------
+    system : System
+        What `compile` made.
+    settings : Settings, optional
+        How steps are solved.
+    inputs : mapping of str to float, optional
+        Values of inputs at the start; the others have the start value of their declaration.
+    parameters : mapping of str to float, optional
+        Values that differ from their declaration.
+    pose : Pose, optional
+        Start of a scene that is not tied to the ground.
+    t0 : float
+        Time at the start, s.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        *,
+        settings: Settings | None = None,
+        inputs: Mapping[str, float] | None = None,
+        parameters: Mapping[str, float] | None = None,
+        pose: Pose | None = None,
+        t0: float = 0.0,
+    ) -> None:
+        self.system = system
+        self.settings = settings or Settings()
+        self.instance = Instance(LoadedSystem(system.to_bytes()))
+        self.instance.set_settings(**self.settings.kernel_fields())
+        for name, value in (parameters or {}).items():
+            self.set_parameter(name, value)
+        for name, value in (inputs or {}).items():
+            self.set_input(name, value)
+        if pose is not None:
+            self._call("The starting pose was refused", lambda: self.instance.set_pose(*astuple(pose)))
+        self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
+
+    @property
+    def time(self) -> float:
+        """Time of the state, s."""
+        return float(self.instance.time)
+
+    @property
+    def sensors(self) -> dict[str, float]:
+        """Sensor values at the state, by name."""
+        return {s["name"]: v for s, v in zip(self.system.meta["sensors"], self._sensor_values().tolist(), strict=True)}
+
+    @property
+    def report(self) -> Report:
+        """Counters since the start and residuals of the last step."""
+        return Report.from_kernel(self.instance.report())
+
+    @property
+    def state(self) -> State:
+        """A copy of the state."""
+        return State(*(np.array(part, float) for part in self.instance.get_state()))
+
+    def set_input(self, name: str, value: float) -> None:
+        """Value of an input from now on."""
+        InputSignals({name: value}, self.system.meta["inputs"]).at(np.array([self.time]), 0.0)
+        self.instance.set_input(self._index("inputs", name), value)
+
+    def set_parameter(self, name: str, value: float) -> None:
+        """Value of a parameter from now on."""
+        index = self._index("parameters", name)
+        entry = self.system.meta["parameters"][index]
+        if not entry["min"] <= value <= entry["max"]:
+            raise ValueError(
+                f"Parameter {name!r} is set to {value:g} {entry['unit']}; "
+                f"it must lie between {entry['min']:g} and {entry['max']:g}."
+            )
+        self.instance.set_parameter(index, value)
+
+    def static_equilibrium(self, tolerance: float = 1e-9, max_iterations: int = 100) -> None:
+        """Move to the static equilibrium near the present position, all velocities zero, time unchanged.
+
+        Parameters
+        ----------
+        tolerance : float
+            On the last correction, coordinate units (m).
+        max_iterations : int
+            Bound on the Newton iterations.
+        """
+        self._call(
+            "No static equilibrium was found near the present position",
+            lambda: self.instance.static_equilibrium(self.time, tolerance, max_iterations),
+        )
+
+    def step(self, h: float, n: int = 1) -> None:
+        """Make `n` steps of `h` seconds with the inputs as they are."""
+        _check_step(h)
+        for _ in range(n):
+            self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
+
+    def run(
+        self,
+        t_end: float,
+        h: float,
+        *,
+        inputs: Mapping[str, Signal] | None = None,
+        every: int = 1,
+        progress: bool | Callable[[float], None] | None = None,
+    ) -> Trajectory:
+        """Step from the present time to `t_end`; see `simulate`."""
+        _check_step(h)
+        t0 = self.time
+        steps = _count_steps(t0, t_end, h)
+        if every < 1:
+            raise ValueError(f"every = {every}; it must be at least 1.")
+        signals = InputSignals(inputs or {}, self.system.meta["inputs"])
+        values = np.empty((steps // every + 1, len(self.system.meta["sensors"])))
+        values[0] = self._sensor_values()
+        done, wall, chunk = 0, 0.0, every
+        with progress_for(progress) as bar:
+            while done < steps:
+                n = min(chunk, steps - done)
+                table = self._input_table(signals, t0 + h * np.arange(done + 1, done + n + 1), 1e-6 * h)
+                part = values[done // every + 1 : (done + n) // every + 1]
+                begin = time.perf_counter()
+                try:
+                    self.instance.run(h, n, table, every, part)
+                except KernelError as error:
+                    good = round((self.time - t0) / h) // every + 1
+                    raise self._error(
+                        f"The step from t = {self.time:g} s with h = {h:g} s failed",
+                        error,
+                        self._trajectory(t0, h * every, values[:good], wall + time.perf_counter() - begin),
+                    ) from error
+                spent = time.perf_counter() - begin
+                wall += spent
+                done += n
+                bar.update(done / steps)
+                chunk = _next_chunk(chunk, spent, every)
+        return self._trajectory(t0, h * every, values, wall)
+
+    def save(self) -> bytes:
+        """All that continues bit for bit, in this or another process."""
+        return self.instance.save()
+
+    def restore(self, state: bytes) -> None:
+        """Continue from a saved state of the same System."""
+        self._call("The saved state was refused", lambda: self.instance.restore(state))
+
+    def _sensor_values(self) -> NDArray[np.float64]:
+        return np.array(self.instance.sensors(), float)
+
+    def _input_table(
+        self, signals: InputSignals, t: NDArray[np.float64], tolerance: float
+    ) -> NDArray[np.float64] | None:
+        """Values (n, nu) of all inputs at the ends of the steps; None keeps them as they are."""
+        columns = signals.columns()
+        if not columns:
+            return None
+        table = np.tile([self.instance.get_input(i) for i in range(len(self.system.meta["inputs"]))], (len(t), 1))
+        table[:, columns] = signals.at(t, tolerance)
+        return table
+
+    def _trajectory(self, t0: float, interval: float, values: NDArray[np.float64], wall: float) -> Trajectory:
+        sensors = self.system.meta["sensors"]
+        return Trajectory(
+            t0 + interval * np.arange(len(values)),
+            values,
+            [s["name"] for s in sensors],
+            [s["unit"] for s in sensors],
+            self.report,
+            self.settings,
+            wall,
+        )
+
+    def _index(self, kind: str, name: str) -> int:
+        names = [entry["name"] for entry in self.system.meta[kind]]
+        if name not in names:
+            raise ValueError(f"There is no {kind[:-1]} {name!r}; the System has: {', '.join(names) or 'none'}.")
+        return names.index(name)
+
+    def _call(self, what: str, action: Callable[[], object]) -> None:
+        try:
+            action()
+        except KernelError as error:
+            raise self._error(what, error) from error
+
+    def _error(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
+        report = self.instance.report()
+        message = f"{what}: {error.message}"
+        row = int(report["worst_row"])
+        if 0 <= row < len(self.system.meta["rows"]):
+            message += (
+                f" Worst constraint: {self.system.meta['rows'][row]['name']!r}, open by {report['violation']:.3g} m."
+            )
+        return SimulationError(message, self.time, error.status, trajectory)
+
+
+def simulate(
+    system: System,
+    t_end: float,
+    h: float,
+    inputs: Mapping[str, Signal] | None = None,
+    settings: Settings | None = None,
+    parameters: Mapping[str, float] | None = None,
+    *,
+    every: int = 1,
+    progress: bool | Callable[[float], None] | None = None,
+    t0: float = 0.0,
+    pose: Pose | None = None,
+) -> Trajectory:
+    """Step a System from `t0` to `t_end` in equal steps.
+
+    Parameters
+    ----------
+    system : System
+        What `compile` made.
+    t_end : float
+        Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
+    h : float
+        Step, s.
+    inputs : mapping of str to signal, optional
+        Per input a constant, a function of time, or a pair (times, values). A step from t to t + h uses the value at
+        t + h, which keeps the trapezoidal rule second order.
+    settings : Settings, optional
+        How steps are solved.
+    parameters : mapping of str to float, optional
+        Values that differ from their declaration.
+    every : int
+        Record the state after every that many steps.
+    progress : bool or callable, optional
+        None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives the
+        share that is done.
+    t0 : float
+        First time, s.
+    pose : Pose, optional
+        Start of a scene that is not tied to the ground.
+
+    Returns
+    -------
+    Trajectory
+        Sensor values at t0, t0 + every h, ...
+
+    Raises
+    ------
+    SimulationError
+        When a step fails; its `trajectory` holds what was recorded.
+    """
+    _check_step(h)
+    signals = InputSignals(inputs or {}, system.meta["inputs"])
+    start = signals.at(np.array([t0]), 1e-6 * h, after_jump=True)[0]
+    names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
+    simulation = Simulation(
+        system,
+        settings=settings,
+        inputs=dict(zip(names, start.tolist(), strict=True)),
+        parameters=parameters,
+        pose=pose,
+        t0=t0,
+    )
+    return simulation.run(t_end, h, inputs=inputs, every=every, progress=progress)
+
+
+def _check_step(h: float) -> None:
+    if not (math.isfinite(h) and h > 0.0):
+        raise ValueError(f"The step h is {h} s; it must be positive and finite.")
+
+
+def _count_steps(t0: float, t_end: float, h: float) -> int:
+    """Number of whole steps that end not after `t_end`, give or take round-off."""
+    if not (math.isfinite(t_end) and t_end >= t0):
+        raise ValueError(f"The end t_end is {t_end} s; it must be finite and not before {t0:g} s.")
+    return math.floor((t_end - t0) / h + 1e-6)
+
+
+def _next_chunk(chunk: int, spent: float, every: int) -> int:
+    """Steps of the next call, a multiple of `every`, for about CHUNK_SECONDS."""
+    factor = min(8.0, CHUNK_SECONDS / max(spent, 1e-9))
+    return max(1, int(chunk * factor / every)) * every

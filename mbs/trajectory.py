@@ -1,0 +1,127 @@
+"""Results of a run: arrays by sensor name, with units."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator, Mapping
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.report import Report
+from mbs.settings import Settings
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
+
+
+class Trajectory(Mapping[str, NDArray[np.float64]]):
+    """Sensor values over time: ``trajectory["bob.x"]`` is an array of shape (n,).
+
+    Parameters
+    ----------
+    t : array of shape (n,)
+        Times, s.
+    values : array of shape (n, ns)
+        Sensor values, one column per name.
+    names, units : sequence of str
+        Of the ns sensors.
+    report : Report, optional
+        Counters and residuals of the solver.
+    settings : Settings, optional
+        How the steps were solved.
+    wall_s : float
+        Time spent stepping, s; preparing inputs and reporting progress are not counted.
+    """
+
+    def __init__(
+        self,
+        t: NDArray[np.float64],
+        values: NDArray[np.float64],
+        names: list[str],
+        units: list[str],
+        report: Report | None = None,
+        settings: Settings | None = None,
+        wall_s: float = float("nan"),
+    ) -> None:
+        self.t = t
+        self.units = dict(zip(names, units, strict=True))
+        self.report = report
+        self.settings = settings
+        self.wall_s = wall_s
+        self._columns = {name: values[:, i] for i, name in enumerate(names)}
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        try:
+            return self._columns[name]
+        except KeyError:
+            known = ", ".join(self._columns) or "none"
+            raise KeyError(f"There is no sensor {name!r}; the trajectory has: {known}.") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    @property
+    def realtime_factor(self) -> float:
+        """Simulated time over wall time: above 1 is faster than real time."""
+        return float((self.t[-1] - self.t[0]) / self.wall_s)
+
+    def __repr__(self) -> str:
+        return f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors)"
+
+    def to_csv(self, path: str | PathLike[str]) -> None:
+        """Write one column per sensor, headed ``name [unit]``, with all digits."""
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in self.units.items())])
+            writer.writerows(np.column_stack([self.t, *self.values()]).tolist())
+
+    @classmethod
+    def from_csv(cls, path: str | PathLike[str]) -> Trajectory:
+        """Read what `to_csv` wrote; counters and settings are not in the file."""
+        with Path(path).open(newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        headings = [_HEADING.fullmatch(text) for text in rows[0]] if rows else []
+        if not headings or headings[0] is None or headings[0]["name"] != "time":
+            raise ValueError(f"{path}: the first line must be 'time [s]' and one 'name [unit]' per sensor.")
+        for text, match in zip(rows[0], headings, strict=True):
+            if match is None:
+                raise ValueError(f"{path}: the heading {text!r} must read 'name [unit]'.")
+        for number, row in enumerate(rows[1:], start=2):
+            if len(row) != len(headings):
+                raise ValueError(f"{path}, line {number}: {len(row)} values where {len(headings)} belong.")
+        data = np.array(rows[1:], float).reshape(-1, len(headings))
+        found = [match for match in headings[1:] if match is not None]
+        return cls(data[:, 0], data[:, 1:], [m["name"] for m in found], [m["unit"] for m in found])
+
+    def plot(self, *names: str) -> Figure:
+        """Draw the named sensors (all when none is named), one axes per unit, with matplotlib."""
+        import matplotlib.pyplot as plt
+
+        chosen = names or tuple(self)
+        groups: dict[str, list[str]] = {}
+        for name in chosen:
+            self[name]
+            groups.setdefault(self.units[name], []).append(name)
+        if not groups:
+            raise ValueError("There is nothing to draw: the trajectory has no sensors.")
+        figure, axes = plt.subplots(
+            len(groups), 1, sharex=True, squeeze=False, figsize=(9, 2.5 + 2 * len(groups)), layout="constrained"
+        )
+        for ax, (unit, members) in zip(axes[:, 0], groups.items(), strict=True):
+            for name in members:
+                ax.plot(self.t, self[name], label=name)
+            ax.set_ylabel(unit)
+            ax.grid(True, alpha=0.3)
+            ax.legend(loc="upper right", fontsize="small")
+        axes[-1, 0].set_xlabel("time, s")
+        return figure

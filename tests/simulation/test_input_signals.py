@@ -1,0 +1,79 @@
+"""Inputs over time: constants, functions, tables with jumps, ranges."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs.input_signals import InputSignals
+
+DECLARED = [
+    {"name": "steering", "unit": "1", "min": -1.0, "max": 1.0},
+    {"name": "force", "unit": "N", "min": None, "max": None},
+]
+H = 0.1
+TOLERANCE = 1e-6 * H
+ROUND_OFF = 1e-15
+
+
+def at(signal, t, **options):
+    return InputSignals({"force": signal}, DECLARED).at(np.atleast_1d(np.asarray(t, float)), TOLERANCE, **options)[:, 0]
+
+
+def test_a_constant_holds_at_all_times():
+    assert at(3.0, [0.0, 5.0]).tolist() == [3.0, 3.0]
+
+
+def test_a_function_is_called_at_each_time():
+    assert at(lambda t: t * t, [2.0, 3.0]).tolist() == [4.0, 9.0]
+
+
+def test_a_table_is_linear_inside_and_held_outside():
+    table = ([1.0, 2.0, 4.0], [10.0, 20.0, 0.0])
+    np.testing.assert_allclose(
+        at(table, [0.0, 1.0, 1.5, 2.0, 3.0, 4.0, 9.0]), [10, 10, 15, 20, 10, 0, 0], atol=ROUND_OFF
+    )
+
+
+def test_a_step_that_ends_at_a_jump_sees_the_value_before_it():
+    jump = ([0.0, 0.3, 0.3, 1.0], [0.0, 0.0, 7.0, 7.0])
+    times = H * np.arange(1, 6)
+    assert times[2] != 0.3  # three steps of 0.1 miss 0.3 by round-off
+    assert at(jump, times).tolist() == [0.0, 0.0, 0.0, 7.0, 7.0]
+    assert at(jump, times, after_jump=True).tolist() == [0.0, 0.0, 7.0, 7.0, 7.0]
+
+
+def test_one_row_is_a_constant():
+    assert at(([0.5], [2.0]), [0.0, 0.5, 1.0]).tolist() == [2.0, 2.0, 2.0]
+
+
+def test_columns_follow_the_signals_given():
+    signals = InputSignals({"force": 2.0, "steering": -0.5}, DECLARED)
+    assert signals.columns() == [1, 0]
+    assert signals.at(np.array([0.0]), TOLERANCE).tolist() == [[2.0, -0.5]]
+
+
+@pytest.mark.parametrize(
+    ("signals", "sentence"),
+    [
+        ({"pedal": 0.0}, "no input 'pedal'; the System has: steering, force"),
+        ({"force": ([0.0, 1.0], [0.0])}, r"times of shape \(2,\) and values of shape \(1,\)"),
+        ({"force": ([0.0, 1.0],)}, "1 parts; it must be a pair"),
+        ({"force": ([1.0, 0.0], [0.0, 0.0])}, "must not decrease"),
+    ],
+)
+def test_a_wrong_signal_is_refused_by_name(signals, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        InputSignals(signals, DECLARED)
+
+
+@pytest.mark.parametrize(("value", "shown"), [(1.5, "1.5"), (float("nan"), "nan"), (-2.0, "-2")])
+def test_a_value_outside_the_range_is_refused_with_its_time(value, shown):
+    signals = InputSignals({"steering": lambda t: value if t > 1.0 else 0.0}, DECLARED)
+    with pytest.raises(ValueError, match=rf"'steering' is {shown} 1 at t = 2 s; it must lie between -1 and 1"):
+        signals.at(np.array([1.0, 2.0]), TOLERANCE)
+
+
+def test_an_input_without_bounds_still_refuses_infinity():
+    with pytest.raises(ValueError, match="'force' is inf N"):
+        at(float("inf"), 0.0)

@@ -1,0 +1,50 @@
+"""The progress bar appears only when a run takes a while."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+
+from mbs.progress import DELAY, Progress, progress_for
+
+
+def bar_after(seconds, delay=DELAY):
+    stream, now = io.StringIO(), [0.0]
+    with Progress(delay, stream, lambda: now[0]) as bar:
+        now[0] = seconds
+        bar.update(0.25)
+    return stream.getvalue()
+
+
+def test_a_short_run_is_silent():
+    assert bar_after(1.9) == ""
+
+
+def test_a_long_run_shows_share_and_remaining_time():
+    text = bar_after(4.0)
+    assert " 25 %" in text
+    assert "12 s left" in text
+    assert text.endswith("\n")
+
+
+def test_no_bar_when_told_so():
+    assert bar_after(1e6, delay=float("inf")) == ""
+    assert isinstance(progress_for(False), Progress)
+
+
+def test_a_function_receives_the_share():
+    shares: list[float] = []
+    with progress_for(shares.append) as bar:
+        bar.update(0.5)
+        bar.update(1.0)
+    assert shares == [0.5, 1.0]
+
+
+@pytest.mark.parametrize("choice", [None, True])
+def test_the_bar_goes_to_the_error_stream(choice, capsys):
+    with progress_for(choice) as bar:
+        bar.update(1.0)
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert bool(captured.err) is (choice is True)

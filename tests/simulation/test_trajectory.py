@@ -1,0 +1,70 @@
+"""Results by name: mapping, CSV round trip, plot."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs.trajectory import Trajectory
+
+SEED = 20240311
+
+
+@pytest.fixture
+def trajectory():
+    rng = np.random.default_rng(SEED)
+    names = ["bob.x", "wheel[1], load", "energy"]
+    return Trajectory(0.1 * np.arange(5), rng.normal(size=(5, 3)), names, ["m", "N", "J"], wall_s=0.2)
+
+
+def test_it_maps_names_to_arrays_with_units(trajectory):
+    assert list(trajectory) == ["bob.x", "wheel[1], load", "energy"]
+    assert trajectory["energy"].shape == (5,)
+    assert trajectory.units["wheel[1], load"] == "N"
+    assert len(trajectory) == 3
+
+
+def test_an_unknown_name_lists_the_known_ones(trajectory):
+    with pytest.raises(KeyError, match=r"no sensor 'bob.y'; the trajectory has: bob.x, wheel"):
+        trajectory["bob.y"]
+
+
+def test_realtime_factor_is_simulated_over_wall_time(trajectory):
+    assert trajectory.realtime_factor == pytest.approx(2.0, rel=1e-12)
+
+
+def test_csv_keeps_every_bit_name_and_unit(trajectory, tmp_path):
+    path = tmp_path / "run.csv"
+    trajectory.to_csv(path)
+    assert path.read_text(encoding="utf-8").splitlines()[0] == 'time [s],bob.x [m],"wheel[1], load [N]",energy [J]'
+    again = Trajectory.from_csv(path)
+    assert again.units == trajectory.units
+    assert again.t.tobytes() == trajectory.t.tobytes()
+    for name in trajectory:
+        assert again[name].tobytes() == trajectory[name].tobytes()
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", r"the first line must be 'time \[s\]'"),
+        ("a [m],b [m]\n", r"the first line must be 'time \[s\]'"),
+        ("time [s],b\n", r"the heading 'b' must read 'name \[unit\]'"),
+        ("time [s],b [m]\n0,1\n1\n", "line 3: 1 values where 2 belong"),
+    ],
+)
+def test_a_csv_of_another_kind_is_refused(text, sentence, tmp_path):
+    path = tmp_path / "other.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=sentence):
+        Trajectory.from_csv(path)
+
+
+def test_plot_draws_one_axes_per_unit(trajectory):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    figure = trajectory.plot()
+    assert [ax.get_ylabel() for ax in figure.axes] == ["m", "N", "J"]
+    only = trajectory.plot("energy")
+    np.testing.assert_array_equal(only.axes[0].lines[0].get_ydata(), trajectory["energy"])
+    matplotlib.pyplot.close("all")
