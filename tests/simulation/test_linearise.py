@@ -1,0 +1,104 @@
+"""Frequencies, damping and shapes against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Model, Simulation, compile, linearise
+from tests.simulation.scenes import GRAVITY, LENGTH, MASS, pendulum, two_masses
+
+RELATIVE = 1e-6
+
+
+def test_a_hanging_pendulum_swings_at_the_root_of_g_over_l():
+    model = linearise(Simulation(pendulum(hanging=True)))
+    assert model.degrees_of_freedom == 1
+    (mode,) = model.oscillating_modes()
+    assert mode.frequency_hz == pytest.approx(np.sqrt(GRAVITY / LENGTH) / (2 * np.pi), rel=RELATIVE)
+    assert mode.damping_ratio == pytest.approx(0.0, abs=RELATIVE)
+
+
+def test_an_upright_pendulum_falls_at_the_same_rate():
+    m = Model("upright", dimension=2, gravity=(0.0, -GRAVITY))
+    bob = m.point_mass("bob", mass=MASS, position=(0.0, LENGTH))
+    m.distance("rod", (m.ground, (0.0, 0.0)), bob)
+    model = linearise(Simulation(compile(m)))
+    rate = np.sqrt(GRAVITY / LENGTH)
+    np.testing.assert_allclose(sorted(mode.eigenvalue.real for mode in model.modes), [-rate, rate], rtol=RELATIVE)
+    assert model.oscillating_modes() == ()
+
+
+def test_a_compound_pendulum_of_a_body_swings_at_its_own_frequency():
+    m = Model("rod", dimension=3)
+    rod = m.body("rod", mass=3.0, com=(0.0, 0.0, -0.5), inertia=(0.25, 0.25, 1e-3))
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    (mode,) = linearise(Simulation(compile(m))).oscillating_modes()
+    expected = np.sqrt(3.0 * 9.81 * 0.5 / (0.25 + 3.0 * 0.25)) / (2 * np.pi)
+    assert mode.frequency_hz == pytest.approx(expected, rel=RELATIVE)
+
+
+@pytest.mark.parametrize("damping", [(0.0, 0.0), (3.0, 1.0), (400.0, 2.0)])
+def test_two_masses_have_the_eigenvalues_of_their_matrices(damping):
+    k1, k2 = 800.0, 300.0
+    c1, c2 = damping
+    K = np.array([[k1 + k2, -k2], [-k2, k2]])
+    C = np.array([[c1 + c2, -c2], [-c2, c2]])
+    A = np.block([[np.zeros((2, 2)), np.eye(2)], [-K / MASS, -C / MASS]])
+    expected = np.sort_complex([s for s in np.linalg.eigvals(A) if s.imag >= 0.0])
+    model = linearise(Simulation(two_masses((k1, k2), damping)))
+    found = np.sort_complex([mode.eigenvalue for mode in model.modes])
+    np.testing.assert_allclose(found, expected, rtol=RELATIVE, atol=RELATIVE)
+    for mode in model.oscillating_modes():
+        s = mode.eigenvalue
+        assert mode.frequency_hz == pytest.approx(abs(s) / (2 * np.pi))
+        assert mode.damping_ratio == pytest.approx(-s.real / abs(s))
+
+
+def test_mode_shapes_are_those_of_the_two_masses():
+    k = 500.0
+    model = linearise(Simulation(two_masses((k, k), (0.0, 0.0))))
+    golden = (1 + np.sqrt(5)) / 2
+    along = [model.coordinates.index(name) for name in model.coordinates if name.endswith("rx")]
+    assert len(along) == 2
+    slow, fast = (np.abs(mode.shape[along]) for mode in model.oscillating_modes())
+    np.testing.assert_allclose(sorted(slow), [1 / golden, 1.0], rtol=RELATIVE)
+    np.testing.assert_allclose(sorted(fast), [1 / golden, 1.0], rtol=RELATIVE)
+    signs = [np.sign(np.prod(mode.shape[along].real)) for mode in model.oscillating_modes()]
+    assert signs == [1.0, -1.0]
+
+
+def test_a_moving_state_is_varied_with_its_velocity_on_the_constraint():
+    """Spherical pendulum in steady rotation: rdd = g - (g.r + v.v) r / L^2, varied with r.v = 0 kept."""
+    angle, step = 0.7, 1e-6
+    radius, rate = LENGTH * np.sin(angle), np.sqrt(GRAVITY / (LENGTH * np.cos(angle)))
+    m = Model("conical pendulum", dimension=3, gravity=(0.0, 0.0, -GRAVITY))
+    bob = m.point_mass("bob", mass=MASS, position=(radius, 0.0, -LENGTH * np.cos(angle)))
+    m.distance("rod", (m.ground, (0.0, 0.0, 0.0)), bob)
+    m.initial_velocity(bob, linear=(0.0, rate * radius, 0.0))
+    simulation = Simulation(compile(m))
+    model = linearise(simulation)
+    order = [model.coordinates.index(f"bob.r{axis}") for axis in "xyz"]
+    r, v = simulation.state.q[order], simulation.state.qd[order]
+    V, n = model.basis[order], model.degrees_of_freedom
+    assert n == 2
+    assert np.linalg.norm(v) == pytest.approx(rate * radius)
+
+    def acceleration(r, v):
+        return np.array([0.0, 0.0, -GRAVITY]) - (-GRAVITY * r[2] + v @ v) * r / LENGTH**2
+
+    expected = np.zeros((n, 2 * n))
+    for j in range(2 * n):
+        dr = V[:, j] if j < n else np.zeros(3)
+        dv = -r * (dr @ v) / LENGTH**2 if j < n else V[:, j - n]
+        change = (acceleration(r + step * dr, v + step * dv) - acceleration(r - step * dr, v - step * dv)) / (2 * step)
+        expected[:, j] = MASS * V.T @ change
+    np.testing.assert_allclose(model.A[n:], expected, rtol=0.0, atol=RELATIVE * np.abs(expected).max())
+
+
+def test_linearising_changes_nothing():
+    simulation = Simulation(pendulum(damped=True))
+    simulation.step(0.01, n=20)
+    before = simulation.save()
+    linearise(simulation)
+    assert simulation.save() == before
