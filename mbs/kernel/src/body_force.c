@@ -27,8 +27,8 @@ static void evaluate(ali3_element_args *a) {
   }
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint, int32_t n_inputs,
-                         int32_t n_roads) {
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
   (void)real, (void)nreal, (void)n_roads;
   if (nsig != 12 && nsig != 4) return "a body force needs 12 signals in space or 4 in the plane";
   for (int32_t i = 0; i < nint; i++)

@@ -37,8 +37,8 @@ static void evaluate(ali3_element_args *a) {
     }
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint, int32_t n_inputs,
-                         int32_t n_roads) {
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
   (void)real, (void)nreal, (void)nint, (void)n_roads;
   if (nsig != 9 && nsig != 2) return "a body torque needs 9 signals in space or 2 in the plane";
   for (int i = 0; i < 3; i++)

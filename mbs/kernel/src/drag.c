@@ -17,8 +17,8 @@ static void evaluate(ali3_element_args *a) {
   if (speed > 0.0) ali3_add_outer(a->S, n, a->wC * factor / speed, a->ud);
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint, int32_t n_inputs,
-                         int32_t n_roads) {
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
   (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
   if (nsig != 2 && nsig != 3) return "drag needs the 2 or 3 components of a point";
   if (real[0] < 0.0 || real[1] < 0.0) return "the air density and the drag area must not be negative";

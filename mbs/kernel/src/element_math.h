@@ -4,9 +4,7 @@
 #include <math.h>
 #include <stdint.h>
 
-static inline double ali3_dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+static inline double ali3_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static inline void ali3_cross(const double a[3], const double b[3], double out[3]) {
   out[0] = a[1] * b[2] - a[2] * b[1];
@@ -14,13 +12,12 @@ static inline void ali3_cross(const double a[3], const double b[3], double out[3
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static inline double ali3_norm(const double a[3]) {
-  return sqrt(ali3_dot(a, a));
-}
+static inline double ali3_norm(const double a[3]) { return sqrt(ali3_dot(a, a)); }
 
-static inline double ali3_clamp(double v, double lo, double hi) {
-  return v < lo ? lo : v > hi ? hi : v;
-}
+/* sqrt is exactly rounded everywhere, hypot is not */
+static inline double ali3_hypot(double a, double b) { return sqrt(a * a + b * b); }
+
+static inline double ali3_clamp(double v, double lo, double hi) { return v < lo ? lo : v > hi ? hi : v; }
 
 /* S += w b b' for an n x n row-major matrix */
 static inline void ali3_add_outer(double *S, int32_t n, double w, const double *b) {
@@ -34,9 +31,7 @@ static inline void ali3_add_symmetric(double *S, int32_t n, double w, const doub
     for (int32_t j = 0; j < n; j++) S[i * n + j] += 0.5 * w * (b[i] * c[j] + c[i] * b[j]);
 }
 
-static inline double ali3_input_or_zero(const double *input, int32_t index) {
-  return index >= 0 ? input[index] : 0.0;
-}
+static inline double ali3_input_or_zero(const double *input, int32_t index) { return index >= 0 ? input[index] : 0.0; }
 
 /* Weight of the new rate in x_new = x_old + h ((1 - theta) x'_old + theta x'_new) for x' = -rate x + ...:
  * 1/2 (trapezoidal rule, order two) while it does not ring, then just enough more that x keeps its sign. */

@@ -7,8 +7,8 @@ static void evaluate(ali3_element_args *a) {
   a->potential = 0.0;
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint, int32_t n_inputs,
-                         int32_t n_roads) {
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
   (void)real, (void)nint, (void)n_roads;
   if (nreal != nsig) return "an input force needs one weight per signal";
   if (integer[0] < 0 || integer[0] >= n_inputs) return "an input force names an input that does not exist";

@@ -52,12 +52,13 @@ static void evaluate(ali3_element_args *a) {
   for (int32_t i = 0; i < n; i++) a->S[i * n + i] += across;
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint, int32_t n_inputs,
-                         int32_t n_roads) {
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
   (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
   if (nsig != 2 && nsig != 3) return "a spring-damper needs the 2 or 3 components of a distance";
   if (real[FREE_LENGTH] < 0.0) return "the free length of a spring-damper must not be negative";
-  if (real[BUMP_STIFFNESS] < 0.0 || real[REBOUND_STIFFNESS] < 0.0) return "the stiffness of a spring's stops must not be negative";
+  if (real[BUMP_STIFFNESS] < 0.0 || real[REBOUND_STIFFNESS] < 0.0)
+    return "the stiffness of a spring's stops must not be negative";
   return 0;
 }
 

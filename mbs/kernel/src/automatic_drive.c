@@ -1,0 +1,124 @@
+/* Engine, torque converter, automatic gears and open differential: equal torques on two wheels, reaction on the frame that carries them.
+ * Signals: chi of the left and right wheel (absolute rates about the axis f x g), f (3), g (3) orthonormal on the frame.
+ * Reals: see the enum, then one total ratio per gear, tallest last. Integers: throttle input (0..1), number of gears.
+ * States: gear, gear before the last shift, time since it. Outputs: engine speed rad/s, gear, torque per wheel N m, engine torque N m.
+ *
+ * There is no engine inertia: with turbine speed wt = ratio * W and stall speed ws (idle .. stall with the throttle) the engine turns at
+ * sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over in RAMP seconds, so torque is continuous. */
+#include "element.h"
+#include "element_math.h"
+
+enum {
+  MAX_TORQUE,
+  MAX_POWER,
+  EFFICIENCY,
+  STALL_FACTOR, /* converter torque ratio at stall */
+  COUPLING_RATIO, /* speed ratio of the converter from which on the torque ratio is 1 */
+  IDLE_SPEED,
+  STALL_SPEED,
+  LIMIT_SPEED, /* engine speed where the limiter sets in */
+  CREEP_TORQUE, /* per wheel, throttle closed */
+  CREEP_SPEED, /* wheel speed where creep has faded */
+  DRAG_TORQUE, /* of the engine at its limit speed, throttle closed */
+  UP_CLOSED, /* shift speeds of the turbine, throttle closed and open */
+  UP_OPEN,
+  DOWN_CLOSED,
+  DOWN_OPEN,
+  DWELL,
+  RAMP,
+  RATIOS
+};
+#define LIMITER_WIDTH 0.05 /* of the limit speed */
+#define LONG_AGO 1e3 /* s */
+
+static int gear_of(double slot, int gears) { return slot >= gears ? gears : slot >= 1.0 ? (int)slot : 1; }
+
+static double wheel_rate(const ali3_element_args *a) {
+  return 0.5 * (a->ud[0] + a->ud[1]) - 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
+}
+
+static double throttle_of(const ali3_element_args *a) { return ali3_clamp(a->input[a->integer[0]], 0.0, 1.0); }
+
+/* Total wheel torque at mean relative wheel rate W; also its slope dT/dW, engine speed and engine torque. */
+static double torque(const double *p, double ratio, double throttle, double W, double *slope, double *speed,
+                     double *engine) {
+  const double turbine = ratio * W > 0.0 ? ratio * W : 0.0, closed = 1.0 - throttle;
+  double stall = p[IDLE_SPEED] + throttle * (p[STALL_SPEED] - p[IDLE_SPEED]);
+  if (!(stall > 1.0)) stall = 1.0;
+  const double w = sqrt(stall * stall + turbine * turbine), dw = ratio * turbine / w;
+  double factor = 1.0, dfactor = 0.0, full = p[MAX_TORQUE], dfull = 0.0;
+  if (turbine < p[COUPLING_RATIO] * w) {
+    factor += (p[STALL_FACTOR] - 1.0) * (1.0 - turbine / w / p[COUPLING_RATIO]);
+    if (W > 0.0) dfactor = -(p[STALL_FACTOR] - 1.0) / p[COUPLING_RATIO] * ratio * (stall / w) * (stall / w) / w;
+  }
+  if (full * w > p[MAX_POWER]) full = p[MAX_POWER] / w, dfull = -full / w * dw;
+  const double over = (w - p[LIMIT_SPEED]) / (LIMITER_WIDTH * p[LIMIT_SPEED]);
+  if (over >= 1.0) {
+    full = dfull = 0.0;
+  } else if (over > 0.0) {
+    dfull = dfull * (1.0 - over) - full * dw / (LIMITER_WIDTH * p[LIMIT_SPEED]);
+    full *= 1.0 - over;
+  }
+  const double x = ali3_clamp(W / p[CREEP_SPEED], 0.0, 1.0), drag = closed * p[DRAG_TORQUE] / p[LIMIT_SPEED];
+  *speed = w;
+  *engine = throttle * full - drag * turbine;
+  *slope = ratio * p[EFFICIENCY] * throttle * (dfactor * full + factor * dfull) -
+           (W > 0.0 ? ratio * ratio * drag : 0.0) -
+           2.0 * closed * p[CREEP_TORQUE] * 6.0 * x * (1.0 - x) / p[CREEP_SPEED];
+  return ratio * (p[EFFICIENCY] * throttle * factor * full - drag * turbine) +
+         2.0 * closed * p[CREEP_TORQUE] * (1.0 - x * x * (3.0 - 2.0 * x));
+}
+
+static void evaluate(ali3_element_args *a) {
+  const double *p = a->real, *ratios = p + RATIOS;
+  const int gears = a->integer[1], gear = gear_of(a->y_old[0], gears), before = gear_of(a->y_old[1], gears);
+  for (int i = 0; i < 3; i++) a->y_new[i] = a->y_old[i];
+  if (a->h > 0.0) a->y_new[2] = ali3_clamp(a->y_old[2] + a->h, 0.0, LONG_AGO);
+  const double x = p[RAMP] > 0.0 ? ali3_clamp(a->y_new[2] / p[RAMP], 0.0, 1.0) : 1.0;
+  const double ratio = ratios[before - 1] + (ratios[gear - 1] - ratios[before - 1]) * x * x * (3.0 - 2.0 * x);
+  double slope, speed, engine;
+  const double total = torque(p, ratio, throttle_of(a), wheel_rate(a), &slope, &speed, &engine);
+  double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
+  for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
+  for (int i = 0; i < 8; i++) a->f[i] = total * b[i];
+  if (a->S && slope < 0.0) ali3_add_outer(a->S, 8, -a->wC * slope, b); /* turning of f, g within the step is left out */
+  a->potential = 0.0;
+  a->out[0] = speed;
+  a->out[1] = gear;
+  a->out[2] = 0.5 * total;
+  a->out[3] = engine;
+}
+
+static void accept(ali3_element_args *a) {
+  const double *p = a->real;
+  const int gears = a->integer[1], gear = gear_of(a->y_new[0], gears);
+  const double throttle = throttle_of(a), turbine = p[RATIOS + gear - 1] * wheel_rate(a);
+  int wanted = gear;
+  if (turbine > p[UP_CLOSED] + throttle * (p[UP_OPEN] - p[UP_CLOSED]) && gear < gears)
+    wanted = gear + 1;
+  else if (turbine < p[DOWN_CLOSED] + throttle * (p[DOWN_OPEN] - p[DOWN_CLOSED]) && gear > 1)
+    wanted = gear - 1;
+  if (wanted == gear || a->y_new[2] < p[DWELL]) return;
+  a->y_new[0] = wanted;
+  a->y_new[1] = gear;
+  a->y_new[2] = 0.0;
+}
+
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
+  (void)nsig, (void)nint, (void)n_roads;
+  if (integer[0] < 0 || integer[0] >= n_inputs) return "an automatic drive names an input that does not exist";
+  if (integer[1] < 1 || nreal != RATIOS + integer[1])
+    return "an automatic drive needs one ratio per gear, at least one";
+  for (int i = 0; i < nreal; i++)
+    if (real[i] < 0.0) return "the numbers of an automatic drive must not be negative";
+  if (!(real[IDLE_SPEED] > 0.0 && real[STALL_SPEED] >= real[IDLE_SPEED] && real[LIMIT_SPEED] > real[STALL_SPEED]))
+    return "the engine speeds of an automatic drive must be positive and in the order idle, stall, limit";
+  if (!(real[COUPLING_RATIO] > 0.0 && real[CREEP_SPEED] > 0.0))
+    return "coupling ratio and creep speed of an automatic drive must be positive";
+  if (real[DWELL] < real[RAMP]) return "the dwell time of an automatic drive must not be shorter than its ramp";
+  return 0;
+}
+
+extern const ali3_element_type ali3_automatic_drive;
+const ali3_element_type ali3_automatic_drive = {evaluate, accept, 8, -1, 2, 3, 4, check};

@@ -1,0 +1,51 @@
+/* Brake: elastoplastic friction torque between a wheel's spin and its carrier.
+ * Signals: f (3), g (3) orthonormal on the carrier with f x g along the axis, chi with chi' = Omega the absolute rate about it.
+ * Reals: largest torque N m, stick stiffness N m/rad, stick damping N m s/rad. Integers: input (0..1). States: wind-up z rad, z' rad/s.
+ * Outputs: torque on the wheel N m, 1 while sticking, relative rate w rad/s.
+ *
+ * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else tau is at the bound
+ * and z' = (tau - k z)/c. With z = a + b z' (theta rule) and D = c + b k: tau = clamp(k a + D w), z' = (tau - k a)/D.
+ * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and a sticking brake returns to where it was: it does not creep. */
+#include "element.h"
+#include "element_math.h"
+
+enum { MAX_TORQUE, STIFFNESS, DAMPING, REALS };
+
+static void evaluate(ali3_element_args *a) {
+  const double *p = a->real, *f = a->u, *g = a->u + 3, *fd = a->ud, *gd = a->ud + 3;
+  const double w = a->ud[6] - 0.5 * (ali3_dot(fd, g) - ali3_dot(gd, f));
+  const double bound = p[MAX_TORQUE] * ali3_clamp(a->input[a->integer[0]], 0.0, 1.0);
+  const double theta = ali3_theta(a->h, p[STIFFNESS] / p[DAMPING]);
+  const double wound = p[STIFFNESS] * (a->y_old[0] + a->h * (1.0 - theta) * a->y_old[1]);
+  const double D = p[DAMPING] + a->h * theta * p[STIFFNESS], trial = wound + D * w;
+  const int sticks = fabs(trial) <= bound;
+  const double torque = sticks ? trial : trial > 0.0 ? bound : -bound;
+  a->y_new[0] = a->y_old[0];
+  a->y_new[1] = a->y_old[1];
+  if (a->h > 0.0) {
+    a->y_new[1] = (torque - wound) / D;
+    a->y_new[0] = (torque - p[DAMPING] * a->y_new[1]) / p[STIFFNESS];
+    if (fabs(a->y_new[0]) < 1e-100) a->y_new[0] = a->y_new[1] = 0.0; /* long released: no denormals */
+  }
+  double b[7];
+  for (int i = 0; i < 3; i++) b[i] = -0.5 * g[i], b[3 + i] = 0.5 * f[i];
+  b[6] = 1.0;
+  for (int i = 0; i < 7; i++) a->f[i] = -torque * b[i];
+  a->potential = 0.5 * p[STIFFNESS] * a->y_new[0] * a->y_new[0];
+  a->out[0] = -torque;
+  a->out[1] = sticks && bound > 0.0;
+  a->out[2] = w;
+  if (a->S && sticks) ali3_add_outer(a->S, 7, a->wC * D, b); /* turning of f, g within the step is left out */
+}
+
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
+  (void)nsig, (void)nreal, (void)nint, (void)n_roads;
+  if (integer[0] < 0 || integer[0] >= n_inputs) return "a brake names an input that does not exist";
+  if (real[MAX_TORQUE] < 0.0) return "the largest torque of a brake must not be negative";
+  if (!(real[STIFFNESS] > 0.0 && real[DAMPING] > 0.0)) return "stick stiffness and damping of a brake must be positive";
+  return 0;
+}
+
+extern const ali3_element_type ali3_brake;
+const ali3_element_type ali3_brake = {evaluate, 0, 7, REALS, 1, 2, 3, check};

@@ -1,0 +1,257 @@
+/* Tyre on a road: radial spring of a disc, TMeasy steady forces, first-order carcass deflections that are the same at standstill,
+ * rolling, sliding and in the air.
+ *
+ * Signals: wheel centre r (3), unit spin axis e pointing left (3), chi with chi' = Omega the absolute rate about e (> 0 rolling forward).
+ * Integers: road. States: carcass deflections x, y and their rates. Outputs: Fx, Fy, Fz, Mz, slip, slip angle, deflection,
+ * loaded radius, contact point (3).
+ *
+ * Two radii are kept apart: the contact patch lies, and forces act, at the loaded radius |rho|; the rolling wheel advances by the
+ * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity. At standstill the slip velocity is
+ * the material velocity at the patch (both radii equal), which makes the carcass a true spring there.
+ *
+ * Carcass, per direction, with secant slip damping g = |F_steady|/|v_s|: x'(d + g) = -c x - g v_s, F = c x + d x'. Hence
+ * F (v_s + x') = -F^2/g <= 0: sliding only takes energy. With x = a + b x' (theta rule, a and b known) and D = d + b c the step is
+ *   F = g (c a - D v_s)/(g + D),   x' = (F - c a)/D,
+ * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the ellipse of the largest forces. */
+#include "element.h"
+#include "element_math.h"
+#include "road.h"
+#include "tmeasy.h"
+
+enum {
+  RADIUS,
+  BOTTOMING_RADIUS,
+  STIFFNESS,
+  DAMPING,
+  BOTTOMING_STIFFNESS,
+  NOMINAL_LOAD,
+  REFERENCE_FRICTION,
+  MAX_LOAD_FACTOR,
+  CURVE_X, /* 10: slope, largest force and its slip, sliding force and its slip, each at Pn and 2 Pn */
+  CURVE_Y = CURVE_X + 10, /* 10 */
+  TRAIL = CURVE_Y + 10, /* 6: relative trail, its first zero, its end */
+  CARCASS_STIFFNESS = TRAIL + 6,
+  CARCASS_DAMPING = CARCASS_STIFFNESS + 2,
+  ROLLING_RESISTANCE = CARCASS_DAMPING + 2,
+  FRICTION_FACTOR,
+  REALS
+};
+enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, OUTPUTS = CONTACT_X + 3 };
+
+#define TOUCH_DEPTH 0.005 /* m, over which the radial damping sets in */
+#define SLOW_SPEED 1e-5 /* m/s, added to the transport speed; small so that a parked car creeps by micrometres only */
+#define ROLL_SPEED 0.5 /* m/s, where effective radius and trail of the rolling tyre set in */
+#define NO_LOAD 1e-9 /* N */
+
+typedef struct {
+  double load, friction; /* sums or load-weighted means of the contacts */
+  double normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
+} patch;
+
+/* Radial forces of all contacts: adds to f, S and potential, returns the mean patch. */
+static patch radial(ali3_element_args *a, const double e[3]) {
+  const double *p = a->real;
+  ali3_contact contact[2];
+  patch mean = {0};
+  const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, p[RADIUS], contact);
+  for (int k = 0; k < count; k++) {
+    const ali3_contact *c = &contact[k];
+    const double depth = c->penetration, radius = p[RADIUS] - depth, lean = ali3_dot(e, c->normal);
+    double rho[3], b[7] = {0}, rate = 0.0;
+    for (int i = 0; i < 3; i++) {
+      rho[i] = radius * c->down[i];
+      b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth */
+      b[3 + i] = -lean * rho[i] / c->cosine;
+    }
+    if (k == 0) { /* what a wheel in the air reports */
+      mean.friction = c->friction;
+      for (int i = 0; i < 3; i++) mean.normal[i] = c->normal[i], mean.rho[i] = rho[i];
+    }
+    if (!(depth > 0.0)) continue;
+    for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
+    const double deep = depth - (p[RADIUS] - p[BOTTOMING_RADIUS]), hard = deep > 0.0 ? p[BOTTOMING_STIFFNESS] : 0.0;
+    const double ramp = depth < TOUCH_DEPTH ? depth / TOUCH_DEPTH : 1.0;
+    const double force = p[STIFFNESS] * depth + hard * deep + p[DAMPING] * rate * ramp;
+    a->potential += 0.5 * (p[STIFFNESS] * depth * depth + hard * deep * deep);
+    if (!(force > 0.0)) continue;
+    const double load = force / c->cosine, total = mean.load + load;
+    for (int i = 0; i < 6; i++) a->f[i] += force * b[i];
+    for (int i = 0; i < 3; i++) { /* load-weighted, so nothing jumps when a contact comes or goes */
+      mean.normal[i] = mean.load > 0.0 ? mean.normal[i] + load * c->normal[i] : load * c->normal[i];
+      mean.rho[i] = (mean.load > 0.0 ? mean.load / total * mean.rho[i] : 0.0) + load / total * rho[i];
+    }
+    mean.friction = (mean.load > 0.0 ? mean.load / total * mean.friction : 0.0) + load / total * c->friction;
+    mean.load = total;
+    if (!a->S) continue;
+    double stiffness = p[STIFFNESS] + hard + (ramp < 1.0 ? p[DAMPING] * rate / TOUCH_DEPTH : 0.0);
+    if (stiffness < 0.0) stiffness = 0.0;
+    ali3_add_outer(a->S, 7, a->wK * stiffness + a->wC * p[DAMPING] * ramp, b);
+  }
+  const double size = ali3_norm(mean.normal);
+  for (int i = 0; i < 3; i++) mean.normal[i] = size > 0.0 ? mean.normal[i] / size : (i == 2);
+  return mean;
+}
+
+/* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
+ * (symmetric part, positive semidefinite) as xx, xy, yy. */
+static void carcass(const ali3_element_args *a, const patch *contact, const double v[2], double w, double F[2],
+                    double C[3]) {
+  const double *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING;
+  const double q = ali3_clamp(contact->load / p[NOMINAL_LOAD], 0.0, p[MAX_LOAD_FACTOR]);
+  const double grip = contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
+  const ali3_tmeasy t[2] = {ali3_tmeasy_at(p + CURVE_X, q, grip), ali3_tmeasy_at(p + CURVE_Y, q, grip)};
+  const double bx = t[0].max_force / t[0].slope, by = t[1].max_force / t[1].slope,
+               slips = t[0].max_slip + t[1].max_slip;
+  const double scale[2] = {t[0].max_slip / slips + bx / (bx + by), t[1].max_slip / slips + by / (bx + by)};
+  const double n[2] = {v[0] / (scale[0] * w), v[1] / (scale[1] * w)}, s = ali3_hypot(n[0], n[1]);
+  double J[2][2], kappa[2], offset[2], D[2], full[2];
+  for (int i = 0; i < 2; i++) {
+    double slope;
+    const double g = q * ali3_tmeasy_secant(&t[i], s * scale[i], &slope) / w;
+    kappa[i] = 1.0 / (d[i] + g);
+    const double theta = ali3_theta(a->h, c[i] * kappa[i]), b = a->h * theta;
+    offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
+    D[i] = d[i] + b * c[i];
+    full[i] = q * t[i].max_force;
+    F[i] = g / (g + D[i]) * (offset[i] - D[i] * v[i]);
+    const double by_g = D[i] / (g + D[i]) * ((offset[i] - D[i] * v[i]) / (g + D[i]));
+    for (int j = 0; j < 2; j++) {
+      const double ds = s > 0.0 ? n[j] / (s * scale[j] * w) : 0.0;
+      J[i][j] = by_g * (q / w) * slope * scale[i] * ds - (i == j ? g / (g + D[i]) * D[i] : 0.0);
+    }
+  }
+  const double use = contact->load > NO_LOAD ? ali3_hypot(F[0] / full[0], F[1] / full[1]) : 0.0;
+  if (use > 1.0) { /* radial return to the ellipse; the deflection then follows at its own rate c/d */
+    const double e[2] = {F[0] / full[0] / full[0] / use, F[1] / full[1] / full[1] / use};
+    for (int j = 0; j < 2; j++) {
+      const double along = (e[0] * J[0][j] + e[1] * J[1][j]) / use;
+      for (int i = 0; i < 2; i++) J[i][j] = (J[i][j] - F[i] * along) / use;
+    }
+    for (int i = 0; i < 2; i++) {
+      const double rate = c[i] * (kappa[i] + (1.0 - 1.0 / use) * (1.0 / d[i] - kappa[i]));
+      const double theta = ali3_theta(a->h, rate);
+      F[i] /= use;
+      offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
+      D[i] = d[i] + a->h * theta * c[i];
+    }
+  }
+  for (int i = 0; i < 2; i++) {
+    a->y_new[i] = a->y_old[i];
+    a->y_new[2 + i] = a->y_old[2 + i];
+    if (!(a->h > 0.0)) continue;
+    a->y_new[2 + i] = (F[i] - offset[i]) / D[i];
+    a->y_new[i] = (F[i] - d[i] * a->y_new[2 + i]) / c[i];
+    if (fabs(a->y_new[i]) < 1e-100) a->y_new[i] = a->y_new[2 + i] = 0.0; /* long in the air: no denormals */
+  }
+  /* nearest positive semidefinite matrix to -(J + J')/2 */
+  C[0] = -J[0][0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1];
+  const double mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
+  if (mean >= split) return;
+  const double top = mean + split > 0.0 ? mean + split : 0.0;
+  const double cosine = split > 0.0 ? half / split : 0.0, sine = split > 0.0 ? C[1] / split : 0.0;
+  C[0] = 0.5 * top * (1.0 + cosine);
+  C[1] = 0.5 * top * sine;
+  C[2] = 0.5 * top * (1.0 - cosine);
+}
+
+static void evaluate(ali3_element_args *a) {
+  const double *p = a->real, *rd = a->ud, *ed = a->ud + 3, omega = a->ud[6];
+  double e[3] = {0.0, 1.0, 0.0}, forward[3], left[3], F[2], C[3], v[2], push[3];
+  a->potential = 0.0;
+  const double length = ali3_norm(a->u + 3);
+  if (length > 1e-6) /* an iterate of the solver need not be a unit vector */
+    for (int i = 0; i < 3; i++) e[i] = a->u[3 + i] / length;
+  const patch contact = radial(a, e);
+  const double *rho = contact.rho, *n = contact.normal, loaded = ali3_norm(rho), turn = ali3_dot(ed, rho);
+
+  ali3_cross(e, n, forward);
+  double size = ali3_norm(forward);
+  if (size < 1e-9) forward[0] = 1.0, forward[1] = forward[2] = 0.0, size = 1.0;
+  for (int i = 0; i < 3; i++) forward[i] /= size;
+  ali3_cross(n, forward, left);
+
+  ali3_cross(e, rho, push); /* velocity of the patch per Omega */
+  const double rolling = (2.0 * p[RADIUS] + (loaded < p[RADIUS] ? loaded : p[RADIUS])) / 3.0,
+               transport = rolling * fabs(omega);
+  const double speed2 = transport * transport, moving = speed2 / (speed2 + ROLL_SPEED * ROLL_SPEED);
+  const double ratio =
+      loaded > 1e-6 ? 1.0 + moving * (rolling / loaded - 1.0) : 1.0; /* slip radius over loaded radius */
+  const double *tangent[2] = {forward, left};
+  double row[2][7], travel[2];
+  for (int i = 0; i < 2; i++) {
+    const double *t = tangent[i], spin = ali3_dot(t, push), lean = ali3_dot(t, e);
+    travel[i] = ali3_dot(t, rd) - lean * turn;
+    v[i] = travel[i] + ratio * spin * omega;
+    for (int k = 0; k < 3; k++) row[i][k] = t[k], row[i][3 + k] = -lean * rho[k];
+    row[i][6] = spin;
+  }
+  carcass(a, &contact, v, transport + SLOW_SPEED, F, C);
+  a->potential +=
+      0.5 * (p[CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
+  for (int k = 0; k < 7; k++) a->f[k] += F[0] * row[0][k] + F[1] * row[1][k];
+
+  const double deflection = loaded < p[RADIUS] ? p[RADIUS] - loaded : 0.0,
+               reference = ali3_hypot(transport, ROLL_SPEED);
+  const double trail = moving * 2.0 * sqrt(p[RADIUS] * deflection) *
+                       ali3_tmeasy_trail(p + TRAIL, ali3_clamp(contact.load / p[NOMINAL_LOAD], 0.0, p[MAX_LOAD_FACTOR]),
+                                         fabs(v[1]) / reference);
+  const double moment = -trail * F[1], resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = tanh(omega);
+  double twist[3];
+  ali3_cross(n, e, twist);
+  for (int i = 0; i < 3; i++) a->f[3 + i] += moment * twist[i];
+  a->f[6] += moment * ali3_dot(n, e) - resist * roll;
+
+  if (a->S) {
+    for (int i = 0; i < 2; i++)
+      row[i][6] *= 0.5 * (1.0 + ratio); /* mean of slip and force lever: the symmetric part to first order */
+    ali3_add_outer(a->S, 7, a->wC * C[0], row[0]);
+    ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], row[0], row[1]);
+    ali3_add_outer(a->S, 7, a->wC * C[2], row[1]);
+    a->S[48] += a->wC * resist * (1.0 - roll * roll);
+  }
+  const double drive = -ratio * ali3_dot(forward, push) * omega; /* circumferential speed */
+  const double fastest = ali3_hypot(fabs(drive) > fabs(travel[0]) ? drive : travel[0], 0.01);
+  a->out[FX] = F[0];
+  a->out[FY] = F[1];
+  a->out[FZ] = contact.load;
+  a->out[MZ] = moment;
+  a->out[SLIP] = -v[0] / fastest;
+  a->out[SLIP_ANGLE] = atan2(v[1], ali3_hypot(travel[0], 0.01));
+  a->out[DEFLECTION] = deflection;
+  a->out[LOADED_RADIUS] = p[RADIUS] - deflection;
+  for (int i = 0; i < 3; i++) a->out[CONTACT_X + i] = a->u[i] + rho[i];
+}
+
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
+  (void)nsig, (void)nreal, (void)nint, (void)n_inputs;
+  if (integer[0] < 0 || integer[0] >= n_roads) return "a tyre names a road that does not exist";
+  if (!(real[RADIUS] > real[BOTTOMING_RADIUS] && real[BOTTOMING_RADIUS] > 0.0))
+    return "the bottoming radius of a tyre must lie between 0 and its radius";
+  if (!(real[STIFFNESS] > 0.0) || real[DAMPING] < 0.0 || real[BOTTOMING_STIFFNESS] < 0.0)
+    return "the vertical stiffness of a tyre must be positive, damping and bottoming stiffness not negative";
+  if (!(real[NOMINAL_LOAD] > 0.0 && real[REFERENCE_FRICTION] > 0.0 && real[MAX_LOAD_FACTOR] > 0.0))
+    return "nominal load, reference friction and largest load factor of a tyre must be positive";
+  for (int i = 0; i < 2; i++)
+    if (!(real[CARCASS_STIFFNESS + i] > 0.0 && real[CARCASS_DAMPING + i] > 0.0))
+      return "carcass stiffness and damping of a tyre must be positive";
+  for (int end = 0; end < 2; end++) { /* both ends of the load range; between them the curves are linear per load */
+    const double q = end ? real[MAX_LOAD_FACTOR] : 0.0;
+    for (int direction = 0; direction < 2; direction++) {
+      const ali3_tmeasy t = ali3_tmeasy_at(real + (direction ? CURVE_Y : CURVE_X), q, 1.0);
+      if (!(t.slope > 0.0 && t.max_force > 0.0 && t.slide_force > 0.0))
+        return "a tyre force becomes zero or negative within its range of loads";
+      if (!(t.max_slip > 0.0 && t.slide_slip > t.max_slip))
+        return "the slips of a tyre must be positive and sliding must come after the maximum";
+    }
+    const double *z = real + TRAIL + 2;
+    const double zero = z[0] + (z[1] - z[0]) * (q - 1.0), last = z[2] + (z[3] - z[2]) * (q - 1.0);
+    if (!(zero > 0.0 && last > zero)) return "the slips of a tyre's trail must be positive and increasing";
+  }
+  if (real[ROLLING_RESISTANCE] < 0.0 || real[FRICTION_FACTOR] < 0.0)
+    return "rolling resistance and friction factor of a tyre must not be negative";
+  return 0;
+}
+
+extern const ali3_element_type ali3_tyre;
+const ali3_element_type ali3_tyre = {evaluate, 0, 7, REALS, 1, 4, OUTPUTS, check};
