@@ -9,6 +9,9 @@ variation is
 
 with H_k the second derivative of row k, W the complement ``V' M W = 0`` and y the element states, ``yd = g(q, qd, y)``.
 N is the velocity that keeps the constraints satisfied when a moving mechanism is shifted; it is zero at rest.
+
+Elements give steps of their slots, not rates: g is the limit of short steps. A slot that does not remember its value over a
+short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.
 """
 
 from __future__ import annotations
@@ -27,8 +30,11 @@ Array = NDArray[np.float64]
 
 SHIFT = 1e-6  # of coordinates (m), velocities (m/s) and element states in the central differences
 STATE_STEP = 1e-5  # s, of the element steps that give the rates of element states
+SHORT_STEP = 1e-9  # s, over which a state keeps its value
 RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the largest count as zero
-STATE_TOLERANCE = 1e-9  # rates of change of slots below this, per unit of any state, count as none
+STATE_TOLERANCE = (
+    1e-3  # 1/s; slots with smaller slopes of their rates (gears, clocks) have no dynamics; above round-off
+)
 OSCILLATION_TOLERANCE = 1e-9  # imaginary part over modulus of an eigenvalue below which it counts as real
 
 
@@ -85,7 +91,7 @@ class LinearModel:
     @property
     def degrees_of_freedom(self) -> int:
         """Number n of independent displacements."""
-        return self.basis.shape[1]
+        return int(self.basis.shape[1])
 
     def oscillating_modes(self) -> tuple[Mode, ...]:
         """The modes with a complex eigenvalue."""
@@ -129,23 +135,24 @@ def linearise(simulation: Simulation) -> LinearModel:
         drift = (drift_ahead - drift_behind) / (2 * SHIFT)
         N[:, j] = -W @ np.linalg.lstsq(jacobian @ W, drift, rcond=RANK_TOLERANCE)[0]
         GV[:, j] = (ahead - behind).T @ state.lam / (2 * SHIFT)
-    ny = len(state.y)
+    slots = evaluator.slots
+    unit = np.eye(len(state.y))
     columns = (
         [_difference(evaluator.rates, state, dq=V[:, j], dqd=N[:, j]) for j in range(n)]
         + [_difference(evaluator.rates, state, dqd=V[:, j]) for j in range(n)]
-        + [_difference(evaluator.rates, state, dy=e) for e in np.eye(ny)]
+        + [_difference(evaluator.rates, state, dy=unit[k]) for k in slots]
     )
-    slope = np.array(columns).T  # (nq + ny, 2 n + ny): of forces and of slot rates
-    A = np.zeros((2 * n + ny, 2 * n + ny))
+    slope = np.array(columns).T  # (nq + len(slots), 2 n + len(slots)): of forces and of slot rates
+    A = np.zeros((2 * n + len(slots), 2 * n + len(slots)))
     A[:n, n : 2 * n] = np.eye(n)
     A[n : 2 * n] = V.T @ slope[: len(state.q)]
     A[n : 2 * n, :n] -= V.T @ GV
     A[2 * n :] = slope[len(state.q) :]
-    slots = [k for k in range(ny) if np.abs(A[2 * n + k]).max() > STATE_TOLERANCE]
-    kept = [*range(2 * n), *(2 * n + k for k in slots)]
+    lively = [i for i in range(len(slots)) if np.abs(A[2 * n + i]).max() > STATE_TOLERANCE]
+    kept = [*range(2 * n), *(2 * n + i for i in lively)]
     A = A[np.ix_(kept, kept)]
     names = tuple(simulation.system.meta["coordinates"])
-    return LinearModel(A, V, tuple(slots), names, _modes(A, V))
+    return LinearModel(A, V, tuple(slots[i] for i in lively), names, _modes(A, V))
 
 
 class _Evaluator:
@@ -156,6 +163,7 @@ class _Evaluator:
         self.arrays = simulation.system.arrays
         self.time = simulation.time
         self.state = simulation.state
+        self.slots = [k for k in range(len(self.state.y)) if self._remembers(k)]
 
     def mass(self) -> Array:
         """Mass matrix (nq, nq)."""
@@ -168,13 +176,20 @@ class _Evaluator:
         return jacobian, jacobian @ self.state.qd + np.array(values["phi_t"])
 
     def rates(self, q: Array, qd: Array, y: Array) -> Array:
-        """Forces Q (nq,) and slot rates g (ny,) in one vector; Richardson's rule removes the first-order error of g."""
-        force = np.array(self.instance.evaluate(q, qd, y, self.time)["force"])
-        if not len(y):
-            return force
-        whole = (self._element_step(q, qd, y, STATE_STEP) - y) / STATE_STEP
-        half = (self._element_step(q, qd, y, STATE_STEP / 2) - y) / (STATE_STEP / 2)
-        return np.concatenate([force, 2.0 * half - whole])
+        """Forces Q (nq,) and rates g of the states among the slots, in one vector."""
+        settled = self._element_step(q, qd, y, SHORT_STEP)
+        settled[self.slots] = y[self.slots]
+        force = np.array(self.instance.evaluate(q, qd, settled, self.time)["force"])
+        whole = (self._element_step(q, qd, settled, STATE_STEP) - settled) / STATE_STEP
+        half = (self._element_step(q, qd, settled, STATE_STEP / 2) - settled) / (STATE_STEP / 2)
+        return np.concatenate([force, (2.0 * half - whole)[self.slots]])  # without the first-order error of the steps
+
+    def _remembers(self, k: int) -> bool:
+        s = self.state
+        shift = SHIFT * np.eye(len(s.y))[k]
+        ahead = self._element_step(s.q, s.qd, s.y + shift, SHORT_STEP)
+        behind = self._element_step(s.q, s.qd, s.y - shift, SHORT_STEP)
+        return bool(ahead[k] - behind[k] > SHIFT)
 
     def _element_step(self, q: Array, qd: Array, y: Array, h: float) -> Array:
         return np.array(self.instance.element_step(q, qd, y, h)[0])

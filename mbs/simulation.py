@@ -193,7 +193,7 @@ class Simulation:
         with progress_for(progress) as bar:
             while done < steps:
                 n = min(chunk, steps - done)
-                table = self._input_table(signals, t0 + h * np.arange(done + 1, done + n + 1), 1e-6 * h)
+                table = self._input_table(signals, t0 + h * np.arange(done + 1, done + n + 1, dtype=float), 1e-6 * h)
                 part = values[done // every + 1 : (done + n) // every + 1]
                 begin = time.perf_counter()
                 try:
@@ -237,7 +237,7 @@ class Simulation:
     def _trajectory(self, t0: float, interval: float, values: NDArray[np.float64], wall: float) -> Trajectory:
         sensors = self.system.meta["sensors"]
         return Trajectory(
-            t0 + interval * np.arange(len(values)),
+            t0 + interval * np.arange(len(values), dtype=float),
             values,
             [s["name"] for s in sensors],
             [s["unit"] for s in sensors],
