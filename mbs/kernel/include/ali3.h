@@ -58,21 +58,25 @@ typedef struct {
   int32_t worst_row, worst_coordinate;
 } ali3_report;
 
-typedef struct { int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, reserved; } ali3_sizes;
+typedef struct {
+  int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, reserved;
+} ali3_sizes;
 
 ALI3_API const char *ali3_status_text(ali3_status s); /* one sentence per code */
 ALI3_API uint32_t ali3_version(void);
 
-ALI3_API ali3_status ali3_system_load(const void *bytes, size_t size, ali3_system **out, char *message, size_t message_size);
+ALI3_API ali3_status ali3_system_load(const void *bytes, size_t size, ali3_system **out, char *message,
+                                      size_t message_size);
 ALI3_API void ali3_system_free(ali3_system *s);
 ALI3_API ali3_sizes ali3_system_sizes(const ali3_system *s);
 
 ALI3_API ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out);
 ALI3_API void ali3_instance_free(ali3_instance *in);
-ALI3_API ali3_status ali3_reset(ali3_instance *in);   /* back to q0, qd0, y0, default inputs, parameters and settings */
+ALI3_API ali3_status ali3_reset(ali3_instance *in); /* back to q0, qd0, y0, default inputs, parameters and settings */
 ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
-ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value);
+ALI3_API ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings);
+ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value); /* clamped to its range */
 ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value); /* range checked */
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
@@ -80,12 +84,13 @@ ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
 /* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
-/* Static equilibrium near the present position with all rates zero; then as ali3_initialise. */
+/* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m); then as ali3_initialise. */
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
 ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
 /* steps: inputs is (n_steps x nu) row major, one row per step, or NULL (keep); every k-th state's sensors go to out
    (n_steps/every x ns). *done is the number of accepted steps. */
-ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every, double *out, int64_t *done);
+ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
+                              double *out, int64_t *done);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 ALI3_API double ali3_time(const ali3_instance *in);
@@ -97,11 +102,15 @@ ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, si
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows. */
-ALI3_API ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam, double *y);
-ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, const double *y, double t, double *phi, double *jacobian_values,
-                                   double *phi_t, double *gamma /* d(Phi_q)/dt qd + d(Phi_t)/dt */, double *force /* Q, nq */, double *outputs);
+ALI3_API ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam,
+                                    double *y);
+ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, const double *y, double t,
+                                   double *phi, double *jacobian_values, double *phi_t,
+                                   double *gamma /* d(Phi_q)/dt qd + d(Phi_t)/dt */, double *force /* Q, nq */,
+                                   double *outputs);
 /* The tangent (23) as a dense symmetric nq x nq matrix at the present state for step h with multipliers lam (NULL: present). */
 ALI3_API ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense);
 /* One element step in isolation: slots y_old -> y_new over h at (q, qd); force (nq) may be NULL. */
-ALI3_API ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old, double h, double *y_new, double *force);
+ALI3_API ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old,
+                                       double h, double *y_new, double *force);
 #endif

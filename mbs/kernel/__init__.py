@@ -1,0 +1,1 @@
+"""The C kernel, its build and its ctypes binding."""

@@ -1,0 +1,435 @@
+"""The kernel through ctypes. This file needs nothing but the standard library, so that an FMU can carry it.
+
+A library handle is loaded once per path; a `LoadedSystem` may be shared by threads, an `Instance` belongs to one at a time.
+Names and units: `include/ali3.h`.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from collections.abc import Sequence
+from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
+from pathlib import Path
+from typing import Any
+
+BAD_ARGUMENT, BAD_FILE, BAD_STATE, NO_MEMORY, NOT_INITIALISED, NOT_ASSEMBLED, NOT_CONVERGED, SINGULAR, NOT_FINITE = (
+    range(1, 10)
+)
+"""Codes of `ali3_status` beside 0."""
+
+
+class KernelError(RuntimeError):
+    """A call that the kernel refused.
+
+    Attributes
+    ----------
+    status : int
+        Code of `ali3_status`.
+    message : str
+        One sentence.
+    """
+
+    def __init__(self, status: int, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+        self.message = message
+
+
+class SettingsFields(Structure):
+    """`ali3_settings`."""
+
+    _fields_ = (
+        ("alpha", c_double),
+        ("eps_rel", c_double),
+        ("tolerance_r", c_double),
+        ("tolerance_phi", c_double),
+        ("max_iterations", c_int32),
+        ("max_halvings", c_int32),
+        ("project", c_int32),
+        ("update", c_int32),
+        ("geometric", c_int32),
+        ("reserved", c_int32),
+    )
+
+
+class ReportFields(Structure):
+    """`ali3_report`."""
+
+    _fields_ = (
+        ("steps", c_int64),
+        ("iterations", c_int64),
+        ("factorizations", c_int64),
+        ("solves", c_int64),
+        ("halvings", c_int64),
+        ("failures", c_int64),
+        ("last_iterations", c_int32),
+        ("max_iterations", c_int32),
+        ("last_status", c_int32),
+        ("negative_pivots", c_int32),
+        ("residual", c_double),
+        ("violation", c_double),
+        ("velocity_violation", c_double),
+        ("worst_row", c_int32),
+        ("worst_coordinate", c_int32),
+    )
+
+
+class Sizes(Structure):
+    """`ali3_sizes`: what a System has how many of."""
+
+    _fields_ = tuple(
+        (name, c_int32)
+        for name in (
+            *("nq", "nc", "nu", "ng", "ne", "ny", "ns", "np", "nout", "nf", "front_size", "nnz_mass", "nnz_rows"),
+            *("nsig", "has_pose", "reserved"),
+        )
+    )
+
+
+_DOUBLES = POINTER(c_double)
+_SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
+    "ali3_status_text": (c_char_p, [c_int32]),
+    "ali3_version": (c_uint32, []),
+    "ali3_system_load": (c_int32, [c_char_p, c_size_t, POINTER(c_void_p), c_char_p, c_size_t]),
+    "ali3_system_free": (None, [c_void_p]),
+    "ali3_system_sizes": (Sizes, [c_void_p]),
+    "ali3_instance_new": (c_int32, [c_void_p, POINTER(c_void_p)]),
+    "ali3_instance_free": (None, [c_void_p]),
+    "ali3_reset": (c_int32, [c_void_p]),
+    "ali3_default_settings": (SettingsFields, []),
+    "ali3_set_settings": (c_int32, [c_void_p, POINTER(SettingsFields)]),
+    "ali3_get_settings": (c_int32, [c_void_p, POINTER(SettingsFields)]),
+    "ali3_set_input": (c_int32, [c_void_p, c_int32, c_double]),
+    "ali3_get_input": (c_int32, [c_void_p, c_int32, _DOUBLES]),
+    "ali3_set_parameter": (c_int32, [c_void_p, c_int32, c_double]),
+    "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),
+    "ali3_set_pose": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double]),
+    "ali3_set_q": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
+    "ali3_initialise": (c_int32, [c_void_p, c_double]),
+    "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
+    "ali3_step": (c_int32, [c_void_p, c_double]),
+    "ali3_run": (c_int32, [c_void_p, c_double, c_int64, _DOUBLES, c_int64, _DOUBLES, POINTER(c_int64)]),
+    "ali3_sensors": (c_int32, [c_void_p, _DOUBLES]),
+    "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
+    "ali3_time": (c_double, [c_void_p]),
+    "ali3_state_size": (c_size_t, [c_void_p]),
+    "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
+    "ali3_state_restore": (c_int32, [c_void_p, c_char_p, c_size_t]),
+    "ali3_get_state": (c_int32, [c_void_p] + [_DOUBLES] * 5),
+    "ali3_evaluate": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 6),
+    "ali3_tangent": (c_int32, [c_void_p, c_double, _DOUBLES, _DOUBLES]),
+    "ali3_element_step": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 2),
+}
+
+_libraries: dict[str, ctypes.CDLL] = {}
+
+
+def library_path() -> Path:
+    """The library beside this file, or what the environment variable ALI3_KERNEL_LIBRARY names."""
+    override = os.environ.get("ALI3_KERNEL_LIBRARY")
+    if override:
+        return Path(override)
+    name = {"win32": "ali3.dll", "darwin": "libali3.dylib"}.get(sys.platform, "libali3.so")
+    return Path(__file__).resolve().parent / "lib" / name
+
+
+def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
+    """Load the kernel.
+
+    Parameters
+    ----------
+    path : path, optional
+        The library; by default `library_path()`.
+
+    Returns
+    -------
+    ctypes.CDLL
+        With argument and result types set.
+
+    Raises
+    ------
+    OSError
+        If the library is not there or not for this platform.
+    """
+    key = str(Path(path) if path is not None else library_path())
+    if key in _libraries:
+        return _libraries[key]
+    library = ctypes.CDLL(key)
+    for name, (result, arguments) in _SIGNATURES.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments
+    _libraries[key] = library
+    return library
+
+
+def _numbers(values: Any, count: int, what: str) -> Any:
+    """A C array of `count` doubles from a sequence or buffer; None stays None (null pointer)."""
+    if values is None:
+        return None
+    if hasattr(values, "tolist"):
+        values = values.tolist()
+    flat = list(values)
+    if len(flat) != count:
+        raise ValueError(f"{what} has {len(flat)} values; this System needs {count}.")
+    return (c_double * count)(*flat)
+
+
+class LoadedSystem:
+    """A System in the kernel's memory, immutable and shared by its instances.
+
+    Parameters
+    ----------
+    data : bytes
+        A System file.
+    library : path, optional
+        The kernel library; by default `library_path()`.
+
+    Attributes
+    ----------
+    sizes : Sizes
+        Numbers of coordinates, rows, inputs, sensors and so on.
+    """
+
+    def __init__(self, data: bytes, library: str | os.PathLike[str] | None = None) -> None:
+        self._handle: c_void_p | None = None
+        self._library = load_library(library)
+        handle = c_void_p()
+        message = ctypes.create_string_buffer(256)
+        status = self._library.ali3_system_load(bytes(data), len(data), byref(handle), message, len(message))
+        if status:
+            text = (
+                f"{message.value.decode(errors='replace')}." if message.value else _status_text(self._library, status)
+            )
+            raise KernelError(status, f"the System file was refused: {text}")
+        self._handle = handle
+        self.sizes: Sizes = self._library.ali3_system_sizes(handle)
+        self.state_size: int = self._library.ali3_state_size(handle)
+
+    def __del__(self) -> None:
+        if self._handle is not None:
+            self._library.ali3_system_free(self._handle)
+            self._handle = None
+
+
+def _status_text(library: ctypes.CDLL, status: int) -> str:
+    return f"{library.ali3_status_text(status).decode()}."
+
+
+class Instance:
+    """A State of a System and the work space to step it. A refused call leaves the last accepted state.
+
+    Parameters
+    ----------
+    system : LoadedSystem
+        Kept alive by the instance.
+    """
+
+    def __init__(self, system: LoadedSystem) -> None:
+        self._handle: c_void_p | None = None
+        self.system = system
+        self._library = system._library
+        handle = c_void_p()
+        self._check(self._library.ali3_instance_new(system._handle, byref(handle)))
+        self._handle = handle
+        # Bound once: an attribute of the library costs more than the call of a small step.
+        self._step = self._library.ali3_step
+        self._sensors = self._library.ali3_sensors
+
+    def __del__(self) -> None:
+        if self._handle is not None:
+            self._library.ali3_instance_free(self._handle)
+            self._handle = None
+
+    def _check(self, status: int) -> None:
+        if status:
+            raise KernelError(status, _status_text(self._library, status))
+
+    def reset(self) -> None:
+        """Back to the values of the System file; settings, inputs and parameters too."""
+        self._check(self._library.ali3_reset(self._handle))
+
+    def settings(self) -> dict[str, float | int]:
+        """Present settings by field name."""
+        fields = SettingsFields()
+        self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
+        return {name: getattr(fields, name) for name, _ in SettingsFields._fields_ if name != "reserved"}
+
+    def set_settings(self, **values: float) -> None:
+        """Change the settings named; the others stay."""
+        fields = SettingsFields()
+        self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
+        known = dict(SettingsFields._fields_)
+        for name, value in values.items():
+            if name not in known or name == "reserved":
+                raise TypeError(f"{name!r} is not a setting of the kernel.")
+            setattr(fields, name, int(value) if known[name] is c_int32 else float(value))
+        self._check(self._library.ali3_set_settings(self._handle, byref(fields)))
+
+    def set_input(self, index: int, value: float) -> None:
+        """Value of an input from now on, clamped to its range."""
+        self._check(self._library.ali3_set_input(self._handle, index, value))
+
+    def get_input(self, index: int) -> float:
+        """Present value of an input."""
+        value = c_double()
+        self._check(self._library.ali3_get_input(self._handle, index, byref(value)))
+        return value.value
+
+    def set_parameter(self, index: int, value: float) -> None:
+        """Value of a parameter from now on; refused outside its range."""
+        self._check(self._library.ali3_set_parameter(self._handle, index, value))
+
+    def get_parameter(self, index: int) -> float:
+        """Present value of a parameter."""
+        value = c_double()
+        self._check(self._library.ali3_get_parameter(self._handle, index, byref(value)))
+        return value.value
+
+    def set_pose(self, x: float, y: float, z: float, yaw: float, speed: float) -> None:
+        """Start of a scene that is not tied to the ground (m, rad, m/s); before `initialise`."""
+        self._check(self._library.ali3_set_pose(self._handle, x, y, z, yaw, speed))
+
+    def set_q(self, q: Sequence[float] | None, qd: Sequence[float] | None = None) -> None:
+        """Coordinates (nq,) and rates (nq,) to start from; before `initialise`."""
+        nq = self.system.sizes.nq
+        self._check(self._library.ali3_set_q(self._handle, _numbers(q, nq, "q"), _numbers(qd, nq, "qd")))
+
+    def initialise(self, t0: float = 0.0) -> None:
+        """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
+        self._start(self._library.ali3_initialise(self._handle, t0))
+
+    def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
+        """Equilibrium near the present position, out of balance by at most `tolerance` (N or N m); rates become zero."""
+        self._start(self._library.ali3_static_equilibrium(self._handle, t0, tolerance, max_iterations))
+
+    def _start(self, status: int) -> None:
+        if not status:
+            return
+        report = self.report()
+        text = _status_text(self._library, status)
+        if report["violation"] > 1e-9:
+            text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
+        raise KernelError(status, text)
+
+    def step(self, h: float) -> None:
+        """One step of `h` seconds with the inputs as they are."""
+        status = self._step(self._handle, h)
+        if status:
+            self._check(status)
+
+    def run(self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None) -> int:
+        """`n` steps of `h` seconds.
+
+        Parameters
+        ----------
+        h : float
+            Step, s.
+        n : int
+            Number of steps.
+        inputs : buffer of float64, shape (n, nu), optional
+            Input values, a row per step; None keeps them as they are.
+        every : int
+            Sensors are recorded after every so many steps.
+        out : writable buffer of float64, shape (n // every, ns), optional
+            Takes the sensor values.
+
+        Returns
+        -------
+        int
+            Steps done; less than `n` never without a `KernelError`.
+        """
+        sizes = self.system.sizes
+        given = _buffer(inputs, n * sizes.nu, "inputs", writable=False)
+        taken = _buffer(out, n // every * sizes.ns if every > 0 else 0, "out", writable=True)
+        done = c_int64()
+        self._check(self._library.ali3_run(self._handle, h, n, given, every, taken, byref(done)))
+        return done.value
+
+    def sensors(self, out: Any = None) -> Any:
+        """Sensor values (ns,) at the present state, in a new C array or in `out`."""
+        values = out if out is not None else (c_double * self.system.sizes.ns)()
+        status = self._sensors(self._handle, values)
+        if status:
+            self._check(status)
+        return values
+
+    def report(self) -> dict[str, float | int]:
+        """Counters and residuals by field name."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    @property
+    def time(self) -> float:
+        """Time of the state, s."""
+        return float(self._library.ali3_time(self._handle))
+
+    def save(self) -> bytes:
+        """All that continues bit for bit."""
+        data = ctypes.create_string_buffer(self.system.state_size)
+        self._check(self._library.ali3_state_save(self._handle, data, len(data)))
+        return data.raw
+
+    def restore(self, data: bytes) -> None:
+        """Continue from saved bytes of the same System; altered bytes are refused."""
+        self._check(self._library.ali3_state_restore(self._handle, bytes(data), len(data)))
+
+    def get_state(self) -> tuple[Any, Any, Any, Any, Any]:
+        """Copies of q, qd, qdd (nq,), the multipliers of the stored rows (nc,) and the element states y (ny,)."""
+        sizes = self.system.sizes
+        parts = tuple((c_double * n)() for n in (sizes.nq, sizes.nq, sizes.nq, sizes.nc, sizes.ny))
+        self._check(self._library.ali3_get_state(self._handle, *parts))
+        return parts[0], parts[1], parts[2], parts[3], parts[4]
+
+    def evaluate(
+        self, q: Sequence[float], qd: Sequence[float], y: Sequence[float] | None = None, t: float | None = None
+    ) -> dict[str, Any]:
+        """Rows, forces and element outputs at given values; the state stays.
+
+        Returns
+        -------
+        dict
+            `phi`, `phi_t`, `gamma` (nc,), `jacobian` (nnz_rows,) of the stored rows, `force` (nq,), `outputs` (nout,).
+        """
+        s = self.system.sizes
+        counts = {"phi": s.nc, "jacobian": s.nnz_rows, "phi_t": s.nc, "gamma": s.nc, "force": s.nq, "outputs": s.nout}
+        values = {name: (c_double * n)() for name, n in counts.items()}
+        given = (_numbers(q, s.nq, "q"), _numbers(qd, s.nq, "qd"), _numbers(y, s.ny, "y"))
+        time = self.time if t is None else t
+        self._check(self._library.ali3_evaluate(self._handle, *given, time, *values.values()))
+        return values
+
+    def tangent(self, h: float, lam: Sequence[float] | None = None) -> Any:
+        """The tangent (23) at the present state for step `h`: C array of nq * nq, symmetric."""
+        sizes = self.system.sizes
+        dense = (c_double * (sizes.nq * sizes.nq))()
+        self._check(self._library.ali3_tangent(self._handle, h, _numbers(lam, sizes.nc, "lam"), dense))
+        return dense
+
+    def element_step(
+        self, q: Sequence[float], qd: Sequence[float], y_old: Sequence[float] | None, h: float
+    ) -> tuple[Any, Any]:
+        """Element states (ny,) after `h` seconds at held q, qd, and the generalised force (nq,) with them."""
+        s = self.system.sizes
+        y_new, force = (c_double * s.ny)(), (c_double * s.nq)()
+        given = (_numbers(q, s.nq, "q"), _numbers(qd, s.nq, "qd"), _numbers(y_old, s.ny, "y_old"))
+        self._check(self._library.ali3_element_step(self._handle, *given, h, y_new, force))
+        return y_new, force
+
+
+def _buffer(values: Any, count: int, what: str, *, writable: bool) -> Any:
+    """The memory of a contiguous float64 buffer as a C array, copied only where it is read-only."""
+    if values is None:
+        return None
+    view = memoryview(values)
+    if view.nbytes != 8 * count or (view.format or "").lstrip("<=@") != "d" or not view.c_contiguous:
+        raise ValueError(f"{what} must be a contiguous buffer of {count} float64 values.")
+    if view.readonly and writable:
+        raise ValueError(f"{what} must be writable.")
+    if count == 0:
+        return (c_double * 0)()
+    kind = c_double * count
+    return kind.from_buffer_copy(view) if view.readonly else kind.from_buffer(view)

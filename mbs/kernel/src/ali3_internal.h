@@ -1,0 +1,219 @@
+/* What the kernel's files share: the loaded System, the instance and the functions between files. */
+#ifndef ALI3_INTERNAL_H
+#define ALI3_INTERNAL_H
+#include <stdbool.h>
+
+#include "../include/ali3.h"
+#include "element.h"
+#include "road.h"
+
+/* The arrays of a System file: C type, dtype number, name. */
+#define ALI3_SYSTEM_ARRAYS(X)                                                                                          \
+  X(unsigned char, 3, meta)                                                                                            \
+  X(double, 2, q0)                                                                                                     \
+  X(double, 2, qd0) X(double, 2, y0) X(int32_t, 1, mass_ptr) X(int32_t, 1, mass_col) X(double, 2, mass_val)            \
+      X(int32_t, 1, mass_pos) X(double, 2, gravity_force) X(double, 2, gravity_const) X(int32_t, 1, row_ptr)           \
+          X(int32_t, 1, row_col) X(double, 2, row_lin) X(double, 2, row_const) X(double, 2, row_scale)                 \
+              X(double, 2, row_measure) X(int32_t, 1, row_front) X(int32_t, 1, row_loc) X(int32_t, 1, quad_ptr) X(     \
+                  int32_t, 1, quad_a) X(int32_t, 1, quad_b) X(double, 2, quad_h) X(int32_t, 1, angle_row)              \
+                  X(int32_t, 1, angle_theta) X(int32_t, 1, angle_ptr) X(int32_t, 1, angle_a) X(int32_t, 1, angle_b) X( \
+                      double, 2, angle_hc) X(double, 2, angle_hs) X(int32_t, 1, gterm_row) X(int32_t, 1, gterm_guide)  \
+                      X(int32_t, 1, gterm_power) X(int32_t, 1, gterm_a) X(int32_t, 1, gterm_b) X(double, 2, gterm_h)   \
+                          X(int32_t, 1, front_col) X(int32_t, 1, front_ptr) X(int32_t, 1, front_idx)                   \
+                              X(int32_t, 1, front_parent) X(int32_t, 1, front_map) X(int32_t, 1, front_off)            \
+                                  X(int32_t, 1, sig_ptr) X(int32_t, 1, sig_col)                                        \
+                                      X(double, 2, sig_val) X(double, 2, sig_const) X(int32_t, 1, el_type)             \
+                                          X(int32_t, 1, el_sig_ptr) X(int32_t, 1, el_sig) X(int32_t, 1, el_real_ptr)   \
+                                              X(double, 2, el_real) X(int32_t, 1, el_int_ptr) X(int32_t, 1, el_int)    \
+                                                  X(int32_t, 1, el_state_ptr) X(int32_t, 1, el_out_ptr) X(             \
+                                                      int32_t, 1, el_front) X(int32_t, 1, el_loc_ptr)                  \
+                                                      X(int32_t, 1, el_loc) X(double, 2, input_start) X(               \
+                                                          double, 2, input_min) X(double, 2, input_max)                \
+                                                          X(int32_t, 1, guide_type) X(int32_t, 1, guide_input) X(      \
+                                                              int32_t, 1,                                              \
+                                                              guide_real_ptr) X(double, 2, guide_real)                 \
+                                                              X(int32_t, 1, road_type) X(int32_t, 1, road_real_ptr) X( \
+                                                                  double,                                              \
+                                                                  2, road_real) X(double, 2, par_value)                \
+                                                                  X(double, 2, par_min) X(double, 2, par_max) X(       \
+                                                                      int32_t, 1,                                      \
+                                                                      par_ptr) X(int32_t, 1, par_target)               \
+                                                                      X(int32_t, 1, par_index) X(double, 2, par_scale) \
+                                                                          X(double, 2, pose_0) X(double, 2, pose_cos)  \
+                                                                              X(double, 2,                             \
+                                                                                pose_sin) X(double, 2, pose_x)         \
+                                                                                  X(double, 2,                         \
+                                                                                    pose_y) X(double, 2, pose_z)       \
+                                                                                      X(double, 2, pose_speed)         \
+                                                                                          X(int32_t, 1, sen_type) X(   \
+                                                                                              int32_t, 1, sen_int_ptr) \
+                                                                                              X(int32_t, 1, sen_int)   \
+                                                                                                  X(int32_t, 1,        \
+                                                                                                    sen_real_ptr)      \
+                                                                                                      X(double, 2,     \
+                                                                                                        sen_real)
+
+/* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */
+typedef struct {
+  int32_t a, b, ja, jb, pos; /* b = -1: linear term, a = b = -1: constant; pos = -1: no second derivative */
+  double h;
+} ali3_term;
+
+typedef struct {
+  int32_t a, b, ja, jb, pos, pos_a, pos_b; /* pos_a, pos_b: entries with theta */
+  double hc, hs;
+} ali3_angle_term;
+
+typedef struct {
+  ali3_term term;
+  int32_t row, guide, power;
+} ali3_guide_term;
+
+struct ali3_system {
+#define ALI3_DECLARE(type, number, name) const type *name;
+  ALI3_SYSTEM_ARRAYS(ALI3_DECLARE)
+#undef ALI3_DECLARE
+#define ALI3_DECLARE(type, number, name) int64_t n_##name;
+  ALI3_SYSTEM_ARRAYS(ALI3_DECLARE)
+#undef ALI3_DECLARE
+  unsigned char *bytes; /* the copied file */
+  uint32_t crc;
+  ali3_sizes size;
+  int32_t nr;        /* roads */
+  int32_t max_front; /* largest front */
+  int32_t max_el_coordinates;
+  /* derived at load, in one block */
+  void *derived;
+  ali3_term *quad;             /* as quad_* */
+  ali3_angle_term *angle;      /* as angle_a */
+  int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
+  ali3_guide_term *gterm;
+  double *front_mass;          /* front storage holding M, the start of every tangent */
+  double *mass_floor;          /* nq: M_ii, or a typical mass for massless coordinates */
+  double *mass_floor_inverse;  /* nq */
+  double *mass_missing;        /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
+  int32_t *diagonal_pos;       /* nq: front storage index of entry (i, i) */
+  const ali3_element_type **el_kind;
+  int32_t *el_S_off;           /* ne+1: offsets of the elements' signal tangents */
+  int32_t *el_entry_ptr;       /* ne+1: signal entries of the element */
+  int32_t *el_entry_signal,
+      *el_entry_local; /* per entry: signal within the element, its coordinate within the element */
+  double *el_entry_value;
+  int32_t *el_coordinate_ptr;  /* ne+1 */
+  int32_t *el_coordinate_loc;  /* local index in the front, ascending */
+  int32_t *active_signal;      /* signals that elements use */
+  int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
+};
+
+/* One state; the vectors lie in one block of `n` doubles so that a copy is one memcpy. */
+typedef struct {
+  double *q, *qd, *qdd, *lam, *y;
+  double *s, *sd, *sdd;      /* guides */
+  double *out, *potential;   /* of the last evaluation of the elements */
+  double *used;              /* inputs as used in the last step */
+} ali3_vectors;
+
+struct ali3_instance {
+  const ali3_system *system;
+  ali3_settings settings;
+  ali3_report report;
+  double t_base, h_last; /* time = t_base + count * h_last */
+  int64_t count;
+  int32_t initialised;
+  ali3_vectors now, next, start;
+  size_t n_vector;
+  double *input, *parameter;
+  double *el_real, *guide_real, *road_real; /* copies that parameters write to */
+  ali3_road *road;
+  /* work space */
+  double *D, *d0, *r, *x, *w;              /* nq */
+  double *Phi, *Phit, *gamma, *mu, *lam;   /* nc */
+  double *J;                               /* row pattern */
+  double *F;                               /* front storage */
+  double *Q;                               /* nq */
+  double *u, *ud;                          /* signals */
+  double *S;                               /* signal tangents of all elements */
+  double *SB;                              /* one element: nsig x its coordinates, then its coordinates squared */
+  double *local;                           /* one front */
+  double *shifted;                         /* nq */
+  double *y_work, *out_work, *potential_work, *parameter_work;
+};
+
+enum { ALI3_LOCAL = ALI3_MAX_SIGNALS };
+
+/* crc32.c */
+uint32_t ali3_crc32(const void *bytes, size_t size);
+
+/* system_check.c: content of the arrays; system_derive.c: the derived block */
+typedef struct {
+  char *text;
+  size_t size;
+} ali3_message;
+ali3_status ali3_bad(ali3_message m, const char *format, ...);
+ali3_status ali3_system_check(ali3_system *s, ali3_message m);
+ali3_status ali3_check_fronts(ali3_system *s, ali3_message m);
+ali3_status ali3_check_rows(const ali3_system *s, ali3_message m);
+ali3_status ali3_check_elements(const ali3_system *s, ali3_message m);
+ali3_status ali3_check_sensors(const ali3_system *s, ali3_message m);
+ali3_status ali3_check_pointers(ali3_message m, const char *name, const int32_t *ptr, int64_t n_ptr, int64_t n,
+                                int64_t total);
+ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *v, int64_t n, int64_t low,
+                               int64_t high);
+const char *ali3_check_data(const ali3_system *s, const double *el_real, const double *guide_real,
+                            const double *road_real);
+ali3_status ali3_system_derive(ali3_system *s, ali3_message m);
+int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value); /* position or -1 */
+
+/* guides.c */
+const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal);
+void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t);
+void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t);
+void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_vectors *to, double t, double h);
+
+/* constraints.c */
+void ali3_constraints(ali3_instance *in, const double *q, const double *s, double *Phi, double *J);
+void ali3_constraint_rates(ali3_instance *in, const double *q, const double *qd, const ali3_vectors *guides,
+                           double *Phit, double *gamma);
+void ali3_geometric(ali3_instance *in, const double *q, const double *s, const double *lam, double weight, double *F);
+void ali3_rows_square(const ali3_system *S, const double *J, double weight, double *F);
+void ali3_rows_times(const ali3_system *S, const double *J, const double *x, double *out);
+void ali3_rows_transposed(const ali3_system *S, const double *J, const double *w, double *out); /* out = J' w */
+
+/* forces.c */
+typedef struct {
+  const double *q, *qd, *y_old;
+  double h, wC, wK;
+  bool tangent;
+  double *Q, *y_new, *out, *potential;
+} ali3_force_call;
+void ali3_forces(ali3_instance *in, const ali3_force_call *call);
+void ali3_forces_tangent(ali3_instance *in, double *F);
+void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call);
+
+/* fronts.c */
+ali3_status ali3_factorise(ali3_instance *in, double *F);
+void ali3_solve(ali3_instance *in, const double *F, double *b);
+
+/* step.c */
+void ali3_mass_times(const ali3_system *S, const double *x, double *out);
+double ali3_penalty(const ali3_settings *s, double h);
+ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
+double ali3_project(ali3_instance *in, double factor, const double *b, double *v, int32_t sweeps);
+bool ali3_finite(const double *v, int64_t n);
+double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
+
+/* initialise.c */
+ali3_status ali3_solve_initial(ali3_instance *in, double t);
+ali3_status ali3_solve_rates(ali3_instance *in);
+
+/* statics.c */
+ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations);
+
+/* sensors.c */
+void ali3_sensors_evaluate(const ali3_instance *in, double *out);
+
+/* instance.c */
+ali3_status ali3_parameters_apply(ali3_instance *in);
+bool ali3_settings_valid(const ali3_settings *s);
+void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
+#endif

@@ -1,0 +1,122 @@
+/* Consistent start: nearest position on Phi = 0 in the mass metric, velocities likewise, then accelerations and multipliers.
+ * All three are proximal augmented Lagrangian iterations, which do not ask for a full-rank Phi_q. */
+#include <math.h>
+#include <string.h>
+
+#include "ali3_internal.h"
+
+static const double ALPHA = 1e8; /* of mass-normalised rows with unit weight of M */
+static const double CLOSED = 1e-12; /* violation that needs no work, m */
+static const double ASSEMBLED = 1e-9; /* violation accepted when nothing better can be had, m */
+static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
+static const double ROUND_OFF = 1e-13;
+enum { POSITION_ITERATIONS = 200, RATE_SWEEPS = 30, MULTIPLIER_ITERATIONS = 60 };
+
+/* F = M (+ what massless coordinates lack) + ALPHA Phi_q' Phi_q, factorised. */
+static ali3_status factorise_metric(ali3_instance *in, bool fill_massless) {
+  const ali3_system *S = in->system;
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  if (fill_massless)
+    for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
+  ali3_rows_square(S, in->J, ALPHA, in->F);
+  return ali3_factorise(in, in->F);
+}
+
+/* Minimises (q - q_ref)' M (q - q_ref) on Phi = 0; q_ref is the position given. */
+static ali3_status close_position(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  double *q = in->next.q, *lam = in->next.lam;
+  memcpy(q, in->now.q, (size_t)nq * sizeof(double));
+  memset(lam, 0, (size_t)nc * sizeof(double));
+  for (int iteration = 0;; iteration++) {
+    ali3_constraints(in, q, in->now.s, in->Phi, in->J);
+    in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+    if (in->report.violation <= CLOSED) break;
+    if (iteration == POSITION_ITERATIONS) return in->report.violation <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
+    if (!(in->report.violation < 1e300)) return ALI3_NOT_ASSEMBLED;
+    const ali3_status status = factorise_metric(in, true);
+    if (status != ALI3_OK) return status;
+    for (int32_t i = 0; i < nq; i++) in->w[i] = q[i] - in->now.q[i];
+    ali3_mass_times(S, in->w, in->r);
+    for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->Phi[k];
+    ali3_rows_transposed(S, in->J, in->mu, in->x);
+    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + S->mass_missing[i] * in->w[i] + in->x[i]);
+    ali3_solve(in, in->F, in->x);
+    if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+    double longest = 0.0;
+    for (int32_t i = 0; i < nq; i++)
+      if (fabs(in->x[i]) > longest) longest = fabs(in->x[i]);
+    const double part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
+    ali3_rows_times(S, in->J, in->x, in->gamma);
+    for (int32_t k = 0; k < nc; k++) /* a shortened step tells nothing about the multipliers */
+      lam[k] = part < 1.0 ? 0.0 : in->mu[k] + ALPHA * in->gamma[k];
+    for (int32_t i = 0; i < nq; i++) q[i] += part * in->x[i];
+  }
+  memcpy(in->now.q, q, (size_t)nq * sizeof(double));
+  return ALI3_OK;
+}
+
+/* M qdd + Phi_q' lam = Q, Phi_q qdd = -gamma, in corrections of qdd; the multipliers start from zero. */
+static ali3_status accelerations(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  double *qdd = in->now.qdd, *lam = in->now.lam;
+  memset(qdd, 0, (size_t)nq * sizeof(double));
+  memset(lam, 0, (size_t)nc * sizeof(double));
+  for (int iteration = 0;; iteration++) {
+    double force = 0.0, force_scale = 0.0, violation = 0.0, violation_scale = 0.0;
+    ali3_mass_times(S, qdd, in->r);
+    ali3_rows_transposed(S, in->J, lam, in->x);
+    ali3_rows_times(S, in->J, qdd, in->mu);
+    for (int32_t i = 0; i < nq; i++) {
+      in->r[i] -= in->Q[i];
+      const double balance = fabs(in->r[i] + in->x[i]) * S->mass_floor_inverse[i];
+      const double size = (fabs(in->r[i]) + fabs(in->x[i])) * S->mass_floor_inverse[i];
+      if (balance > force) force = balance;
+      if (size > force_scale) force_scale = size;
+    }
+    for (int32_t k = 0; k < nc; k++) {
+      const double size = fabs(in->mu[k]) + fabs(in->gamma[k]);
+      in->mu[k] += in->gamma[k];
+      if (fabs(in->mu[k]) > violation) violation = fabs(in->mu[k]);
+      if (size > violation_scale) violation_scale = size;
+    }
+    if (force <= ROUND_OFF * force_scale && violation <= ROUND_OFF * violation_scale) break;
+    if (iteration == MULTIPLIER_ITERATIONS) break; /* as good as round-off allows */
+    for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->mu[k];
+    ali3_rows_transposed(S, in->J, in->mu, in->x);
+    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
+    ali3_solve(in, in->F, in->x);
+    if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+    for (int32_t i = 0; i < nq; i++) qdd[i] += in->x[i];
+    ali3_rows_times(S, in->J, in->x, in->Phi);
+    for (int32_t k = 0; k < nc; k++) lam[k] = in->mu[k] + ALPHA * in->Phi[k];
+  }
+  return ALI3_OK;
+}
+
+/* Velocities of in->now made consistent, then forces, accelerations and multipliers. */
+ali3_status ali3_solve_rates(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  ali3_vectors *v = &in->now;
+  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  ali3_status status = factorise_metric(in, true);
+  if (status != ALI3_OK) return status;
+  ali3_constraint_rates(in, v->q, v->qd, v, in->Phit, in->gamma);
+  in->report.velocity_violation = ali3_project(in, ALPHA, in->Phit, v->qd, RATE_SWEEPS);
+  ali3_constraint_rates(in, v->q, v->qd, v, in->Phit, in->gamma);
+  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
+  memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
+  ali3_forces(in, &call);
+  status = factorise_metric(in, false);
+  if (status == ALI3_OK) status = accelerations(in);
+  if (status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector)) status = ALI3_NOT_FINITE;
+  return status;
+}
+
+ali3_status ali3_solve_initial(ali3_instance *in, double t) {
+  ali3_guides_start(in, &in->now, t);
+  const ali3_status status = close_position(in);
+  return status == ALI3_OK ? ali3_solve_rates(in) : status;
+}

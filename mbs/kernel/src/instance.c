@@ -1,0 +1,330 @@
+/* Instances: memory, settings, inputs, parameters and the calls of ali3.h around the algorithms. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ali3_internal.h"
+
+const char *ali3_status_text(ali3_status s) {
+  static const char *const text[ALI3_STATUS_COUNT] = {
+      "ok",
+      "an argument is missing, not finite or out of range",
+      "the bytes are not a valid System file",
+      "the bytes are not a state of this System",
+      "there is not enough memory",
+      "the instance must be initialised first",
+      "the position problem does not close",
+      "the step did not converge, also not in halves",
+      "the tangent is singular",
+      "a number that is not finite appeared",
+  };
+  return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
+}
+
+uint32_t ali3_version(void) { return ALI3_SYSTEM_VERSION; }
+
+static double *take(double **pool, size_t n) {
+  double *piece = *pool;
+  *pool += n;
+  return piece;
+}
+
+static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
+  v->q = take(pool, (size_t)z->nq); /* first: copies and saves start here */
+  v->qd = take(pool, (size_t)z->nq);
+  v->qdd = take(pool, (size_t)z->nq);
+  v->lam = take(pool, (size_t)z->nc);
+  v->y = take(pool, (size_t)z->ny);
+  v->s = take(pool, (size_t)z->ng);
+  v->sd = take(pool, (size_t)z->ng);
+  v->sdd = take(pool, (size_t)z->ng);
+  v->out = take(pool, (size_t)z->nout);
+  v->potential = take(pool, (size_t)z->ne);
+  v->used = take(pool, (size_t)z->nu);
+}
+
+void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
+  memcpy(to->q, from->q, in->n_vector * sizeof(double));
+}
+
+static size_t signal_work(const ali3_system *s) {
+  size_t largest = 0;
+  for (int32_t e = 0; e < s->size.ne; e++) {
+    const size_t n = (size_t)(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e]),
+                 m = (size_t)(s->el_coordinate_ptr[e + 1] - s->el_coordinate_ptr[e]);
+    if (n * m + m * m > largest) largest = n * m + m * m;
+  }
+  return largest;
+}
+
+ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
+  if (s == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
+  const ali3_sizes *z = &s->size;
+  const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ny = (size_t)z->ny, nout = (size_t)z->nout, ne = (size_t)z->ne;
+  const size_t n_vector = 3 * nq + nc + ny + 3 * (size_t)z->ng + nout + ne + (size_t)z->nu;
+  const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
+  const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
+  const size_t total = 3 * n_vector + nu + 2 * np + data + 6 * nq + 5 * nc + (size_t)z->nnz_rows +
+                       (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
+                       nout + ne;
+  const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
+               roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u;
+  *out = NULL;
+  char *block = calloc(1, head + roads + total * sizeof(double));
+  if (block == NULL) return ALI3_NO_MEMORY;
+  ali3_instance *in = (ali3_instance *)block;
+  double *pool = (double *)(block + head + roads);
+  in->system = s;
+  in->road = (ali3_road *)(block + head);
+  in->n_vector = n_vector;
+  place_vectors(z, &in->now, &pool);
+  place_vectors(z, &in->next, &pool);
+  place_vectors(z, &in->start, &pool);
+  in->input = take(&pool, nu);
+  in->parameter = take(&pool, np);
+  in->parameter_work = take(&pool, np);
+  in->el_real = take(&pool, (size_t)s->n_el_real);
+  in->guide_real = take(&pool, (size_t)s->n_guide_real);
+  in->road_real = take(&pool, (size_t)s->n_road_real);
+  in->D = take(&pool, nq);
+  in->d0 = take(&pool, nq);
+  in->r = take(&pool, nq);
+  in->x = take(&pool, nq);
+  in->w = take(&pool, nq);
+  in->shifted = take(&pool, nq);
+  in->Q = take(&pool, nq);
+  in->Phi = take(&pool, nc);
+  in->Phit = take(&pool, nc);
+  in->gamma = take(&pool, nc);
+  in->mu = take(&pool, nc);
+  in->lam = take(&pool, nc);
+  in->J = take(&pool, (size_t)z->nnz_rows);
+  in->F = take(&pool, (size_t)z->front_size);
+  in->u = take(&pool, (size_t)z->nsig);
+  in->ud = take(&pool, (size_t)z->nsig);
+  in->S = take(&pool, n_S);
+  in->SB = take(&pool, n_work);
+  in->local = take(&pool, (size_t)s->max_front);
+  in->y_work = take(&pool, ny);
+  in->out_work = take(&pool, nout);
+  in->potential_work = take(&pool, ne);
+  const ali3_status status = ali3_reset(in);
+  if (status != ALI3_OK) {
+    free(block);
+    return status;
+  }
+  *out = in;
+  return ALI3_OK;
+}
+
+void ali3_instance_free(ali3_instance *in) { free(in); }
+
+ali3_settings ali3_default_settings(void) {
+  const ali3_settings settings = {0.0, 1e-8, 1e-10, 1e-10, 20, 4, 1, ALI3_UPDATE_LINEARISED, 1, 0};
+  return settings;
+}
+
+bool ali3_settings_valid(const ali3_settings *s) {
+  return s->alpha >= 0.0 && s->alpha < 1e300 && s->eps_rel > 0.0 && s->eps_rel < 1e300 && s->tolerance_r > 0.0 &&
+         s->tolerance_r < 1e300 && s->tolerance_phi > 0.0 && s->tolerance_phi < 1e300 && s->max_iterations >= 1 &&
+         s->max_iterations <= 1000 && s->max_halvings >= 0 && s->max_halvings <= 16 &&
+         (s->project == 0 || s->project == 1) &&
+         (s->update == ALI3_UPDATE_LINEARISED || s->update == ALI3_UPDATE_PAPER) &&
+         (s->geometric == 0 || s->geometric == 1);
+}
+
+ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
+  if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
+  in->settings = *settings;
+  return ALI3_OK;
+}
+
+ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings) {
+  if (in == NULL || settings == NULL) return ALI3_BAD_ARGUMENT;
+  *settings = in->settings;
+  return ALI3_OK;
+}
+
+/* The data of elements, guides and roads from the file and the parameters; refused as a whole when an element cannot take it. */
+ali3_status ali3_parameters_apply(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  double *target[3] = {in->el_real, in->guide_real, in->road_real};
+  for (int32_t p = 0; p < S->size.np; p++)
+    for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
+      target[S->par_target[k]][S->par_index[k]] = S->par_scale[k] * in->parameter[p];
+  return ali3_check_data(S, in->el_real, in->guide_real, in->road_real) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
+}
+
+static void copy(double *to, const double *from, int64_t n) {
+  if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
+}
+
+ali3_status ali3_reset(ali3_instance *in) {
+  if (in == NULL) return ALI3_BAD_ARGUMENT;
+  const ali3_system *S = in->system;
+  const ali3_report none = {0};
+  in->settings = ali3_default_settings();
+  in->report = none;
+  in->t_base = in->h_last = 0.0;
+  in->count = 0;
+  in->initialised = 0;
+  memset(in->now.q, 0, in->n_vector * sizeof(double));
+  copy(in->now.q, S->q0, S->size.nq);
+  copy(in->now.qd, S->qd0, S->size.nq);
+  copy(in->now.y, S->y0, S->size.ny);
+  copy(in->input, S->input_start, S->size.nu);
+  copy(in->now.used, S->input_start, S->size.nu);
+  copy(in->parameter, S->par_value, S->size.np);
+  copy(in->el_real, S->el_real, S->n_el_real);
+  copy(in->guide_real, S->guide_real, S->n_guide_real);
+  copy(in->road_real, S->road_real, S->n_road_real);
+  for (int32_t g = 0; g < S->size.ng; g++)
+    if (S->guide_type[g] == 1) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
+  for (int32_t r = 0; r < S->nr; r++) {
+    const ali3_road road = {S->road_type[r], S->road_real_ptr[r + 1] - S->road_real_ptr[r],
+                            in->road_real + S->road_real_ptr[r]};
+    in->road[r] = road;
+  }
+  return ali3_parameters_apply(in);
+}
+
+/* Clamped to the range of the input. */
+ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value) {
+  if (in == NULL || index < 0 || index >= in->system->size.nu || !(value - value == 0.0)) return ALI3_BAD_ARGUMENT;
+  in->input[index] = fmax(in->system->input_min[index], fmin(in->system->input_max[index], value));
+  return ALI3_OK;
+}
+
+ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value) {
+  if (in == NULL || value == NULL || index < 0 || index >= in->system->size.nu) return ALI3_BAD_ARGUMENT;
+  *value = in->input[index];
+  return ALI3_OK;
+}
+
+ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
+  if (in == NULL || index < 0 || index >= in->system->size.np) return ALI3_BAD_ARGUMENT;
+  if (!(value - value == 0.0 && value >= in->system->par_min[index] && value <= in->system->par_max[index]))
+    return ALI3_BAD_ARGUMENT;
+  const double before = in->parameter[index];
+  in->parameter[index] = value;
+  if (ali3_parameters_apply(in) == ALI3_OK) return ALI3_OK;
+  in->parameter[index] = before;
+  ali3_parameters_apply(in);
+  return ALI3_BAD_ARGUMENT;
+}
+
+ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value) {
+  if (in == NULL || value == NULL || index < 0 || index >= in->system->size.np) return ALI3_BAD_ARGUMENT;
+  *value = in->parameter[index];
+  return ALI3_OK;
+}
+
+ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed) {
+  const double given[5] = {x, y, z, yaw, speed};
+  if (in == NULL || !in->system->size.has_pose || !ali3_finite(given, 5)) return ALI3_BAD_ARGUMENT;
+  const ali3_system *S = in->system;
+  const double c = cos(yaw), s = sin(yaw);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    in->now.q[i] =
+        S->pose_0[i] + c * S->pose_cos[i] + s * S->pose_sin[i] + x * S->pose_x[i] + y * S->pose_y[i] + z * S->pose_z[i];
+    in->now.qd[i] = speed * (c * S->pose_x[i] + s * S->pose_y[i] + S->pose_speed[i]);
+  }
+  in->initialised = 0;
+  return ALI3_OK;
+}
+
+ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd) {
+  if (in == NULL) return ALI3_BAD_ARGUMENT;
+  const int32_t nq = in->system->size.nq;
+  if ((q != NULL && !ali3_finite(q, nq)) || (qd != NULL && !ali3_finite(qd, nq))) return ALI3_BAD_ARGUMENT;
+  if (q != NULL) copy(in->now.q, q, nq);
+  if (qd != NULL) copy(in->now.qd, qd, nq);
+  in->initialised = 0;
+  return ALI3_OK;
+}
+
+/* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
+static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
+  in->report.last_status = (int32_t)status;
+  if (status != ALI3_OK) {
+    ali3_vectors_copy(in, &in->now, &in->start);
+    in->report.failures++;
+    return status;
+  }
+  in->t_base = t0;
+  in->h_last = 0.0;
+  in->count = 0;
+  in->initialised = 1;
+  return ALI3_OK;
+}
+
+ali3_status ali3_initialise(ali3_instance *in, double t0) {
+  const ali3_report none = {0};
+  if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
+  in->report = none;
+  ali3_vectors_copy(in, &in->start, &in->now);
+  return begin(in, ali3_solve_initial(in, t0), t0);
+}
+
+ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations) {
+  const ali3_report none = {0};
+  if (in == NULL || !(t0 - t0 == 0.0) || !(tolerance > 0.0) || max_iterations < 1) return ALI3_BAD_ARGUMENT;
+  in->report = none;
+  ali3_vectors_copy(in, &in->start, &in->now);
+  return begin(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
+}
+
+double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
+
+ali3_status ali3_step(ali3_instance *in, double h) {
+  if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
+  const int64_t count = h == in->h_last ? in->count + 1 : 1;
+  const bool may_halve = in->settings.max_halvings > 0;
+  if (may_halve) ali3_vectors_copy(in, &in->start, &in->now);
+  const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
+  in->report.last_status = (int32_t)status;
+  if (status != ALI3_OK) {
+    if (may_halve) ali3_vectors_copy(in, &in->now, &in->start);
+    in->report.failures++;
+    return status;
+  }
+  in->report.steps++;
+  in->t_base = t_base;
+  in->h_last = h;
+  in->count = count;
+  return ALI3_OK;
+}
+
+ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every, double *out,
+                     int64_t *done) {
+  if (done != NULL) *done = 0;
+  if (in == NULL || n_steps < 0 || every < 1) return ALI3_BAD_ARGUMENT;
+  const int32_t nu = in->system->size.nu, ns = in->system->size.ns;
+  for (int64_t n = 0; n < n_steps; n++) {
+    if (inputs != NULL)
+      for (int32_t i = 0; i < nu; i++) {
+        const ali3_status status = ali3_set_input(in, i, inputs[n * nu + i]);
+        if (status != ALI3_OK) return status;
+      }
+    const ali3_status status = ali3_step(in, h);
+    if (status != ALI3_OK) return status;
+    if (done != NULL) *done = n + 1;
+    if (out != NULL && (n + 1) % every == 0) ali3_sensors_evaluate(in, out + ((n + 1) / every - 1) * ns);
+  }
+  return ALI3_OK;
+}
+
+ali3_status ali3_sensors(ali3_instance *in, double *out) {
+  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
+  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  ali3_sensors_evaluate(in, out);
+  return ALI3_OK;
+}
+
+ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
+  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
+  *out = in->report;
+  return ALI3_OK;
+}

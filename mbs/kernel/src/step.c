@@ -1,0 +1,182 @@
+/* One ALi3-P step: trapezoidal rule (17), (18) in the increment D = q_(n+1) - q_n, Newton on (19), (20), projections (24), (25). */
+#include <math.h>
+#include <string.h>
+
+#include "ali3_internal.h"
+
+enum { MAX_SWEEPS = 3 };
+static const double ROUND_OFF = 1e-13; /* relative violation at which a projection ends */
+
+bool ali3_finite(const double *v, int64_t n) {
+  double sum = 0.0; /* x - x is 0 for finite x, NaN else */
+  for (int64_t i = 0; i < n; i++) sum += v[i] - v[i];
+  return sum == 0.0;
+}
+
+void ali3_mass_times(const ali3_system *S, const double *x, double *out) {
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    double sum = 0.0;
+    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += S->mass_val[k] * x[S->mass_col[k]];
+    out[i] = sum;
+  }
+}
+
+/* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. */
+double ali3_penalty(const ali3_settings *s, double h) { return s->alpha > 0.0 ? s->alpha : 1.0 / (s->eps_rel * h * h); }
+
+double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
+  double largest = 0.0;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const double v = fabs(Phi[k]) * S->row_measure[k];
+    if (!(v <= largest)) {
+      largest = v;
+      *worst = k;
+    }
+  }
+  return largest;
+}
+
+/* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. Returns the violation. */
+double ali3_project(ali3_instance *in, double factor, const double *b, double *v, int32_t sweeps) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  for (int32_t sweep = 0;; sweep++) {
+    double violation = 0.0, scale = 0.0;
+    ali3_rows_times(S, in->J, v, in->mu);
+    for (int32_t k = 0; k < nc; k++) {
+      in->mu[k] += b[k];
+      const double size = fabs(in->mu[k]) * S->row_measure[k];
+      if (size > violation) violation = size;
+    }
+    for (int32_t i = 0; i < nq; i++)
+      if (fabs(v[i]) > scale) scale = fabs(v[i]);
+    if (sweep == sweeps || violation <= ROUND_OFF * scale) return violation;
+    for (int32_t k = 0; k < nc; k++) in->mu[k] *= factor;
+    ali3_rows_transposed(S, in->J, in->mu, in->x);
+    ali3_solve(in, in->F, in->x);
+    for (int32_t i = 0; i < nq; i++) v[i] -= in->x[i];
+  }
+}
+
+/* Positions, rates, rows, forces and residual r = M (D - d0) + c (Phi_q' lam - Q) of (20) for the present D and lam. */
+static void evaluate(ali3_instance *in, double h, bool tangent) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  const double c = 0.25 * h * h, rate = 2.0 / h;
+  ali3_vectors *to = &in->next;
+  for (int32_t i = 0; i < nq; i++) {
+    to->q[i] = in->now.q[i] + in->D[i];
+    to->qd[i] = rate * in->D[i] - in->now.qd[i];
+    in->w[i] = in->D[i] - in->d0[i];
+  }
+  ali3_constraints(in, to->q, to->s, in->Phi, in->J);
+  const ali3_force_call call = {to->q, to->qd, in->now.y, h, 0.5 * h, c, tangent, in->Q, to->y, to->out, to->potential};
+  ali3_forces(in, &call);
+  ali3_mass_times(S, in->w, in->r);
+  for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
+}
+
+/* Residual with the multipliers; fills the report. Returns false when something is not finite. */
+static bool judge(ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  const double c = 0.25 * h * h;
+  double largest = 0.0;
+  ali3_rows_transposed(S, in->J, in->next.lam, in->x);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    const double size = fabs(in->r[i] + c * in->x[i]) * S->mass_floor_inverse[i];
+    if (!(size <= largest)) {
+      largest = size;
+      in->report.worst_coordinate = i;
+    }
+  }
+  in->report.residual = largest;
+  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+  return in->report.residual < 1e300 && in->report.violation < 1e300;
+}
+
+/* One Newton correction (21) with the tangent (23) and the multiplier update. */
+static ali3_status correct(ali3_instance *in, double h, double alpha) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  const double c = 0.25 * h * h;
+  double *lam = in->next.lam;
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_rows_square(S, in->J, c * alpha, in->F);
+  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, lam, c, in->F);
+  ali3_forces_tangent(in, in->F);
+  const ali3_status status = ali3_factorise(in, in->F);
+  if (status != ALI3_OK) return status;
+  for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + alpha * in->Phi[k];
+  ali3_rows_transposed(S, in->J, in->mu, in->x);
+  for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + c * in->x[i]);
+  ali3_solve(in, in->F, in->x);
+  if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+  if (in->settings.update == ALI3_UPDATE_LINEARISED) {
+    ali3_rows_times(S, in->J, in->x, in->gamma);
+    for (int32_t k = 0; k < nc; k++) lam[k] = in->mu[k] + alpha * in->gamma[k];
+  }
+  for (int32_t i = 0; i < nq; i++) in->D[i] += in->x[i];
+  return ALI3_OK;
+}
+
+static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *iterations) {
+  const ali3_settings *settings = &in->settings;
+  evaluate(in, h, true);
+  for (*iterations = 0; *iterations < settings->max_iterations;) {
+    const ali3_status status = correct(in, h, alpha);
+    if (status != ALI3_OK) return status;
+    ++*iterations;
+    evaluate(in, h, true);
+    if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
+      for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
+    if (!judge(in, h)) return ALI3_NOT_FINITE;
+    if (in->report.residual <= settings->tolerance_r && in->report.violation <= settings->tolerance_phi) return ALI3_OK;
+  }
+  return ALI3_NOT_CONVERGED;
+}
+
+/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
+static ali3_status attempt(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  const double c = 0.25 * h * h, alpha = ali3_penalty(&in->settings, h);
+  ali3_vectors *from = &in->now, *to = &in->next;
+  int32_t iterations = 0;
+  ali3_guides_step(in, from, to, t, h);
+  for (int32_t i = 0; i < nq; i++) {
+    in->D[i] = h * from->qd[i] + 0.5 * h * h * from->qdd[i];
+    in->d0[i] = h * from->qd[i] + c * from->qdd[i];
+  }
+  memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
+  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  const ali3_status status = newton(in, h, alpha, &iterations);
+  in->report.iterations += iterations;
+  in->report.last_iterations = iterations;
+  if (iterations > in->report.max_iterations) in->report.max_iterations = iterations;
+  if (status != ALI3_OK) return status;
+  for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;
+  const ali3_force_call call = {to->q, to->qd, from->y, h, 0.5 * h, c, false, in->Q, to->y, to->out, to->potential};
+  ali3_forces_accept(in, &call);
+  ali3_constraint_rates(in, to->q, to->qd, to, in->Phit, in->gamma);
+  if (in->settings.project) {
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, MAX_SWEEPS);
+    ali3_constraint_rates(in, to->q, to->qd, to, in->Phit, in->gamma);
+    ali3_project(in, c * alpha, in->gamma, to->qdd, MAX_SWEEPS);
+  } else {
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, 0);
+  }
+  if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
+  const ali3_vectors swap = in->now;
+  in->now = in->next;
+  in->next = swap;
+  return ALI3_OK;
+}
+
+/* A step to time t, in halves where it does not converge. */
+ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
+  const ali3_status status = attempt(in, t, h);
+  if (status == ALI3_OK || depth <= 0) return status;
+  in->report.halvings++;
+  const ali3_status first = ali3_advance(in, t - 0.5 * h, 0.5 * h, depth - 1);
+  return first == ALI3_OK ? ali3_advance(in, t, 0.5 * h, depth - 1) : first;
+}

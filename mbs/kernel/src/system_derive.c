@@ -1,0 +1,197 @@
+/* What the loops want and the file need not say: terms with their places, the mass matrix in front storage, element entries. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "ali3_internal.h"
+
+enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
+
+/* Hands out aligned pieces of one block; with a NULL block it only counts. */
+typedef struct {
+  char *block;
+  size_t used;
+} ali3_pool;
+
+static void *take(ali3_pool *pool, size_t count, size_t item) {
+  void *piece = pool->block != NULL ? pool->block + pool->used : NULL;
+  pool->used += (count * item + 15u) / 16u * 16u;
+  return piece;
+}
+
+static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
+  const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne, na = (size_t)s->n_angle_row;
+  s->quad = take(p, (size_t)s->n_quad_a, sizeof *s->quad);
+  s->angle = take(p, (size_t)s->n_angle_a, sizeof *s->angle);
+  s->angle_theta_col = take(p, na, sizeof(int32_t));
+  s->angle_theta_j = take(p, na, sizeof(int32_t));
+  s->angle_theta_pos = take(p, na, sizeof(int32_t));
+  s->gterm = take(p, (size_t)s->n_gterm_row, sizeof *s->gterm);
+  s->front_mass = take(p, (size_t)s->size.front_size, sizeof(double));
+  s->mass_floor = take(p, nq, sizeof(double));
+  s->mass_floor_inverse = take(p, nq, sizeof(double));
+  s->mass_missing = take(p, nq, sizeof(double));
+  s->diagonal_pos = take(p, nq, sizeof(int32_t));
+  s->el_kind = take(p, ne, sizeof *s->el_kind);
+  s->el_S_off = take(p, ne + 1, sizeof(int32_t));
+  s->el_entry_ptr = take(p, ne + 1, sizeof(int32_t));
+  s->el_entry_signal = take(p, n_entry, sizeof(int32_t));
+  s->el_entry_local = take(p, n_entry, sizeof(int32_t));
+  s->el_entry_value = take(p, n_entry, sizeof(double));
+  s->el_coordinate_ptr = take(p, ne + 1, sizeof(int32_t));
+  s->el_coordinate_loc = take(p, n_entry, sizeof(int32_t));
+  s->active_signal = take(p, (size_t)s->size.nsig, sizeof(int32_t));
+}
+
+/* Front storage index of the product of entries i >= j of the Jacobian in row k. */
+static int32_t row_pos(const ali3_system *s, int32_t k, int32_t i, int32_t j) {
+  const int32_t f = s->row_front[k], n = s->front_ptr[f + 1] - s->front_ptr[f];
+  const int32_t li = s->row_loc[i], lj = s->row_loc[j];
+  return s->front_off[f] + (li > lj ? lj * n + li : li * n + lj);
+}
+
+static ali3_term make_term(const ali3_system *s, int32_t k, int32_t a, int32_t b, double h) {
+  ali3_term t = {-1, -1, -1, -1, -1, h};
+  if (a >= 0) {
+    t.ja = s->row_ptr[k] + a;
+    t.a = s->row_col[t.ja];
+  }
+  if (b >= 0) {
+    t.jb = s->row_ptr[k] + b;
+    t.b = s->row_col[t.jb];
+    t.pos = row_pos(s, k, t.ja, t.jb);
+  }
+  return t;
+}
+
+static void derive_rows(ali3_system *s) {
+  for (int32_t k = 0; k < s->size.nc; k++)
+    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
+      s->quad[t] = make_term(s, k, s->quad_a[t], s->quad_b[t], s->quad_h[t]);
+  for (int64_t t = 0; t < s->n_gterm_row; t++) {
+    const int32_t k = s->gterm_row[t];
+    const ali3_guide_term g = {make_term(s, k, s->gterm_a[t], s->gterm_b[t], s->gterm_h[t]), k, s->gterm_guide[t],
+                               s->gterm_power[t]};
+    s->gterm[t] = g;
+  }
+  for (int64_t i = 0; i < s->n_angle_row; i++) {
+    const int32_t k = s->angle_row[i], theta = s->row_ptr[k] + s->angle_theta[i];
+    s->angle_theta_j[i] = theta;
+    s->angle_theta_col[i] = s->row_col[theta];
+    s->angle_theta_pos[i] = row_pos(s, k, theta, theta);
+    for (int32_t t = s->angle_ptr[i]; t < s->angle_ptr[i + 1]; t++) {
+      const ali3_term base = make_term(s, k, s->angle_a[t], s->angle_b[t], 0.0);
+      const ali3_angle_term term = {base.a,
+                                    base.b,
+                                    base.ja,
+                                    base.jb,
+                                    base.pos,
+                                    base.ja < 0 ? -1 : row_pos(s, k, theta, base.ja),
+                                    base.jb < 0 ? -1 : row_pos(s, k, theta, base.jb),
+                                    s->angle_hc[t],
+                                    s->angle_hs[t]};
+      s->angle[t] = term;
+    }
+  }
+}
+
+static void derive_mass(ali3_system *s) {
+  const int32_t nq = s->size.nq;
+  double sum = 0.0;
+  int32_t positive = 0, f = 0;
+  memset(s->front_mass, 0, (size_t)s->size.front_size * sizeof(double));
+  for (int64_t k = 0; k < s->n_mass_col; k++)
+    if (s->mass_pos[k] >= 0) s->front_mass[s->mass_pos[k]] = s->mass_val[k];
+  for (int32_t i = 0; i < nq; i++) {
+    while (i >= s->front_col[f + 1]) f++;
+    const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], local = i - s->front_col[f];
+    s->diagonal_pos[i] = s->front_off[f] + local * n + local;
+    s->mass_floor[i] = s->front_mass[s->diagonal_pos[i]];
+    if (s->mass_floor[i] > 0.0) {
+      sum += s->mass_floor[i];
+      positive++;
+    }
+  }
+  const double typical = positive > 0 ? sum / positive : 1.0;
+  for (int32_t i = 0; i < nq; i++) {
+    const bool massless = !(s->mass_floor[i] > 1e-12 * typical);
+    s->mass_missing[i] = massless ? typical : 0.0;
+    if (massless) s->mass_floor[i] = typical;
+    s->mass_floor_inverse[i] = 1.0 / s->mass_floor[i];
+  }
+}
+
+static int compare_int32(const void *a, const void *b) {
+  const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+  return (x > y) - (x < y);
+}
+
+/* Entries of element e: signal, value and the coordinate within the element; its coordinates ascend as in the front. */
+static void derive_element(ali3_system *s, int32_t e) {
+  const int32_t first = s->el_entry_ptr[e], start = s->el_coordinate_ptr[e];
+  const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
+  int32_t *coordinate = s->el_coordinate_loc + start;
+  int32_t n = 0, unique = 0;
+  for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
+    const int32_t signal = s->el_sig[i];
+    for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, n++) {
+      s->el_entry_signal[first + n] = i - s->el_sig_ptr[e];
+      s->el_entry_value[first + n] = s->sig_val[k];
+      s->el_entry_local[first + n] = 0;
+    }
+  }
+  if (s->el_front[e] >= 0) {
+    memcpy(coordinate, loc, (size_t)n * sizeof *loc);
+    qsort(coordinate, (size_t)n, sizeof *coordinate, compare_int32);
+    for (int32_t i = 0; i < n; i++)
+      if (unique == 0 || coordinate[i] != coordinate[unique - 1]) coordinate[unique++] = coordinate[i];
+    for (int32_t i = 0; i < n; i++) s->el_entry_local[first + i] = ali3_find(coordinate, unique, loc[i]);
+  }
+  s->el_entry_ptr[e + 1] = first + n;
+  s->el_coordinate_ptr[e + 1] = start + unique;
+  if (unique > s->max_el_coordinates) s->max_el_coordinates = unique;
+}
+
+static void derive_elements(ali3_system *s) {
+  const int32_t ne = s->size.ne;
+  s->el_S_off[0] = s->el_entry_ptr[0] = s->el_coordinate_ptr[0] = 0;
+  for (int32_t e = 0; e < ne; e++) {
+    const int32_t n = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
+    s->el_kind[e] = ali3_element_type_get(s->el_type[e]);
+    s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
+    derive_element(s, e);
+  }
+  memset(s->active_signal, 0, (size_t)s->size.nsig * sizeof(int32_t));
+  for (int64_t i = 0; i < s->n_el_sig; i++) s->active_signal[s->el_sig[i]] = 1;
+  for (int32_t i = 0; i < s->size.nsig; i++)
+    if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
+}
+
+static int32_t first_nonzero(const double *v, int32_t n) {
+  for (int32_t i = 0; i < n; i++)
+    if (v[i] != 0.0) return i;
+  return -1;
+}
+
+ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
+  int64_t n_entry = 0;
+  for (int64_t i = 0; i < s->n_el_sig; i++) n_entry += s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]];
+  if (n_entry > MAX_SIGNAL_ENTRIES || (int64_t)s->size.ne * ALI3_MAX_SIGNALS * ALI3_MAX_SIGNALS > MAX_SIGNAL_ENTRIES)
+    return ali3_bad(m, "the elements have %lld signal entries", (long long)n_entry);
+  ali3_pool pool = {NULL, 0};
+  place(s, &pool, (size_t)n_entry);
+  s->derived = malloc(pool.used > 0 ? pool.used : 1);
+  if (s->derived == NULL) return ALI3_NO_MEMORY;
+  pool.block = s->derived;
+  pool.used = 0;
+  place(s, &pool, (size_t)n_entry);
+  derive_rows(s);
+  derive_mass(s);
+  derive_elements(s);
+  s->shift_x = s->shift_y = s->shift_z = -1;
+  if (s->size.has_pose) {
+    s->shift_x = first_nonzero(s->pose_x, s->size.nq);
+    s->shift_y = first_nonzero(s->pose_y, s->size.nq);
+    s->shift_z = first_nonzero(s->pose_z, s->size.nq);
+  }
+  return ALI3_OK;
+}
