@@ -111,11 +111,11 @@ class Body:
         axes = np.eye(3).ravel() if self.dimension == 3 else np.array([1.0, 0.0])
         return np.concatenate([self.com, axes])
 
-    def velocity(self, linear: Vector, angular: ArrayLike) -> NDArray[np.float64]:
-        """Rates of the full coordinates in the reference configuration, shape (size,)."""
+    def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Rates of the full coordinates at `position` (its full coordinates) for given velocities, shape (size,)."""
         if self.dimension == 2:
-            return np.array([*linear, 0.0, float(np.asarray(angular))])
-        return np.concatenate([linear, *(np.cross(np.asarray(angular), e) for e in np.eye(3))])
+            return np.array([*linear, -angular[0] * position[3], angular[0] * position[2]])
+        return np.concatenate([linear, *(np.cross(angular, position[k : k + 3]) for k in (3, 6, 9))])
 
 
 class PointMass(Body):
@@ -148,7 +148,7 @@ class PointMass(Body):
         """Position in the reference configuration."""
         return self.com
 
-    def velocity(self, linear: Vector, angular: ArrayLike) -> NDArray[np.float64]:
+    def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
         """Rates of its coordinates."""
         return linear
 

@@ -80,7 +80,7 @@ class ModelCore:
         self.roads: list[Any] = []
         self.sensors: list[Sensor] = []
         self.parameters: list[Parameter] = []
-        self.body_velocities: dict[int, np.ndarray] = {}
+        self.body_velocities: dict[int, tuple[Vector, Vector]] = {}
         self.coordinate_rates: dict[int, float] = {}
         self._names: dict[str, set[str]] = {}
 
@@ -186,7 +186,7 @@ class ModelCore:
             w = 0.0 if angular is None else number(angular, f"The angular {what}")
         else:
             w = np.zeros(3) if angular is None else vector(angular, 3, f"the angular {what}")
-        self.body_velocities[body.number] = body.velocity(v, w)
+        self.body_velocities[body.number] = (v, np.atleast_1d(np.asarray(w, dtype=float)))
 
     def initial_rate(self, coordinate: Coordinate, rate: float) -> None:
         """Start rate of a relative angle or a spin, rad/s."""

@@ -1,0 +1,5 @@
+"""compile(): from a model to a System."""
+
+from mbs.compile.compile import compile
+
+__all__ = ["compile"]

@@ -1,0 +1,135 @@
+"""Elimination of linear joint equations, q_full = T z + z0, with fill-reducing pivoting.
+
+Gauss-Jordan on sparse rows: the pivot (row, column) with the smallest Markowitz product is taken, where the column count
+includes the rows that are already solved. Counting those too is what keeps T sparse: eliminating a chain link by link looks
+free to the unsolved rows and makes T dense.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mbs.affine import Affine
+from mbs.model.errors import ModelError
+
+PIVOT_THRESHOLD = 0.1
+"""A pivot is at least this part of the largest entry of its row."""
+DROP = 1e-12
+"""A sum smaller than this part of its terms is a zero."""
+CONSISTENT = 1e-9
+"""Largest mismatch, relative to the size of the constants (at least 1 m), of a redundant linear equation."""
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """Result of `eliminate`.
+
+    Attributes
+    ----------
+    kept : list of int
+        Full coordinates that stay: z.
+    expressions : list of Affine
+        Every full coordinate as an expression of z (terms count in z).
+    redundant : int
+        Equations that followed from others.
+    """
+
+    kept: list[int]
+    expressions: list[Affine]
+    redundant: int
+
+
+def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int]) -> Elimination:
+    """Solve linear equations for as many coordinates.
+
+    Parameters
+    ----------
+    n : int
+        Number of full coordinates.
+    equations : sequence of (name, Affine)
+        Each expression is zero; the name is that of its joint.
+    locked : set of int
+        Coordinates that must stay (angles and spins).
+    """
+    rows = [dict(e.terms) for _, e in equations]
+    constants = [e.constant for _, e in equations]
+    scale = max([1.0, *(abs(c) for c in constants)])
+    users: list[set[int]] = [set() for _ in range(n)]
+    for i, row in enumerate(rows):
+        for j in row:
+            users[j].add(i)
+    solved: dict[int, int] = {}  # row -> column
+    redundant = 0
+
+    def best(i: int) -> tuple[int, int]:
+        row = rows[i]
+        least = PIVOT_THRESHOLD * max(abs(v) for v in row.values())
+        columns = [j for j, v in row.items() if abs(v) >= least and j not in locked]
+        if not columns:
+            raise ModelError(f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; drive it by a guide instead.")
+        count, j = min((len(users[j]), j) for j in columns)
+        return (len(row) - 1) * (count - 1), j
+
+    heap: list[tuple[int, int]] = []
+
+    def offer(i: int) -> bool:
+        """Queue an unsolved row; an empty one is checked. True if it was redundant."""
+        if rows[i]:
+            heapq.heappush(heap, (best(i)[0], i))
+            return False
+        if abs(constants[i]) > CONSISTENT * scale:
+            raise ModelError(
+                f"The joint '{equations[i][0]}' cannot close: what the other joints fix leaves its linear equation open by {abs(constants[i]):.3g} m."
+            )
+        return True
+
+    empty = {i for i in range(len(rows)) if offer(i)}
+    while heap:
+        cost, i = heapq.heappop(heap)
+        if i in solved or i in empty:
+            continue
+        now, pivot = best(i)
+        if now > cost:
+            heapq.heappush(heap, (now, i))
+            continue
+        row = rows[i]
+        p = row.pop(pivot)
+        for j in row:
+            row[j] /= p
+        constants[i] /= p
+        solved[i] = pivot
+        for k in users[pivot] - {i}:
+            other = rows[k]
+            f = other.pop(pivot)
+            for j, v in row.items():
+                old = other.get(j)
+                if old is None:
+                    other[j] = -f * v
+                    users[j].add(k)
+                    continue
+                new = old - f * v
+                if abs(new) > DROP * (abs(old) + abs(f * v)):
+                    other[j] = new
+                else:
+                    del other[j]
+                    users[j].discard(k)
+            constants[k] -= f * constants[i]
+            if k not in solved and offer(k):
+                empty.add(k)
+        users[pivot] = {i}
+    redundant = len(empty)
+
+    by_column = {j: i for i, j in solved.items()}
+    kept = [j for j in range(n) if j not in by_column]
+    number = {j: k for k, j in enumerate(kept)}
+    expressions = []
+    for j in range(n):
+        if j in number:
+            expressions.append(Affine({number[j]: 1.0}))
+        else:
+            i = by_column[j]
+            constant = -constants[i]
+            expressions.append(Affine({number[k]: -v for k, v in rows[i].items()}, constant if abs(constant) > DROP * scale else 0.0))
+    return Elimination(kept, expressions, redundant)

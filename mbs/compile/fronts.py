@@ -1,0 +1,143 @@
+"""Symbolic factorization: elimination tree and fronts (supernodes) of the tangent."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+Index = NDArray[np.int64]
+
+DENSE_SIZE = 24
+"""Systems up to this many coordinates are one dense front."""
+MERGE_SIZE = 12
+"""A child is merged into its parent if the merged front is no larger than this ..."""
+MERGE_ZEROS = 0.25
+"""... or if at most this part of the merged trapezoid is zeros that were not there before."""
+
+
+@dataclass(frozen=True)
+class Fronts:
+    """Fronts in elimination order.
+
+    Attributes
+    ----------
+    order : ndarray, shape (n,)
+        Entry k is the coordinate (before this order) that is eliminated k-th; all else counts in the new order.
+    col : ndarray, shape (nf + 1,)
+        Front s eliminates col[s] .. col[s+1]-1.
+    index : list of ndarray
+        Coordinates of each front, ascending, pivots first.
+    parent : ndarray, shape (nf,)
+        Parent front or -1.
+    """
+
+    order: Index
+    col: Index
+    index: list[Index]
+    parent: Index
+
+    @property
+    def factor_nonzeros(self) -> int:
+        """Stored entries of the factor, lower triangle with diagonal."""
+        return sum(_trapezoid(int(p), len(i)) for p, i in zip(np.diff(self.col), self.index, strict=True))
+
+
+def _trapezoid(pivots: int, size: int) -> int:
+    return pivots * size - pivots * (pivots - 1) // 2
+
+
+def build_fronts(pattern: sparse.csc_matrix, order: Index) -> Fronts:
+    """Fronts of a symmetric pattern for an elimination order."""
+    n = pattern.shape[0]
+    if n == 0:
+        return Fronts(np.zeros(0, int), np.zeros(1, int), [], np.zeros(0, int))
+    if n <= DENSE_SIZE:
+        return Fronts(np.asarray(order), np.array([0, n]), [np.arange(n)], np.array([-1]))
+    structure = _columns(pattern, order)
+    parent = [min(s) if s else -1 for s in structure]
+    groups, above = _merge(structure, parent)
+    return _number(np.asarray(order), structure, groups, above)
+
+
+def _columns(pattern: sparse.csc_matrix, order: Index) -> list[set[int]]:
+    """Row structure of each factor column below the diagonal, in the new order."""
+    n = len(order)
+    new = np.empty(n, dtype=np.int64)
+    new[order] = np.arange(n)
+    indptr, indices = pattern.indptr, pattern.indices
+    structure: list[set[int]] = []
+    children: list[list[int]] = [[] for _ in range(n)]
+    for k in range(n):
+        old = order[k]
+        below = {int(i) for i in new[indices[indptr[old] : indptr[old + 1]]] if i > k}
+        for child in children[k]:
+            below |= structure[child]
+        below.discard(k)
+        structure.append(below)
+        if below:
+            children[min(below)].append(k)
+    return structure
+
+
+def _merge(structure: list[set[int]], parent: list[int]) -> tuple[dict[int, list[int]], dict[int, int]]:
+    """Merge columns into fronts, children before parents.
+
+    Returns the pivots of each front by its last pivot, and the parent front (by its last pivot, or -1).
+    """
+    n = len(structure)
+    head = list(range(n))  # column -> last pivot of its front; followed by find()
+    pivots = {k: [k] for k in range(n)}
+
+    def find(k: int) -> int:
+        while head[k] != k:
+            head[k] = head[head[k]]
+            k = head[k]
+        return k
+
+    # zeros each front already holds, so that repeated merging does not hide them
+    zeros = [0] * n
+    for k in range(n):
+        p = parent[k]
+        if p < 0:
+            continue
+        top = find(p)
+        mine = pivots[k]
+        own, joined = len(structure[k]) + len(mine), len(pivots[top]) + len(structure[top]) + len(mine)
+        area = _trapezoid(len(mine) + len(pivots[top]), joined)
+        before = _trapezoid(len(mine), own) + _trapezoid(len(pivots[top]), joined - len(mine))
+        extra = area - before + zeros[k] + zeros[top]
+        if joined <= MERGE_SIZE or extra <= MERGE_ZEROS * area:
+            pivots[top] = mine + pivots[top]
+            zeros[top] = extra
+            head[k] = top
+            del pivots[k]
+    return pivots, {k: (find(parent[k]) if parent[k] >= 0 else -1) for k in pivots}
+
+
+def _number(order: Index, structure: list[set[int]], groups: dict[int, list[int]], above: dict[int, int]) -> Fronts:
+    """Number fronts in postorder and make their pivots contiguous."""
+    children: dict[int, list[int]] = {k: [] for k in groups}
+    roots = []
+    for k in sorted(groups):
+        if above[k] >= 0:
+            children[above[k]].append(k)
+        else:
+            roots.append(k)
+    post: list[int] = []
+    stack = list(reversed(roots))
+    while stack:  # parents before children, reversed below
+        k = stack.pop()
+        post.append(k)
+        stack.extend(children[k])
+    post.reverse()
+    front_of = {k: s for s, k in enumerate(post)}
+    sequence = [c for k in post for c in sorted(groups[k])]
+    new = np.empty(len(order), dtype=np.int64)
+    new[sequence] = np.arange(len(order))
+    col = np.concatenate([[0], np.cumsum([len(groups[k]) for k in post])]).astype(np.int64)
+    index = [np.sort(new[[*groups[k], *structure[k]]]) for k in post]
+    parents = np.array([front_of[above[k]] if above[k] >= 0 else -1 for k in post], dtype=np.int64)
+    return Fronts(order[sequence], col, index, parents)

@@ -1,0 +1,125 @@
+"""Quadratic polynomials of the coordinates z as sparse tables of monomials."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from mbs.affine import Affine
+from mbs.model.equation import Equation, Product
+
+Monomial = tuple[int, int]
+"""(i, j) with i >= j for z_i z_j, (i, -1) for z_i, (-1, -1) for 1."""
+Polynomial = dict[Monomial, float]
+
+DROP = 1e-12
+"""A coefficient smaller than this part of the largest that went into its row is a zero."""
+
+
+@dataclass
+class RowTerms:
+    """One constraint row over z.
+
+    Attributes
+    ----------
+    name, kind : str
+        Joint or body it comes from, and what it states.
+    joint, part : int
+        Number of the joint and of its equation, or -1 for rigid-body rows.
+    main : Polynomial
+        Quadratic part.
+    theta : int
+        Coordinate of the angle part, or -1.
+    cosine, sine : Polynomial
+        C and S of the angle part.
+    guides : list of (guide, power, Polynomial)
+    """
+
+    name: str
+    kind: str
+    joint: int
+    part: int
+    main: Polynomial
+    theta: int = -1
+    cosine: Polynomial = field(default_factory=dict)
+    sine: Polynomial = field(default_factory=dict)
+    guides: list[tuple[int, int, Polynomial]] = field(default_factory=list)
+
+    @property
+    def plain(self) -> bool:
+        """Whether it is a quadratic alone."""
+        return self.theta < 0 and not self.guides
+
+    def columns(self) -> list[int]:
+        """Coordinates it depends on, ascending."""
+        found = {i for p in (self.main, self.cosine, self.sine, *(g[2] for g in self.guides)) for m in p for i in m}
+        found.add(self.theta)
+        found.discard(-1)
+        return sorted(found)
+
+
+def substitute(expression: Affine, full: Sequence[Affine]) -> Affine:
+    """An expression of full coordinates as one of z."""
+    terms: dict[int, float] = {}
+    size: dict[int, float] = {}
+    constant, biggest = expression.constant, abs(expression.constant)
+    for i, c in expression.terms.items():
+        of_z = full[i]
+        constant += c * of_z.constant
+        biggest = max(biggest, abs(c * of_z.constant))
+        for j, v in of_z.terms.items():
+            terms[j] = terms.get(j, 0.0) + c * v
+            size[j] = max(size.get(j, 0.0), abs(c * v))
+    return Affine(
+        {j: v for j, v in terms.items() if abs(v) > DROP * size[j]},
+        constant if abs(constant) > DROP * biggest else 0.0,
+    )
+
+
+def add_product(into: Polynomial, factor: float, a: Affine, b: Affine) -> None:
+    """Add ``factor * a * b``; a and b are expressions of z."""
+    if factor == 0.0:
+        return
+    left = [*a.terms.items(), (-1, a.constant)] if a.constant else list(a.terms.items())
+    right = [*b.terms.items(), (-1, b.constant)] if b.constant else list(b.terms.items())
+    for i, u in left:
+        for j, v in right:
+            m = (i, j) if i >= j else (j, i)
+            into[m] = into.get(m, 0.0) + factor * u * v
+
+
+def cleaned(p: Polynomial) -> Polynomial:
+    """Without coefficients that are round-off of the largest."""
+    if not p:
+        return p
+    least = DROP * max(abs(v) for v in p.values())
+    return {m: v for m, v in p.items() if abs(v) > least}
+
+
+def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine]) -> Polynomial:
+    """The polynomial of a sum of products and a linear part."""
+    p: Polynomial = {}
+    cache: dict[int, Affine] = {}
+
+    def of_z(a: Affine) -> Affine:
+        found = cache.get(id(a))
+        if found is None:
+            found = cache[id(a)] = substitute(a, full)
+        return found
+
+    for factor, a, b in products:
+        add_product(p, factor, of_z(a), of_z(b))
+    add_product(p, 1.0, substitute(linear, full), Affine({}, 1.0))
+    return cleaned(p)
+
+
+def row_terms(equation: Equation, joint: int, part: int, full: Sequence[Affine]) -> RowTerms:
+    """An equation of a joint as a row over z."""
+    row = RowTerms(equation.name, equation.kind, joint, part, expand(equation.products, equation.linear, full))
+    if equation.angle is not None:
+        theta = substitute(Affine({equation.angle.theta: 1.0}), full)
+        row.theta = next(iter(theta.terms))  # angle coordinates are never eliminated
+        row.cosine = expand(equation.angle.cosine, Affine(), full)
+        row.sine = expand(equation.angle.sine, Affine(), full)
+    row.guides = [(g.guide, g.power, expand(g.products, g.linear, full)) for g in equation.guides]
+    return row

@@ -1,0 +1,61 @@
+"""What `print(system)` says: counts, rank and degrees of freedom, non-zeros."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import splu
+
+RANK_TOLERANCE = 1e-7
+"""Singular values of the mass-normalised rows below this part of the largest count as zero."""
+DENSE_RANK = 300
+"""Up to this many rows the rank comes from singular values, above from the inertia of a sparse factorization."""
+
+
+def rank_at(Phiq: sparse.csr_matrix, mass_diagonal: np.ndarray) -> int | None:
+    """Rank of Phi_q at the reference position; None if it could not be computed.
+
+    Large systems: Phi_q M^-1 Phi_q' - sigma has as many negative pivots as eigenvalues below sigma (Sylvester).
+    """
+    nc = Phiq.shape[0]
+    if nc == 0:
+        return 0
+    mean = float(np.mean(mass_diagonal[mass_diagonal > 0.0])) if np.any(mass_diagonal > 0.0) else 1.0
+    D = 1.0 / np.sqrt(np.where(mass_diagonal > 0.0, mass_diagonal, mean))
+    J = Phiq @ sparse.diags(D)
+    size = np.sqrt(np.asarray(J.multiply(J).sum(axis=1)).ravel())
+    J = sparse.diags(1.0 / np.where(size > 0.0, size, 1.0)) @ J
+    if nc <= DENSE_RANK:
+        values = np.linalg.svd(J.toarray(), compute_uv=False)
+        return int(np.sum(values > RANK_TOLERANCE * values[0])) if values.size and values[0] > 0.0 else 0
+    shifted = (J @ J.T - RANK_TOLERANCE * sparse.identity(nc)).tocsc()
+    try:
+        factor = splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    except RuntimeError:
+        return None
+    if not np.array_equal(factor.perm_r, factor.perm_c):
+        return None  # rows were exchanged: the signs of the pivots no longer count eigenvalues
+    return nc - int(np.sum(factor.U.diagonal() < 0.0))
+
+
+def report_text(name: str, dimension: int, report: dict[str, Any]) -> str:
+    """The report as lines of text."""
+    rank, dofs = report["rank"], report["degrees_of_freedom"]
+    space = "planar" if dimension == 2 else "spatial"
+    lines = [
+        f"System '{name}' ({space})",
+        f"  bodies                {report['bodies']:>8}",
+        f"  full coordinates      {report['full_coordinates']:>8}",
+        f"  linear equations      {report['linear_equations']:>8}   ({report['redundant_equations']} of them redundant)",
+        f"  coordinates           {report['coordinates']:>8}",
+        f"  rows                  {report['rows']:>8}   ({report['dependent_rows']} dependent ones removed)",
+        f"  rank at reference     {'not computed' if rank is None else rank:>8}",
+        f"  degrees of freedom    {'not computed' if dofs is None else dofs:>8}",
+        f"  non-zeros of tangent  {report['tangent_nonzeros']:>8}   (lower triangle)",
+        f"  non-zeros of factor   {report['factor_nonzeros']:>8}   ({report['fronts']} fronts, largest {report['largest_front']})",
+        f"  force elements        {report['elements']:>8}",
+        f"  inputs, sensors       {report['inputs']:>8}, {report['sensors']}",
+    ]
+    return "\n".join(lines)

@@ -1,0 +1,76 @@
+"""Guides: prescribed motions s(t) with two continuous rates, from a description in time or from an input through a filter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline, PPoly
+
+from mbs.model.checks import number, positive
+from mbs.model.core import ModelCore
+from mbs.model.errors import ModelError
+from mbs.model.inputs import Input, owned_input
+
+TIME, INPUT = 0, 1  # guide_type of the System file
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A prescribed motion; `reals` as in the System file."""
+
+    name: str
+    index: int
+    type: int
+    input: int
+    reals: tuple[float, ...]
+    start: float
+    unit: str
+
+
+def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequency: float, unit: str) -> Guide:
+    """``s'' = w^2 (gain u - s) - 2 w s'`` with w = 2 pi frequency: a critically damped follower that starts at rest on the input."""
+    owned_input(model, input, f"The guide '{name}'")
+    w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
+    k = number(gain, f"The gain of guide '{name}'")
+    return _register(model, name, INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
+
+
+def guide_time(model: ModelCore, name: str, motion: Any, unit: str) -> Guide:
+    """A motion in time: a `scipy.interpolate.PPoly` of degree 5 or less, or (times, values) through which a cubic spline goes.
+
+    Outside its pieces the motion stands still, so it should begin and end with zero rates.
+    """
+    if isinstance(motion, PPoly):
+        pieces = motion
+    else:
+        try:
+            times, values = (np.asarray(part, dtype=float) for part in motion)
+            pieces = CubicSpline(times, values, bc_type="clamped")
+        except (TypeError, ValueError) as error:
+            raise ModelError(f"The motion of guide '{name}' must be a PPoly or (times, values): {error}") from None
+    c, b = np.asarray(pieces.c, dtype=float), np.asarray(pieces.x, dtype=float)
+    if c.ndim != 2 or c.shape[0] > 6:
+        raise ModelError(f"The motion of guide '{name}' must be one scalar motion of degree 5 or less.")
+    if not (np.all(np.isfinite(c)) and np.all(np.isfinite(b)) and np.all(np.diff(b) > 0.0)):
+        raise ModelError(f"The motion of guide '{name}' needs finite coefficients and rising times.")
+    ascending = np.zeros((c.shape[1], 6))
+    ascending[:, : c.shape[0]] = c[::-1].T
+    reals = [float(c.shape[1]), *b, *ascending.ravel()]
+    start = float(pieces(min(max(0.0, b[0]), b[-1])))
+    return _register(model, name, TIME, -1, reals, start, unit)
+
+
+def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
+    """`guide` if it is one of this model."""
+    if not isinstance(guide, Guide) or guide.index >= len(model.guides) or model.guides[guide.index] is not guide:
+        raise ModelError(f"{what} needs a guide made by model '{model.name}', got {guide!r}.")
+    return guide
+
+
+def _register(model: ModelCore, name: str, type: int, input: int, reals: list[float], start: float, unit: str) -> Guide:
+    model.unique("guide", name)
+    guide = Guide(name, len(model.guides), type, input, tuple(float(r) for r in reals), start, unit)
+    model.guides.append(guide)
+    return guide

@@ -1,0 +1,161 @@
+"""The modelling vocabulary: what an engineer writes, in earth axes in the reference configuration."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from mbs.model.angle import relative_angle
+from mbs.model.body import Body
+from mbs.model.checks import not_negative
+from mbs.model.core import Coordinate
+from mbs.model.errors import ModelError
+from mbs.model.forces import ForceVocabulary
+from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
+from mbs.model.inputs import Input, new_input
+from mbs.model.joints.distance import distance
+from mbs.model.joints.drive import drive
+from mbs.model.joints.joint import Joint
+from mbs.model.joints.points import revolute, spherical, universal
+from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
+from mbs.model.parameters import Parameter, new_parameter
+from mbs.model.sensors import SensorVocabulary
+from mbs.model.slide import SlidingPoint
+from mbs.model.spin import Spin, spin
+
+
+class Model(ForceVocabulary, SensorVocabulary):
+    """A mechanism: bodies, joints, forces, inputs and sensors.
+
+    Points, axes and inertias are given in earth axes in the reference configuration, as read off a drawing. Where the drawing
+    does not close, `point` (or `axis`) of a joint may be a pair, one per body; `compile` then closes the assembly.
+
+    Parameters
+    ----------
+    name : str
+    dimension : {2, 3}
+        Planar (x, y) or spatial.
+    gravity : array_like, shape (dimension,), optional
+        m/s2; by default 9.81 along -y (planar) or -z (spatial).
+
+    Examples
+    --------
+    >>> m = Model("pendulum", dimension=2)
+    >>> rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=1.0 / 12.0)
+    >>> joint = m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+    """
+
+    # --- joints -------------------------------------------------------------------------------------------------------------------
+    def _join(self, joint: Joint) -> Joint:
+        self.unique("joint", joint.name)
+        self.joints.append(joint)
+        return joint
+
+    def revolute(self, name: str, body_1: Body, body_2: Body, *, point: Any, axis: Any = None) -> Joint:
+        """Shared point and (spatial) shared axis."""
+        return self._join(revolute(self, name, body_1, body_2, point, axis))
+
+    def spherical(self, name: str, body_1: Body, body_2: Body, *, point: Any) -> Joint:
+        """Shared point."""
+        return self._join(spherical(self, name, body_1, body_2, point))
+
+    def universal(self, name: str, body_1: Body, body_2: Body, *, point: Any, axis_1: ArrayLike, axis_2: ArrayLike) -> Joint:
+        """Shared point; the angle between axis_1 (of body 1) and axis_2 (of body 2) is constant."""
+        return self._join(universal(self, name, body_1, body_2, point, axis_1, axis_2))
+
+    def prismatic(self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike, point: Any = None) -> Joint:
+        """Shared orientation; the point of body 1 slides along the axis of body 2."""
+        return self._join(prismatic(self, name, body_1, body_2, point, axis))
+
+    def cylindrical(self, name: str, body_1: Body, body_2: Body, *, point: Any, axis: ArrayLike) -> Joint:
+        """Shared axis along which the point of body 1 slides and about which the bodies turn."""
+        return self._join(cylindrical(self, name, body_1, body_2, point, axis))
+
+    def weld(self, name: str, body_1: Body, body_2: Body) -> Joint:
+        """The bodies move as one."""
+        return self._join(weld(self, name, body_1, body_2))
+
+    def point_on_line(self, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], *, axis: ArrayLike) -> Joint:
+        """The point of body 1 stays on a line fixed in body 2; ends are (body, point)."""
+        return self._join(point_on_line(self, name, end_1, end_2, axis))
+
+    def distance(self, name: str, end_1: Any, end_2: Any, *, length: float | None = None) -> Joint:
+        """Constant distance, m (default: as drawn): a massless rod. Ends: (body, point), a point mass or a sliding point."""
+        return self._join(distance(self, name, end_1, end_2, length))
+
+    def drive(self, name: str, driven: Any, guide: Guide) -> Joint:
+        """A coordinate, a component of a point, or the distance of a pair of ends follows a guide."""
+        return self._join(drive(self, name, driven, guide))
+
+    # --- coordinates --------------------------------------------------------------------------------------------------------------
+    def relative_angle(self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0) -> Coordinate:
+        """Angle of body 2 against body 1 about the axis, unwrapped, as one more coordinate; `zero` is its reading, rad, in the
+        reference configuration."""
+        coordinate, joint = relative_angle(self, name, body_1, body_2, axis, zero)
+        self._join(joint)
+        return coordinate
+
+    def armature(self, name: str, coordinate: Coordinate, *, inertia: float) -> None:
+        """Inertia, kg m2, that turns with a relative angle (a motor behind a gear, seen at the joint)."""
+        self.unique("armature", name)
+        if not isinstance(coordinate, Coordinate):
+            raise ModelError(f"The armature '{name}' needs a relative angle, got {coordinate!r}.")
+        value = not_negative(inertia, f"The inertia of armature '{name}'")
+        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + value
+
+    def spin(
+        self,
+        name: str,
+        *,
+        carrier: Body,
+        centre: ArrayLike,
+        axis: ArrayLike,
+        mass: float,
+        spin_inertia: float,
+        diametral_inertia: float,
+        rolling_radius: float = 0.0,
+    ) -> Spin:
+        """An axisymmetric wheel as one coordinate, its absolute axial rate; mass in kg, inertias in kg m2.
+
+        `rolling_radius` (m) gives the spin when an initial pose has a speed.
+        """
+        return spin(self, name, carrier, centre, axis, mass, spin_inertia, diametral_inertia, rolling_radius)
+
+    # --- guides, inputs, parameters -----------------------------------------------------------------------------------------------
+    def input(
+        self, name: str, *, start: float = 0.0, min: float = -math.inf, max: float = math.inf, unit: str = "1", description: str = ""
+    ) -> Input:
+        """A number that a host sets."""
+        return new_input(self, name, start, min, max, unit, description)
+
+    def guide_input(self, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1") -> Guide:
+        """A motion that follows gain * input through a critically damped filter of the given frequency, Hz."""
+        return guide_input(self, name, input, gain, frequency, unit)
+
+    def guide_time(self, name: str, motion: Any, *, unit: str = "1") -> Guide:
+        """A motion in time: a PPoly of degree 5 or less, or (times, values)."""
+        return guide_time(self, name, motion, unit)
+
+    def slide(self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, guide: Guide) -> SlidingPoint:
+        """A point that a guide (m) slides along a direction fixed in a body; an end of `distance`."""
+        self.unique("slide", name)
+        what = f"slide '{name}'"
+        index = owned_guide(self, guide, f"The {what}").index
+        return SlidingPoint(name, body, self.anchor(body, point, what), self.anchor_axis(body, direction, what), index)
+
+    def parameter(
+        self,
+        name: str,
+        value: float,
+        min: float,
+        max: float,
+        unit: str = "1",
+        description: str = "",
+        *,
+        targets: Sequence[tuple[Any, Any, float]],
+    ) -> Parameter:
+        """A tunable number; each target is (element or guide, name of its real, scale)."""
+        return new_parameter(self, name, value, min, max, unit, description, targets)

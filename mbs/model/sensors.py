@@ -1,0 +1,238 @@
+"""Sensors: numbers computed from the state, by the sensor types of the System file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import Affine, AffineVector
+from mbs.model.body import Body
+from mbs.model.core import Coordinate, ModelCore
+from mbs.model.errors import ModelError
+from mbs.model.joints.joint import Joint
+
+COMPONENTS = {"x": 0, "y": 1, "z": 2}
+ENERGIES = ("kinetic", "gravity", "elastic", "total")
+SOLVER = ("iterations", "violation", "residual", "factorizations", "halvings", "status")
+SOLVER_UNITS = ("1", "m", "m", "1", "1", "1")
+RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """One output.
+
+    Parameters
+    ----------
+    type : int
+        Sensor type of the System file.
+    signals : sequence of Affine
+        Its signals; their numbers are put after `integers`.
+    integers, reals : sequence
+        The rest of its data.
+    joint : Joint, optional
+        For joint forces: the joint whose kept rows are weighted; ``integers`` are then numbers of its equations.
+    """
+
+    name: str
+    unit: str
+    description: str
+    type: int
+    signals: Sequence[Affine] = ()
+    integers: Sequence[int] = ()
+    reals: Sequence[float] = ()
+    joint: Joint | None = None
+
+
+def component_number(component: Any, dimension: int, what: str) -> int:
+    """0, 1, 2 for "x", "y", "z"."""
+    k = COMPONENTS.get(component, -1) if isinstance(component, str) else -1
+    if not 0 <= k < dimension:
+        names = "'x' or 'y'" if dimension == 2 else "'x', 'y' or 'z'"
+        raise ModelError(f"The component of {what} is {component!r}; it must be {names}.")
+    return k
+
+
+def spatial(v: AffineVector) -> list[Affine]:
+    """Three components; a planar vector gets z = 0."""
+    return [*v.components, *([Affine()] * (3 - len(v)))]
+
+
+class SensorVocabulary(ModelCore):
+    """The ``sense_...`` methods of a model. Each sensor has a name, a unit and a description."""
+
+    def _sense(
+        self, name: str, unit: str, description: str, type: int, signals: Sequence[Affine] = (), integers: Sequence[int] = (), reals: Sequence[float] = ()
+    ) -> Sensor:
+        self.unique("sensor", name)
+        sensor = Sensor(name, unit, description, type, signals, integers, reals)
+        self.sensors.append(sensor)
+        return sensor
+
+    def _point(self, body: Body, point: ArrayLike | None, what: str) -> AffineVector:
+        self.owned(body, what)
+        if point is None:
+            point = body.com
+        return body.point(point)
+
+    def _moving(
+        self, name: str, body: Body, point: ArrayLike | None, component: str, axes: Body | str, order: int, unit: str, description: str
+    ) -> Sensor:
+        p = self._point(body, point, f"The sensor '{name}'")
+        k = component_number(component, self.dimension, f"sensor '{name}'")
+        if isinstance(axes, str):
+            if axes not in ("earth", "body"):
+                raise ModelError(f"The axes of sensor '{name}' are {axes!r}; they must be 'earth', 'body' or a body.")
+            if axes == "earth":
+                return self._sense(name, unit, description, order, [p[k]], reals=[1.0])
+            axes = body
+        self.owned(axes, f"The sensor '{name}'")
+        axis = axes.vector(np.eye(self.dimension)[k])
+        return self._sense(name, unit, description, 3, [*spatial(p), *spatial(axis)], integers=[order])
+
+    def sense_position(
+        self, name: str, body: Body, point: ArrayLike | None = None, component: str = "x", axes: Body | str = "earth", unit: str = "m", description: str = ""
+    ) -> Sensor:
+        """Component of the position of a point (default: centre of mass), in earth axes or along an axis of a body, m."""
+        return self._moving(name, body, point, component, axes, 0, unit, description)
+
+    def sense_velocity(
+        self, name: str, body: Body, point: ArrayLike | None = None, component: str = "x", axes: Body | str = "earth", unit: str = "m/s", description: str = ""
+    ) -> Sensor:
+        """Component of the velocity of a point, in earth axes or along the moving axis of a body, m/s."""
+        return self._moving(name, body, point, component, axes, 1, unit, description)
+
+    def sense_acceleration(
+        self, name: str, body: Body, point: ArrayLike | None = None, component: str = "x", axes: Body | str = "earth", unit: str = "m/s2", description: str = ""
+    ) -> Sensor:
+        """Component of the acceleration of a point (without gravity), in earth axes or along the moving axis of a body, m/s2."""
+        return self._moving(name, body, point, component, axes, 2, unit, description)
+
+    def sense_coordinate(self, name: str, coordinate: Coordinate | Affine, order: int = 0, scale: float = 1.0, unit: str = "", description: str = "") -> Sensor:
+        """A coordinate (relative angle, spin) or any affine expression, its rate (order 1) or second rate (order 2)."""
+        if order not in (0, 1, 2):
+            raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0, 1 or 2.")
+        expression = coordinate.affine if isinstance(coordinate, Coordinate) else coordinate
+        if not isinstance(expression, Affine):
+            raise ModelError(f"The sensor '{name}' needs a coordinate or an expression, got {coordinate!r}.")
+        if not unit:
+            unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
+        return self._sense(name, unit, description, order, [expression], reals=[scale])
+
+    def sense_angular_rate(self, name: str, body: Body, component: str = "z", unit: str = "rad/s", description: str = "") -> Sensor:
+        """Component of the angular velocity of a body in its own axes (those along the earth axes in the reference), rad/s."""
+        self.owned(body, f"The sensor '{name}'")
+        k = COMPONENTS["z"] if self.dimension == 2 else component_number(component, 3, f"sensor '{name}'")
+        e = np.eye(self.dimension)
+        a, b = body.vector(e[(k + 1) % 3]), body.vector(e[(k + 2) % 3])
+        return self._sense(name, unit, description, 6, [*spatial(a), *spatial(b)], reals=[1.0])
+
+    def sense_yaw(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
+        """Angle of the body's x axis in the earth's x-y plane, rad (planar: its rotation)."""
+        a = body.vector(np.eye(self.dimension)[0])
+        return self._sense(name, unit, description, 4, [a[1], a[0]])
+
+    def sense_pitch(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
+        """-asin of the z component of the body's x axis, rad: positive nose down."""
+        self._spatial_only(name)
+        return self._sense(name, unit, description, 5, [body.vector((1.0, 0.0, 0.0))[2]])
+
+    def sense_roll(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
+        """atan2 of the z components of the body's y and z axes, rad: positive left side up."""
+        self._spatial_only(name)
+        return self._sense(name, unit, description, 4, [body.vector((0.0, 1.0, 0.0))[2], body.vector((0.0, 0.0, 1.0))[2]])
+
+    def sense_quaternion(self, name: str, body: Body, component: str = "w", unit: str = "1", description: str = "") -> Sensor:
+        """Component "w", "x", "y" or "z" of the orientation quaternion of a body."""
+        self._spatial_only(name)
+        if component not in ("w", "x", "y", "z"):
+            raise ModelError(f"The component of sensor '{name}' is {component!r}; it must be 'w', 'x', 'y' or 'z'.")
+        axes = [s for e in np.eye(3) for s in body.vector(e).components]
+        return self._sense(name, unit, description, 7, axes, integers=["wxyz".index(component)])
+
+    def sense_norm(self, name: str, vector: AffineVector, order: int = 0, unit: str = "", description: str = "") -> Sensor:
+        """Length of a vector (order 0) or of its rate (order 1): distance between points, speed of a point."""
+        if order not in (0, 1):
+            raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0 or 1.")
+        unit = unit or RATE_UNITS["m"][order]
+        return self._sense(name, unit, description, 14, list(vector.components), integers=[order, len(vector)])
+
+    def sense_direction(
+        self, name: str, point: AffineVector, axis_1: AffineVector, axis_2: AffineVector, order: int = 1, unit: str = "rad", description: str = ""
+    ) -> Sensor:
+        """Direction of the velocity of a point in moving axes, atan2(axis_2 . v, axis_1 . v), rad (side-slip angle)."""
+        signals = [*spatial(point), *spatial(axis_1), *spatial(axis_2)]
+        return self._sense(name, unit, description, 15, signals, integers=[order])
+
+    def sense_angle_between(self, name: str, a: AffineVector, b: AffineVector, c: AffineVector, unit: str = "rad", description: str = "") -> Sensor:
+        """Angle from b to a about c, atan2((b x a) . c, a . b), rad."""
+        return self._sense(name, unit, description, 16, [*spatial(a), *spatial(b), *spatial(c)])
+
+    def sense_element(self, name: str, element: Any, output: str, scale: float = 1.0, unit: str = "", description: str = "") -> Sensor:
+        """An output of a force element, such as the force of a spring."""
+        element_name = getattr(element, "name", element)
+        for index, record in enumerate(self.elements):
+            if record.name == element_name:
+                for k, out in enumerate(record.outputs):
+                    if out.name == output:
+                        return self._sense(name, unit or out.unit, description or out.description, 8, integers=[index, k], reals=[scale])
+                known = ", ".join(o.name for o in record.outputs) or "none"
+                raise ModelError(f"The sensor '{name}' asks for '{output}' of element '{element_name}', which has: {known}.")
+        raise ModelError(f"The sensor '{name}' asks for element '{element_name}', but the model has no such element.")
+
+    def sense_joint_force(self, name: str, joint: Joint | str, component: str = "x", unit: str = "N", description: str = "") -> Sensor:
+        """Force of a joint on its first body: a component in earth axes at a shared point, or "tension" of a distance; of a drive, "drive".
+
+        The equations of the joint stay rows of the System, so that the multipliers exist.
+        """
+        found = self.joint_named(joint) if isinstance(joint, str) else joint
+        if found not in self.joints:
+            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {joint!r}.")
+        rows = found.force_equations
+        if not rows:
+            raise ModelError(f"The joint '{found.name}' ({found.type}) has no force reading; a shared point, a distance or a drive has one.")
+        if found.type in ("distance", "drive"):
+            expected = "tension" if found.type == "distance" else "drive"
+            if component not in (expected, "x"):
+                raise ModelError(f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'.")
+            row, weight = rows[0], found.rows_weight if found.type == "distance" else -found.rows_weight
+        else:
+            row, weight = rows[component_number(component, self.dimension, f"sensor '{name}'")], -found.rows_weight
+        found.keep = True
+        self.unique("sensor", name)
+        sensor = Sensor(name, unit, description, 9, integers=[row], reals=[weight], joint=found)
+        self.sensors.append(sensor)
+        return sensor
+
+    def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
+        """"kinetic", "gravity", "elastic" or "total" energy, J."""
+        if kind not in ENERGIES:
+            raise ModelError(f"The energy of sensor '{name}' is {kind!r}; it must be one of {', '.join(ENERGIES)}.")
+        return self._sense(name, unit, description, 10, integers=[ENERGIES.index(kind)])
+
+    def sense_input(self, name: str, input: Any, unit: str = "", description: str = "") -> Sensor:
+        """An input as used (clamped)."""
+        if input not in self.inputs:
+            raise ModelError(f"The sensor '{name}' needs an input of model '{self.name}', got {input!r}.")
+        return self._sense(name, unit or input.unit, description, 11, integers=[input.index])
+
+    def sense_guide(self, name: str, guide: Any, order: int = 0, scale: float = 1.0, unit: str = "", description: str = "") -> Sensor:
+        """A guide or its rates."""
+        if guide not in self.guides or order not in (0, 1, 2):
+            raise ModelError(f"The sensor '{name}' needs a guide of model '{self.name}' and an order 0, 1 or 2.")
+        return self._sense(name, unit or guide.unit, description, 12, integers=[guide.index, order], reals=[scale])
+
+    def sense_solver(self, name: str, kind: str, description: str = "") -> Sensor:
+        """Health of the solver: "iterations", "violation", "residual", "factorizations", "halvings" or "status"."""
+        if kind not in SOLVER:
+            raise ModelError(f"The solver sensor '{name}' asks for {kind!r}; it must be one of {', '.join(SOLVER)}.")
+        k = SOLVER.index(kind)
+        return self._sense(name, SOLVER_UNITS[k], description, 13, integers=[k])
+
+    def _spatial_only(self, name: str) -> None:
+        if self.dimension == 2:
+            raise ModelError(f"The sensor '{name}' needs a spatial model; in the plane use sense_yaw.")

@@ -1,0 +1,187 @@
+"""The System: an immutable set of flat arrays with names, which one file carries to the kernel and into an FMU."""
+
+from __future__ import annotations
+
+import json
+import struct
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.compile.report import report_text
+
+MAGIC = b"ALI3SYS\n"
+VERSION = 1
+HEADER = struct.Struct("<8sIIQII")
+ENTRY = struct.Struct("<40sIIQQ")
+INT32, FLOAT64, BYTES = 1, 2, 3
+
+FLOATS = frozenset(
+    [
+        *("q0", "qd0", "y0", "mass_val", "gravity_force", "gravity_const", "row_lin", "row_const", "row_scale", "row_measure"),
+        *("quad_h", "angle_hc", "angle_hs", "gterm_h", "sig_val", "sig_const", "el_real", "input_start", "input_min", "input_max"),
+        *("guide_real", "road_real", "par_value", "par_min", "par_max", "par_scale", "sen_real"),
+        *("pose_0", "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed"),
+    ]
+)
+INTEGERS = frozenset(
+    [
+        *("mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b"),
+        *("angle_row", "angle_theta", "angle_ptr", "angle_a", "angle_b", "gterm_row", "gterm_guide", "gterm_power", "gterm_a"),
+        *("gterm_b", "front_col", "front_ptr", "front_idx", "front_parent", "front_map", "front_off", "sig_ptr", "sig_col"),
+        *("el_type", "el_sig_ptr", "el_sig", "el_real_ptr", "el_int_ptr", "el_int", "el_state_ptr", "el_out_ptr", "el_front"),
+        *("el_loc_ptr", "el_loc", "guide_type", "guide_input", "guide_real_ptr", "road_type", "road_real_ptr", "par_ptr"),
+        *("par_target", "par_index", "sen_type", "sen_int_ptr", "sen_int", "sen_real_ptr"),
+    ]
+)
+
+
+class SystemFileError(ValueError):
+    """A file that is no valid System; the message says why."""
+
+
+class System:
+    """What `compile` makes of a model; immutable.
+
+    Attributes
+    ----------
+    arrays : mapping of str to ndarray
+        The arrays of the System file (`docs/system_file.md`), read-only.
+    meta : mapping
+        Names, units and the report.
+    """
+
+    def __init__(self, arrays: Mapping[str, ArrayLike], meta: Mapping[str, Any]) -> None:
+        names = set(arrays)
+        if names != FLOATS | INTEGERS:
+            wrong = sorted(names ^ (FLOATS | INTEGERS))
+            raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
+        frozen: dict[str, NDArray[Any]] = {}
+        for name in sorted(names):
+            values = np.array(arrays[name], dtype=np.float64 if name in FLOATS else np.int32)
+            values.setflags(write=False)
+            frozen[name] = values
+        self.arrays: Mapping[str, NDArray[Any]] = MappingProxyType(frozen)
+        self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+
+    @property
+    def meta(self) -> dict[str, Any]:
+        """Names, units and the report; a fresh copy."""
+        loaded: dict[str, Any] = json.loads(self._meta_text)
+        return loaded
+
+    @property
+    def name(self) -> str:
+        """Name of the model."""
+        return str(self.meta["name"])
+
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+        return len(self.arrays["q0"])
+
+    @property
+    def nc(self) -> int:
+        """Number of constraint rows."""
+        return len(self.arrays["row_const"])
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """Coordinates, rows, rank, degrees of freedom and non-zeros as numbers."""
+        found: dict[str, Any] = self.meta["report"]
+        return found
+
+    def __str__(self) -> str:
+        meta = self.meta
+        return report_text(meta["name"], meta["dimension"], meta["report"])
+
+    def to_bytes(self) -> bytes:
+        """The System file; equal Systems give equal bytes."""
+        items: list[tuple[str, int, bytes, int]] = []
+        for name, values in self.arrays.items():
+            kind = FLOAT64 if name in FLOATS else INT32
+            items.append((name, kind, values.astype(values.dtype.newbyteorder("<")).tobytes(), len(values)))
+        text = self._meta_text.encode()
+        items.append(("meta", BYTES, text, len(text)))
+        offset = HEADER.size + ENTRY.size * len(items)
+        directory, data = [], []
+        for name, kind, raw, count in items:
+            directory.append(ENTRY.pack(name.encode(), kind, 0, offset, count))
+            padded = raw + b"\0" * (-len(raw) % 8)
+            data.append(padded)
+            offset += len(padded)
+        body = b"".join([*directory, *data])
+        return HEADER.pack(MAGIC, VERSION, len(items), offset, zlib.crc32(body), 0) + body
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> System:
+        """A System from its file content; everything is checked, also by the kernel.
+
+        Raises
+        ------
+        SystemFileError
+            With one sentence that says what is wrong.
+        """
+        from mbs.kernel.binding import KernelError, LoadedSystem
+
+        found = _parse(data)
+        try:
+            LoadedSystem(data)
+        except KernelError as error:
+            raise SystemFileError(f"Not a valid System file: {error}") from None
+        try:
+            meta = json.loads(found.pop("meta"))
+            system = cls(found, meta)
+            str(system)
+        except (KeyError, TypeError, ValueError) as error:
+            raise SystemFileError(f"The names in the System file are damaged: {error}") from None
+        return system
+
+    def save(self, path: str | Path) -> None:
+        """Write the System file."""
+        Path(path).write_bytes(self.to_bytes())
+
+    @classmethod
+    def load(cls, path: str | Path) -> System:
+        """Read a System file; `SystemFileError` if it is not a valid one."""
+        return cls.from_bytes(Path(path).read_bytes())
+
+
+def _parse(data: bytes) -> dict[str, Any]:
+    """Arrays by name and the text of `meta`, after checks of header, directory and extents."""
+    if len(data) < HEADER.size:
+        raise SystemFileError(f"Not a System file: {len(data)} bytes are fewer than its header has.")
+    magic, version, count, size, crc, _ = HEADER.unpack_from(data)
+    if magic != MAGIC:
+        raise SystemFileError("Not a System file: it does not begin with the mark of one.")
+    if version != VERSION:
+        raise SystemFileError(f"The System file has version {version}; this program reads version {VERSION}.")
+    if size != len(data):
+        raise SystemFileError(f"The System file is cut or extended: {len(data)} bytes instead of {size}.")
+    if crc != zlib.crc32(data[HEADER.size :]):
+        raise SystemFileError("The System file was altered: its checksum does not fit.")
+    if HEADER.size + ENTRY.size * count > len(data):
+        raise SystemFileError(f"The System file lists {count} arrays, more than it can hold.")
+    found: dict[str, Any] = {}
+    types = {INT32: np.dtype("<i4"), FLOAT64: np.dtype("<f8"), BYTES: np.dtype("u1")}
+    for k in range(count):
+        raw, kind, _, offset, items = ENTRY.unpack_from(data, HEADER.size + k * ENTRY.size)
+        name = raw.rstrip(b"\0").decode("ascii", "replace")
+        expected = FLOAT64 if name in FLOATS else INT32 if name in INTEGERS else BYTES if name == "meta" else 0
+        if kind != expected or name in found:
+            raise SystemFileError(f"The System file holds an unknown, repeated or mistyped array '{name}'.")
+        dtype = types[kind]
+        if offset % 8 or offset + items * dtype.itemsize > len(data):
+            raise SystemFileError(f"The array '{name}' of the System file lies outside the file.")
+        if kind == BYTES:
+            found[name] = data[offset : offset + items]
+        else:
+            found[name] = np.frombuffer(data, dtype, items, offset)
+    if "meta" not in found:
+        raise SystemFileError("The System file has no names (array 'meta').")
+    return found
