@@ -1,0 +1,359 @@
+"""The co-simulation slave: System file, compiled kernel, table of variables. It runs inside the FMU, without numpy.
+
+PythonFMU turns every exception into fmi2Fatal. So nothing here raises on account of a host's mistake: a refused call
+is logged with the status it deserves, and the shell around PythonFMU (`shell.c`) hands that to the host.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import struct
+import sys
+from pathlib import Path
+from typing import Any
+
+from . import binding
+from .pythonfmu.enums import Fmi2Status
+from .pythonfmu.fmi2slave import Fmi2Slave
+
+_HERE = Path(__file__).parent
+_STATE_MAGIC = b"ALI3FMU1"
+_STATE_HEAD = struct.Struct("<8s16sIId")
+_INSTANTIATED, _INITIALISING, _STEPPING, _TERMINATED = range(4)
+_PHASE_NAMES = ("before initialisation", "in initialisation", "after initialisation", "after termination")
+# A host adds up its time in floating point; it may be this much off, s.
+_TIME_TOLERANCE = 1e-6
+# End points this near (in steps) are reached with the tuned step itself.
+_STEP_TOLERANCE = 1e-6
+_STEP_DEVIATION = 0.05
+
+
+class _Shared:
+    """What all instances of one FMU share: the library, the System and the table; none of it changes."""
+
+    _instance: _Shared | None = None
+
+    def __init__(self) -> None:
+        description = json.loads((_HERE / "fmu.json").read_text(encoding="utf-8"))
+        self.table: list[dict[str, Any]] = description["variables"]
+        self.identity = bytes.fromhex(description["identity"])[:16]
+        folder = _HERE / ("win64" if sys.platform == "win32" else "linux64")
+        self.system = binding.LoadedSystem((_HERE / "system.ali3").read_bytes(), next(folder.iterdir()))
+
+    @classmethod
+    def get(cls) -> _Shared:
+        if cls._instance is None:
+            cls._instance = cls()
+        return cls._instance
+
+
+class Slave(Fmi2Slave):
+    """One instance of the System behind the calls of FMI 2.0 co-simulation."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        shared = _Shared.get()
+        self._identity = shared.identity
+        self._table = shared.table
+        self._kernel = binding.Instance(shared.system)
+        self._n_known = sum(v["causality"] != "output" for v in self._table)
+        # Values by value reference; the outputs are filled when they are asked for.
+        self._values = [0.0 if v["start"] is None else v["start"] for v in self._table]
+        self._sensors = [v["index"] for v in self._table[self._n_known :]]
+        self._step_reference = next(i for i, v in enumerate(self._table) if v["source"] == "step_size")
+        self._pending: set[int] = set()
+        self._clamped: set[int] = set()
+        self._phase = _INSTANTIATED
+        self._start_time = 0.0
+        self._outputs_fresh = False
+        self._initialised = False
+        self._step_warned = False
+
+    # Calls of the host, in their usual order
+
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        if self._phase != _INSTANTIATED:
+            self._refuse(f"fmi2SetupExperiment is not allowed {_PHASE_NAMES[self._phase]}.")
+        elif not math.isfinite(start_time):
+            self._refuse(f"The start time is {start_time}; a finite number is needed.")
+        else:
+            self._start_time = float(start_time)
+            self._stale()
+
+    def enter_initialization_mode(self) -> None:
+        if self._phase != _INSTANTIATED:
+            self._refuse(f"fmi2EnterInitializationMode is not allowed {_PHASE_NAMES[self._phase]}.")
+        else:
+            self._phase = _INITIALISING
+
+    def exit_initialization_mode(self) -> None:
+        if self._phase != _INITIALISING:
+            self._refuse(f"fmi2ExitInitializationMode is not allowed {_PHASE_NAMES[self._phase]}.")
+        elif self._initialise():
+            self._phase = _STEPPING
+
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance to ``current_time + step_size`` in equal inner steps, or not at all.
+
+        Parameters
+        ----------
+        current_time, step_size : float
+            Communication point and step, s.
+
+        Returns
+        -------
+        bool
+            False if the step is refused; then the state is the one before the call.
+        """
+        if self._phase != _STEPPING:
+            return self._refuse(f"fmi2DoStep is not allowed {_PHASE_NAMES[self._phase]}.")
+        if not (math.isfinite(current_time) and math.isfinite(step_size) and step_size > 0.0):
+            return self._refuse(
+                f"fmi2DoStep from {current_time} s over {step_size} s: a finite time and a positive step are needed."
+            )
+        kernel = self._kernel
+        time = kernel.time
+        if abs(current_time - time) > _TIME_TOLERANCE:
+            return self._refuse(f"fmi2DoStep starts at {current_time} s, but this instance stands at {time} s.")
+        saved = kernel.save()
+        try:
+            self._apply_pending()
+            self._advance(time, current_time + step_size)
+        except binding.KernelError as error:
+            kernel.restore(saved)
+            return self._discard(
+                f"The step from {time:.6g} s over {step_size:.6g} s was refused, "
+                f"the state at {time:.6g} s is kept: {error}"
+            )
+        except Exception as error:
+            kernel.restore(saved)
+            return self._refuse(
+                f"The step from {time:.6g} s failed and was taken back: {type(error).__name__}: {error}"
+            )
+        self._pending.clear()
+        self._outputs_fresh = False
+        return True
+
+    def terminate(self) -> None:
+        if self._phase != _STEPPING:
+            self._refuse(f"fmi2Terminate is not allowed {_PHASE_NAMES[self._phase]}.")
+        else:
+            self._phase = _TERMINATED
+
+    # Values
+
+    def get_real(self, vrs: list[int]) -> list[float]:
+        values = self._values
+        n = len(values)
+        if any(not 0 <= vr < n for vr in vrs):
+            self._refuse(f"There is no variable with value reference {next(vr for vr in vrs if not 0 <= vr < n)}.")
+            return [math.nan] * len(vrs)
+        if not self._outputs_fresh and any(vr >= self._n_known for vr in vrs):
+            self._evaluate_outputs()
+        return [values[vr] for vr in vrs]
+
+    def set_real(self, vrs: list[int], values: list[float]) -> None:
+        # All or nothing: a call with one bad value changes nothing.
+        accepted: list[tuple[int, float]] = []
+        for vr, value in zip(vrs, values, strict=True):
+            checked = self._checked(vr, value)
+            if checked is None:
+                return
+            accepted.append((vr, checked))
+        for vr, value in accepted:
+            self._values[vr] = value
+            if self._table[vr]["source"] in ("input", "parameter"):
+                self._pending.add(vr)
+            if self._phase != _STEPPING:
+                self._stale()
+
+    def get_integer(self, vrs: list[int]) -> list[int]:
+        return self._other_type(vrs, 0)
+
+    def get_boolean(self, vrs: list[int]) -> list[bool]:
+        return self._other_type(vrs, False)
+
+    def get_string(self, vrs: list[int]) -> list[str]:
+        return self._other_type(vrs, "")
+
+    def set_integer(self, vrs: list[int], values: list[int]) -> None:
+        self._other_type(vrs, 0)
+
+    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
+        self._other_type(vrs, False)
+
+    def set_string(self, vrs: list[int], values: list[str]) -> None:
+        self._other_type(vrs, "")
+
+    # The state: the kernel's bytes and the slave's own few values, so that it continues bit for bit anywhere
+
+    def _get_fmu_state(self) -> bytes:
+        self._evaluate_if_possible()
+        values = self._values
+        flags = bytearray(len(values))
+        for k in self._pending:
+            flags[k] = 1
+        head = _STATE_HEAD.pack(
+            _STATE_MAGIC,
+            self._identity,
+            self._phase | self._initialised << 2 | self._outputs_fresh << 3 | self._step_warned << 4,
+            len(values),
+            self._start_time,
+        )
+        kernel = self._kernel.save() if self._initialised else b""
+        return head + struct.pack(f"<{len(values)}d", *values) + bytes(flags) + kernel
+
+    def _set_fmu_state(self, state: bytes) -> None:
+        n = len(self._values)
+        size = _STATE_HEAD.size + 9 * n
+        if len(state) < size:
+            self._refuse("These bytes are not a state of this FMU: they are too short.")
+            return
+        magic, identity, word, count, start_time = _STATE_HEAD.unpack_from(state)
+        if magic != _STATE_MAGIC or identity != self._identity or count != n or word >> 5:
+            self._refuse("These bytes are not a state of this FMU; only states of the same build can be set.")
+            return
+        values = list(struct.unpack_from(f"<{n}d", state, _STATE_HEAD.size))
+        flags = state[_STATE_HEAD.size + 8 * n : size]
+        initialised = bool(word >> 2 & 1)
+        if initialised:
+            try:
+                self._kernel.restore(bytes(state[size:]))
+            except binding.KernelError as error:
+                self._refuse(f"The state was refused: {error}")
+                return
+        self._phase = word & 3
+        self._initialised = initialised
+        self._outputs_fresh = bool(word >> 3 & 1)
+        self._step_warned = bool(word >> 4 & 1)
+        self._start_time = start_time
+        self._values = values
+        self._pending = {k for k in range(n) if flags[k]}
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: bytes) -> bytes:
+        return state
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> bytes:
+        return bytes(state)
+
+    # Inside
+
+    def _advance(self, time: float, end: float) -> None:
+        step = self._values[self._step_reference]
+        n = max(1, round((end - time) / step))
+        h = step
+        if abs(time + n * step - end) > _STEP_TOLERANCE * step:
+            h = (end - time) / n
+            if abs(h - step) > _STEP_DEVIATION * step and not self._step_warned:
+                self._step_warned = True
+                self.log(
+                    f"The communication step {end - time:.6g} s gives inner steps of {h:.6g} s, while step_size is "
+                    f"{step:.6g} s; results will differ a little. This is said once.",
+                    Fmi2Status.warning,
+                )
+        if n == 1:
+            self._kernel.step(h)
+        else:
+            self._kernel.run(h, n)
+
+    def _apply_pending(self) -> None:
+        for vr in sorted(self._pending):
+            v = self._table[vr]
+            if v["source"] == "input":
+                self._kernel.set_input(v["index"], self._values[vr])
+            else:
+                self._kernel.set_parameter(v["index"], self._values[vr])
+
+    def _initialise(self) -> bool:
+        """Put the kernel at its initial state with the values set so far; False, and logged, if that fails."""
+        kernel = self._kernel
+        try:
+            kernel.reset()
+            for v, value in zip(self._table, self._values, strict=True):
+                if v["source"] == "input":
+                    kernel.set_input(v["index"], value)
+                elif v["source"] == "parameter":
+                    kernel.set_parameter(v["index"], value)
+            pose = [value for v, value in zip(self._table, self._values, strict=True) if v["source"] == "pose"]
+            if any(pose):
+                kernel.set_pose(*pose)
+            kernel.initialise(self._start_time)
+        except Exception as error:
+            self._initialised = False
+            return self._refuse(f"The initial state could not be found: {error}")
+        self._pending.clear()
+        self._initialised = True
+        self._outputs_fresh = False
+        return True
+
+    def _stale(self) -> None:
+        self._initialised = False
+        self._outputs_fresh = False
+
+    def _evaluate_outputs(self) -> None:
+        if not self._initialised and not self._initialise():
+            return
+        values = self._kernel.sensors()
+        self._values[self._n_known :] = [values[k] for k in self._sensors]
+        self._outputs_fresh = True
+
+    def _evaluate_if_possible(self) -> None:
+        # Outputs belong to the end of the last step; a restored instance must show the same ones.
+        if self._initialised and not self._outputs_fresh:
+            self._evaluate_outputs()
+
+    def _checked(self, vr: int, value: float) -> float | None:
+        """The value as it will be used, or None if it is refused."""
+        if not 0 <= vr < len(self._table):
+            self._refuse(f"There is no variable with value reference {vr}.")
+            return None
+        v = self._table[vr]
+        name, unit = v["name"], v["unit"]
+        if v["causality"] == "output":
+            self._refuse(f"'{name}' is an output and cannot be set.")
+            return None
+        if self._phase == _TERMINATED or (v["variability"] == "fixed" and self._phase == _STEPPING):
+            self._refuse(f"'{name}' cannot be set {_PHASE_NAMES[self._phase]}.")
+            return None
+        if not math.isfinite(value):
+            self._refuse(
+                f"'{name}' was set to {value}; a finite number is needed, "
+                f"the last value {self._values[vr]} {unit} is kept."
+            )
+            return None
+        low = -math.inf if v["min"] is None else v["min"]
+        high = math.inf if v["max"] is None else v["max"]
+        if low <= value <= high:
+            return value
+        if v["causality"] == "parameter":
+            self._refuse(
+                f"'{name}' was set to {value} {unit}, outside its range {low} to {high}; it keeps {self._values[vr]}."
+            )
+            return None
+        clamped = min(max(value, low), high)
+        if vr not in self._clamped:
+            self._clamped.add(vr)
+            self.log(
+                f"'{name}' was set to {value} {unit} and is held at {clamped}, the end of its range {low} to {high}. "
+                "This is said once.",
+                Fmi2Status.warning,
+            )
+        return clamped
+
+    def _other_type(self, vrs: list[int], value: Any) -> list[Any]:
+        if vrs:
+            self._refuse("All variables of this FMU are of type Real.")
+        return [value] * len(vrs)
+
+    def _refuse(self, message: str) -> bool:
+        self.log(message, Fmi2Status.error)
+        return False
+
+    def _discard(self, message: str) -> bool:
+        self.log(message, Fmi2Status.discard)
+        return False

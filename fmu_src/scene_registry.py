@@ -1,0 +1,106 @@
+"""Finds a scene by its name in `mbs.scenes`, or a function in a file of the user, and compiles it."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import inspect
+import pkgutil
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import mbs
+import mbs.scenes
+
+
+class SceneError(ValueError):
+    """A scene that cannot be found or does not give a model; the message is for the user."""
+
+
+def scene_names() -> list[str]:
+    """Names of the scenes that come with the package: modules of `mbs.scenes` with a function `build`."""
+    names = []
+    for info in pkgutil.iter_modules(mbs.scenes.__path__):
+        if not info.name.startswith("_") and callable(getattr(_scene_module(info.name), "build", None)):
+            names.append(info.name)
+    return sorted(names)
+
+
+def load_scene(scene: str) -> tuple[str, mbs.System]:
+    """Build and compile a scene.
+
+    Parameters
+    ----------
+    scene : str
+        Name of a scene of the package, or ``path/to/file.py:function``.
+
+    Returns
+    -------
+    name : str
+        Short name, for file names.
+    system : mbs.System
+
+    Raises
+    ------
+    SceneError
+        If there is no such scene, it asks for arguments or returns something else than a Model or System.
+    """
+    name, build = _from_file(scene) if _is_path(scene) else _from_package(scene)
+    missing = [
+        p.name
+        for p in inspect.signature(build).parameters.values()
+        if p.default is p.empty and p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)
+    ]
+    if missing:
+        raise SceneError(
+            f"The function of scene '{scene}' needs arguments ({', '.join(missing)}); give it defaults, "
+            "or write a function without arguments that calls it."
+        )
+    result: Any = build()
+    if isinstance(result, mbs.Model):
+        result = mbs.compile(result)
+    if not isinstance(result, mbs.System):
+        raise SceneError(
+            f"Scene '{scene}' returned a {type(result).__name__}; it must return an mbs.Model or mbs.System."
+        )
+    return name, result
+
+
+def _is_path(scene: str) -> bool:
+    return ".py" in scene or "/" in scene or "\\" in scene
+
+
+def _scene_module(name: str) -> ModuleType:
+    return importlib.import_module(f"mbs.scenes.{name}")
+
+
+def _from_package(scene: str) -> tuple[str, Callable[..., Any]]:
+    names = scene_names()
+    if scene not in names:
+        raise SceneError(
+            f"There is no scene '{scene}'. The scenes are: {', '.join(names)}. "
+            "A scene of your own is given as path/to/file.py:function."
+        )
+    return scene, _scene_module(scene).build
+
+
+def _from_file(scene: str) -> tuple[str, Callable[..., Any]]:
+    file, separator, function = scene.rpartition(":")
+    if not separator or not file.endswith(".py"):
+        file, function = scene, "build"
+    path = Path(file)
+    if not path.is_file():
+        raise SceneError(f"There is no file {path}; a scene of your own is given as path/to/file.py:function.")
+    spec = importlib.util.spec_from_file_location(f"_ali3_scene_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise SceneError(f"{path} is not a Python file.")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    build = getattr(module, function, None)
+    if not callable(build):
+        raise SceneError(f"{path} has no function '{function}'.")
+    return (path.stem if function == "build" else function), build

@@ -1,0 +1,89 @@
+"""Unit names to SI base exponents and display units, as modelDescription.xml needs them."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+_BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+
+# Symbol -> (exponents of the base units, factor to the base units).
+_SYMBOLS: dict[str, tuple[dict[str, int], float]] = {
+    **{name: ({name: 1}, 1.0) for name in _BASE},
+    "N": ({"kg": 1, "m": 1, "s": -2}, 1.0),
+    "J": ({"kg": 1, "m": 2, "s": -2}, 1.0),
+    "W": ({"kg": 1, "m": 2, "s": -3}, 1.0),
+    "Pa": ({"kg": 1, "m": -1, "s": -2}, 1.0),
+    "Hz": ({"s": -1}, 1.0),
+    "V": ({"kg": 1, "m": 2, "s": -3, "A": -1}, 1.0),
+    "Nm": ({"kg": 1, "m": 2, "s": -2}, 1.0),
+    "Ns": ({"kg": 1, "m": 1, "s": -1}, 1.0),
+    "deg": ({"rad": 1}, math.pi / 180.0),
+    "mm": ({"m": 1}, 1e-3),
+    "1": ({}, 1.0),
+}
+
+_TOKEN = re.compile(r"([A-Za-z]+|1)\^?([+-]?\d+)?")
+
+# Unit -> (display unit, factor): value in the display unit = factor * value.
+DISPLAY_UNITS: dict[str, tuple[str, float]] = {
+    "rad": ("deg", 180.0 / math.pi),
+    "rad/s": ("deg/s", 180.0 / math.pi),
+    "rad/s2": ("deg/s2", 180.0 / math.pi),
+    "m/s": ("km/h", 3.6),
+    "Pa": ("MPa", 1e-6),
+}
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit in SI base units.
+
+    Parameters
+    ----------
+    name : str
+        As written on the variables.
+    exponents : dict of str to int
+        Base unit to exponent, zeros left out, in the order of the FMI standard.
+    factor : float
+        Value in base units = factor * value.
+    """
+
+    name: str
+    exponents: dict[str, int]
+    factor: float
+
+
+def parse_unit(name: str) -> Unit:
+    """Read a unit such as ``m/s2``, ``N.m/rad``, ``kg m2``.
+
+    Parameters
+    ----------
+    name : str
+        Products by ``.``, ``*`` or a space; everything after a ``/`` divides; powers as digits with or without ``^``.
+
+    Returns
+    -------
+    Unit
+
+    Raises
+    ------
+    ValueError
+        If a symbol is not known.
+    """
+    exponents = dict.fromkeys(_BASE, 0)
+    factor = 1.0
+    for k, part in enumerate(name.split("/")):
+        sign = 1 if k == 0 else -1
+        for token in re.split(r"[.*· ]+", part.strip().strip("()")):
+            match = _TOKEN.fullmatch(token)
+            if match is None or match[1] not in _SYMBOLS:
+                known = ", ".join(_SYMBOLS)
+                raise ValueError(f"Unit '{name}' is not understood at '{token}'; known symbols are {known}.")
+            power = sign * int(match[2] or 1)
+            base, scale = _SYMBOLS[match[1]]
+            factor *= scale**power
+            for symbol, exponent in base.items():
+                exponents[symbol] += power * exponent
+    return Unit(name, {b: e for b, e in exponents.items() if e}, factor)

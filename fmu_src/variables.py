@@ -1,0 +1,186 @@
+"""The table of variables of an FMU: the only place where they are written. Everything else is made from it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from fmu_src.units import DISPLAY_UNITS, parse_unit
+
+_STRUCTURED_NAME = re.compile(r"[A-Za-z_]\w*(\[\d+(,\d+)*\])?(\.[A-Za-z_]\w*(\[\d+(,\d+)*\])?)*", re.ASCII)
+_POSE = (
+    ("initial.x", "m", "Initial position of the vehicle's origin along the earth's x axis"),
+    ("initial.y", "m", "Initial position of the vehicle's origin along the earth's y axis"),
+    ("initial.z", "m", "Initial height above the position of rest; positive drops the vehicle"),
+    ("initial.yaw", "rad", "Initial heading, positive to the left of the earth's x axis"),
+    ("initial.speed", "m/s", "Initial speed along the heading, wheels rolling"),
+)
+STEP_SIZE = "step_size"
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One scalar variable of the FMU. Its place in the table is its value reference.
+
+    Parameters
+    ----------
+    name : str
+        Structured name, unique in the table.
+    causality : str
+        ``input``, ``parameter`` or ``output``.
+    variability : str
+        ``continuous``, ``fixed`` or ``tunable``.
+    unit : str
+        SI unit.
+    description : str
+        One sentence.
+    source : str
+        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose`` or ``step_size``.
+    index : int
+        Number of that input, parameter or sensor; place in (x, y, z, yaw, speed) for ``pose``; 0 for ``step_size``.
+    start, min, max : float, optional
+        In `unit`.
+    display_unit : str, optional
+        What a person likes to see.
+    """
+
+    name: str
+    causality: str
+    variability: str
+    unit: str
+    description: str
+    source: str
+    index: int
+    start: float | None = None
+    min: float | None = None
+    max: float | None = None
+    display_unit: str | None = None
+
+
+def variable_table(meta: Mapping[str, Any], *, pose: bool, step_size: float) -> tuple[Variable, ...]:
+    """Make the table of variables of a System.
+
+    Parameters
+    ----------
+    meta : mapping
+        Names, units and ranges as the System file carries them.
+    pose : bool
+        Whether the System has an initial pose (is not tied to the ground).
+    step_size : float
+        Default inner step, s.
+
+    Returns
+    -------
+    tuple of Variable
+        Inputs, parameters, outputs; the place is the value reference.
+
+    Raises
+    ------
+    ValueError
+        If a name is not a structured name or appears twice, a unit is not known or a start is out of its range.
+    """
+    if not (math.isfinite(step_size) and step_size > 0.0):
+        raise ValueError(f"The step size is {step_size} s; a positive number is needed.")
+    table = [
+        _ranged(entry, "input", "continuous", "input", k, entry["start"]) for k, entry in enumerate(meta["inputs"])
+    ]
+    table += [
+        _ranged(entry, "parameter", "tunable", "parameter", k, entry["value"])
+        for k, entry in enumerate(meta["parameters"])
+    ]
+    if pose:
+        table += [
+            Variable(name, "parameter", "fixed", unit, text, "pose", k, 0.0, display_unit=_display(name, unit))
+            for k, (name, unit, text) in enumerate(_POSE)
+        ]
+    table.append(
+        Variable(
+            STEP_SIZE,
+            "parameter",
+            "fixed",
+            "s",
+            "Inner step aimed at; a communication step is divided into equal inner steps next to it",
+            "step_size",
+            0,
+            step_size,
+            step_size / 100.0,
+            step_size * 10.0,
+        )
+    )
+    table += [
+        Variable(
+            entry["name"],
+            "output",
+            "continuous",
+            entry["unit"] or "1",
+            entry.get("description", ""),
+            "sensor",
+            k,
+            display_unit=_display(entry["name"], entry["unit"]),
+        )
+        for k, entry in enumerate(meta["sensors"])
+    ]
+    _check(table)
+    return tuple(table)
+
+
+def table_records(table: Iterable[Variable]) -> list[dict[str, Any]]:
+    """The table as plain dictionaries, ready for JSON."""
+    return [asdict(v) for v in table]
+
+
+def _ranged(
+    entry: Mapping[str, Any], causality: str, variability: str, source: str, index: int, start: float
+) -> Variable:
+    unit = entry["unit"] or "1"
+    return Variable(
+        entry["name"],
+        causality,
+        variability,
+        unit,
+        entry.get("description", ""),
+        source,
+        index,
+        float(start),
+        _bound(entry.get("min")),
+        _bound(entry.get("max")),
+        _display(entry["name"], unit),
+    )
+
+
+def _bound(value: float | str | None) -> float | None:
+    """A finite bound, or None for an open end (JSON has no infinity: None, text or a float may stand for it)."""
+    number = math.inf if value is None else float(value)
+    return number if math.isfinite(number) else None
+
+
+def _display(name: str, unit: str) -> str | None:
+    if unit == "m/s" and not name.endswith("speed"):
+        return None
+    return DISPLAY_UNITS[unit][0] if unit in DISPLAY_UNITS else None
+
+
+def _check(table: Iterable[Variable]) -> None:
+    seen: set[str] = set()
+    for v in table:
+        if not _STRUCTURED_NAME.fullmatch(v.name):
+            raise ValueError(
+                f"'{v.name}' cannot be the name of an FMU variable; use letters, digits and underscores, "
+                "with dots between the parts, as in wheel_FL.Fz."
+            )
+        if v.name in seen:
+            raise ValueError(
+                f"Two variables are named '{v.name}'; every input, parameter and sensor needs its own name."
+            )
+        seen.add(v.name)
+        try:
+            parse_unit(v.unit)
+        except ValueError as error:
+            raise ValueError(f"Variable '{v.name}': {error}") from None
+        low = -math.inf if v.min is None else v.min
+        high = math.inf if v.max is None else v.max
+        if v.start is not None and not low <= v.start <= high:
+            raise ValueError(f"Variable '{v.name}' starts at {v.start} {v.unit}, outside its range {low} to {high}.")

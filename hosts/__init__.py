@@ -1,0 +1,1 @@
+"""Programs that drive an FMU through FMI and know nothing else of it."""

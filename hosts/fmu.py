@@ -1,0 +1,154 @@
+"""An FMU opened through FMPy: names in place of value references, statuses and messages collected."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+import zipfile
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import (
+    FMU2Slave,
+    defaultCallbacks,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+    fmi2ComponentEnvironment,
+    fmi2Status,
+)
+from fmpy.model_description import ScalarVariable
+from numpy.typing import NDArray
+
+from hosts.errors import HostError
+
+
+class StepRefusedError(Exception):
+    """The FMU refused a communication step."""
+
+
+class Fmu:
+    """One instance of a co-simulation FMU (FMI 2.0), ready to be initialised.
+
+    Parameters
+    ----------
+    path : Path
+        The FMU.
+
+    Attributes
+    ----------
+    variables : dict of str to ScalarVariable
+        By name, in the order of the model description.
+    messages : list of str
+        What the FMU logged at warning or above.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if not path.is_file():
+            hint = " Build it with: python build_fmu.py" if path.parent.name == "dist" else ""
+            raise HostError(f"There is no file {path}.{hint}")
+        if not zipfile.is_zipfile(path):
+            raise HostError(f"{path} is not an FMU (not a zip archive).")
+        try:
+            description = read_model_description(str(path))
+        except Exception as error:
+            raise HostError(f"{path} is not an FMU that can be read: {error}") from None
+        if description.fmiVersion != "2.0" or description.coSimulation is None:
+            raise HostError(
+                f"{path} is an FMU of FMI {description.fmiVersion}; this host drives FMI 2.0 co-simulation."
+            )
+        self.path = path
+        self.description = description
+        self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
+        self.messages: list[str] = []
+        self._folder = Path(tempfile.mkdtemp(prefix="fmu_"))
+        self._callbacks = fmi2CallbackFunctions()
+        self._logger = fmi2CallbackLoggerTYPE(self._log)
+        self._callbacks.logger = self._logger
+        self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
+        self._callbacks.freeMemory = defaultCallbacks.freeMemory
+        try:
+            extract(str(path), unzipdir=str(self._folder))
+            self._slave = FMU2Slave(
+                guid=description.guid,
+                unzipDirectory=str(self._folder),
+                modelIdentifier=description.coSimulation.modelIdentifier,
+                instanceName=path.stem,
+            )
+            self._slave.instantiate(callbacks=self._callbacks)
+        except Exception as error:
+            shutil.rmtree(self._folder, ignore_errors=True)
+            raise HostError(f"{path} cannot be loaded on {sys.platform}: {self._last_message() or error}") from None
+
+    def __enter__(self) -> Fmu:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._slave.freeInstance()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def names(self, causality: str) -> list[str]:
+        """Names of the real variables of a causality."""
+        return [n for n, v in self.variables.items() if v.causality == causality and v.type == "Real"]
+
+    def references(self, names: Iterable[str]) -> list[int]:
+        """Value references of variables."""
+        return [self.variables[n].valueReference for n in names]
+
+    def initialise(self, start: Mapping[str, float], start_time: float = 0.0) -> None:
+        """Set start values and leave initialisation mode."""
+        settable = {n for n, v in self.variables.items() if v.causality in ("parameter", "input")}
+        for name in start:
+            if name not in settable:
+                near = ", ".join(sorted(settable)) or "none"
+                raise HostError(f"The FMU has no parameter or input '{name}'; it has: {near}.")
+        try:
+            self._slave.setupExperiment(startTime=start_time)
+            if start:
+                self._slave.setReal(self.references(start), list(start.values()))
+            self._slave.enterInitializationMode()
+            self._slave.exitInitializationMode()
+        except FMICallException as error:
+            raise HostError(f"The FMU could not be initialised: {self._last_message() or error}") from None
+
+    def set(self, references: list[int], values: list[float]) -> None:
+        """Set inputs."""
+        try:
+            self._slave.setReal(references, values)
+        except FMICallException as error:
+            raise HostError(f"An input was refused: {self._last_message() or error}") from None
+
+    def get(self, references: list[int]) -> list[float]:
+        """Values of variables."""
+        return list(self._slave.getReal(references))
+
+    def step(self, time: float, step: float) -> None:
+        """One communication step; `StepRefusedError` if the FMU refuses it."""
+        try:
+            self._slave.doStep(time, step)
+        except FMICallException as error:
+            raise StepRefusedError(self._last_message() or str(error)) from None
+
+    def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
+        """Start values from the model description, zero where there is none."""
+        return np.array([float(self.variables[n].start or 0.0) for n in names])
+
+    def _last_message(self) -> str:
+        return self.messages[-1] if self.messages else ""
+
+    def _log(
+        self,
+        environment: fmi2ComponentEnvironment,
+        name: bytes,
+        status: fmi2Status,
+        category: bytes,
+        message: bytes,
+    ) -> None:
+        if status > 0 and message:
+            self.messages.append(message.decode("utf-8", "replace"))

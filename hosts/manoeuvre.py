@@ -1,0 +1,173 @@
+"""A manoeuvre: inputs over time in FMPy's CSV format, start values and, for closed loops, a driver."""
+
+from __future__ import annotations
+
+import configparser
+import csv
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.errors import HostError
+
+FOLDER = Path(__file__).parent / "manoeuvres"
+
+
+@dataclass(frozen=True)
+class Manoeuvre:
+    """What a host does with an FMU.
+
+    Parameters
+    ----------
+    name : str
+    time : ndarray of shape (n,)
+        s, not decreasing; a time that stands twice is a step.
+    inputs : dict of str to ndarray of shape (n,)
+        Values at `time`, linear in between, by variable name.
+    start : dict of str to float
+        Start values of parameters (or inputs).
+    driver : dict of str to str
+        Settings of the path-following driver; empty: open loop.
+    stop_time : float
+        s.
+    """
+
+    name: str
+    time: NDArray[np.float64]
+    inputs: dict[str, NDArray[np.float64]]
+    stop_time: float
+    start: dict[str, float] = field(default_factory=dict)
+    driver: dict[str, str] = field(default_factory=dict)
+
+    def at(self, t: float) -> dict[str, float]:
+        """Inputs at time `t`; at a step the later value, outside the table its ends."""
+        if not len(self.time):
+            return {}
+        # Times add up with rounding errors; a step must not be missed for them.
+        t += 1e-9
+        k = int(np.searchsorted(self.time, t, side="right"))
+        if k == 0 or k == len(self.time):
+            row = 0 if k == 0 else -1
+            return {name: float(values[row]) for name, values in self.inputs.items()}
+        t0, t1 = self.time[k - 1], self.time[k]
+        s = (t - t0) / (t1 - t0)
+        return {name: float(v[k - 1] + s * (v[k] - v[k - 1])) for name, v in self.inputs.items()}
+
+
+def manoeuvre_names() -> list[str]:
+    """Names of the manoeuvres that come with the host."""
+    return sorted({p.stem for p in FOLDER.iterdir() if p.suffix in (".csv", ".ini")})
+
+
+def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
+    """Read a manoeuvre by name or path.
+
+    Parameters
+    ----------
+    manoeuvre : str
+        Name of a manoeuvre of the host, or a CSV file; a file of the same name that ends in ``.ini`` adds to it:
+        ``[start]`` values, a ``[driver]``, ``stop_time`` in ``[run]``.
+
+    Returns
+    -------
+    Manoeuvre
+
+    Raises
+    ------
+    HostError
+        With the line and the reason.
+    """
+    path = Path(manoeuvre)
+    if path.suffix not in (".csv", ".ini"):
+        if manoeuvre not in manoeuvre_names():
+            names = ", ".join(manoeuvre_names())
+            raise HostError(f"There is no manoeuvre '{manoeuvre}'. Give a CSV file or one of: {names}.")
+        path = FOLDER / f"{manoeuvre}.csv"
+    table, settings = path.with_suffix(".csv"), path.with_suffix(".ini")
+    if not table.is_file() and not settings.is_file():
+        raise HostError(f"There is no file {path}.")
+    time, inputs, start = _read_table(table) if table.is_file() else (np.zeros(0), {}, {})
+    driver: dict[str, str] = {}
+    stop_time = float(time[-1]) if len(time) else math.nan
+    if settings.is_file():
+        sections = _read_settings(settings)
+        start |= {k: _number(v, f"{settings}: {k}") for k, v in sections.get("start", {}).items()}
+        driver = sections.get("driver", {})
+        if "stop_time" in sections.get("run", {}):
+            stop_time = _number(sections["run"]["stop_time"], f"{settings}: stop_time")
+    if not stop_time > 0.0:
+        raise HostError(f"{path} does not say how long it lasts; give a later time in the table or stop_time in [run].")
+    return Manoeuvre(path.stem, time, inputs, stop_time, start, driver)
+
+
+def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], dict[str, float]]:
+    start: dict[str, float] = {}
+    names: list[str] = []
+    rows: list[list[float]] = []
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise HostError(f"{path} cannot be read as text: {error}.") from None
+    for number, line in enumerate(lines, start=1):
+        where = f"{path}, line {number}"
+        if line.lstrip().startswith("#"):
+            key, _, rest = line.lstrip("# ").partition(":")
+            if key.strip() == "start":
+                start |= _assignments(rest.split(","), where)
+        elif not line.strip():
+            continue
+        elif not names:
+            names = [name.strip() for name in next(csv.reader([line]))]
+            if names[0] != "time" or len(names) < 2 or len(set(names)) < len(names):
+                raise HostError(
+                    f'{where}: the heading is {line.strip()!r}; it must be "time" and the names of inputs, each once.'
+                )
+        else:
+            cells = next(csv.reader([line]))
+            if len(cells) != len(names):
+                raise HostError(f"{where}: {len(cells)} values where the heading has {len(names)} columns.")
+            row = [_number(cell, f"{where}, column '{name}'") for cell, name in zip(cells, names, strict=True)]
+            if rows and row[0] < rows[-1][0]:
+                raise HostError(f"{where}: time goes back from {rows[-1][0]:g} s to {row[0]:g} s.")
+            rows.append(row)
+    if not rows:
+        raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
+    values = np.array(rows)
+    return values[:, 0], {name: values[:, k] for k, name in enumerate(names) if k}, start
+
+
+def _read_settings(path: Path) -> dict[str, dict[str, str]]:
+    parser = configparser.ConfigParser(interpolation=None)
+    parser.optionxform = str  # type: ignore[assignment,method-assign]
+    try:
+        parser.read(path, encoding="utf-8")
+    except (configparser.Error, UnicodeDecodeError) as error:
+        raise HostError(f"{path} is not understood: {error}") from None
+    unknown = set(parser.sections()) - {"run", "start", "driver"}
+    if unknown:
+        raise HostError(f"{path} has a section [{sorted(unknown)[0]}]; known are [run], [start] and [driver].")
+    return {name: dict(parser[name]) for name in parser.sections()}
+
+
+def _assignments(parts: Iterable[str], where: str) -> dict[str, float]:
+    result = {}
+    for part in parts:
+        name, equals, value = part.partition("=")
+        if not equals:
+            raise HostError(f"{where}: {part.strip()!r} is not of the form name=value.")
+        result[name.strip()] = _number(value, f"{where}, start value '{name.strip()}'")
+    return result
+
+
+def _number(text: str, where: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise HostError(f"{where}: {text.strip()!r} is not a number.") from None
+    if not math.isfinite(value):
+        raise HostError(f"{where}: the value is {text.strip()}; only finite numbers can be used.")
+    return value

@@ -1,0 +1,232 @@
+"""One page of plots of a run. A car gets its own page, any other FMU its outputs by unit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from hosts.course import Course
+from hosts.run import Result
+from hosts.summary import WHEELS
+
+# Okabe and Ito's palette: distinguishable with any colour vision.
+BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK = (
+    "#0072B2",
+    "#E69F00",
+    "#009E73",
+    "#D55E00",
+    "#CC79A7",
+    "#56B4E9",
+    "#222222",
+)
+COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
+_STYLE = {
+    "font.size": 10,
+    "font.family": "DejaVu Sans",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e3e3e3",
+    "grid.linewidth": 0.8,
+    "axes.edgecolor": "#888888",
+    "axes.titlesize": 11,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "legend.frameon": False,
+    "legend.fontsize": 9,
+    "lines.linewidth": 1.6,
+    "lines.solid_capstyle": "round",
+}
+_MAX_PANELS = 9
+
+
+def plot_page(
+    result: Result, file: Path, title: str, rows: Sequence[tuple[str, str]], course: Course | None = None
+) -> None:
+    """Draw the page.
+
+    Parameters
+    ----------
+    result : Result
+    file : Path
+        PNG to be written.
+    title : str
+    rows : sequence of (str, str)
+        Summary shown beside the plots.
+    course : Course, optional
+        Gates drawn into the path.
+    """
+    with plt.rc_context(_STYLE):
+        is_car = all(n in result for n in ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz"))
+        figure = _car_page(result, rows, course) if is_car else _plain_page(result, rows)
+        figure.suptitle(title, x=0.012, y=0.988, ha="left", va="top", fontsize=15, fontweight="bold")
+        figure.savefig(file, dpi=110)
+        plt.close(figure)
+
+
+def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | None) -> Figure:
+    figure = plt.figure(figsize=(16, 11), layout="constrained")
+    figure.get_layout_engine().set(rect=(0.005, 0.005, 0.99, 0.945), w_pad=0.1, h_pad=0.1)  # type: ignore[union-attr]
+    grid = figure.add_gridspec(4, 3, height_ratios=(0.95, 1, 1, 1))
+    _path(figure.add_subplot(grid[0, :2]), result, course)
+    _table(figure.add_subplot(grid[0, 2]), rows)
+    t = result.time
+
+    a = figure.add_subplot(grid[1, 0])
+    _lines(a, t, [("speed", 3.6 * result["speed"], BLUE)], "Speed", "km/h")
+    a.set_ylim(bottom=min(0.0, a.get_ylim()[0]))
+    b = figure.add_subplot(grid[1, 1], sharex=a)
+    _named(
+        b,
+        result,
+        [("longitudinal", "chassis.ax", BLUE), ("lateral", "chassis.ay", RED)],
+        "Acceleration of the chassis",
+        "m/s²",
+    )
+    c = figure.add_subplot(grid[1, 2], sharex=a)
+    _named(c, result, [("vertical", "chassis.az", GREEN)], "Vertical acceleration", "m/s²")
+
+    d = figure.add_subplot(grid[2, 0], sharex=a)
+    colours = dict(zip(WHEELS, (BLUE, SKY, RED, ORANGE), strict=True))
+    _named(d, result, [(w, f"wheel_{w}.Fz", colours[w]) for w in WHEELS], "Wheel loads", "kN", 1e-3)
+    e = figure.add_subplot(grid[2, 1], sharex=a)
+    travel = [(w, f"wheel_{w}.travel", colours[w]) for w in WHEELS if f"wheel_{w}.travel" in result]
+    if travel:
+        _named(e, result, travel, "Wheel travel against the chassis", "mm", 1e3)
+    else:
+        _named(e, result, [(w, f"wheel_{w}.Fx", colours[w]) for w in WHEELS], "Longitudinal tyre forces", "kN", 1e-3)
+    f = figure.add_subplot(grid[2, 2], sharex=a)
+    _named(f, result, [(w, f"wheel_{w}.Fy", colours[w]) for w in WHEELS], "Lateral tyre forces", "kN", 1e-3)
+
+    g = figure.add_subplot(grid[3, 0], sharex=a)
+    _named(
+        g,
+        result,
+        [("steering", "steering", BLUE), ("throttle", "throttle", GREEN), ("brake", "brake", RED)],
+        "Inputs",
+        "1",
+        steps=True,
+    )
+    g.set_ylim(-1.08, 1.08)
+    h = figure.add_subplot(grid[3, 1], sharex=a)
+    degrees = 180.0 / np.pi
+    _named(
+        h, result, [("roll", "chassis.roll", BLUE), ("pitch", "chassis.pitch", RED)], "Roll and pitch", "deg", degrees
+    )
+    i = figure.add_subplot(grid[3, 2], sharex=a)
+    _named(i, result, [("yaw rate", "chassis.wz", BLUE)], "Yaw rate", "deg/s", degrees)
+    for axes in (g, h, i):
+        axes.set_xlabel("time, s")
+    a.set_xlim(t[0], t[-1])
+    return figure
+
+
+def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
+    groups: dict[str, list[str]] = {}
+    for name in result.names:
+        groups.setdefault(result.units[name], []).append(name)
+    panels = [(unit, names[k : k + 5]) for unit, names in groups.items() for k in range(0, len(names), 5)][:_MAX_PANELS]
+    columns = min(3, len(panels) + 1)
+    lines = -(-(len(panels) + 1) // columns)
+    figure = plt.figure(figsize=(16, 1.2 + 3.3 * lines), layout="constrained")
+    rect = (0.005, 0.005, 0.99, 1.0 - 0.6 / (1.2 + 3.3 * lines) - 0.005)
+    figure.get_layout_engine().set(rect=rect, w_pad=0.1, h_pad=0.1)  # type: ignore[union-attr]
+    grid = figure.add_gridspec(lines, columns)
+    first: Axes | None = None
+    for k, (unit, names) in enumerate(panels):
+        axes = figure.add_subplot(grid[k // columns, k % columns], sharex=first)
+        first = first or axes
+        series = [(n, result[n], COLOURS[j]) for j, n in enumerate(names)]
+        _lines(axes, result.time, series, ", ".join(names) if len(", ".join(names)) < 46 else f"in {unit}", unit)
+        axes.set_xlabel("time, s")
+    _table(figure.add_subplot(grid[len(panels) // columns, len(panels) % columns]), rows)
+    return figure
+
+
+def _path(axes: Axes, result: Result, course: Course | None) -> None:
+    x, y = result["chassis.x"], result["chassis.y"]
+    if course is not None:
+        for gate in course.gates:
+            axes.add_patch(
+                Rectangle(
+                    (gate.x_start, gate.y_right),
+                    gate.x_end - gate.x_start,
+                    gate.y_left - gate.y_right,
+                    facecolor="#f6e7c1",
+                    edgecolor="none",
+                )
+            )
+            cones = np.linspace(gate.x_start, gate.x_end, 6)
+            for edge in (gate.y_right, gate.y_left):
+                axes.plot(cones, np.full(6, edge), "^", color=ORANGE, markersize=5, zorder=3)
+    axes.plot(x, y, color=BLUE, linewidth=2.2, zorder=4)
+    seconds = np.arange(0.0, result.time[-1] + 1e-9, max(1.0, np.ceil(result.time[-1] / 20.0)))
+    marks = np.clip(np.searchsorted(result.time, seconds), 0, len(x) - 1)
+    axes.plot(x[marks], y[marks], "o", color=BLUE, markersize=4, zorder=5)
+    axes.annotate("start", (x[0], y[0]), textcoords="offset points", xytext=(0, 8), ha="center", color=BLUE)
+    # A long course with small turns would be a needle on equal scales.
+    width, height = max(float(np.ptp(x)), 4.0), float(np.ptp(y))
+    gates_y = [v for g in course.gates for v in (g.y_right, g.y_left)] if course is not None else []
+    low, high = min([float(y.min()), *gates_y]), max([float(y.max()), *gates_y])
+    stretched = height > 0.02 * width and high - low < 0.12 * width
+    if not stretched:
+        axes.set_aspect("equal", adjustable="datalim")
+    else:
+        pad = 0.25 * (high - low)
+        axes.set_ylim(low - pad, high + pad)
+    note = "y stretched" if stretched else "same scale on both axes"
+    interval = seconds[1] - seconds[0] if len(seconds) > 1 else 1.0
+    axes.set_title(f"Path seen from above ({note}; a dot every {interval:g} s)")
+    axes.set_xlabel("x, m")
+    axes.set_ylabel("y, m")
+
+
+def _table(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
+    axes.axis("off")
+    axes.set_title("Summary")
+    n = max(len(rows), 10)
+    for k, (what, value) in enumerate(rows):
+        y = 1.0 - (k + 0.5) / n
+        axes.text(0.0, y, what, transform=axes.transAxes, va="center", fontsize=9, color="#555555")
+        axes.text(0.36, y, value, transform=axes.transAxes, va="center", fontsize=9, color=BLACK)
+
+
+def _named(
+    axes: Axes,
+    result: Result,
+    series: Sequence[tuple[str, str, str]],
+    title: str,
+    unit: str,
+    factor: float = 1.0,
+    steps: bool = False,
+) -> None:
+    present = [(label, factor * result[name], colour) for label, name, colour in series if name in result]
+    _lines(axes, result.time, present, title, unit, steps)
+
+
+def _lines(
+    axes: Axes,
+    t: np.ndarray,
+    series: Sequence[tuple[str, np.ndarray, str]],
+    title: str,
+    unit: str,
+    steps: bool = False,
+) -> None:
+    for label, values, colour in series:
+        axes.plot(t, values, color=colour, label=label, drawstyle="steps-pre" if steps else "default")
+    axes.set_title(title)
+    axes.set_ylabel(unit if unit != "1" else "")
+    axes.margins(x=0)
+    if len(series) > 1:
+        axes.legend(
+            ncols=len(series), loc="upper right", bbox_to_anchor=(1.0, 1.13), handlelength=1.2, columnspacing=1.0
+        )
