@@ -1,0 +1,37 @@
+"""Force elements: their data, checked, and the records that `compile()` reads."""
+
+from mbs.elements.automatic_drive import AutomaticDrive
+from mbs.elements.body_force import BodyForce
+from mbs.elements.body_torque import BodyTorque
+from mbs.elements.brake import Brake
+from mbs.elements.drag import Drag
+from mbs.elements.gyroscopic_spin import GyroscopicSpin
+from mbs.elements.input_force import InputForce
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
+from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.elements.spring_damper import EndStops, SpringDamper
+from mbs.elements.types import ElementType
+from mbs.elements.tyre import Tyre, TyreCurve
+
+__all__ = [
+    "AutomaticDrive",
+    "BodyForce",
+    "BodyTorque",
+    "Brake",
+    "Drag",
+    "ElementRecord",
+    "ElementType",
+    "EndStops",
+    "GridRoad",
+    "GyroscopicSpin",
+    "InputForce",
+    "KerbRoad",
+    "Output",
+    "PlaneRoad",
+    "Road",
+    "ScalarSpringDamper",
+    "SpringDamper",
+    "Tyre",
+    "TyreCurve",
+]

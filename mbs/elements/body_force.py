@@ -1,0 +1,41 @@
+"""Force at a point, given by inputs along the axes of a frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mbs.affine import AffineVector
+from mbs.elements.checks import index, size
+from mbs.elements.record import ElementRecord
+from mbs.elements.types import ElementType
+
+
+@dataclass(frozen=True)
+class BodyForce:
+    """Force with components from inputs, N.
+
+    Parameters
+    ----------
+    inputs : sequence of int or None
+        Numbers of the inputs along the axes, three in space and two in the plane; None: no force along that axis.
+    """
+
+    inputs: Sequence[int | None]
+
+    def record(self, name: str, point: AffineVector, axes: Sequence[AffineVector]) -> ElementRecord:
+        """Element at `point`; `axes` are three unit vectors in space, one in the plane (the second is it turned left).
+
+        Axes fixed in the earth are constant expressions.
+        """
+        what = f"the force '{name}'"
+        size(point, (2, 3), f"The point of {what}")
+        dimension = len(point)
+        if len(axes) != (3 if dimension == 3 else 1) or any(len(a) != dimension for a in axes):
+            wanted = "three vectors" if dimension == 3 else "one vector"
+            raise ValueError(f"The axes of {what} must be {wanted} of {dimension} components.")
+        if len(self.inputs) != dimension:
+            raise ValueError(f"T{what[1:]} has {len(self.inputs)} inputs; it needs {dimension}, None for no force.")
+        numbers = [-1 if i is None else index(i, f"An input of {what}") for i in self.inputs]
+        signals = [s for vector in (point, *axes) for s in vector.components]
+        return ElementRecord(name, ElementType.BODY_FORCE, signals, (), (*numbers, -1)[:3])

@@ -1,0 +1,43 @@
+"""Torque on a body from inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from mbs.affine import AffineVector
+from mbs.elements.checks import index
+from mbs.elements.record import ElementRecord
+from mbs.elements.types import ElementType
+
+
+@dataclass(frozen=True)
+class BodyTorque:
+    """Torque with components from inputs, N m.
+
+    Parameters
+    ----------
+    inputs : sequence of int or None
+        Numbers of the inputs: three in space, one in the plane; None: no torque about that axis.
+    axes : {"earth", "body"}
+        Axes of the components.
+    """
+
+    inputs: Sequence[int | None]
+    axes: Literal["earth", "body"] = "earth"
+
+    def record(self, name: str, frame: Sequence[AffineVector]) -> ElementRecord:
+        """Element on the orthonormal vectors of a body: a, b, c in space, a alone in the plane."""
+        what = f"the torque '{name}'"
+        lengths = [len(v) for v in frame]
+        if lengths not in ([3, 3, 3], [2]):
+            raise ValueError(f"The frame of {what} must be three spatial or one planar vector, not {lengths} numbers.")
+        if len(self.inputs) != len(frame):
+            raise ValueError(f"T{what[1:]} has {len(self.inputs)} inputs; it needs {len(frame)}, None for no torque.")
+        if self.axes not in ("earth", "body"):
+            raise ValueError(f"The axes of {what} are {self.axes!r}; they must be 'earth' or 'body'.")
+        numbers = [-1 if i is None else index(i, f"An input of {what}") for i in self.inputs]
+        signals = [s for vector in frame for s in vector.components]
+        integers = (*numbers, int(self.axes == "body")) if len(frame) == 3 else (-1, -1, *numbers, 0)
+        return ElementRecord(name, ElementType.BODY_TORQUE, signals, (), integers)

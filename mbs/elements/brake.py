@@ -1,0 +1,63 @@
+"""Brake that holds by sticking."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from mbs.affine import Affine, AffineVector
+from mbs.elements.checks import index, not_negative, positive, size
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.types import ElementType
+
+
+@dataclass(frozen=True)
+class Brake:
+    """Elastoplastic friction torque between a wheel and its carrier.
+
+    Parameters
+    ----------
+    max_torque : float
+        Torque at full pedal, N m.
+    stick_stiffness, stick_damping : float
+        Of the sticking brake, N m/rad and N m s/rad.
+    """
+
+    max_torque: float
+    stick_stiffness: float
+    stick_damping: float
+
+    @staticmethod
+    def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.5e-3) -> Brake:
+        """Brake that lets the tread give by `travel` (m) at full torque, critically damped with the wheel's inertia."""
+        torque, r = (
+            positive(max_torque, "The largest torque of a brake"),
+            positive(radius, "The radius of a braked wheel"),
+        )
+        inertia = positive(spin_inertia, "The inertia of a braked wheel")
+        stiffness = torque * r / positive(travel, "The travel of a brake")
+        return Brake(torque, stiffness, 2.0 * math.sqrt(stiffness * inertia))
+
+    def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine, input: int) -> ElementRecord:
+        """Element on orthonormal carrier vectors f, g (f x g along the axis), the absolute spin, the pedal (0..1)."""
+        what = f"the brake '{name}'"
+        size(f, (3,), f"The vector f of {what}")
+        size(g, (3,), f"The vector g of {what}")
+        return ElementRecord(
+            name,
+            ElementType.BRAKE,
+            (*f.components, *g.components, spin),
+            (
+                not_negative(self.max_torque, f"The largest torque of {what}"),
+                positive(self.stick_stiffness, f"The stick stiffness of {what}"),
+                positive(self.stick_damping, f"The stick damping of {what}"),
+            ),
+            (index(input, f"The input of {what}"),),
+            (0.0, 0.0),
+            (
+                Output("torque", "N m", "torque of the brake on the wheel about the axis"),
+                Output("sticking", "1", "1 while the brake sticks, else 0"),
+                Output("rate", "rad/s", "spin of the wheel relative to its carrier"),
+            ),
+            ("max_torque", "stick_stiffness", "stick_damping"),
+        )

@@ -1,0 +1,42 @@
+"""Aerodynamic drag."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbs.affine import AffineVector
+from mbs.elements.checks import not_negative, size
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.types import ElementType
+
+
+@dataclass(frozen=True)
+class Drag:
+    """Drag F = -rho CdA |v| v / 2 in still air.
+
+    Parameters
+    ----------
+    drag_area : float
+        Drag coefficient times frontal area, m^2.
+    air_density : float
+        kg/m^3.
+    """
+
+    drag_area: float
+    air_density: float = 1.225
+
+    def record(self, name: str, point: AffineVector) -> ElementRecord:
+        """Element at a point, earth axes, 2 or 3 components."""
+        what = f"the drag '{name}'"
+        size(point, (2, 3), f"The point of {what}")
+        return ElementRecord(
+            name,
+            ElementType.DRAG,
+            point.components,
+            (
+                not_negative(self.air_density, f"The air density of {what}"),
+                not_negative(self.drag_area, f"The drag area of {what}"),
+            ),
+            outputs=(Output("force", "N", "size of the drag"),),
+            real_names=("air_density", "drag_area"),
+        )

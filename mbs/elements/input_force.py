@@ -1,0 +1,41 @@
+"""Generalised force given by an input."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mbs.affine import Affine
+from mbs.elements.checks import index, number
+from mbs.elements.record import ElementRecord
+from mbs.elements.types import ElementType
+
+
+@dataclass(frozen=True)
+class InputForce:
+    """An input times constant weights on some expressions.
+
+    Parameters
+    ----------
+    input : int
+        Number of the input.
+    weights : sequence of float
+        Force on each expression per unit of the input.
+    """
+
+    input: int
+    weights: Sequence[float] = (1.0,)
+
+    def record(self, name: str, signals: Sequence[Affine]) -> ElementRecord:
+        """Element on as many expressions as there are weights."""
+        what = f"the input force '{name}'"
+        if len(signals) != len(self.weights) or not signals:
+            raise ValueError(f"T{what[1:]} has {len(self.weights)} weights for {len(signals)} signals, not one each.")
+        return ElementRecord(
+            name,
+            ElementType.INPUT_FORCE,
+            signals,
+            tuple(number(w, f"A weight of {what}") for w in self.weights),
+            (index(self.input, f"The input of {what}"),),
+            real_names=tuple(f"weight_{i}" for i in range(len(self.weights))),
+        )

@@ -1,0 +1,50 @@
+"""Spring and damper on one coordinate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbs.affine import Affine
+from mbs.elements.checks import not_negative, number
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.types import ElementType
+
+
+@dataclass(frozen=True)
+class ScalarSpringDamper:
+    """Spring and damper on one coordinate: force = constant - k (u - u0) - c du/dt.
+
+    Parameters
+    ----------
+    stiffness, damping : float
+        N m/rad and N m s/rad on an angle, N/m and N s/m on a length.
+    free_value : float
+        Value without spring force, rad or m.
+    constant : float
+        Constant generalised force, N m or N.
+    unit : str
+        Unit of the force, "N m" or "N".
+    """
+
+    stiffness: float
+    damping: float = 0.0
+    free_value: float = 0.0
+    constant: float = 0.0
+    unit: str = "N m"
+
+    def record(self, name: str, coordinate: Affine) -> ElementRecord:
+        """Element on one coordinate, an angle or a length."""
+        what = f"the spring-damper '{name}'"
+        return ElementRecord(
+            name,
+            ElementType.SCALAR_SPRING_DAMPER,
+            (coordinate,),
+            (
+                not_negative(self.stiffness, f"The stiffness of {what}"),
+                not_negative(self.damping, f"The damping of {what}"),
+                number(self.free_value, f"The free value of {what}"),
+                number(self.constant, f"The constant force of {what}"),
+            ),
+            outputs=(Output("force", self.unit, "generalised force on the coordinate"),),
+            real_names=("stiffness", "damping", "free_value", "constant"),
+        )

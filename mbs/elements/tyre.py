@@ -1,0 +1,171 @@
+"""Tyre: TMeasy characteristics on first-order carcass deflections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbs.affine import Affine, AffineVector
+from mbs.elements.checks import index, not_negative, number, positive, size
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.types import ElementType
+
+Pair = tuple[float, float]
+"""Values at the nominal load and at twice of it."""
+
+
+@dataclass(frozen=True)
+class TyreCurve:
+    """Steady force over slip in one direction (TMeasy, Vehicle System Dynamics 45(S1), 2007, 101-119).
+
+    Parameters
+    ----------
+    slope : (float, float)
+        Initial slope dF/ds, N, at nominal load and twice of it; so all that follows.
+    max_force, slide_force : (float, float)
+        Largest force and force of full sliding, N, at the reference friction.
+    max_slip, slide_slip : (float, float)
+        Slips where they are reached.
+    """
+
+    slope: Pair
+    max_force: Pair
+    max_slip: Pair
+    slide_force: Pair
+    slide_slip: Pair
+
+
+@dataclass(frozen=True)
+class Tyre:
+    """Tyre of a wheel that meets the road as a disc.
+
+    Parameters
+    ----------
+    radius, bottoming_radius : float
+        Free radius, and loaded radius below which the rim bears, m.
+    stiffness, damping, bottoming_stiffness : float
+        Vertical, N/m and N s/m; the damping sets in over the first 5 mm.
+    longitudinal, lateral : TyreCurve
+        Steady forces.
+    trail, trail_zero, trail_end : (float, float)
+        Dynamic trail over contact length at zero slip, lateral slips where it first vanishes and where it ends.
+    carcass_stiffness, carcass_damping : (float, float)
+        Longitudinal and lateral, N/m and N s/m.
+    nominal_load : float
+        N.
+    reference_friction : float
+        Friction of the road at which the curves hold.
+    max_load_factor : float
+        The curves are clamped at this multiple of the nominal load.
+    rolling_resistance : float
+        Coefficient of rolling resistance.
+    friction_factor : float
+        Multiplies the friction of the road.
+    """
+
+    radius: float
+    bottoming_radius: float
+    stiffness: float
+    damping: float
+    longitudinal: TyreCurve
+    lateral: TyreCurve
+    trail: Pair
+    trail_zero: Pair
+    trail_end: Pair
+    carcass_stiffness: Pair
+    carcass_damping: Pair
+    nominal_load: float
+    bottoming_stiffness: float = 0.0
+    reference_friction: float = 0.8
+    max_load_factor: float = 3.5
+    rolling_resistance: float = 0.0
+    friction_factor: float = 1.0
+
+    def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
+        """Element of a wheel: centre, unit spin axis (pointing left), absolute spin; `road` is the number of its road."""
+        what = f"the tyre '{name}'"
+        size(centre, (3,), f"The centre of {what}")
+        size(axis, (3,), f"The axis of {what}")
+        positive(self.bottoming_radius, f"The bottoming radius of {what}")
+        if not self.bottoming_radius < self.radius:
+            raise ValueError(
+                f"The bottoming radius {self.bottoming_radius:g} m of {what} must be less than {self.radius:g} m."
+            )
+        self._check_curves(what)
+        named = self._named()
+        return ElementRecord(
+            name,
+            ElementType.TYRE,
+            (*centre.components, *axis.components, spin),
+            tuple(number(value, f"The {key.replace('_', ' ')} of {what}") for key, value in named),
+            (index(road, f"The road of {what}"),),
+            (0.0, 0.0, 0.0, 0.0),
+            (
+                Output("longitudinal_force", "N", "force of the road along the wheel's heading"),
+                Output("lateral_force", "N", "force of the road to the left"),
+                Output("vertical_force", "N", "force of the road along its normal"),
+                Output("aligning_moment", "N m", "moment about the road's normal"),
+                Output("slip", "1", "longitudinal slip, positive when driven, between about -1 and 1"),
+                Output("slip_angle", "rad", "direction of travel from the wheel's heading, positive to the left"),
+                Output("deflection", "m", "radial deflection"),
+                Output("loaded_radius", "m", "distance of the contact patch from the centre"),
+                Output("contact_x", "m", "contact point, earth axes"),
+                Output("contact_y", "m", "contact point, earth axes"),
+                Output("contact_z", "m", "contact point, earth axes"),
+            ),
+            tuple(key for key, _ in named),
+        )
+
+    def _named(self) -> list[tuple[str, float]]:
+        """Names and values of the reals, in the order of `mbs/kernel/src/tyre.c`."""
+        scalars = (
+            "radius",
+            "bottoming_radius",
+            "stiffness",
+            "damping",
+            "bottoming_stiffness",
+            "nominal_load",
+            "reference_friction",
+            "max_load_factor",
+        )
+        named: list[tuple[str, float]] = [(key, getattr(self, key)) for key in scalars]
+        for direction, curve in (("longitudinal", self.longitudinal), ("lateral", self.lateral)):
+            for key in ("slope", "max_force", "max_slip", "slide_force", "slide_slip"):
+                low, high = getattr(curve, key)
+                named += [(f"{direction}_{key}_1", low), (f"{direction}_{key}_2", high)]
+        for key in ("trail", "trail_zero", "trail_end"):
+            low, high = getattr(self, key)
+            named += [(f"{key}_1", low), (f"{key}_2", high)]
+        for key in ("carcass_stiffness", "carcass_damping"):
+            x, y = getattr(self, key)
+            named += [(f"{key}_x", x), (f"{key}_y", y)]
+        return [*named, ("rolling_resistance", self.rolling_resistance), ("friction_factor", self.friction_factor)]
+
+    def _check_curves(self, what: str) -> None:
+        """Every force and slip stays positive and in order over the whole range of loads."""
+        for key in ("stiffness", "nominal_load", "reference_friction", "max_load_factor"):
+            positive(getattr(self, key), f"The {key.replace('_', ' ')} of {what}")
+        for key in ("damping", "bottoming_stiffness", "rolling_resistance", "friction_factor"):
+            not_negative(getattr(self, key), f"The {key.replace('_', ' ')} of {what}")
+        for value in (*self.carcass_stiffness, *self.carcass_damping):
+            positive(value, f"A carcass stiffness or damping of {what}")
+        for q in (0.0, self.max_load_factor):
+            load = f"at {q * self.nominal_load:g} N"
+            for direction, curve in (("longitudinal", self.longitudinal), ("lateral", self.lateral)):
+                for key in ("slope", "max_force", "slide_force"):
+                    y1, y2 = getattr(curve, key)
+                    per_load = 2.0 * y1 - 0.5 * y2 - (y1 - 0.5 * y2) * q
+                    positive(per_load, f"The {direction} {key.replace('_', ' ')} per load of {what} {load}")
+                first = positive(_linear(curve.max_slip, q), f"The {direction} max slip of {what} {load}")
+                last = _linear(curve.slide_slip, q)
+                if last <= first:
+                    raise ValueError(
+                        f"The {direction} slide slip of {what} is {last:g} {load}; it must exceed {first:g}."
+                    )
+            zero = positive(_linear(self.trail_zero, q), f"The slip of zero trail of {what} {load}")
+            end = _linear(self.trail_end, q)
+            if end <= zero:
+                raise ValueError(f"The end slip of the trail of {what} is {end:g} {load}; it must exceed {zero:g}.")
+
+
+def _linear(pair: Pair, q: float) -> float:
+    return pair[0] + (pair[1] - pair[0]) * (q - 1.0)
