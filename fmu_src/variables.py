@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -145,16 +146,15 @@ def _ranged(
         source,
         index,
         float(start),
-        _bound(entry.get("min")),
-        _bound(entry.get("max")),
+        _bound(entry["min"]),
+        _bound(entry["max"]),
         _display(entry["name"], unit),
     )
 
 
-def _bound(value: float | str | None) -> float | None:
-    """A finite bound, or None for an open end (JSON has no infinity: None, text or a float may stand for it)."""
-    number = math.inf if value is None else float(value)
-    return number if math.isfinite(number) else None
+def _bound(value: float) -> float | None:
+    """A bound, or None for an open end, which a System writes as the largest double."""
+    return float(value) if abs(value) < sys.float_info.max else None
 
 
 def _display(name: str, unit: str) -> str | None:
