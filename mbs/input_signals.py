@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,14 +21,14 @@ class InputSignals:
         held outside. A time given twice is a jump; at that very instant the value before it counts, because the step
         that ends there lies before it.
     declared : sequence of mapping
-        Entries `name`, `min`, `max`, `unit` of every input of the System, in order.
+        Entries `name`, `unit`, `min`, `max` (finite) of every input of the System, in order.
     """
 
-    def __init__(self, signals: Mapping[str, Signal], declared: list[dict[str, object]]) -> None:
+    def __init__(self, signals: Mapping[str, Signal], declared: list[dict[str, Any]]) -> None:
         self._names = [str(d["name"]) for d in declared]
-        self._units = [str(d.get("unit", "1")) for d in declared]
-        self._min = np.array([_bound(d.get("min"), -np.inf) for d in declared])
-        self._max = np.array([_bound(d.get("max"), np.inf) for d in declared])
+        self._units = [str(d["unit"]) for d in declared]
+        self._min = np.array([d["min"] for d in declared], float)
+        self._max = np.array([d["max"] for d in declared], float)
         self._signals: dict[int, Signal] = {}
         for name, signal in signals.items():
             if name not in self._names:
@@ -57,18 +57,13 @@ class InputSignals:
         return values
 
     def _check(self, i: int, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
-        good = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
+        good = (values >= self._min[i]) & (values <= self._max[i])
         if not good.all():
             k = int(np.argmin(good))
+            right = f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
             raise ValueError(
-                f"Input {self._names[i]!r} is {values[k]:g} {self._units[i]} at t = {t[k]:g} s; "
-                f"it must lie between {self._min[i]:g} and {self._max[i]:g}."
+                f"Input {self._names[i]!r} is {values[k]:g} {self._units[i]} at t = {t[k]:g} s; it must {right}."
             )
-
-
-def _bound(value: object, default: float) -> float:
-    """JSON has no infinity: a missing bound is none."""
-    return default if value is None else float(value)  # type: ignore[arg-type]
 
 
 def _checked(name: str, signal: Signal) -> Signal:

@@ -10,14 +10,15 @@ variation is
 with H_k the second derivative of row k, W the complement ``V' M W = 0`` and y the element states, ``yd = g(q, qd, y)``.
 N is the velocity that keeps the constraints satisfied when a moving mechanism is shifted; it is zero at rest.
 
-Elements give steps of their slots, not rates: g is the limit of short steps. A slot that does not remember its value over a
-short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.
+Elements give steps of their slots, not rates: g is the limit of short steps. A slot that does not remember its value
+over a short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -171,7 +172,7 @@ class _Evaluator:
 
     def constraints(self, q: Array) -> tuple[Array, Array]:
         """Phi_q (nc, nq) of the stored rows at `q` (nq,), and their rate Phi_q qd + Phi_t (nc,)."""
-        values = self.instance.evaluate(q, self.state.qd, self.state.y, self.time)
+        values = self._evaluate(q, self.state.qd, self.state.y)
         jacobian = _dense(self.arrays["row_ptr"], self.arrays["row_col"], np.array(values["jacobian"]), len(q))
         return jacobian, jacobian @ self.state.qd + np.array(values["phi_t"])
 
@@ -179,10 +180,13 @@ class _Evaluator:
         """Forces Q (nq,) and rates g of the states among the slots, in one vector."""
         settled = self._element_step(q, qd, y, SHORT_STEP)
         settled[self.slots] = y[self.slots]
-        force = np.array(self.instance.evaluate(q, qd, settled, self.time)["force"])
+        force = np.array(self._evaluate(q, qd, settled)["force"])
         whole = (self._element_step(q, qd, settled, STATE_STEP) - settled) / STATE_STEP
         half = (self._element_step(q, qd, settled, STATE_STEP / 2) - settled) / (STATE_STEP / 2)
         return np.concatenate([force, (2.0 * half - whole)[self.slots]])  # without the first-order error of the steps
+
+    def _evaluate(self, q: Array, qd: Array, y: Array) -> dict[str, Any]:
+        return self.instance.evaluate(q.tolist(), qd.tolist(), y.tolist(), self.time)
 
     def _remembers(self, k: int) -> bool:
         s = self.state
@@ -192,7 +196,7 @@ class _Evaluator:
         return bool(ahead[k] - behind[k] > SHIFT)
 
     def _element_step(self, q: Array, qd: Array, y: Array, h: float) -> Array:
-        return np.array(self.instance.element_step(q, qd, y, h)[0])
+        return np.array(self.instance.element_step(q.tolist(), qd.tolist(), y.tolist(), h)[0])
 
 
 def _difference(

@@ -55,10 +55,10 @@ class Settings:
         for name in ("eps_rel", "tolerance_r", "tolerance_phi"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"Setting {name!r} is {getattr(self, name)}; it must be positive.")
-        for name, least in (("max_iterations", 1), ("max_halvings", 0)):
+        for name, least, most in (("max_iterations", 1, 1000), ("max_halvings", 0, 16)):
             value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, int) or value < least:
-                raise ValueError(f"Setting {name!r} is {value!r}; it must be a whole number of at least {least}.")
+            if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+                raise ValueError(f"Setting {name!r} is {value!r}; it must be a whole number from {least} to {most}.")
         if self.update not in UPDATES:
             raise ValueError(f"Setting 'update' is {self.update!r}; it must be one of {', '.join(map(repr, UPDATES))}.")
 

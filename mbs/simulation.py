@@ -103,6 +103,7 @@ class Simulation:
         t0: float = 0.0,
     ) -> None:
         self.system = system
+        self._meta = system.meta
         self.settings = settings or Settings()
         self.instance = Instance(LoadedSystem(system.to_bytes()))
         self.instance.set_settings(**self.settings.kernel_fields())
@@ -122,7 +123,7 @@ class Simulation:
     @property
     def sensors(self) -> dict[str, float]:
         """Sensor values at the state, by name."""
-        return {s["name"]: v for s, v in zip(self.system.meta["sensors"], self._sensor_values().tolist(), strict=True)}
+        return {s["name"]: v for s, v in zip(self._meta["sensors"], self._sensor_values().tolist(), strict=True)}
 
     @property
     def report(self) -> Report:
@@ -136,13 +137,13 @@ class Simulation:
 
     def set_input(self, name: str, value: float) -> None:
         """Value of an input from now on."""
-        InputSignals({name: value}, self.system.meta["inputs"]).at(np.array([self.time]), 0.0)
+        InputSignals({name: value}, self._meta["inputs"]).at(np.array([self.time]), 0.0)
         self.instance.set_input(self._index("inputs", name), value)
 
     def set_parameter(self, name: str, value: float) -> None:
         """Value of a parameter from now on."""
         index = self._index("parameters", name)
-        entry = self.system.meta["parameters"][index]
+        entry = self._meta["parameters"][index]
         if not entry["min"] <= value <= entry["max"]:
             raise ValueError(
                 f"Parameter {name!r} is set to {value:g} {entry['unit']}; "
@@ -150,13 +151,13 @@ class Simulation:
             )
         self.instance.set_parameter(index, value)
 
-    def static_equilibrium(self, tolerance: float = 1e-9, max_iterations: int = 100) -> None:
+    def static_equilibrium(self, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
         """Move to the static equilibrium near the present position, all velocities zero, time unchanged.
 
         Parameters
         ----------
         tolerance : float
-            On the last correction, coordinate units (m).
+            Largest force out of balance, N or N m.
         max_iterations : int
             Bound on the Newton iterations.
         """
@@ -186,8 +187,8 @@ class Simulation:
         steps = _count_steps(t0, t_end, h)
         if every < 1:
             raise ValueError(f"every = {every}; it must be at least 1.")
-        signals = InputSignals(inputs or {}, self.system.meta["inputs"])
-        values = np.empty((steps // every + 1, len(self.system.meta["sensors"])))
+        signals = InputSignals(inputs or {}, self._meta["inputs"])
+        values = np.empty((steps // every + 1, len(self._meta["sensors"])))
         values[0] = self._sensor_values()
         done, wall, chunk = 0, 0.0, every
         with progress_for(progress) as bar:
@@ -230,12 +231,12 @@ class Simulation:
         columns = signals.columns()
         if not columns:
             return None
-        table = np.tile([self.instance.get_input(i) for i in range(len(self.system.meta["inputs"]))], (len(t), 1))
+        table = np.tile([self.instance.get_input(i) for i in range(len(self._meta["inputs"]))], (len(t), 1))
         table[:, columns] = signals.at(t, tolerance)
         return table
 
     def _trajectory(self, t0: float, interval: float, values: NDArray[np.float64], wall: float) -> Trajectory:
-        sensors = self.system.meta["sensors"]
+        sensors = self._meta["sensors"]
         return Trajectory(
             t0 + interval * np.arange(len(values), dtype=float),
             values,
@@ -247,7 +248,7 @@ class Simulation:
         )
 
     def _index(self, kind: str, name: str) -> int:
-        names = [entry["name"] for entry in self.system.meta[kind]]
+        names = [entry["name"] for entry in self._meta[kind]]
         if name not in names:
             raise ValueError(f"There is no {kind[:-1]} {name!r}; the System has: {', '.join(names) or 'none'}.")
         return names.index(name)
@@ -262,10 +263,8 @@ class Simulation:
         report = self.instance.report()
         message = f"{what}: {error.message}"
         row = int(report["worst_row"])
-        if 0 <= row < len(self.system.meta["rows"]):
-            message += (
-                f" Worst constraint: {self.system.meta['rows'][row]['name']!r}, open by {report['violation']:.3g} m."
-            )
+        if 0 <= row < len(self._meta["rows"]):
+            message += f" Worst constraint: {self._meta['rows'][row]['name']!r}, open by {report['violation']:.3g} m."
         return SimulationError(message, self.time, error.status, trajectory)
 
 
