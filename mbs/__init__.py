@@ -11,26 +11,30 @@ from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 
 if TYPE_CHECKING:
-    from mbs.linearise import linearise
+    from mbs.linear_model import LinearModel, linearise
     from mbs.settings import Settings
-    from mbs.simulation import Simulation, SimulationError, simulate
+    from mbs.simulation import Pose, Simulation, SimulationError, simulate
     from mbs.trajectory import Trajectory
 
 # what needs the compiled kernel is imported when it is first asked for
 _LAZY = {
+    "Pose": "mbs.simulation",
     "Settings": "mbs.settings",
     "Simulation": "mbs.simulation",
     "SimulationError": "mbs.simulation",
     "Trajectory": "mbs.trajectory",
-    "linearise": "mbs.linearise",
+    "LinearModel": "mbs.linear_model",
+    "linearise": "mbs.linear_model",
     "simulate": "mbs.simulation",
 }
 
 __all__ = [
     "Affine",
     "AffineVector",
+    "LinearModel",
     "Model",
     "ModelError",
+    "Pose",
     "Settings",
     "Simulation",
     "SimulationError",
