@@ -32,8 +32,8 @@ Index = NDArray[np.int64]
 def compile(model: Model) -> System:
     """Compile a model.
 
-    Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent computed, and
-    the start position and velocity solved.
+    Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
+    computed, and the start position and velocity solved.
 
     Raises
     ------
@@ -43,7 +43,9 @@ def compile(model: Model) -> System:
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
     equations = [(j, k, e) for j, joint in enumerate(model.joints) for k, e in enumerate(joint.equations)]
-    stays = [not e.is_linear or (model.joints[j].keep and k in model.joints[j].force_equations) for j, k, e in equations]
+    stays = [
+        not e.is_linear or (model.joints[j].keep and k in model.joints[j].force_equations) for j, k, e in equations
+    ]
     linear = [e for (_, _, e), s in zip(equations, stays, strict=True) if not s]
     kept, full, redundant = reduce_coordinates(model, linear)
     if not kept:
@@ -96,7 +98,9 @@ def compile(model: Model) -> System:
         **element_arrays(model, signals, locate),
         **sensor_arrays(model, signals, {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}),
         **channel_arrays(model),
-        **{name: values[order] if len(values) else values for name, values in pose_arrays(model, kept, full, z).items()},
+        **{
+            name: values[order] if len(values) else values for name, values in pose_arrays(model, kept, full, z).items()
+        },
     }
     tables.update(signals.arrays())
 
@@ -122,7 +126,7 @@ def compile(model: Model) -> System:
     return System(tables, _meta(model, kept, order, rows, report))
 
 
-def _symmetric(matrix: sparse.spmatrix) -> sparse.csr_matrix:
+def _symmetric(matrix: sparse.csr_matrix) -> sparse.csr_matrix:
     """Exactly symmetric, without round-off entries."""
     m = (0.5 * (matrix + matrix.T)).tocoo()
     diagonal = np.abs(m.tocsr().diagonal())
@@ -131,7 +135,9 @@ def _symmetric(matrix: sparse.spmatrix) -> sparse.csr_matrix:
     return sparse.coo_matrix((m.data[stay], (m.row[stay], m.col[stay])), shape=m.shape).tocsr()
 
 
-def _symbolic(model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix) -> tuple[Fronts, sparse.csc_matrix]:
+def _symbolic(
+    model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix
+) -> tuple[Fronts, sparse.csc_matrix]:
     """Pattern of the tangent, its elimination order and fronts."""
     entries = mass.tocoo()
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
@@ -210,7 +216,9 @@ def _row_scale(rows: list[RowTerms], Phiq: sparse.csr_matrix, diagonal: Array) -
     flat = [rows[i] for i in np.flatnonzero(length == 0.0)]
     if flat:
         names = ", ".join(f"'{r.name}' ({r.kind})" for r in flat)
-        raise ModelError(f"The condition of {names} does not move with any coordinate in the start position; change the drawing there.")
+        raise ModelError(
+            f"The condition of {names} does not move with any coordinate at the start; change the drawing there."
+        )
     # a row over coordinates without mass is scaled as if they had the mean mass
     mean = float(np.mean(diagonal[diagonal > 0.0]))
     by_mass = np.where(by_mass > 0.0, by_mass, length**2 / mean)

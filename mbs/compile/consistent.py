@@ -32,7 +32,9 @@ def solver(metric: sparse.csr_matrix, Phiq: sparse.csr_matrix) -> tuple[object, 
     factor = 1.0 / np.where(size > 0.0, size, 1.0)
     scaled = sparse.diags(factor) @ Phiq
     weight = float(np.mean(metric.diagonal()))
-    block = sparse.bmat([[metric / weight, scaled.T], [scaled, -REGULARISATION * sparse.identity(Phiq.shape[0])]], format="csc")
+    block = sparse.bmat(
+        [[metric / weight, scaled.T], [scaled, -REGULARISATION * sparse.identity(Phiq.shape[0])]], format="csc"
+    )
     return splu(block), factor
 
 
@@ -40,11 +42,15 @@ def positive_metric(mass: sparse.csr_matrix) -> sparse.csr_matrix:
     """The mass matrix with a mean mass on coordinates that have none."""
     diagonal = mass.diagonal()
     mean = float(np.mean(diagonal[diagonal > 0.0])) if np.any(diagonal > 0.0) else 1.0
-    return (mass + sparse.diags(np.where(diagonal > 0.0, 0.0, mean))).tocsr()
+    return sparse.csr_matrix(mass + sparse.diags(np.where(diagonal > 0.0, 0.0, mean)))
 
 
-def close_position(rows: Sequence[RowTerms], arrays: RowArrays, mass: sparse.csr_matrix, q: Array, guides: Array) -> Array:
-    """The assembled position next to `q` (Gauss-Newton in the metric of the mass), or a `ModelError` naming what stays open."""
+def close_position(
+    rows: Sequence[RowTerms], arrays: RowArrays, mass: sparse.csr_matrix, q: Array, guides: Array
+) -> Array:
+    """The assembled position next to `q` (Gauss-Newton in the metric of the mass), or a `ModelError` naming what
+    stays open.
+    """
     if arrays.nc == 0:
         return q
     metric = positive_metric(mass)
@@ -71,7 +77,9 @@ def close_position(rows: Sequence[RowTerms], arrays: RowArrays, mass: sparse.csr
         if value > max(OPEN, 0.01 * float(np.max(open_now))):
             worst[row.name] = max(worst.get(row.name, 0.0), float(value))
     listed = sorted(worst.items(), key=lambda item: -item[1])[:6]
-    raise ModelError("The assembly cannot be closed; open stay " + ", ".join(f"'{n}' by {v:.3g} m" for n, v in listed) + ".")
+    raise ModelError(
+        "The assembly cannot be closed; open stay " + ", ".join(f"'{n}' by {v:.3g} m" for n, v in listed) + "."
+    )
 
 
 def _violation(arrays: RowArrays, q: Array, guides: Array) -> tuple[Array, sparse.csr_matrix]:
@@ -82,12 +90,18 @@ def _violation(arrays: RowArrays, q: Array, guides: Array) -> tuple[Array, spars
 
 
 def start_velocity(
-    arrays: RowArrays, mass: sparse.csr_matrix, given: sparse.csr_matrix, aim: Array, q: Array, guides: Array, guide_rates: Array
+    arrays: RowArrays,
+    mass: sparse.csr_matrix,
+    given: sparse.csr_matrix,
+    aim: Array,
+    q: Array,
+    guides: Array,
+    guide_rates: Array,
 ) -> Array:
     """Velocity that satisfies the rows and comes nearest to what was given.
 
-    Minimises (v-target)' given (v-target) with a slight weight on the kinetic energy of all else; repeated about its own
-    result, so that the slight weight leaves no trace in what was given.
+    Minimises (v-target)' given (v-target) with a slight weight on the kinetic energy of all else; repeated about its
+    own result, so that the slight weight leaves no trace in what was given.
 
     Parameters
     ----------

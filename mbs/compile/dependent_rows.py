@@ -1,7 +1,7 @@
 """Removal of rows that are linear combinations of others, coefficient by coefficient.
 
-Rows dependent as polynomials (a shared axis has unit length in both bodies) say nothing new anywhere and go. Rows dependent
-only at some positions stay: the method handles them.
+Rows dependent as polynomials (a shared axis has unit length in both bodies) say nothing new anywhere and go. Rows
+dependent only at some positions stay: the method handles them.
 """
 
 from __future__ import annotations
@@ -43,7 +43,9 @@ def independent_rows(rows: list[RowTerms]) -> tuple[list[RowTerms], int]:
 def _must_vanish(rows: list[RowTerms], constant: float) -> None:
     if abs(constant) > DEPENDENT:
         names = ", ".join(sorted({f"'{r.name}' ({r.kind})" for r in rows}))
-        raise ModelError(f"The conditions of {names} contradict each other by {abs(constant):.3g}; no position can satisfy them.")
+        raise ModelError(
+            f"The conditions of {names} contradict each other by {abs(constant):.3g}; no position can satisfy them."
+        )
 
 
 def _peel(normal: dict[int, dict[Monomial, float]], keep: set[int]) -> set[int]:
@@ -99,7 +101,7 @@ def _groups(remaining: set[int], normal: dict[int, dict[Monomial, float]]) -> li
 
 
 def _independent(group: list[int], normal: dict[int, dict[Monomial, float]], rows: list[RowTerms]) -> list[int]:
-    """Independent rows of a connected group by a rank-revealing factorization; shorter rows are preferred by scaling."""
+    """Independent rows of a connected group by a rank-revealing factorization; scaling prefers shorter rows."""
     monomials = sorted({m for i in group for m in normal[i] if m != CONSTANT})
     column = {m: k for k, m in enumerate(monomials)}
     A = np.zeros((len(group), len(monomials)))

@@ -1,8 +1,8 @@
 """Elimination of linear joint equations, q_full = T z + z0, with fill-reducing pivoting.
 
-Gauss-Jordan on sparse rows: the pivot (row, column) with the smallest Markowitz product is taken, where the column count
-includes the rows that are already solved. Counting those too is what keeps T sparse: eliminating a chain link by link looks
-free to the unsolved rows and makes T dense.
+Gauss-Jordan on sparse rows: the pivot (row, column) with the smallest Markowitz product is taken, where the column
+count includes the rows that are already solved. Counting those too is what keeps T sparse: eliminating a chain link
+by link looks free to the unsolved rows and makes T dense.
 """
 
 from __future__ import annotations
@@ -68,7 +68,9 @@ def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int])
         least = PIVOT_THRESHOLD * max(abs(v) for v in row.values())
         columns = [j for j, v in row.items() if abs(v) >= least and j not in locked]
         if not columns:
-            raise ModelError(f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; drive it by a guide instead.")
+            raise ModelError(
+                f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; drive it by a guide instead."
+            )
         count, j = min((len(users[j]), j) for j in columns)
         return (len(row) - 1) * (count - 1), j
 
@@ -81,7 +83,8 @@ def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int])
             return False
         if abs(constants[i]) > CONSISTENT * scale:
             raise ModelError(
-                f"The joint '{equations[i][0]}' cannot close: what the other joints fix leaves its linear equation open by {abs(constants[i]):.3g} m."
+                f"The joint '{equations[i][0]}' cannot close: what the other joints fix leaves its linear equation "
+                f"open by {abs(constants[i]):.3g} m."
             )
         return True
 
@@ -131,5 +134,7 @@ def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int])
         else:
             i = by_column[j]
             constant = -constants[i]
-            expressions.append(Affine({number[k]: -v for k, v in rows[i].items()}, constant if abs(constant) > DROP * scale else 0.0))
+            expressions.append(
+                Affine({number[k]: -v for k, v in rows[i].items()}, constant if abs(constant) > DROP * scale else 0.0)
+            )
     return Elimination(kept, expressions, redundant)

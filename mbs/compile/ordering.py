@@ -29,8 +29,8 @@ def clique_pattern(n: int, cliques: Iterable[Sequence[int]]) -> sparse.csc_matri
 def fill_reducing_order(pattern: sparse.csc_matrix) -> Index:
     """Minimum-degree order; entry k is the coordinate eliminated k-th.
 
-    SuperLU orders by multiple minimum degree on A' + A; its factorization of a diagonally dominant matrix with the same pattern
-    is a by-product.
+    SuperLU orders by multiple minimum degree on A' + A; its factorization of a diagonally dominant matrix with the
+    same pattern is a by-product.
     """
     n = pattern.shape[0]
     if n < 2:

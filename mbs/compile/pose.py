@@ -19,8 +19,8 @@ NAMES = ("pose_0", "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_s
 def pose_arrays(model: Model, kept: Sequence[int], full: Sequence[Affine], q: Array) -> dict[str, Array]:
     """The `pose_` arrays, in the order of `kept`; empty unless the model floats.
 
-    A coordinate is a component of a point or of a vector of a body, so that moving and turning the scene as a whole is linear
-    in cos, sin and the shift.
+    A coordinate is a component of a point or of a vector of a body, so that moving and turning the scene as a whole
+    is linear in cos, sin and the shift.
 
     Parameters
     ----------
@@ -31,7 +31,9 @@ def pose_arrays(model: Model, kept: Sequence[int], full: Sequence[Affine], q: Ar
         return {name: np.zeros(0) for name in NAMES}
     tied = [model.coordinates[i].name for i, e in enumerate(full) if abs(e.constant) > 1e-9]
     if tied:
-        raise ModelError(f"The model '{model.name}' is declared floating, but joints tie it to the ground (coordinate '{tied[0]}').")
+        raise ModelError(
+            f"The model '{model.name}' is declared floating, but joints tie it to the ground (coordinate '{tied[0]}')."
+        )
     arrays = {name: np.zeros(len(kept)) for name in NAMES}
     spins = {s.index: s for s in model.spins}
     value = full_values(full, q)

@@ -44,18 +44,19 @@ def report_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     """The report as lines of text."""
     rank, dofs = report["rank"], report["degrees_of_freedom"]
     space = "planar" if dimension == 2 else "spatial"
+    r = report
     lines = [
         f"System '{name}' ({space})",
-        f"  bodies                {report['bodies']:>8}",
-        f"  full coordinates      {report['full_coordinates']:>8}",
-        f"  linear equations      {report['linear_equations']:>8}   ({report['redundant_equations']} of them redundant)",
-        f"  coordinates           {report['coordinates']:>8}",
-        f"  rows                  {report['rows']:>8}   ({report['dependent_rows']} dependent ones removed)",
+        f"  bodies                {r['bodies']:>8}",
+        f"  full coordinates      {r['full_coordinates']:>8}",
+        f"  linear equations      {r['linear_equations']:>8}   ({r['redundant_equations']} of them redundant)",
+        f"  coordinates           {r['coordinates']:>8}",
+        f"  rows                  {r['rows']:>8}   ({r['dependent_rows']} dependent ones removed)",
         f"  rank at reference     {'not computed' if rank is None else rank:>8}",
         f"  degrees of freedom    {'not computed' if dofs is None else dofs:>8}",
-        f"  non-zeros of tangent  {report['tangent_nonzeros']:>8}   (lower triangle)",
-        f"  non-zeros of factor   {report['factor_nonzeros']:>8}   ({report['fronts']} fronts, largest {report['largest_front']})",
-        f"  force elements        {report['elements']:>8}",
-        f"  inputs, sensors       {report['inputs']:>8}, {report['sensors']}",
+        f"  non-zeros of tangent  {r['tangent_nonzeros']:>8}   (lower triangle)",
+        f"  non-zeros of factor   {r['factor_nonzeros']:>8}   ({r['fronts']} fronts, largest {r['largest_front']})",
+        f"  force elements        {r['elements']:>8}",
+        f"  inputs, sensors       {r['inputs']:>8}, {r['sensors']}",
     ]
     return "\n".join(lines)

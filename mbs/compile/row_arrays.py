@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +74,7 @@ class RowArrays:
             pointer.append(len(columns))
         q, t, g = (np.array(x, dtype=float).reshape(-1, k) for x, k in ((quad, 4), (angle_terms, 5), (gterms, 6)))
         ang = np.array(angles, dtype=np.int64).reshape(-1, 2)
-        self.arrays: dict[str, NDArray[np.float64] | NDArray[np.int64]] = {
+        self.arrays: dict[str, NDArray[Any]] = {
             "row_ptr": np.array(pointer, dtype=np.int64),
             "row_col": np.array(columns, dtype=np.int64),
             "row_lin": np.array(linear, dtype=float),
@@ -114,13 +115,15 @@ class RowArrays:
         """Coordinates of each row, in the new order."""
         return np.split(self.arrays["row_col"].astype(np.int64), self.arrays["row_ptr"][1:-1]) if self.nc else []
 
-    def evaluate(self, q: Array, guides: Array, guide_rates: Array | None = None) -> tuple[Array, sparse.csr_matrix, Array]:
+    def evaluate(
+        self, q: Array, guides: Array, guide_rates: Array | None = None
+    ) -> tuple[Array, sparse.csr_matrix, Array]:
         """Phi, Phi_q and Phi_t at position `q` with guide values and rates (default: at rest)."""
         a = self.arrays
         start, col = a["row_ptr"], a["row_col"]
         padded = np.append(q, 1.0)  # position -1 is the constant 1
         jac = np.array(a["row_lin"], dtype=float)
-        phi = a["row_const"] + np.bincount(self._row_of_entry, jac * q[col], minlength=self.nc)[: self.nc]
+        phi: Array = a["row_const"] + np.bincount(self._row_of_entry, jac * q[col], minlength=self.nc)[: self.nc]
         phi_t = np.zeros(self.nc)
 
         def entry(row: Index, place: Index) -> tuple[Index, Array]:
@@ -136,7 +139,9 @@ class RowArrays:
                 np.add.at(jac, at[at >= 0], slope[at >= 0])
             return h * u * v
 
-        phi += np.bincount(self._quad_row, add(self._quad_row, a["quad_a"], a["quad_b"], a["quad_h"]), minlength=self.nc)[: self.nc]
+        phi += np.bincount(
+            self._quad_row, add(self._quad_row, a["quad_a"], a["quad_b"], a["quad_h"]), minlength=self.nc
+        )[: self.nc]
         if len(a["angle_row"]):
             n = len(a["angle_row"])
             theta_at, theta = entry(a["angle_row"], a["angle_theta"])
@@ -160,11 +165,15 @@ class RowArrays:
             if guide_rates is not None:
                 _, u = entry(a["gterm_row"], a["gterm_a"])
                 _, v = entry(a["gterm_row"], a["gterm_b"])
-                np.add.at(phi_t, a["gterm_row"], a["gterm_h"] * power * guides[g] ** (power - 1) * guide_rates[g] * u * v)
+                np.add.at(
+                    phi_t, a["gterm_row"], a["gterm_h"] * power * guides[g] ** (power - 1) * guide_rates[g] * u * v
+                )
         matrix = sparse.csr_matrix((jac, col, start), shape=(self.nc, self.nq))
         return phi, matrix, phi_t
 
 
 def _pointer(owner: Array, n: int) -> Index:
     """Start of each owner's items; `owner` is ascending."""
-    return np.concatenate([[0], np.cumsum(np.bincount(owner.astype(np.int64), minlength=n)[:n] if n else [])]).astype(np.int64)
+    return np.concatenate([[0], np.cumsum(np.bincount(owner.astype(np.int64), minlength=n)[:n] if n else [])]).astype(
+        np.int64
+    )

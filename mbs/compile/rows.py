@@ -1,8 +1,8 @@
 """Rows of the System: rigidity of bodies in their shortest form, and the joint equations that are not linear.
 
-A body is rigid if three independent vectors of it keep their six products v_i . v_j (planar: one vector its length). Which vectors
-is free: those whose expressions in z are short give the fewest terms, for instance |B_2 - B_1|^2 = L^2 for a link between two
-points that are coordinates.
+A body is rigid if three independent vectors of it keep their six products v_i . v_j (planar: one vector its length).
+Which vectors is free: those whose expressions in z are short give the fewest terms, for instance |B_2 - B_1|^2 = L^2
+for a link between two points that are coordinates.
 """
 
 from __future__ import annotations
@@ -23,7 +23,9 @@ MOST_POINTS = 8
 
 
 def candidates(body: Body) -> list[Vector]:
-    """Local vectors a rigid-body equation may use: axes of the body and of its joints, differences of its joint points."""
+    """Local vectors a rigid-body equation may use: axes of the body and of its joints, differences of its joint
+    points.
+    """
     size = body_length(body)
     found: list[Vector] = [size * e for e in np.eye(body.dimension)]
     found += [size * u for u in body.joint_axes]
@@ -33,7 +35,9 @@ def candidates(body: Body) -> list[Vector]:
 
 
 def body_length(body: Body) -> float:
-    """A length typical of the body, m: the distance of its farthest joint point from its centre of mass, or its gyration radius."""
+    """A length typical of the body, m: the distance of its farthest joint point from its centre of mass, or its
+    gyration radius.
+    """
     farthest = max((float(np.linalg.norm(p)) for p in body.joint_points), default=0.0)
     gyration = float(np.sqrt(np.trace(body.second_moment) / body.mass)) if body.mass else 0.0
     return farthest if farthest > 0.1 * gyration else gyration

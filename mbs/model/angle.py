@@ -14,11 +14,14 @@ from mbs.model.joints.joint import Joint
 from mbs.model.joints.points import different
 
 
-def relative_angle(model: ModelCore, name: str, body_1: Body, body_2: Body, axis: ArrayLike | None, zero: float) -> tuple[Coordinate, Joint]:
-    """The row ``cos(theta) S - sin(theta) C = 0`` with C = v.e1, S = v.e2; regular at every angle, and theta is not wrapped.
+def relative_angle(
+    model: ModelCore, name: str, body_1: Body, body_2: Body, axis: ArrayLike | None, zero: float
+) -> tuple[Coordinate, Joint]:
+    """The row ``cos(theta) S - sin(theta) C = 0`` with C = v.e1, S = v.e2; regular at every angle, and theta is not
+    wrapped.
 
-    v is a vector of body 2, e1 and e2 are perpendicular vectors of body 1, all perpendicular to the axis in the reference
-    configuration, where theta is `zero`.
+    v is a vector of body 2, e1 and e2 are perpendicular vectors of body 1, all perpendicular to the axis in the
+    reference configuration, where theta is `zero`.
     """
     what = f"relative angle '{name}'"
     different(body_1, body_2, what)

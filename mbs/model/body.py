@@ -1,8 +1,8 @@
 """Rigid bodies, point masses and the ground in natural coordinates.
 
-A spatial body has the full coordinates r (3), a, b, c (3 each): its centre of mass and its axes, which are the earth axes in
-the reference configuration; a planar body has r (2) and a (2), with b = (-a_y, a_x). Every point and vector of it is affine in
-these, and its mass matrix is constant (pseudo-inertia).
+A spatial body has the full coordinates r (3), a, b, c (3 each): its centre of mass and its axes, which are the earth
+axes in the reference configuration; a planar body has r (2) and a (2), with b = (-a_y, a_x). Every point and vector
+of it is affine in these, and its mass matrix is constant (pseudo-inertia).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class Body:
     """A rigid body; made by `Model.body`.
 
     Attributes
-    ----------
+    ---
     name : str
     com : ndarray, shape (dimension,)
         Centre of mass in earth axes in the reference configuration, m; origin of the body frame.
@@ -74,9 +74,14 @@ class Body:
         s = self.start
         if self.dimension == 2:
             x, y = float(local[0]), float(local[1])
-            return AffineVector((_affine([(s, origin), (s + 2, x), (s + 3, -y)]), _affine([(s + 1, origin), (s + 2, y), (s + 3, x)])))
+            return AffineVector(
+                (_affine([(s, origin), (s + 2, x), (s + 3, -y)]), _affine([(s + 1, origin), (s + 2, y), (s + 3, x)]))
+            )
         return AffineVector(
-            tuple(_affine([(s + k, origin), *((s + 3 * (m + 1) + k, float(local[m])) for m in range(3))]) for k in range(3))
+            tuple(
+                _affine([(s + k, origin), *((s + 3 * (m + 1) + k, float(local[m])) for m in range(3))])
+                for k in range(3)
+            )
         )
 
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
@@ -104,7 +109,7 @@ class Body:
         moments[0, 0] = self.mass
         moments[0, 1:] = moments[1:, 0] = s
         moments[1:, 1:] = J
-        return np.kron(moments, np.eye(3))
+        return np.array(np.kron(moments, np.eye(3)), dtype=float)
 
     def reference(self) -> NDArray[np.float64]:
         """Full coordinates in the reference configuration, shape (size,)."""
@@ -133,7 +138,9 @@ class PointMass(Body):
         if position is not None:
             given = vector(position, self.dimension, f"the point of point mass '{self.name}'")
             if np.linalg.norm(given - self.com) > 1e-9 * max(1.0, float(np.linalg.norm(self.com))):
-                raise ModelError(f"Point mass '{self.name}' is at {self.com.tolist()}; it has no point at {given.tolist()}.")
+                raise ModelError(
+                    f"Point mass '{self.name}' is at {self.com.tolist()}; it has no point at {given.tolist()}."
+                )
         return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(self.dimension)))
 
     def vector(self, components: ArrayLike) -> AffineVector:
@@ -142,7 +149,7 @@ class PointMass(Body):
 
     def mass_block(self) -> NDArray[np.float64]:
         """Mass matrix, shape (dimension, dimension)."""
-        return self.mass * np.eye(self.dimension)
+        return np.array(self.mass * np.eye(self.dimension))
 
     def reference(self) -> NDArray[np.float64]:
         """Position in the reference configuration."""

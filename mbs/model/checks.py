@@ -62,7 +62,9 @@ def direction(value: ArrayLike, dimension: int, what: str) -> Vector:
 
 
 def perpendicular(axis: Vector) -> tuple[Vector, Vector]:
-    """Unit vectors e1, e2 with e1 x e2 = axis; e1 along an earth axis where `axis` allows, so that equations stay short."""
+    """Unit vectors e1, e2 with e1 x e2 = axis; e1 along an earth axis where `axis` allows, so that equations stay
+    short.
+    """
     k = int(np.argmin(np.abs(axis)))
     e1 = -axis[k] * axis
     e1[k] += 1.0
@@ -88,7 +90,7 @@ def inertia_matrix(value: Any, dimension: int, what: str) -> NDArray[np.float64]
         raise ModelError(f"{what} holds a number that is not finite.")
     if np.max(np.abs(inertia - inertia.T)) > 1e-9 * np.max(np.abs(inertia)):
         raise ModelError(f"{what} is not symmetric; the entry (i, j) must equal (j, i).")
-    inertia = 0.5 * (inertia + inertia.T)
+    inertia = np.array(0.5 * (inertia + inertia.T))
     principal = np.linalg.eigvalsh(inertia)
     if principal[0] <= 0.0:
         raise ModelError(f"{what} has the principal value {principal[0]:g}; all must be greater than zero.")

@@ -1,4 +1,6 @@
-"""The register of a model: coordinates, bodies, equations, elements; the vocabulary in the other files writes into it."""
+"""The register of a model: coordinates, bodies, equations, elements; the vocabulary in the other files writes into
+it.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +53,7 @@ class ModelCore:
     """Bodies and the register; `Model` adds the vocabulary.
 
     Parameters
-    ----------
+    ---
     name : str
     dimension : {2, 3}
     gravity : array_like, shape (dimension,)
@@ -84,7 +86,7 @@ class ModelCore:
         self.coordinate_rates: dict[int, float] = {}
         self._names: dict[str, set[str]] = {}
 
-    # --- register -----------------------------------------------------------------------------------------------------------------
+    # --- register ---
     def unique(self, family: str, name: str) -> str:
         """Claim `name` among the things of a family."""
         if not isinstance(name, str) or not name.strip():
@@ -136,12 +138,12 @@ class ModelCore:
         body.number = len(self.bodies)
         self.bodies.append(body)
 
-    # --- bodies -------------------------------------------------------------------------------------------------------------------
+    # --- bodies ---
     def body(self, name: str, *, mass: float, com: ArrayLike, inertia: Any) -> Body:
         """A rigid body.
 
         Parameters
-        ----------
+        ---
         mass : float
             kg.
         com : array_like, shape (dimension,)

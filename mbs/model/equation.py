@@ -37,7 +37,7 @@ class Equation:
     """``sum c * A * B + linear + guide terms + angle part = 0``.
 
     Parameters
-    ----------
+    ---
     name : str
         Name of the joint, or of its part, for messages and the list of rows.
     kind : str
@@ -72,4 +72,3 @@ def dot_products(a: AffineVector, b: AffineVector, factor: float = 1.0) -> list[
 def products_value(products: Sequence[Product], q_full: NDArray[np.float64]) -> float:
     """Value of a sum of products at full coordinates."""
     return sum(c * a.value(q_full) * b.value(q_full) for c, a, b in products)
-

@@ -1,4 +1,6 @@
-"""Guides: prescribed motions s(t) with two continuous rates, from a description in time or from an input through a filter."""
+"""Guides: prescribed motions s(t) with two continuous rates, from a description in time or from an input through a
+filter.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ class Guide:
 
 
 def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequency: float, unit: str) -> Guide:
-    """``s'' = w^2 (gain u - s) - 2 w s'`` with w = 2 pi frequency: a critically damped follower that starts at rest on the input."""
+    """``s'' = w^2 (gain u - s) - 2 w s'`` with w = 2 pi frequency: a critically damped follower that starts at rest
+    on the input.
+    """
     owned_input(model, input, f"The guide '{name}'")
     w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
     k = number(gain, f"The gain of guide '{name}'")
@@ -38,7 +42,8 @@ def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequenc
 
 
 def guide_time(model: ModelCore, name: str, motion: Any, unit: str) -> Guide:
-    """A motion in time: a `scipy.interpolate.PPoly` of degree 5 or less, or (times, values) through which a cubic spline goes.
+    """A motion in time: a `scipy.interpolate.PPoly` of degree 5 or less, or (times, values) through which a cubic
+    spline goes.
 
     Outside its pieces the motion stands still, so it should begin and end with zero rates.
     """

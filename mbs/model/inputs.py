@@ -30,7 +30,9 @@ def new_input(model: ModelCore, name: str, start: float, min: float, max: float,
     low, high = float(min), float(max)
     value = number(start, f"The start of input '{name}'")
     if np.isnan(low) or np.isnan(high) or not low <= value <= high:
-        raise ModelError(f"The input '{name}' starts at {value:g}, which is not between its limits {low:g} and {high:g}.")
+        raise ModelError(
+            f"The input '{name}' starts at {value:g}, which is not between its limits {low:g} and {high:g}."
+        )
     channel = Input(name, len(model.inputs), value, low, high, unit, description)
     model.inputs.append(channel)
     return channel
@@ -38,6 +40,10 @@ def new_input(model: ModelCore, name: str, start: float, min: float, max: float,
 
 def owned_input(model: ModelCore, channel: Input, what: str) -> Input:
     """`channel` if it is one of this model."""
-    if not isinstance(channel, Input) or channel.index >= len(model.inputs) or model.inputs[channel.index] is not channel:
+    if (
+        not isinstance(channel, Input)
+        or channel.index >= len(model.inputs)
+        or model.inputs[channel.index] is not channel
+    ):
         raise ModelError(f"{what} needs an input made by model '{model.name}', got {channel!r}.")
     return channel

@@ -30,11 +30,12 @@ from mbs.model.spin import Spin, spin
 class Model(ForceVocabulary, SensorVocabulary):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 
-    Points, axes and inertias are given in earth axes in the reference configuration, as read off a drawing. Where the drawing
-    does not close, `point` (or `axis`) of a joint may be a pair, one per body; `compile` then closes the assembly.
+    Points, axes and inertias are given in earth axes in the reference configuration, as read off a drawing. Where the
+    drawing does not close, `point` (or `axis`) of a joint may be a pair, one per body; `compile` then closes the
+    assembly.
 
     Parameters
-    ----------
+    ---
     name : str
     dimension : {2, 3}
         Planar (x, y) or spatial.
@@ -42,13 +43,13 @@ class Model(ForceVocabulary, SensorVocabulary):
         m/s2; by default 9.81 along -y (planar) or -z (spatial).
 
     Examples
-    --------
+    ---
     >>> m = Model("pendulum", dimension=2)
     >>> rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=1.0 / 12.0)
     >>> joint = m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
     """
 
-    # --- joints -------------------------------------------------------------------------------------------------------------------
+    # --- joints ---
     def _join(self, joint: Joint) -> Joint:
         self.unique("joint", joint.name)
         self.joints.append(joint)
@@ -62,7 +63,9 @@ class Model(ForceVocabulary, SensorVocabulary):
         """Shared point."""
         return self._join(spherical(self, name, body_1, body_2, point))
 
-    def universal(self, name: str, body_1: Body, body_2: Body, *, point: Any, axis_1: ArrayLike, axis_2: ArrayLike) -> Joint:
+    def universal(
+        self, name: str, body_1: Body, body_2: Body, *, point: Any, axis_1: ArrayLike, axis_2: ArrayLike
+    ) -> Joint:
         """Shared point; the angle between axis_1 (of body 1) and axis_2 (of body 2) is constant."""
         return self._join(universal(self, name, body_1, body_2, point, axis_1, axis_2))
 
@@ -83,17 +86,21 @@ class Model(ForceVocabulary, SensorVocabulary):
         return self._join(point_on_line(self, name, end_1, end_2, axis))
 
     def distance(self, name: str, end_1: Any, end_2: Any, *, length: float | None = None) -> Joint:
-        """Constant distance, m (default: as drawn): a massless rod. Ends: (body, point), a point mass or a sliding point."""
+        """Constant distance, m (default: as drawn): a massless rod. Ends: (body, point), a point mass or a sliding
+        point.
+        """
         return self._join(distance(self, name, end_1, end_2, length))
 
     def drive(self, name: str, driven: Any, guide: Guide) -> Joint:
         """A coordinate, a component of a point, or the distance of a pair of ends follows a guide."""
         return self._join(drive(self, name, driven, guide))
 
-    # --- coordinates --------------------------------------------------------------------------------------------------------------
-    def relative_angle(self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0) -> Coordinate:
-        """Angle of body 2 against body 1 about the axis, unwrapped, as one more coordinate; `zero` is its reading, rad, in the
-        reference configuration."""
+    # --- coordinates ---
+    def relative_angle(
+        self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0
+    ) -> Coordinate:
+        """Angle of body 2 against body 1 about the axis, unwrapped, as one more coordinate; `zero` is its reading,
+        rad, in the reference configuration."""
         coordinate, joint = relative_angle(self, name, body_1, body_2, axis, zero)
         self._join(joint)
         return coordinate
@@ -124,9 +131,16 @@ class Model(ForceVocabulary, SensorVocabulary):
         """
         return spin(self, name, carrier, centre, axis, mass, spin_inertia, diametral_inertia, rolling_radius)
 
-    # --- guides, inputs, parameters -----------------------------------------------------------------------------------------------
+    # --- guides, inputs, parameters ---
     def input(
-        self, name: str, *, start: float = 0.0, min: float = -math.inf, max: float = math.inf, unit: str = "1", description: str = ""
+        self,
+        name: str,
+        *,
+        start: float = 0.0,
+        min: float = -math.inf,
+        max: float = math.inf,
+        unit: str = "1",
+        description: str = "",
     ) -> Input:
         """A number that a host sets."""
         return new_input(self, name, start, min, max, unit, description)

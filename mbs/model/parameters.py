@@ -31,7 +31,14 @@ class Parameter:
 
 
 def new_parameter(
-    model: ModelCore, name: str, value: float, min: float, max: float, unit: str, description: str, targets: Sequence[tuple[Any, Any, float]]
+    model: ModelCore,
+    name: str,
+    value: float,
+    min: float,
+    max: float,
+    unit: str,
+    description: str,
+    targets: Sequence[tuple[Any, Any, float]],
 ) -> Parameter:
     """Register a parameter; each target is (element, guide or ("road", number); real name; scale)."""
     model.unique("parameter", name)
@@ -56,9 +63,13 @@ def _target(model: ModelCore, name: str, owner: Any, real: Any, scale: float) ->
         if element.name == owner_name:
             if real not in element.real_names:
                 known = ", ".join(element.real_names) or "none"
-                raise ModelError(f"The parameter '{name}' asks for '{real}' of element '{owner_name}', which has: {known}.")
+                raise ModelError(
+                    f"The parameter '{name}' asks for '{real}' of element '{owner_name}', which has: {known}."
+                )
             return ELEMENT, index, list(element.real_names).index(real), factor
     for guide in model.guides:
         if guide.name == owner_name and guide.type == 1 and real in GUIDE_REALS:
             return GUIDE, guide.index, GUIDE_REALS.index(real), factor
-    raise ModelError(f"The parameter '{name}' writes '{real}' of '{owner_name}', but the model has no such element or guide.")
+    raise ModelError(
+        f"The parameter '{name}' writes '{real}' of '{owner_name}', but the model has no such element or guide."
+    )

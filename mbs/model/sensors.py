@@ -27,7 +27,7 @@ class Sensor:
     """One output.
 
     Parameters
-    ----------
+    ---
     type : int
         Sensor type of the System file.
     signals : sequence of Affine
@@ -66,7 +66,14 @@ class SensorVocabulary(ModelCore):
     """The ``sense_...`` methods of a model. Each sensor has a name, a unit and a description."""
 
     def _sense(
-        self, name: str, unit: str, description: str, type: int, signals: Sequence[Affine] = (), integers: Sequence[int] = (), reals: Sequence[float] = ()
+        self,
+        name: str,
+        unit: str,
+        description: str,
+        type: int,
+        signals: Sequence[Affine] = (),
+        integers: Sequence[int] = (),
+        reals: Sequence[float] = (),
     ) -> Sensor:
         self.unique("sensor", name)
         sensor = Sensor(name, unit, description, type, signals, integers, reals)
@@ -80,7 +87,15 @@ class SensorVocabulary(ModelCore):
         return body.point(point)
 
     def _moving(
-        self, name: str, body: Body, point: ArrayLike | None, component: str, axes: Body | str, order: int, unit: str, description: str
+        self,
+        name: str,
+        body: Body,
+        point: ArrayLike | None,
+        component: str,
+        axes: Body | str,
+        order: int,
+        unit: str,
+        description: str,
     ) -> Sensor:
         p = self._point(body, point, f"The sensor '{name}'")
         k = component_number(component, self.dimension, f"sensor '{name}'")
@@ -95,24 +110,57 @@ class SensorVocabulary(ModelCore):
         return self._sense(name, unit, description, 3, [*spatial(p), *spatial(axis)], integers=[order])
 
     def sense_position(
-        self, name: str, body: Body, point: ArrayLike | None = None, component: str = "x", axes: Body | str = "earth", unit: str = "m", description: str = ""
+        self,
+        name: str,
+        body: Body,
+        point: ArrayLike | None = None,
+        component: str = "x",
+        axes: Body | str = "earth",
+        unit: str = "m",
+        description: str = "",
     ) -> Sensor:
-        """Component of the position of a point (default: centre of mass), in earth axes or along an axis of a body, m."""
+        """Component of the position of a point (default: centre of mass), in earth axes or along an axis of a body,
+        m.
+        """
         return self._moving(name, body, point, component, axes, 0, unit, description)
 
     def sense_velocity(
-        self, name: str, body: Body, point: ArrayLike | None = None, component: str = "x", axes: Body | str = "earth", unit: str = "m/s", description: str = ""
+        self,
+        name: str,
+        body: Body,
+        point: ArrayLike | None = None,
+        component: str = "x",
+        axes: Body | str = "earth",
+        unit: str = "m/s",
+        description: str = "",
     ) -> Sensor:
         """Component of the velocity of a point, in earth axes or along the moving axis of a body, m/s."""
         return self._moving(name, body, point, component, axes, 1, unit, description)
 
     def sense_acceleration(
-        self, name: str, body: Body, point: ArrayLike | None = None, component: str = "x", axes: Body | str = "earth", unit: str = "m/s2", description: str = ""
+        self,
+        name: str,
+        body: Body,
+        point: ArrayLike | None = None,
+        component: str = "x",
+        axes: Body | str = "earth",
+        unit: str = "m/s2",
+        description: str = "",
     ) -> Sensor:
-        """Component of the acceleration of a point (without gravity), in earth axes or along the moving axis of a body, m/s2."""
+        """Component of the acceleration of a point (without gravity), in earth axes or along the moving axis of a
+        body, m/s2.
+        """
         return self._moving(name, body, point, component, axes, 2, unit, description)
 
-    def sense_coordinate(self, name: str, coordinate: Coordinate | Affine, order: int = 0, scale: float = 1.0, unit: str = "", description: str = "") -> Sensor:
+    def sense_coordinate(
+        self,
+        name: str,
+        coordinate: Coordinate | Affine,
+        order: int = 0,
+        scale: float = 1.0,
+        unit: str = "",
+        description: str = "",
+    ) -> Sensor:
         """A coordinate (relative angle, spin) or any affine expression, its rate (order 1) or second rate (order 2)."""
         if order not in (0, 1, 2):
             raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0, 1 or 2.")
@@ -123,8 +171,12 @@ class SensorVocabulary(ModelCore):
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
         return self._sense(name, unit, description, order, [expression], reals=[scale])
 
-    def sense_angular_rate(self, name: str, body: Body, component: str = "z", unit: str = "rad/s", description: str = "") -> Sensor:
-        """Component of the angular velocity of a body in its own axes (those along the earth axes in the reference), rad/s."""
+    def sense_angular_rate(
+        self, name: str, body: Body, component: str = "z", unit: str = "rad/s", description: str = ""
+    ) -> Sensor:
+        """Component of the angular velocity of a body in its own axes (those along the earth axes in the reference),
+        rad/s.
+        """
         self.owned(body, f"The sensor '{name}'")
         k = COMPONENTS["z"] if self.dimension == 2 else component_number(component, 3, f"sensor '{name}'")
         e = np.eye(self.dimension)
@@ -144,9 +196,13 @@ class SensorVocabulary(ModelCore):
     def sense_roll(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
         """atan2 of the z components of the body's y and z axes, rad: positive left side up."""
         self._spatial_only(name)
-        return self._sense(name, unit, description, 4, [body.vector((0.0, 1.0, 0.0))[2], body.vector((0.0, 0.0, 1.0))[2]])
+        return self._sense(
+            name, unit, description, 4, [body.vector((0.0, 1.0, 0.0))[2], body.vector((0.0, 0.0, 1.0))[2]]
+        )
 
-    def sense_quaternion(self, name: str, body: Body, component: str = "w", unit: str = "1", description: str = "") -> Sensor:
+    def sense_quaternion(
+        self, name: str, body: Body, component: str = "w", unit: str = "1", description: str = ""
+    ) -> Sensor:
         """Component "w", "x", "y" or "z" of the orientation quaternion of a body."""
         self._spatial_only(name)
         if component not in ("w", "x", "y", "z"):
@@ -154,7 +210,9 @@ class SensorVocabulary(ModelCore):
         axes = [s for e in np.eye(3) for s in body.vector(e).components]
         return self._sense(name, unit, description, 7, axes, integers=["wxyz".index(component)])
 
-    def sense_norm(self, name: str, vector: AffineVector, order: int = 0, unit: str = "", description: str = "") -> Sensor:
+    def sense_norm(
+        self, name: str, vector: AffineVector, order: int = 0, unit: str = "", description: str = ""
+    ) -> Sensor:
         """Length of a vector (order 0) or of its rate (order 1): distance between points, speed of a point."""
         if order not in (0, 1):
             raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0 or 1.")
@@ -162,30 +220,53 @@ class SensorVocabulary(ModelCore):
         return self._sense(name, unit, description, 14, list(vector.components), integers=[order, len(vector)])
 
     def sense_direction(
-        self, name: str, point: AffineVector, axis_1: AffineVector, axis_2: AffineVector, order: int = 1, unit: str = "rad", description: str = ""
+        self,
+        name: str,
+        point: AffineVector,
+        axis_1: AffineVector,
+        axis_2: AffineVector,
+        order: int = 1,
+        unit: str = "rad",
+        description: str = "",
     ) -> Sensor:
         """Direction of the velocity of a point in moving axes, atan2(axis_2 . v, axis_1 . v), rad (side-slip angle)."""
         signals = [*spatial(point), *spatial(axis_1), *spatial(axis_2)]
         return self._sense(name, unit, description, 15, signals, integers=[order])
 
-    def sense_angle_between(self, name: str, a: AffineVector, b: AffineVector, c: AffineVector, unit: str = "rad", description: str = "") -> Sensor:
+    def sense_angle_between(
+        self, name: str, a: AffineVector, b: AffineVector, c: AffineVector, unit: str = "rad", description: str = ""
+    ) -> Sensor:
         """Angle from b to a about c, atan2((b x a) . c, a . b), rad."""
         return self._sense(name, unit, description, 16, [*spatial(a), *spatial(b), *spatial(c)])
 
-    def sense_element(self, name: str, element: Any, output: str, scale: float = 1.0, unit: str = "", description: str = "") -> Sensor:
+    def sense_element(
+        self, name: str, element: Any, output: str, scale: float = 1.0, unit: str = "", description: str = ""
+    ) -> Sensor:
         """An output of a force element, such as the force of a spring."""
         element_name = getattr(element, "name", element)
         for index, record in enumerate(self.elements):
             if record.name == element_name:
                 for k, out in enumerate(record.outputs):
                     if out.name == output:
-                        return self._sense(name, unit or out.unit, description or out.description, 8, integers=[index, k], reals=[scale])
+                        return self._sense(
+                            name,
+                            unit or out.unit,
+                            description or out.description,
+                            8,
+                            integers=[index, k],
+                            reals=[scale],
+                        )
                 known = ", ".join(o.name for o in record.outputs) or "none"
-                raise ModelError(f"The sensor '{name}' asks for '{output}' of element '{element_name}', which has: {known}.")
+                raise ModelError(
+                    f"The sensor '{name}' asks for '{output}' of element '{element_name}', which has: {known}."
+                )
         raise ModelError(f"The sensor '{name}' asks for element '{element_name}', but the model has no such element.")
 
-    def sense_joint_force(self, name: str, joint: Joint | str, component: str = "x", unit: str = "N", description: str = "") -> Sensor:
-        """Force of a joint on its first body: a component in earth axes at a shared point, or "tension" of a distance; of a drive, "drive".
+    def sense_joint_force(
+        self, name: str, joint: Joint | str, component: str = "x", unit: str = "N", description: str = ""
+    ) -> Sensor:
+        """Force of a joint on its first body: a component in earth axes at a shared point, or "tension" of a
+        distance; of a drive, "drive".
 
         The equations of the joint stay rows of the System, so that the multipliers exist.
         """
@@ -194,11 +275,15 @@ class SensorVocabulary(ModelCore):
             raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {joint!r}.")
         rows = found.force_equations
         if not rows:
-            raise ModelError(f"The joint '{found.name}' ({found.type}) has no force reading; a shared point, a distance or a drive has one.")
+            raise ModelError(
+                f"The joint '{found.name}' ({found.type}) has no force reading; points, distances and drives have one."
+            )
         if found.type in ("distance", "drive"):
             expected = "tension" if found.type == "distance" else "drive"
             if component not in (expected, "x"):
-                raise ModelError(f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'.")
+                raise ModelError(
+                    f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
+                )
             row, weight = rows[0], found.rows_weight if found.type == "distance" else -found.rows_weight
         else:
             row, weight = rows[component_number(component, self.dimension, f"sensor '{name}'")], -found.rows_weight
@@ -209,7 +294,7 @@ class SensorVocabulary(ModelCore):
         return sensor
 
     def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
-        """"kinetic", "gravity", "elastic" or "total" energy, J."""
+        """ "kinetic", "gravity", "elastic" or "total" energy, J."""
         if kind not in ENERGIES:
             raise ModelError(f"The energy of sensor '{name}' is {kind!r}; it must be one of {', '.join(ENERGIES)}.")
         return self._sense(name, unit, description, 10, integers=[ENERGIES.index(kind)])
@@ -220,7 +305,9 @@ class SensorVocabulary(ModelCore):
             raise ModelError(f"The sensor '{name}' needs an input of model '{self.name}', got {input!r}.")
         return self._sense(name, unit or input.unit, description, 11, integers=[input.index])
 
-    def sense_guide(self, name: str, guide: Any, order: int = 0, scale: float = 1.0, unit: str = "", description: str = "") -> Sensor:
+    def sense_guide(
+        self, name: str, guide: Any, order: int = 0, scale: float = 1.0, unit: str = "", description: str = ""
+    ) -> Sensor:
         """A guide or its rates."""
         if guide not in self.guides or order not in (0, 1, 2):
             raise ModelError(f"The sensor '{name}' needs a guide of model '{self.name}' and an order 0, 1 or 2.")

@@ -20,11 +20,11 @@ from mbs.model.errors import ModelError
 class Spin(Coordinate):
     """A wheel on its carrier.
 
-    The coordinate is a quasi coordinate: its rate is the absolute angular velocity of the wheel along `axis`; its value has
-    no meaning. Mass and diametral inertia are lumped on the carrier, with zero axial inertia.
+    The coordinate is a quasi coordinate: its rate is the absolute angular velocity of the wheel along `axis`; its
+    value has no meaning. Mass and diametral inertia are lumped on the carrier, with zero axial inertia.
 
     Attributes
-    ----------
+    ---
     centre, axis, f, g : AffineVector
         Wheel centre and unit vectors of the carrier with axis = f x g.
     rolling_radius : float
@@ -68,7 +68,9 @@ def spin(
     I_s = positive(spin_inertia, f"The spin inertia of {what}")
     I_d = not_negative(diametral_inertia, f"The diametral inertia of {what}")
     if I_s > 2.0 * I_d * (1.0 + 1e-9):
-        raise ModelError(f"The spin inertia {I_s:g} of {what} is more than twice its diametral inertia {I_d:g}; no wheel is like that.")
+        raise ModelError(
+            f"The spin inertia {I_s:g} of {what} is more than twice its diametral inertia {I_d:g}; no wheel has that."
+        )
     radius = not_negative(rolling_radius, f"The rolling radius of {what}")
     e = direction(axis, 3, f"the axis of {what}")
     c = vector(centre, 3, f"the centre of {what}")
@@ -78,9 +80,21 @@ def spin(
     index = model.new_coordinate(name, "spin", 0.0)
     model.inertias[index] = I_s
     new = Spin(
-        name, index, "rad", carrier, carrier.point(c), carrier.vector(e), carrier.vector(x), carrier.vector(y), I_s, radius, tuple(e)
+        name,
+        index,
+        "rad",
+        carrier,
+        carrier.point(c),
+        carrier.vector(e),
+        carrier.vector(x),
+        carrier.vector(y),
+        I_s,
+        radius,
+        tuple(e),
     )
     signals = [*new.f.components, *new.g.components, new.affine]
-    model.add(ElementRecord(f"{name}.gyroscopic", ElementType.GYROSCOPIC_SPIN, signals, [I_s], real_names=("spin_inertia",)))
+    model.add(
+        ElementRecord(f"{name}.gyroscopic", ElementType.GYROSCOPIC_SPIN, signals, [I_s], real_names=("spin_inertia",))
+    )
     model.spins.append(new)
     return new

@@ -1,0 +1,1 @@
+"""Complete scenes, one per file or folder, each with a function `build`."""

@@ -1,4 +1,6 @@
-"""Bricard's loop (IFToMM benchmark A04): five rods, six revolutes, one degree of freedom, over-constrained everywhere."""
+"""Bricard's loop (IFToMM benchmark A04): five rods, six revolutes, one degree of freedom, over-constrained
+everywhere.
+"""
 
 from __future__ import annotations
 
@@ -28,6 +30,8 @@ def build() -> Model:
     for k in range(6):
         m.revolute(f"P{k + 1}", chain[k], chain[k + 1], point=points[k], axis=AXES[k])
     for component in "xyz":
-        m.sense_position(f"P3.position.{component}", chain[2], points[2], component, description=f"position of P3 along {component}")
+        m.sense_position(
+            f"P3.position.{component}", chain[2], points[2], component, description=f"position of P3 along {component}"
+        )
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")
     return m

@@ -35,8 +35,12 @@ def build(windows: int = 2) -> Model:
     m.initial_velocity(cranks[0], linear=(0.5 * LENGTH * START_SPEED, 0.0), angular=-START_SPEED)
     tip = (0.0, LENGTH)
     for component in "xy":
-        m.sense_position(f"B0.position.{component}", cranks[0], tip, component, description=f"position of B0 along {component}")
-        m.sense_velocity(f"B0.velocity.{component}", cranks[0], tip, component, description=f"velocity of B0 along {component}")
+        m.sense_position(
+            f"B0.position.{component}", cranks[0], tip, component, description=f"position of B0 along {component}"
+        )
+        m.sense_velocity(
+            f"B0.velocity.{component}", cranks[0], tip, component, description=f"velocity of B0 along {component}"
+        )
     for kind in ("kinetic", "gravity", "total"):
         m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")
     return m

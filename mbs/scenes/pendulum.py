@@ -19,8 +19,12 @@ def build(length: float = 1.0, mass: float = 1.0) -> Model:
     bob = m.point_mass("bob", mass=mass, position=(-length, 0.0))
     rod = m.distance("rod", (m.ground, (0.0, 0.0)), bob)
     for component in "xy":
-        m.sense_position(f"bob.position.{component}", bob, None, component, description=f"position of the mass along {component}")
-        m.sense_velocity(f"bob.velocity.{component}", bob, None, component, description=f"velocity of the mass along {component}")
+        m.sense_position(
+            f"bob.position.{component}", bob, None, component, description=f"position of the mass along {component}"
+        )
+        m.sense_velocity(
+            f"bob.velocity.{component}", bob, None, component, description=f"velocity of the mass along {component}"
+        )
     m.sense_joint_force("rod.tension", rod, "tension", description="force in the rod, positive in tension")
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")
     return m

@@ -28,7 +28,9 @@ def end_point(model: ModelCore, end: End, what: str) -> tuple[AffineVector, Slid
     try:
         body, point = end
     except (TypeError, ValueError):
-        raise ModelError(f"An end of {what} must be (body, point), a point mass or a sliding point; got {end!r}.") from None
+        raise ModelError(
+            f"An end of {what} must be (body, point), a point mass or a sliding point; got {end!r}."
+        ) from None
     return model.anchor(body, point, what), None
 
 
@@ -53,5 +55,13 @@ def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float 
     slide, sign = (slide_1, 1.0) if slide_1 is not None else (slide_2, -1.0)
     guides = []
     if slide is not None:
-        guides = [GuideTerm(slide.guide, 1, dot_products(gap, slide.direction, sign)), GuideTerm(slide.guide, 2, linear=Affine({}, 0.5))]
-    return Joint(name, "distance", [Equation(name, "distance", dot_products(gap, gap, 0.5), constant, guides)], rows_weight=length)
+        guides = [
+            GuideTerm(slide.guide, 1, dot_products(gap, slide.direction, sign)),
+            GuideTerm(slide.guide, 2, linear=Affine({}, 0.5)),
+        ]
+    return Joint(
+        name,
+        "distance",
+        [Equation(name, "distance", dot_products(gap, gap, 0.5), constant, guides)],
+        rows_weight=length,
+    )

@@ -20,14 +20,20 @@ def drive(model: ModelCore, name: str, driven: Any, guide: Guide) -> Joint:
     minus_one = Affine({}, -1.0)
     if isinstance(driven, tuple) and len(driven) == 2:
         if guide.start <= 0.0:
-            raise ModelError(f"The guide of {what} starts at {guide.start:g} m; a driven distance must be greater than zero.")
+            raise ModelError(
+                f"The guide of {what} starts at {guide.start:g} m; a driven distance must be greater than zero."
+            )
         rod = distance(model, name, driven[0], driven[1], guide.start)
         if rod.equations[0].guides:
             raise ModelError(f"An end of {what} slides; only fixed points may have a driven distance.")
-        row = Equation(name, "driven_distance", rod.equations[0].products, guides=[GuideTerm(g, 2, linear=minus_one * 0.5)])
+        row = Equation(
+            name, "driven_distance", rod.equations[0].products, guides=[GuideTerm(g, 2, linear=minus_one * 0.5)]
+        )
         return Joint(name, "drive", [row])
     expression = driven.affine if isinstance(driven, Coordinate) else driven
     if not isinstance(expression, Affine) or not expression.terms:
-        raise ModelError(f"The {what} needs a coordinate, a component of a point or two ends of a distance, got {driven!r}.")
+        raise ModelError(
+            f"The {what} needs a coordinate, a component of a point or two ends of a distance, got {driven!r}."
+        )
     row = Equation(name, "drive", linear=expression, guides=[GuideTerm(g, 1, linear=minus_one)])
     return Joint(name, "drive", [row], rows_weight=1.0)

@@ -55,4 +55,6 @@ def point_pair(point: Any, dimension: int, what: str) -> tuple[ArrayLike, ArrayL
             return point, point
     except TypeError:
         pass
-    raise ModelError(f"The point of {what} must be {dimension} numbers, or a pair of points, one per body; got {point!r}.")
+    raise ModelError(
+        f"The point of {what} must be {dimension} numbers, or a pair of points, one per body; got {point!r}."
+    )

@@ -57,7 +57,9 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
     return Joint(name, "revolute", equations, rows_weight=1.0)
 
 
-def universal(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis_1: ArrayLike, axis_2: ArrayLike) -> Joint:
+def universal(
+    model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis_1: ArrayLike, axis_2: ArrayLike
+) -> Joint:
     """Shared point, and the angle between an axis of each body stays what it is (one quadratic row)."""
     what = f"universal joint '{name}'"
     if model.dimension == 2:

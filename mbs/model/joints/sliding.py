@@ -25,7 +25,9 @@ def _normals(model: ModelCore, body: Body, axis: ArrayLike, what: str) -> list[A
     return [model.anchor_axis(body, e, what) for e in perpendicular(direction(axis, 3, f"the axis of {what}"))]
 
 
-def on_line(model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike, what: str) -> list[Equation]:
+def on_line(
+    model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike, what: str
+) -> list[Equation]:
     """The point of body 1 stays on the line through the point of body 2 along an axis fixed in body 2."""
     body_2 = model.owned(end_2[0], f"The {what}")
     if body_2.is_point:
@@ -43,7 +45,9 @@ def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, wh
     return [e for u in axes for e in equal_vectors(name, "axis", body_1.vector(u), body_2.vector(u))]
 
 
-def point_on_line(model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike) -> Joint:
+def point_on_line(
+    model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike
+) -> Joint:
     """Point of body 1 on a line fixed in body 2."""
     what = f"point-on-line joint '{name}'"
     different(end_1[0], end_2[0], what)
@@ -62,7 +66,9 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
 
 
 def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
-    """Shared orientation, and the point of body 1 on the axis of body 2; without a point, the centre of mass of a moving body."""
+    """Shared orientation, and the point of body 1 on the axis of body 2; without a point, the centre of mass of a
+    moving body.
+    """
     what = f"prismatic joint '{name}'"
     different(body_1, body_2, what)
     if point is None:
