@@ -1,6 +1,6 @@
 """The kernel through ctypes. This file needs nothing but the standard library, so that an FMU can carry it.
 
-A library handle is loaded once per path; a `LoadedSystem` may be shared by threads, an `Instance` belongs to one at a time.
+A library is loaded once per path; a `LoadedSystem` may be shared by threads, an `Instance` belongs to one at a time.
 Names and units: `include/ali3.h`.
 """
 
@@ -302,7 +302,7 @@ class Instance:
         self._start(self._library.ali3_initialise(self._handle, t0))
 
     def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
-        """Equilibrium near the present position, out of balance by at most `tolerance` (N or N m); rates become zero."""
+        """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""
         self._start(self._library.ali3_static_equilibrium(self._handle, t0, tolerance, max_iterations))
 
     def _start(self, status: int) -> None:

@@ -7,51 +7,36 @@
 #include "element.h"
 #include "road.h"
 
-/* The arrays of a System file: C type, dtype number, name. */
-#define ALI3_SYSTEM_ARRAYS(X)                                                                                          \
-  X(unsigned char, 3, meta)                                                                                            \
-  X(double, 2, q0)                                                                                                     \
-  X(double, 2, qd0) X(double, 2, y0) X(int32_t, 1, mass_ptr) X(int32_t, 1, mass_col) X(double, 2, mass_val)            \
-      X(int32_t, 1, mass_pos) X(double, 2, gravity_force) X(double, 2, gravity_const) X(int32_t, 1, row_ptr)           \
-          X(int32_t, 1, row_col) X(double, 2, row_lin) X(double, 2, row_const) X(double, 2, row_scale)                 \
-              X(double, 2, row_measure) X(int32_t, 1, row_front) X(int32_t, 1, row_loc) X(int32_t, 1, quad_ptr) X(     \
-                  int32_t, 1, quad_a) X(int32_t, 1, quad_b) X(double, 2, quad_h) X(int32_t, 1, angle_row)              \
-                  X(int32_t, 1, angle_theta) X(int32_t, 1, angle_ptr) X(int32_t, 1, angle_a) X(int32_t, 1, angle_b) X( \
-                      double, 2, angle_hc) X(double, 2, angle_hs) X(int32_t, 1, gterm_row) X(int32_t, 1, gterm_guide)  \
-                      X(int32_t, 1, gterm_power) X(int32_t, 1, gterm_a) X(int32_t, 1, gterm_b) X(double, 2, gterm_h)   \
-                          X(int32_t, 1, front_col) X(int32_t, 1, front_ptr) X(int32_t, 1, front_idx)                   \
-                              X(int32_t, 1, front_parent) X(int32_t, 1, front_map) X(int32_t, 1, front_off)            \
-                                  X(int32_t, 1, sig_ptr) X(int32_t, 1, sig_col)                                        \
-                                      X(double, 2, sig_val) X(double, 2, sig_const) X(int32_t, 1, el_type)             \
-                                          X(int32_t, 1, el_sig_ptr) X(int32_t, 1, el_sig) X(int32_t, 1, el_real_ptr)   \
-                                              X(double, 2, el_real) X(int32_t, 1, el_int_ptr) X(int32_t, 1, el_int)    \
-                                                  X(int32_t, 1, el_state_ptr) X(int32_t, 1, el_out_ptr) X(             \
-                                                      int32_t, 1, el_front) X(int32_t, 1, el_loc_ptr)                  \
-                                                      X(int32_t, 1, el_loc) X(double, 2, input_start) X(               \
-                                                          double, 2, input_min) X(double, 2, input_max)                \
-                                                          X(int32_t, 1, guide_type) X(int32_t, 1, guide_input) X(      \
-                                                              int32_t, 1,                                              \
-                                                              guide_real_ptr) X(double, 2, guide_real)                 \
-                                                              X(int32_t, 1, road_type) X(int32_t, 1, road_real_ptr) X( \
-                                                                  double,                                              \
-                                                                  2, road_real) X(double, 2, par_value)                \
-                                                                  X(double, 2, par_min) X(double, 2, par_max) X(       \
-                                                                      int32_t, 1,                                      \
-                                                                      par_ptr) X(int32_t, 1, par_target)               \
-                                                                      X(int32_t, 1, par_index) X(double, 2, par_scale) \
-                                                                          X(double, 2, pose_0) X(double, 2, pose_cos)  \
-                                                                              X(double, 2,                             \
-                                                                                pose_sin) X(double, 2, pose_x)         \
-                                                                                  X(double, 2,                         \
-                                                                                    pose_y) X(double, 2, pose_z)       \
-                                                                                      X(double, 2, pose_speed)         \
-                                                                                          X(int32_t, 1, sen_type) X(   \
-                                                                                              int32_t, 1, sen_int_ptr) \
-                                                                                              X(int32_t, 1, sen_int)   \
-                                                                                                  X(int32_t, 1,        \
-                                                                                                    sen_real_ptr)      \
-                                                                                                      X(double, 2,     \
-                                                                                                        sen_real)
+/* The arrays of a System file: C type, item type number, name. */
+/* clang-format off */
+#define ALI3_SYSTEM_ARRAYS(X) \
+  X(unsigned char, 3, meta) \
+  X(double, 2, q0) X(double, 2, qd0) X(double, 2, y0) \
+  X(int32_t, 1, mass_ptr) X(int32_t, 1, mass_col) X(double, 2, mass_val) X(int32_t, 1, mass_pos) \
+  X(double, 2, gravity_force) X(double, 2, gravity_const) \
+  X(int32_t, 1, row_ptr) X(int32_t, 1, row_col) X(double, 2, row_lin) X(double, 2, row_const) \
+  X(double, 2, row_scale) X(double, 2, row_measure) X(int32_t, 1, row_front) X(int32_t, 1, row_loc) \
+  X(int32_t, 1, quad_ptr) X(int32_t, 1, quad_a) X(int32_t, 1, quad_b) X(double, 2, quad_h) \
+  X(int32_t, 1, angle_row) X(int32_t, 1, angle_theta) X(int32_t, 1, angle_ptr) X(int32_t, 1, angle_a) \
+  X(int32_t, 1, angle_b) X(double, 2, angle_hc) X(double, 2, angle_hs) \
+  X(int32_t, 1, gterm_row) X(int32_t, 1, gterm_guide) X(int32_t, 1, gterm_power) X(int32_t, 1, gterm_a) \
+  X(int32_t, 1, gterm_b) X(double, 2, gterm_h) \
+  X(int32_t, 1, front_col) X(int32_t, 1, front_ptr) X(int32_t, 1, front_idx) X(int32_t, 1, front_parent) \
+  X(int32_t, 1, front_map) X(int32_t, 1, front_off) \
+  X(int32_t, 1, sig_ptr) X(int32_t, 1, sig_col) X(double, 2, sig_val) X(double, 2, sig_const) \
+  X(int32_t, 1, el_type) X(int32_t, 1, el_sig_ptr) X(int32_t, 1, el_sig) X(int32_t, 1, el_real_ptr) \
+  X(double, 2, el_real) X(int32_t, 1, el_int_ptr) X(int32_t, 1, el_int) X(int32_t, 1, el_state_ptr) \
+  X(int32_t, 1, el_out_ptr) X(int32_t, 1, el_front) X(int32_t, 1, el_loc_ptr) X(int32_t, 1, el_loc) \
+  X(double, 2, input_start) X(double, 2, input_min) X(double, 2, input_max) \
+  X(int32_t, 1, guide_type) X(int32_t, 1, guide_input) X(int32_t, 1, guide_real_ptr) X(double, 2, guide_real) \
+  X(int32_t, 1, road_type) X(int32_t, 1, road_real_ptr) X(double, 2, road_real) \
+  X(double, 2, par_value) X(double, 2, par_min) X(double, 2, par_max) X(int32_t, 1, par_ptr) \
+  X(int32_t, 1, par_target) X(int32_t, 1, par_index) X(double, 2, par_scale) \
+  X(double, 2, pose_0) X(double, 2, pose_cos) X(double, 2, pose_sin) X(double, 2, pose_x) X(double, 2, pose_y) \
+  X(double, 2, pose_z) X(double, 2, pose_speed) \
+  X(int32_t, 1, sen_type) X(int32_t, 1, sen_int_ptr) X(int32_t, 1, sen_int) X(int32_t, 1, sen_real_ptr) \
+  X(double, 2, sen_real)
+/* clang-format on */
 
 /* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */
 typedef struct {
@@ -128,7 +113,7 @@ struct ali3_instance {
   /* work space */
   double *D, *d0, *r, *x, *w;              /* nq */
   double *Phi, *Phit, *gamma, *mu, *lam;   /* nc */
-  double *J;                               /* row pattern */
+  double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
   double *F;                               /* front storage */
   double *Q;                               /* nq */
   double *u, *ud;                          /* signals */

@@ -19,6 +19,7 @@ static ali3_status factorise_metric(ali3_instance *in, bool fill_massless) {
   if (fill_massless)
     for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
   ali3_rows_square(S, in->J, ALPHA, in->F);
+  memcpy(in->J_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
   return ali3_factorise(in, in->F);
 }
 

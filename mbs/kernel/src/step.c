@@ -36,7 +36,9 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   return largest;
 }
 
-/* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. Returns the violation. */
+/* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q' that spreads
+ * the correction is that of the tangent: the penalty would amplify what a later one has outside its range. The violation is judged
+ * at the converged position. Returns it. */
 double ali3_project(ali3_instance *in, double factor, const double *b, double *v, int32_t sweeps) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
@@ -52,7 +54,7 @@ double ali3_project(ali3_instance *in, double factor, const double *b, double *v
       if (fabs(v[i]) > scale) scale = fabs(v[i]);
     if (sweep == sweeps || violation <= ROUND_OFF * scale) return violation;
     for (int32_t k = 0; k < nc; k++) in->mu[k] *= factor;
-    ali3_rows_transposed(S, in->J, in->mu, in->x);
+    ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
     ali3_solve(in, in->F, in->x);
     for (int32_t i = 0; i < nq; i++) v[i] -= in->x[i];
   }
@@ -126,6 +128,9 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *it
     const ali3_status status = correct(in, h, alpha);
     if (status != ALI3_OK) return status;
     ++*iterations;
+    double *J = in->J;
+    in->J = in->J_tangent;
+    in->J_tangent = J;
     evaluate(in, h, true);
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
