@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from mbs.compile.report import rank_at
 from mbs.compile.row_arrays import RowArrays
 from mbs.compile.rows import rigid_rows
 from mbs.compile.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
-from mbs.model.errors import ModelError
+from mbs.errors import ModelError
 from mbs.model.guides import TIME
 from mbs.model.model import Model
 from mbs.system import System
@@ -283,7 +284,6 @@ def _mass_positions(mass: sparse.csr_matrix, fronts: Fronts) -> Index:
 
 
 def _meta(model: Model, kept: list[int], order: Index, rows: list[RowTerms], report: dict[str, Any]) -> dict[str, Any]:
-    limit = np.finfo(float).max
     return {
         "name": model.name,
         "dimension": model.dimension,
@@ -295,8 +295,8 @@ def _meta(model: Model, kept: list[int], order: Index, rows: list[RowTerms], rep
                 "unit": i.unit,
                 "description": i.description,
                 "start": i.start,
-                "min": max(i.min, -limit),
-                "max": min(i.max, limit),
+                "min": i.min if math.isfinite(i.min) else None,
+                "max": i.max if math.isfinite(i.max) else None,
             }
             for i in model.inputs
         ],

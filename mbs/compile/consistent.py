@@ -11,7 +11,7 @@ from scipy.sparse.linalg import splu
 
 from mbs.compile.polynomial import RowTerms
 from mbs.compile.row_arrays import RowArrays
-from mbs.model.errors import ModelError
+from mbs.errors import ModelError
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg import qr
 
 from mbs.compile.polynomial import Monomial, RowTerms
-from mbs.model.errors import ModelError
+from mbs.errors import ModelError
 
 DEPENDENT = 1e-9
 """Relative size of the remainder of a dependent row."""

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.affine import Affine
-from mbs.model.errors import ModelError
+from mbs.errors import ModelError
 
 PIVOT_THRESHOLD = 0.1
 """A pivot is at least this part of the largest entry of its row."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.affine import Affine
-from mbs.model.errors import ModelError
+from mbs.errors import ModelError
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]

@@ -124,9 +124,8 @@ def channel_arrays(model: Model) -> Arrays:
     flat = [t for group in targets for t in group]
     return {
         "input_start": np.array([i.start for i in model.inputs], dtype=float),
-        # limits of the file are finite: an open end is the largest number
-        "input_min": np.array([max(i.min, -np.finfo(float).max) for i in model.inputs], dtype=float),
-        "input_max": np.array([min(i.max, np.finfo(float).max) for i in model.inputs], dtype=float),
+        "input_min": np.array([i.min for i in model.inputs], dtype=float),
+        "input_max": np.array([i.max for i in model.inputs], dtype=float),
         "guide_type": np.array([g.type for g in model.guides], dtype=np.int64),
         "guide_input": np.array([g.input for g in model.guides], dtype=np.int64),
         **ragged("guide_real", [g.reals for g in model.guides], float),

@@ -1,8 +1,8 @@
 """The modelling vocabulary."""
 
+from mbs.errors import ModelError
 from mbs.model.body import Body, PointMass
 from mbs.model.core import Coordinate
-from mbs.model.errors import ModelError
 from mbs.model.guides import Guide
 from mbs.model.inputs import Input
 from mbs.model.joints.joint import Joint

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.checks import direction, number, perpendicular
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.equation import AnglePart, Equation, dot_products
-from mbs.model.errors import ModelError
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.points import different
 

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import Affine, AffineVector
+from mbs.errors import ModelError
 from mbs.model.checks import Vector, vector
-from mbs.model.errors import ModelError
 
 if TYPE_CHECKING:
     from mbs.model.core import ModelCore

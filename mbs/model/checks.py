@@ -7,36 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.model.errors import ModelError
+from mbs.elements.checks import not_negative, number, positive
+from mbs.errors import ModelError
 
 Vector = NDArray[np.float64]
 
-
-def number(value: Any, what: str) -> float:
-    """A finite number."""
-    try:
-        x = float(value)
-    except (TypeError, ValueError):
-        raise ModelError(f"{what} must be a number, not {value!r}.") from None
-    if not np.isfinite(x):
-        raise ModelError(f"{what} is {x}; it must be a finite number.")
-    return x
-
-
-def positive(value: Any, what: str) -> float:
-    """A finite number above zero."""
-    x = number(value, what)
-    if x <= 0.0:
-        raise ModelError(f"{what} is {x:g}; it must be greater than zero.")
-    return x
-
-
-def not_negative(value: Any, what: str) -> float:
-    """A finite number, zero or above."""
-    x = number(value, what)
-    if x < 0.0:
-        raise ModelError(f"{what} is {x:g}; it must not be negative.")
-    return x
+__all__ = ["Vector", "direction", "inertia_matrix", "not_negative", "number", "perpendicular", "positive", "vector"]
 
 
 def vector(value: ArrayLike, dimension: int, what: str) -> Vector:
@@ -46,7 +22,7 @@ def vector(value: ArrayLike, dimension: int, what: str) -> Vector:
     except (TypeError, ValueError):
         raise ModelError(f"{what} must be {dimension} numbers, not {value!r}.") from None
     if v.shape != (dimension,):
-        raise ModelError(f"{what} has shape {v.shape}; this model needs {dimension} numbers.")
+        raise ModelError(f"{what} has shape {v.shape}; it must be {dimension} numbers.")
     if not np.all(np.isfinite(v)):
         raise ModelError(f"{what} is {v.tolist()}; all numbers must be finite.")
     return v

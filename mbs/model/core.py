@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord
+from mbs.errors import ModelError
 from mbs.model.body import Body, Ground, PointMass
 from mbs.model.checks import Vector, direction, inertia_matrix, number, positive, vector
-from mbs.model.errors import ModelError
 
 if TYPE_CHECKING:
     from mbs.model.guides import Guide
@@ -183,12 +183,10 @@ class ModelCore:
         if body.is_ground:
             raise ModelError("The ground cannot have an initial velocity.")
         v = np.zeros(self.dimension) if linear is None else vector(linear, self.dimension, f"the linear {what}")
-        w: ArrayLike
-        if self.dimension == 2:
-            w = 0.0 if angular is None else number(angular, f"The angular {what}")
-        else:
-            w = np.zeros(3) if angular is None else vector(angular, 3, f"the angular {what}")
-        self.body_velocities[body.number] = (v, np.atleast_1d(np.asarray(w, dtype=float)))
+        size = 1 if self.dimension == 2 else 3
+        given = np.zeros(size) if angular is None else np.atleast_1d(np.asarray(angular, dtype=float))
+        w = vector(given, size, f"the angular {what}")
+        self.body_velocities[body.number] = (v, w)
 
     def initial_rate(self, coordinate: Coordinate, rate: float) -> None:
         """Start rate of a relative angle or a spin, rad/s."""

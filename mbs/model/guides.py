@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline, PPoly
 
+from mbs.errors import ModelError
 from mbs.model.checks import number, positive
 from mbs.model.core import ModelCore
-from mbs.model.errors import ModelError
 from mbs.model.inputs import Input, owned_input
 
 TIME, INPUT = 0, 1  # guide_type of the System file

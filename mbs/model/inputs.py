@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.errors import ModelError
 from mbs.model.checks import number
 from mbs.model.core import ModelCore
-from mbs.model.errors import ModelError
 
 
 @dataclass(frozen=True)

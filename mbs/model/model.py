@@ -8,11 +8,11 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from mbs.errors import ModelError
 from mbs.model.angle import relative_angle
 from mbs.model.body import Body
 from mbs.model.checks import not_negative
 from mbs.model.core import Coordinate
-from mbs.model.errors import ModelError
 from mbs.model.forces import ForceVocabulary
 from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from mbs.errors import ModelError
 from mbs.model.checks import number
 from mbs.model.core import ModelCore
-from mbs.model.errors import ModelError
 
 ELEMENT, GUIDE, ROAD = 0, 1, 2  # par_target of the System file
 GUIDE_REALS = ("frequency", "gain", "start")

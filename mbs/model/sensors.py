@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
+from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
-from mbs.model.errors import ModelError
 from mbs.model.joints.joint import Joint
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}

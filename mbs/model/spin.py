@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
-from mbs.elements.record import ElementRecord
-from mbs.elements.types import ElementType
+from mbs.elements.gyroscopic_spin import GyroscopicSpin
+from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.checks import direction, not_negative, perpendicular, positive, vector
 from mbs.model.core import Coordinate, ModelCore
-from mbs.model.errors import ModelError
 
 
 @dataclass(frozen=True)
@@ -92,9 +91,6 @@ def spin(
         radius,
         tuple(e),
     )
-    signals = [*new.f.components, *new.g.components, new.affine]
-    model.add(
-        ElementRecord(f"{name}.gyroscopic", ElementType.GYROSCOPIC_SPIN, signals, [I_s], real_names=("spin_inertia",))
-    )
+    model.add(GyroscopicSpin(I_s).record(f"{name}.gyroscopic", new.f, new.g, new.affine))
     model.spins.append(new)
     return new

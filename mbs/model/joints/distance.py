@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from mbs.affine import Affine, AffineVector
+from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.checks import positive
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, GuideTerm, dot_products
-from mbs.model.errors import ModelError
 from mbs.model.joints.joint import Joint
 from mbs.model.slide import SlidingPoint
 

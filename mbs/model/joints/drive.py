@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from mbs.affine import Affine
+from mbs.errors import ModelError
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.equation import Equation, GuideTerm
-from mbs.model.errors import ModelError
 from mbs.model.guides import Guide, owned_guide
 from mbs.model.joints.distance import distance
 from mbs.model.joints.joint import Joint

@@ -8,8 +8,8 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
+from mbs.errors import ModelError
 from mbs.model.equation import Equation
-from mbs.model.errors import ModelError
 
 
 class Joint:

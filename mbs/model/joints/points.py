@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine
+from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.checks import direction
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
-from mbs.model.errors import ModelError
 from mbs.model.joints.joint import Joint, equal_vectors, point_pair
 
 _BIG = 1.0 - 1e-12
