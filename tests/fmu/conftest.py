@@ -1,0 +1,149 @@
+"""FMUs of small scenes, a bare host that reports statuses, and a process of its own for every test that loads one."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+
+SCENES = Path(__file__).parent / "scenes.py"
+PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+OK, WARNING, DISCARD, ERROR = range(4)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
+    """Native code and an interpreter inside the interpreter: a crash must fail one test, not the run."""
+    if not hasattr(os, "fork"):
+        return None
+    arguments = {name: pyfuncitem.funcargs[name] for name in pyfuncitem._fixtureinfo.argnames}
+    read, write = os.pipe()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        child = os.fork()
+    if child == 0:
+        text = ""
+        try:
+            pyfuncitem.obj(**arguments)
+        except BaseException:
+            text = traceback.format_exc()
+        os.write(write, text.encode()[-60000:])
+        os._exit(1 if text else 0)
+    os.close(write)
+    with os.fdopen(read, "rb") as stream:
+        text = stream.read().decode()
+    status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    if status:
+        pytest.fail(text or f"the process that ran the FMU ended with {status}", pytrace=False)
+    return True
+
+
+@pytest.fixture(scope="session")
+def build(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """Builds the FMU of a function of `scenes.py` once."""
+    made: dict[str, Path] = {}
+
+    def make(scene: str) -> Path:
+        if scene not in made:
+            name, system = load_scene(f"{SCENES}:{scene}")
+            made[scene] = build_fmu(system, name, tmp_path_factory.mktemp(scene), [PLATFORM])
+        return made[scene]
+
+    return make
+
+
+@pytest.fixture
+def crane(build: Callable[[str], Path]) -> Path:
+    """A rod on a hinge with a motor, a spring and a parameter."""
+    return build("crane")
+
+
+@pytest.fixture
+def reach(build: Callable[[str], Path]) -> Path:
+    """A mechanism that an input can pull beyond its reach."""
+    return build("reach")
+
+
+@pytest.fixture
+def sled(build: Callable[[str], Path]) -> Path:
+    """A body that is not tied to the ground."""
+    return build("sled")
+
+
+class Host:
+    """The calls of FMI by name; each gives its status."""
+
+    def __init__(self, path: Path, folder: Path | None = None, guid: str | None = None) -> None:
+        self.description = fmpy.read_model_description(str(path))
+        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
+        self.folder = Path(fmpy.extract(str(path), unzipdir=folder and str(folder)))
+        self.messages: list[str] = []
+        self._callbacks = fmi2CallbackFunctions()
+        self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
+        self._callbacks.freeMemory = defaultCallbacks.freeMemory
+        self._callbacks.logger = fmi2CallbackLoggerTYPE(lambda e, n, s, c, text: self.messages.append(text.decode()))
+        self.slave = self.instance(guid)
+
+    def instance(self, guid: str | None = None) -> FMU2Slave:
+        slave = FMU2Slave(
+            guid=guid or self.description.guid,
+            unzipDirectory=str(self.folder),
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            instanceName="test",
+        )
+        slave.instantiate(callbacks=self._callbacks)
+        return slave
+
+    def call(self, function: str, *arguments: Any) -> int:
+        """Status of a method of FMPy's slave."""
+        try:
+            getattr(self.slave, function)(*arguments)
+        except FMICallException as error:
+            return int(error.status)
+        return OK
+
+    def start(self, values: dict[str, float] | None = None, time: float = 0.0) -> Host:
+        self.slave.setupExperiment(startTime=time)
+        for name, value in (values or {}).items():
+            assert self.set(name, value) == OK
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+        return self
+
+    def set(self, name: str, value: float) -> int:
+        return self.call("setReal", [self.references[name]], [value])
+
+    def get(self, name: str) -> float:
+        return float(self.slave.getReal([self.references[name]])[0])
+
+    def outputs(self) -> list[float]:
+        names = [v.name for v in self.description.modelVariables if v.causality == "output"]
+        return list(self.slave.getReal([self.references[n] for n in names]))
+
+    def step(self, time: float, step: float) -> int:
+        return self.call("doStep", time, step)
+
+    def run(self, steps: int, step: float, time: float = 0.0) -> list[list[float]]:
+        rows = []
+        for k in range(steps):
+            assert self.step(time + k * step, step) == OK
+            rows.append(self.outputs())
+        return rows
+
+
+@pytest.fixture
+def host() -> Callable[..., Host]:
+    """Makes hosts."""
+    return Host

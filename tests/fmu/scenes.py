@@ -1,0 +1,56 @@
+"""Small scenes for tests of the FMI face."""
+
+from __future__ import annotations
+
+import mbs
+from mbs.elements.input_force import InputForce
+from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+
+
+def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
+    m = mbs.Model(name, dimension=2)
+    rod = m.body("rod", mass=mass, com=(0.5, 0.0), inertia=0.16)
+    m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
+    angle = m.relative_angle("angle", m.ground, rod)
+    torque = m.input("torque", min=-30.0, max=30.0, unit="N.m", description="Torque of the motor in the hinge")
+    m.add(InputForce(torque.index).record("motor", [angle.affine]))
+    spring = m.add(ScalarSpringDamper(5.0, 0.3).record("spring", angle.affine))
+    target = (spring, "stiffness", 1.0)
+    m.parameter("spring.stiffness", 5.0, 0.0, 50.0, "N.m/rad", "Stiffness of the spring", targets=[target])
+    m.sense_position("rod.x", rod, component="x", description="Centre of mass, horizontal")
+    m.sense_acceleration("rod.ay", rod, component="y", description="Centre of mass, vertical")
+    m.sense_coordinate("rod.angle", angle, description="Angle of the rod")
+    m.sense_input("torque_used", torque)
+    m.sense_solver("solver.iterations", "iterations", "Newton iterations of the last step")
+    return m
+
+
+def heavy_crane() -> mbs.Model:
+    return crane(4.0)
+
+
+def reach() -> mbs.Model:
+    m = mbs.Model("reach", dimension=2)
+    bob = m.point_mass("bob", mass=1.0, position=(0.6, 0.8))
+    m.distance("rod", (m.ground, (0.0, 0.0)), bob)
+    pull = m.input("pull", min=0.0, max=10.0, unit="m")
+    winch = m.guide_input("winch", input=pull, gain=1.0, frequency=5.0, unit="m")
+    trolley = m.slide("trolley", m.ground, point=(1.2, 0.0), direction=(1.0, 0.0), guide=winch)
+    m.distance("cable", trolley, bob)
+    m.sense_position("bob.x", bob, component="x")
+    m.sense_velocity("bob.vx", bob, component="x")
+    m.sense_guide("pulled", winch, unit="m")
+    return m
+
+
+def sled() -> mbs.Model:
+    m = mbs.Model("sled", dimension=2, gravity=(0.0, 0.0))
+    m.floating = True
+    body = m.body("chassis", mass=10.0, com=(0.3, 0.0), inertia=2.0)
+    thrust = m.input("thrust", min=-5.0, max=5.0, unit="N")
+    m.add(InputForce(thrust.index).record("engine", [body.point((0.3, 0.0))[0]]))
+    m.sense_position("chassis.x", body, component="x")
+    m.sense_position("chassis.y", body, component="y")
+    m.sense_yaw("chassis.yaw", body)
+    m.sense_norm("speed", body.point((0.3, 0.0)), 1, "m/s")
+    return m

@@ -1,0 +1,128 @@
+"""What a host may do wrong is answered with a status and one sentence, and leaves the instance as it was."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from ctypes import byref, c_double, c_int
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+HostMaker = Callable[..., Any]
+OK, WARNING, DISCARD, ERROR = range(4)
+LAST_SUCCESSFUL_TIME, TERMINATED = 2, 3
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("name", ["torque", "spring.stiffness"])
+def test_not_finite_is_an_error_and_never_reaches_the_state(
+    crane: Path, host: HostMaker, name: str, bad: float
+) -> None:
+    driven, clean = host(crane).start({"torque": 2.0}), host(crane).start({"torque": 2.0})
+    driven.run(5, 0.01)
+    clean.run(5, 0.01)
+    assert driven.set(name, bad) == ERROR
+    assert name in driven.messages[-1]
+    assert driven.run(5, 0.01, 0.05) == clean.run(5, 0.01, 0.05)
+
+
+def test_a_call_with_one_bad_value_changes_nothing(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start({"torque": 2.0})
+    references = [driven.references["torque"], driven.references["spring.stiffness"]]
+    assert driven.call("setReal", references, [9.0, math.nan]) == ERROR
+    assert driven.get("torque") == 2.0
+
+
+def test_out_of_range_is_clamped_and_said_once(crane: Path, host: HostMaker) -> None:
+    driven, full = host(crane).start(), host(crane).start()
+    full.set("torque", 30.0)
+    driven.slave.setReal([driven.references["torque"]], [99.0])
+    assert driven.get("torque") == 30.0
+    driven.slave.setReal([driven.references["torque"]], [1e9])
+    assert driven.run(5, 0.01)[-1][0] == full.run(5, 0.01)[-1][0]
+    assert len(driven.messages) == 1
+    assert "'torque'" in driven.messages[0]
+    assert "99.0" in driven.messages[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("spring.stiffness", -1.0), ("spring.stiffness", 51.0), ("step_size", 5.0)]
+)
+def test_a_parameter_out_of_range_is_refused(crane: Path, host: HostMaker, name: str, value: float) -> None:
+    driven = host(crane)
+    before = driven.get(name)
+    assert driven.set(name, value) == ERROR
+    assert driven.get(name) == before
+
+
+def test_fixed_parameters_are_fixed_after_initialisation(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    assert driven.set("step_size", 0.005) == ERROR
+    assert driven.step(0.0, 0.01) == OK
+
+
+def test_outputs_and_unknown_references_cannot_be_set(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    assert driven.set("rod.x", 1.0) == ERROR
+    assert driven.call("setReal", [4711], [1.0]) == ERROR
+    assert driven.call("getReal", [4711]) == ERROR
+    for kind in ("Integer", "Boolean", "String"):
+        assert driven.call(f"get{kind}", [0]) == ERROR
+    assert driven.call("setInteger", [0], [1]) == ERROR
+
+
+def test_wrong_orders_of_calls(crane: Path, host: HostMaker) -> None:
+    driven = host(crane)
+    assert driven.step(0.0, 0.01) == ERROR
+    assert driven.call("exitInitializationMode") == ERROR
+    assert driven.call("terminate") == ERROR
+    driven.start()
+    assert driven.call("setupExperiment") == ERROR
+    assert driven.call("enterInitializationMode") == ERROR
+    assert driven.call("exitInitializationMode") == ERROR
+    assert driven.step(0.0, 0.01) == OK
+    assert driven.call("terminate") == OK
+    assert driven.step(0.01, 0.01) == ERROR
+    assert driven.set("torque", 1.0) == ERROR
+    assert math.isfinite(driven.get("rod.x"))
+    assert all(m.startswith("fmi2") or "cannot be set" in m for m in driven.messages)
+
+
+def test_outputs_can_be_read_in_initialisation(crane: Path, host: HostMaker) -> None:
+    driven = host(crane)
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
+    at_rest = driven.get("rod.ay")
+    driven.set("torque", 5.0)
+    assert driven.get("rod.ay") != at_rest
+    driven.slave.exitInitializationMode()
+    assert driven.get("rod.ay") == host(crane).start({"torque": 5.0}).get("rod.ay")
+
+
+def test_a_wrong_guid_is_refused(crane: Path, host: HostMaker) -> None:
+    driven = host(crane)
+    with pytest.raises(Exception, match="instantiate"):
+        driven.instance("{00000000-0000-0000-0000-000000000000}")
+    assert "GUID" in driven.messages[-1]
+
+
+def test_what_is_not_supported_says_so(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    assert driven.call("setRealInputDerivatives", [0], [1], [1.0]) == ERROR
+    assert driven.call("cancelStep") == ERROR
+    assert driven.messages
+
+
+def test_status_after_steps(reach: Path, host: HostMaker) -> None:
+    driven = host(reach).start()
+    slave = driven.slave
+    driven.run(2, 0.01)
+    driven.set("pull", 5.0)
+    assert driven.step(0.02, 0.2) == DISCARD
+    time, terminated = c_double(), c_int(1)
+    slave.fmi2GetRealStatus(slave.component, LAST_SUCCESSFUL_TIME, byref(time))
+    slave.fmi2GetBooleanStatus(slave.component, TERMINATED, byref(terminated))
+    assert time.value == 0.02
+    assert terminated.value == 0

@@ -1,0 +1,129 @@
+"""The model description: valid for two checkers, complete, and the same from two builds."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from fmu_src.units import parse_unit
+from fmu_src.variables import variable_table
+
+SCENES = Path(__file__).parent / "scenes.py"
+META = {"inputs": [], "parameters": [], "sensors": [{"name": "a.x", "unit": "m", "description": ""}]}
+
+
+@pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
+def test_fmpy_finds_nothing(build: Callable[[str], Path], scene: str) -> None:
+    assert validate_fmu(str(build(scene))) == []
+
+
+@pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
+def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[[str], Path], scene: str) -> None:
+    pytest.importorskip("fmu_manipulation_toolbox")
+    code = "from fmu_manipulation_toolbox.cli.fmutool import fmutool; fmutool()"
+    done = subprocess.run(
+        [sys.executable, "-c", code, "-input", str(build(scene)), "-check"], capture_output=True, text=True, check=True
+    )
+    said = done.stdout + done.stderr
+    assert "compliant with FMI-2.0" in said
+    assert "No semantic error" in said
+    assert "ERROR" not in said
+    assert "WARNING" not in said
+
+
+def test_two_builds_give_the_same_bytes(tmp_path: Path) -> None:
+    files = []
+    for k in range(2):
+        name, system = load_scene(f"{SCENES}:crane")
+        files.append(build_fmu(system, name, tmp_path / str(k), ["linux64"]))
+    assert files[0].read_bytes() == files[1].read_bytes()
+
+
+def test_another_system_gives_another_guid(build: Callable[[str], Path]) -> None:
+    first, second = (fmpy.read_model_description(str(build(s))) for s in ("crane", "heavy_crane"))
+    assert first.guid != second.guid
+
+
+def test_flags_and_experiment(crane: Path) -> None:
+    description = fmpy.read_model_description(str(crane))
+    face = description.coSimulation
+    assert face.canGetAndSetFMUstate
+    assert face.canSerializeFMUstate
+    assert face.canHandleVariableCommunicationStepSize
+    assert not face.canInterpolateInputs
+    assert face.needsExecutionTool
+    assert description.variableNamingConvention == "structured"
+    assert float(description.defaultExperiment.stepSize) == 0.01
+
+
+def test_variables_carry_what_the_scene_says(crane: Path) -> None:
+    variables = {v.name: v for v in fmpy.read_model_description(str(crane)).modelVariables}
+    torque = variables["torque"]
+    assert (torque.causality, torque.unit, torque.min, torque.max, float(torque.start)) == (
+        "input",
+        "N.m",
+        "-30.0",
+        "30.0",
+        0.0,
+    )
+    assert torque.description == "Torque of the motor in the hinge"
+    assert variables["spring.stiffness"].variability == "tunable"
+    assert variables["step_size"].variability == "fixed"
+    assert variables["rod.angle"].displayUnit == "deg"
+    assert "initial.x" not in variables
+
+
+def test_only_a_system_that_is_not_tied_has_a_pose(sled: Path) -> None:
+    names = {v.name for v in fmpy.read_model_description(str(sled)).modelVariables}
+    assert {"initial.x", "initial.y", "initial.z", "initial.yaw", "initial.speed"} <= names
+
+
+def test_no_output_depends_on_an_input_at_once(crane: Path) -> None:
+    description = fmpy.read_model_description(str(crane))
+    outputs = [v for v in description.modelVariables if v.causality == "output"]
+    assert len(description.outputs) == len(description.initialUnknowns) == len(outputs) > 0
+    assert all(unknown.dependencies == [] for unknown in description.outputs)
+    known = {"torque", "spring.stiffness"}
+    assert all({v.name for v in unknown.dependencies} == known for unknown in description.initialUnknowns)
+
+
+@pytest.mark.parametrize(
+    ("unit", "exponents"),
+    [
+        ("m/s2", {"m": 1, "s": -2}),
+        ("N.m/rad", {"kg": 1, "m": 2, "s": -2, "rad": -1}),
+        ("N m", {"kg": 1, "m": 2, "s": -2}),
+        ("kg m^2", {"kg": 1, "m": 2}),
+        ("1/s", {"s": -1}),
+        ("1", {}),
+    ],
+)
+def test_units_in_base_units(unit: str, exponents: dict[str, int]) -> None:
+    parsed = parse_unit(unit)
+    assert parsed.exponents == exponents
+    assert parsed.factor == 1.0
+
+
+def test_unknown_unit_is_named() -> None:
+    with pytest.raises(ValueError, match=r"'a\.x'.*'furlong'.*known symbols"):
+        variable_table(META | {"sensors": [{"name": "a.x", "unit": "furlong"}]}, pose=False, step_size=0.01)
+
+
+@pytest.mark.parametrize("name", ["two words", "1x", "a..b", "ä"])
+def test_names_that_fmi_does_not_allow_are_refused(name: str) -> None:
+    with pytest.raises(ValueError, match="cannot be the name"):
+        variable_table(META | {"sensors": [{"name": name, "unit": "m"}]}, pose=False, step_size=0.01)
+
+
+def test_double_names_are_refused() -> None:
+    entry = {"name": "a.x", "unit": "m"}
+    with pytest.raises(ValueError, match=r"Two variables are named 'a\.x'"):
+        variable_table(META | {"sensors": [entry, entry]}, pose=False, step_size=0.01)

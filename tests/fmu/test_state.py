@@ -1,0 +1,106 @@
+"""The FMU state is exact: roll back, another instance, another process."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+OK, WARNING, DISCARD, ERROR = range(4)
+HostMaker = Callable[..., Any]
+
+OTHER_PROCESS = """
+import json, sys
+import fmpy
+from fmpy.fmi2 import FMU2Slave
+path, data, time = sys.argv[1], open(sys.argv[2], "rb").read(), float(sys.argv[3])
+description = fmpy.read_model_description(path)
+slave = FMU2Slave(guid=description.guid, unzipDirectory=fmpy.extract(path), instanceName="other",
+                  modelIdentifier=description.coSimulation.modelIdentifier)
+slave.instantiate()
+slave.setFMUstate(slave.deSerializeFMUstate(data))
+outputs = [v.valueReference for v in description.modelVariables if v.causality == "output"]
+rows = []
+for k in range(50):
+    rows.append(slave.getReal(outputs))
+    slave.doStep(time + 0.01 * k, 0.01)
+print(json.dumps([list(r) for r in rows]))
+"""
+
+
+def test_roll_back_repeats_bit_for_bit(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start({"torque": 4.0})
+    driven.run(30, 0.01)
+    driven.set("torque", -9.0)
+    state = driven.slave.getFMUstate()
+    at_state = driven.outputs()
+    first = driven.run(40, 0.01, 0.3)
+    driven.set("torque", 25.0)
+    driven.set("spring.stiffness", 40.0)
+    driven.run(7, 0.01, 0.7)
+    driven.slave.setFMUstate(state)
+    assert driven.outputs() == at_state
+    assert driven.get("torque") == -9.0
+    assert driven.get("spring.stiffness") == 5.0
+    assert driven.run(40, 0.01, 0.3) == first
+    driven.slave.freeFMUstate(state)
+
+
+def test_state_goes_to_a_new_process(crane: Path, host: HostMaker, tmp_path: Path) -> None:
+    driven = host(crane).start({"torque": 4.0, "spring.stiffness": 9.0})
+    driven.run(30, 0.01)
+    data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    (tmp_path / "state").write_bytes(data)
+    expected = [driven.outputs(), *driven.run(49, 0.01, 0.3)]
+    done = subprocess.run(
+        [sys.executable, "-c", OTHER_PROCESS, str(crane), str(tmp_path / "state"), "0.3"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert json.loads(done.stdout) == expected
+
+
+def test_state_before_initialisation(sled: Path, host: HostMaker) -> None:
+    driven = host(sled)
+    driven.set("initial.speed", 2.0)
+    state = driven.slave.getFMUstate()
+    driven.set("initial.speed", 5.0)
+    driven.slave.setFMUstate(state)
+    assert driven.start().get("speed") == 2.0
+
+
+def test_state_of_another_fmu_is_refused(crane: Path, reach: Path, host: HostMaker) -> None:
+    other = host(reach).start()
+    data = other.slave.serializeFMUstate(other.slave.getFMUstate())
+    driven = host(crane).start()
+    driven.run(3, 0.01)
+    before = driven.outputs()
+    assert driven.call("setFMUstate", driven.slave.deSerializeFMUstate(data)) == ERROR
+    assert "same build" in driven.messages[-1]
+    assert driven.outputs() == before
+
+
+def test_damaged_states_are_refused(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    driven.run(3, 0.01)
+    before = driven.outputs()
+    data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    changed = bytearray(data)
+    changed[-9] ^= 1
+    for bad in (data[:20], data[:-8], bytes(changed), bytes(len(data)), b"x"):
+        assert driven.call("setFMUstate", driven.slave.deSerializeFMUstate(bad)) == ERROR
+        assert driven.outputs() == before
+    assert driven.run(3, 0.01, 0.03) == host(crane).start().run(6, 0.01)[3:]
+
+
+def test_freed_state_is_null(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    state = driven.slave.getFMUstate()
+    assert state.value
+    driven.slave.freeFMUstate(state)
+    assert not state.value
+    driven.slave.freeFMUstate(state)

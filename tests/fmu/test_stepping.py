@@ -1,0 +1,157 @@
+"""Steps through FMI are the steps of the engine, whatever their size; a refused step changes nothing."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import mbs
+from fmu_src.scene_registry import load_scene
+
+SCENES = Path(__file__).parent / "scenes.py"
+OK, WARNING, DISCARD, ERROR = range(4)
+HostMaker = Callable[..., Any]
+
+# Two ways of dividing time differ by the error of the method, which shrinks as h^2.
+SUBSTEP_ERROR = 2e-3
+
+
+def table(trajectory: mbs.Trajectory) -> np.ndarray:
+    return np.column_stack(list(trajectory.values()))
+
+
+def system(scene: str) -> mbs.System:
+    return load_scene(f"{SCENES}:{scene}")[1]
+
+
+def test_agrees_with_simulate_bit_for_bit(crane: Path, host: HostMaker) -> None:
+    expected = mbs.simulate(system("crane"), t_end=2.0, h=0.01)
+    rows = host(crane).start().run(200, 0.01)
+    assert np.array_equal(np.array(rows), table(expected)[1:])
+    assert np.ptp(expected["rod.x"]) > 0.1
+
+
+def test_several_inner_steps_are_the_same_steps(crane: Path, host: HostMaker) -> None:
+    expected = mbs.simulate(system("crane"), t_end=2.0, h=0.01)
+    rows = host(crane).start().run(20, 0.1)
+    assert np.array_equal(np.array(rows), table(expected)[10::10])
+
+
+def test_inputs_and_parameters_reach_the_engine(crane: Path, host: HostMaker) -> None:
+    simulation = mbs.Simulation(system("crane"), inputs={"torque": 3.0}, parameters={"spring.stiffness": 12.0})
+    driven = host(crane).start({"torque": 3.0, "spring.stiffness": 12.0})
+    for k in range(100):
+        if k == 50:
+            simulation.set_input("torque", -7.0)
+            simulation.set_parameter("spring.stiffness", 20.0)
+            assert driven.set("torque", -7.0) == driven.set("spring.stiffness", 20.0) == OK
+        simulation.step(0.01)
+        assert driven.step(0.01 * k, 0.01) == OK
+    assert driven.outputs() == list(simulation.sensors.values())
+
+
+def test_step_size_can_be_chosen(crane: Path, host: HostMaker) -> None:
+    expected = mbs.simulate(system("crane"), t_end=0.4, h=0.002)
+    rows = host(crane).start({"step_size": 0.002}).run(40, 0.01)
+    assert np.array_equal(np.array(rows), table(expected)[5::5])
+
+
+def test_pose_moves_and_turns_the_start(sled: Path, host: HostMaker) -> None:
+    driven = host(sled).start({"initial.x": 2.0, "initial.y": -1.0, "initial.yaw": 0.5, "initial.speed": 3.0})
+    assert driven.get("chassis.x") == pytest.approx(2.0 + 0.3 * math.cos(0.5), abs=1e-12)
+    assert driven.get("chassis.y") == pytest.approx(-1.0 + 0.3 * math.sin(0.5), abs=1e-12)
+    assert driven.get("speed") == pytest.approx(3.0, abs=1e-12)
+    driven.run(100, 0.01)
+    assert driven.get("chassis.x") == pytest.approx(2.0 + (3.0 + 0.3) * math.cos(0.5), abs=1e-9)
+    assert driven.get("chassis.yaw") == pytest.approx(0.5, abs=1e-9)
+
+
+def test_start_time_other_than_zero(crane: Path, host: HostMaker) -> None:
+    at_zero = host(crane).start().run(50, 0.01)
+    later = host(crane).start(time=100.0).run(50, 0.01, time=100.0)
+    assert np.allclose(at_zero, later, rtol=0.0, atol=1e-9)
+
+
+def test_communication_steps_of_any_size(crane: Path, host: HostMaker) -> None:
+    rng = random.Random(4)
+    driven = host(crane).start()
+    time, steps = 0.0, 0
+    while time < 2.0 - 1e-12:
+        step = min(rng.choice([0.003, 0.01, 0.0173, 0.1, rng.uniform(0.002, 0.2)]), 2.0 - time)
+        assert driven.step(time, step) == OK
+        time += step
+        steps += 1
+    expected = mbs.simulate(system("crane"), t_end=2.0, h=0.01)
+    assert steps > 20
+    assert driven.get("rod.x") == pytest.approx(expected["rod.x"][-1], abs=SUBSTEP_ERROR)
+
+
+def test_a_step_far_from_the_tuned_one_is_said_once(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    driven.slave.doStep(0.0, 0.005)
+    driven.slave.doStep(0.005, 0.005)
+    assert [m for m in driven.messages if "inner steps of 0.005" in m] == driven.messages
+    assert len(driven.messages) == 1
+
+
+def test_a_host_that_adds_up_its_time_hits_the_engine_steps(crane: Path, host: HostMaker) -> None:
+    expected = mbs.simulate(system("crane"), t_end=3.0, h=0.01)
+    driven = host(crane).start()
+    time = 0.0
+    for _ in range(300):
+        assert driven.step(time, 0.01) == OK
+        time += 0.01
+    assert time != 3.0
+    assert driven.outputs() == list(table(expected)[-1])
+
+
+def test_a_failing_step_is_discarded_and_the_last_state_kept(reach: Path, host: HostMaker) -> None:
+    driven = host(reach).start()
+    driven.run(5, 0.01)
+    before, state = driven.outputs(), driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    assert driven.set("pull", 5.0) == OK
+    # The mechanism opens some steps later, in the middle of the communication step.
+    assert driven.step(0.05, 0.2) == DISCARD
+    assert driven.outputs() == before
+    assert any("not converge" in m and "0.05 s is kept" in m for m in driven.messages)
+    assert driven.set("pull", 0.0) == OK
+    assert driven.slave.serializeFMUstate(driven.slave.getFMUstate())[-200:] == state[-200:]
+    assert driven.step(0.05, 0.2) == OK
+    steady = host(reach).start()
+    steady.run(5, 0.01)
+    assert steady.step(0.05, 0.2) == OK
+    assert driven.outputs() == steady.outputs()
+
+
+def test_outputs_do_not_depend_on_the_order_of_get_and_set(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    driven.run(3, 0.01)
+    before = driven.outputs()
+    driven.step(0.03, 0.01)
+    driven.set("torque", 20.0)
+    late = driven.outputs()
+    again = host(crane).start()
+    again.run(4, 0.01)
+    assert late == again.outputs()
+    assert late != before
+
+
+@pytest.mark.parametrize("bad", [0.0, -0.01, math.nan, math.inf])
+def test_steps_that_are_none_are_refused(crane: Path, host: HostMaker, bad: float) -> None:
+    driven = host(crane).start()
+    assert driven.step(0.0, bad) == ERROR
+    assert driven.step(0.0, 0.01) == OK
+
+
+def test_a_wrong_communication_point_is_refused(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    driven.run(3, 0.01)
+    assert driven.step(0.5, 0.01) == ERROR
+    assert "stands at 0.03" in driven.messages[-1]
+    assert driven.step(0.03, 0.01) == OK
