@@ -29,13 +29,14 @@ class Settings:
     project : bool
         Project velocities and accelerations, equations (24) and (25) of the paper.
     update : {"linearised", "paper"}
-        Multiplier update: with the linearised constraint, or equation (16) of the paper.
+        Multiplier update: with the linearised constraint, or equation (16) of the paper. The latter adds alpha times the
+        round-off of Phi to the multipliers: `tolerance_r` must then be well above ``1e-16 / eps_rel``.
     geometric : bool
         Exact geometric term of the quadratic constraints in the tangent (23).
     """
 
     alpha: float = 0.0
-    eps_rel: float = 1e-8
+    eps_rel: float = 1e-9
     tolerance_r: float = 1e-10
     tolerance_phi: float = 1e-10
     max_iterations: int = 20

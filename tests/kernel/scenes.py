@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from system_builder import Element, Row, SystemBuilder, distance_row
+from .system_builder import Element, Row, SystemBuilder, distance_row
 
 GRAVITY = 9.81
 

@@ -4,7 +4,7 @@
  * Outputs: torque on the wheel N m, 1 while sticking, relative rate w rad/s.
  *
  * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else tau is at the bound
- * and z' = (tau - k z)/c. With z = a + b z' (theta rule) and D = c + b k: tau = clamp(k a + D w), z' = (tau - k a)/D.
+ * and z' = (tau - k z)/c. With z = a + h z'/2 (trapezoidal rule) and D = c + h k/2: tau = clamp(k a + D w), z' = (tau - k a)/D.
  * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and a sticking brake returns to where it was: it does not creep. */
 #include "element.h"
 #include "element_math.h"
@@ -15,9 +15,8 @@ static void evaluate(ali3_element_args *a) {
   const double *p = a->real, *f = a->u, *g = a->u + 3, *fd = a->ud, *gd = a->ud + 3;
   const double w = a->ud[6] - 0.5 * (ali3_dot(fd, g) - ali3_dot(gd, f));
   const double bound = p[MAX_TORQUE] * ali3_clamp(a->input[a->integer[0]], 0.0, 1.0);
-  const double theta = ali3_theta(a->h, p[STIFFNESS] / p[DAMPING]);
-  const double wound = p[STIFFNESS] * (a->y_old[0] + a->h * (1.0 - theta) * a->y_old[1]);
-  const double D = p[DAMPING] + a->h * theta * p[STIFFNESS], trial = wound + D * w;
+  const double half = 0.5 * a->h, wound = p[STIFFNESS] * (a->y_old[0] + half * a->y_old[1]);
+  const double D = p[DAMPING] + half * p[STIFFNESS], trial = wound + D * w;
   const int sticks = fabs(trial) <= bound;
   const double torque = sticks ? trial : trial > 0.0 ? bound : -bound;
   a->y_new[0] = a->y_old[0];
@@ -35,7 +34,9 @@ static void evaluate(ali3_element_args *a) {
   a->out[0] = -torque;
   a->out[1] = sticks && bound > 0.0;
   a->out[2] = w;
-  if (a->S && sticks) ali3_add_outer(a->S, 7, a->wC * D, b); /* turning of f, g within the step is left out */
+  if (!a->S) return; /* turning of f, g within the step is left out of the tangent */
+  const double slope = sticks ? D : ALI3_SECANT_SHARE * D * (bound / fabs(trial));
+  ali3_add_outer(a->S, 7, a->wC * slope, b);
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,

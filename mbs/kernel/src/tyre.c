@@ -12,7 +12,9 @@
  * Carcass, per direction, with secant slip damping g = |F_steady|/|v_s|: x'(d + g) = -c x - g v_s, F = c x + d x'. Hence
  * F (v_s + x') = -F^2/g <= 0: sliding only takes energy. With x = a + b x' (theta rule, a and b known) and D = d + b c the step is
  *   F = g (c a - D v_s)/(g + D),   x' = (F - c a)/D,
- * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the ellipse of the largest forces. */
+ * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the ellipse of the largest forces.
+ *
+ * The tangent leaves out the coupling of load and horizontal force and the turning of the frames. */
 #include "element.h"
 #include "element_math.h"
 #include "road.h"
@@ -92,8 +94,19 @@ static patch radial(ali3_element_args *a, const double e[3]) {
   return mean;
 }
 
+/* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
+static void semidefinite(double C[3]) {
+  const double mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
+  if (mean >= split) return;
+  const double top = mean + split > 0.0 ? mean + split : 0.0;
+  const double cosine = split > 0.0 ? half / split : 0.0, sine = split > 0.0 ? C[1] / split : 0.0;
+  C[0] = 0.5 * top * (1.0 + cosine);
+  C[1] = 0.5 * top * sine;
+  C[2] = 0.5 * top * (1.0 - cosine);
+}
+
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
- * (symmetric part, positive semidefinite) as xx, xy, yy. */
+ * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
 static void carcass(const ali3_element_args *a, const patch *contact, const double v[2], double w, double F[2],
                     double C[3]) {
   const double *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING;
@@ -104,7 +117,7 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
                slips = t[0].max_slip + t[1].max_slip;
   const double scale[2] = {t[0].max_slip / slips + bx / (bx + by), t[1].max_slip / slips + by / (bx + by)};
   const double n[2] = {v[0] / (scale[0] * w), v[1] / (scale[1] * w)}, s = ali3_hypot(n[0], n[1]);
-  double J[2][2], kappa[2], offset[2], D[2], full[2];
+  double J[2][2], safe[2], kappa[2], offset[2], D[2], full[2];
   for (int i = 0; i < 2; i++) {
     double slope;
     const double g = q * ali3_tmeasy_secant(&t[i], s * scale[i], &slope) / w;
@@ -113,6 +126,7 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
     offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c[i];
     full[i] = q * t[i].max_force;
+    safe[i] = ALI3_SECANT_SHARE * D[i] * (g / (g + D[i]));
     F[i] = g / (g + D[i]) * (offset[i] - D[i] * v[i]);
     const double by_g = D[i] / (g + D[i]) * ((offset[i] - D[i] * v[i]) / (g + D[i]));
     for (int j = 0; j < 2; j++) {
@@ -125,6 +139,7 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
     const double e[2] = {F[0] / full[0] / full[0] / use, F[1] / full[1] / full[1] / use};
     for (int j = 0; j < 2; j++) {
       const double along = (e[0] * J[0][j] + e[1] * J[1][j]) / use;
+      safe[j] /= use;
       for (int i = 0; i < 2; i++) J[i][j] = (J[i][j] - F[i] * along) / use;
     }
     for (int i = 0; i < 2; i++) {
@@ -143,15 +158,10 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
     a->y_new[i] = (F[i] - d[i] * a->y_new[2 + i]) / c[i];
     if (fabs(a->y_new[i]) < 1e-100) a->y_new[i] = a->y_new[2 + i] = 0.0; /* long in the air: no denormals */
   }
-  /* nearest positive semidefinite matrix to -(J + J')/2 */
-  C[0] = -J[0][0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1];
-  const double mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
-  if (mean >= split) return;
-  const double top = mean + split > 0.0 ? mean + split : 0.0;
-  const double cosine = split > 0.0 ? half / split : 0.0, sine = split > 0.0 ? C[1] / split : 0.0;
-  C[0] = 0.5 * top * (1.0 + cosine);
-  C[1] = 0.5 * top * sine;
-  C[2] = 0.5 * top * (1.0 - cosine);
+  C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
+  semidefinite(C);
+  C[0] += safe[0];
+  C[2] += safe[1];
 }
 
 static void evaluate(ali3_element_args *a) {

@@ -1,0 +1,131 @@
+"""The loader against damaged and hostile files: a clear refusal, never a crash or a silent acceptance of nonsense."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mbs.kernel import binding
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+
+from .scenes import everything, four_bar
+from .system_builder import INTS, REALS, pack, seal
+
+SEED = 20240117
+
+
+def refused(data: bytes) -> str:
+    with pytest.raises(KernelError) as refusal:
+        LoadedSystem(data)
+    assert refusal.value.status == binding.BAD_FILE
+    assert refusal.value.message.startswith("the System file was refused: ")
+    return refusal.value.message
+
+
+def exercise(data: bytes) -> bool:
+    """Loads, steps and reads what loads; True if it was accepted."""
+    try:
+        instance = Instance(LoadedSystem(data))
+    except KernelError as refusal:
+        assert refusal.status in (binding.BAD_FILE, binding.BAD_ARGUMENT, binding.NO_MEMORY)
+        return False
+    try:
+        instance.initialise(0.0)
+        for _ in range(2):
+            instance.step(0.01)
+        assert np.isfinite(np.array(instance.get_state()[0])).all()
+        instance.sensors()
+    except KernelError:
+        pass
+    return True
+
+
+def test_a_good_file_is_loaded_with_its_sizes() -> None:
+    sizes = LoadedSystem(everything().to_bytes()).sizes
+    assert (sizes.nq, sizes.nc, sizes.nu, sizes.ng, sizes.ne, sizes.ns, sizes.np, sizes.nf) == (5, 3, 1, 2, 1, 6, 1, 3)
+
+
+def test_every_truncation_is_refused() -> None:
+    data = everything().to_bytes()
+    for n in [*range(0, 200), *range(200, len(data), 97), len(data) - 1]:
+        refused(data[:n])
+    refused(data + b"\0")
+
+
+def test_every_flipped_bit_is_refused() -> None:
+    data = everything().to_bytes()
+    rng = np.random.default_rng(SEED)
+    for position in [*range(32 * 8), *rng.integers(32 * 8, len(data) * 8, 2000)]:
+        damaged = bytearray(data)
+        damaged[position // 8] ^= 1 << (position % 8)
+        if position // 8 >= 28 and position // 8 < 32:
+            continue  # the spare word of the header carries nothing
+        refused(bytes(damaged))
+
+
+def test_flipped_bits_under_a_right_checksum_never_crash() -> None:
+    data = everything().to_bytes()
+    count = int.from_bytes(data[12:16], "little")
+    rng = np.random.default_rng(SEED + 1)
+    accepted = 0
+    for _ in range(3000):
+        damaged = bytearray(data)
+        for position in rng.integers(32 * 8, len(data) * 8, rng.integers(1, 4)):
+            damaged[position // 8] ^= 1 << (position % 8)
+        accepted += exercise(seal(bytes(damaged), count))
+    assert 100 < accepted < 2900  # both ways were walked
+
+
+@pytest.mark.parametrize("value", [-1, -2, 1, 7, 1 << 30, -(1 << 31), (1 << 31) - 1])
+def test_every_integer_may_be_hostile(value: int) -> None:
+    arrays = everything().arrays()
+    for name in sorted(INTS):
+        for k in range(len(np.atleast_1d(arrays[name]))):  # type: ignore[arg-type]
+            hostile = np.array(arrays[name], dtype=np.int64)
+            hostile[k] = value
+            exercise(pack(arrays | {name: hostile}))
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_numbers_that_are_not_finite_are_refused(value: float) -> None:
+    arrays = everything().arrays()
+    for name in sorted(REALS - {"input_min", "input_max", "par_min", "par_max"}):
+        if not len(np.atleast_1d(arrays[name])):  # type: ignore[arg-type]
+            continue
+        hostile = np.array(arrays[name], float)
+        hostile[-1] = value
+        assert name in refused(pack(arrays | {name: hostile}))
+
+
+@pytest.mark.parametrize("value", [1e300, -1e300, 0.0, 5e-324])
+def test_extreme_reals_never_crash(value: float) -> None:
+    arrays = everything().arrays()
+    for name in sorted(REALS):
+        for k in range(len(np.atleast_1d(arrays[name]))):  # type: ignore[arg-type]
+            hostile = np.array(arrays[name], float)
+            hostile[k] = value
+            exercise(pack(arrays | {name: hostile}))
+
+
+def test_arrays_of_a_wrong_length_are_refused() -> None:
+    arrays = everything().arrays()
+    for name in sorted(INTS | REALS):
+        values = np.atleast_1d(arrays[name])  # type: ignore[arg-type]
+        refused(pack(arrays | {name: np.append(values, 0)}))
+        if len(values):
+            exercise(pack(arrays | {name: values[:-1]}))
+
+
+def test_a_missing_and_an_unknown_array_are_named() -> None:
+    arrays = everything().arrays()
+    assert "'row_scale' is missing" in refused(pack({k: v for k, v in arrays.items() if k != "row_scale"}))
+    renamed = {("colour" if k == "meta" else k): (b"" if k == "meta" else v) for k, v in arrays.items()}
+    assert "unknown array 'colour'" in refused(pack({k: [] if k == "colour" else v for k, v in renamed.items()}))
+
+
+def test_an_unknown_element_type_is_named() -> None:
+    assert "unknown type 99" in refused(pack(everything().arrays() | {"el_type": [99]}))
+
+
+def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> None:
+    arrays = four_bar().arrays()
+    assert "fronts" in refused(pack(arrays | {"front_off": [0, (1 << 31) - 1]}))

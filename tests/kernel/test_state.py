@@ -1,0 +1,162 @@
+"""States as bytes: a restored instance continues bit for bit; altered bytes are refused and change nothing."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mbs.kernel import binding
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+
+from .scenes import everything, four_bar
+
+SEED = 7
+
+
+def moving() -> Instance:
+    instance = Instance(LoadedSystem(everything().to_bytes()))
+    instance.set_settings(eps_rel=3e-9)
+    instance.initialise(0.25)
+    instance.set_input(0, 0.4)
+    instance.set_parameter(0, 450.0)
+    for _ in range(25):
+        instance.step(0.01)
+    return instance
+
+
+def bits(instance: Instance) -> list[bytes]:
+    return [bytes(part) for part in (*instance.get_state(), instance.sensors())] + [np.float64(instance.time).tobytes()]
+
+
+def test_a_restored_state_continues_bit_for_bit_in_another_instance() -> None:
+    instance = moving()
+    saved = instance.save()
+    other = Instance(LoadedSystem(everything().to_bytes()))
+    other.restore(saved)
+    assert bits(other) == bits(instance)
+    assert other.settings() == instance.settings()
+    assert other.get_parameter(0) == 450.0
+    assert other.save() == saved
+    for _ in range(50):
+        instance.step(0.01)
+        other.step(0.01)
+    assert bits(other) == bits(instance)
+    assert other.report() == instance.report()
+
+
+def test_going_back_gives_the_same_future() -> None:
+    instance = moving()
+    saved = instance.save()
+    instance.set_input(0, -0.8)
+    instance.step(0.02)
+    instance.restore(saved)
+    first = [instance.step(0.01) or bits(instance) for _ in range(5)]
+    instance.restore(saved)
+    assert [instance.step(0.01) or bits(instance) for _ in range(5)] == first
+
+
+def test_the_future_is_the_same_in_another_process(tmp_path: Path) -> None:
+    instance = moving()
+    (tmp_path / "state").write_bytes(instance.save())
+    (tmp_path / "system").write_bytes(everything().to_bytes())
+    program = (
+        "import sys; from pathlib import Path; from mbs.kernel.binding import Instance, LoadedSystem\n"
+        "here = Path(sys.argv[1]); i = Instance(LoadedSystem((here / 'system').read_bytes()))\n"
+        "i.restore((here / 'state').read_bytes())\n"
+        "[i.step(0.01) for _ in range(20)]\n"
+        "(here / 'end').write_bytes(i.save())"
+    )
+    subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=True, cwd=Path(__file__).parents[2])
+    for _ in range(20):
+        instance.step(0.01)
+    assert (tmp_path / "end").read_bytes() == instance.save()
+
+
+def test_altered_bytes_are_refused_and_change_nothing() -> None:
+    instance = moving()
+    before, saved = bits(instance), instance.save()
+    rng = np.random.default_rng(SEED)
+    bad = [saved[:n] for n in (0, 1, 39, len(saved) - 1)] + [saved + b"\0"]
+    for position in [*range(40 * 8), *rng.integers(0, len(saved) * 8, 1000)]:
+        altered = bytearray(saved)
+        altered[position // 8] ^= 1 << (position % 8)
+        bad.append(bytes(altered))
+    for data in bad:
+        with pytest.raises(KernelError) as refusal:
+            instance.restore(data)
+        assert refusal.value.status == binding.BAD_STATE
+    assert bits(instance) == before
+
+
+def test_a_state_of_another_system_is_refused() -> None:
+    other = Instance(LoadedSystem(four_bar().to_bytes()))
+    other.initialise()
+    with pytest.raises(KernelError) as refusal:
+        other.restore(moving().save())
+    assert refusal.value.status == binding.BAD_STATE
+
+
+def test_reset_goes_back_to_the_file() -> None:
+    instance = moving()
+    instance.reset()
+    fresh = Instance(LoadedSystem(everything().to_bytes()))
+    assert instance.settings() == fresh.settings()
+    assert instance.get_input(0) == fresh.get_input(0)
+    assert instance.get_parameter(0) == fresh.get_parameter(0)
+    for i in (instance, fresh):
+        i.initialise(0.0)
+        i.step(0.01)
+    assert bits(instance) == bits(fresh)
+
+
+def test_instances_of_one_system_do_not_touch_each_other() -> None:
+    system = LoadedSystem(everything().to_bytes())
+    alone = Instance(system)
+    alone.initialise(0.0)
+    for _ in range(10):
+        alone.step(0.01)
+    a, b = Instance(system), Instance(system)
+    a.initialise(0.0)
+    b.initialise(0.0)
+    b.set_input(0, 1.0)
+    b.set_parameter(0, 900.0)
+    for _ in range(10):
+        a.step(0.01)
+        b.step(0.01)
+    assert bits(a) == bits(alone)
+    assert bits(b) != bits(alone)
+
+
+def test_nothing_works_before_initialise() -> None:
+    instance = Instance(LoadedSystem(four_bar().to_bytes()))
+    for call in (lambda: instance.step(0.01), instance.sensors):
+        with pytest.raises(KernelError) as refusal:
+            call()
+        assert refusal.value.status == binding.NOT_INITIALISED
+
+
+def test_arguments_out_of_range_are_refused() -> None:
+    instance = moving()
+    calls = [
+        lambda: instance.set_input(1, 0.0),
+        lambda: instance.set_input(-1, 0.0),
+        lambda: instance.set_input(0, float("nan")),
+        lambda: instance.set_parameter(0, 1000.5),
+        lambda: instance.set_parameter(0, float("nan")),
+        lambda: instance.set_pose(0.0, 0.0, 0.0, 0.0, 0.0),  # it is tied to the ground
+        lambda: instance.set_q([float("inf")] * 5),
+        lambda: instance.set_settings(max_iterations=0),
+        lambda: instance.set_settings(eps_rel=float("nan")),
+        lambda: instance.initialise(float("nan")),
+    ]
+    before = bits(instance)
+    for call in calls:
+        with pytest.raises(KernelError) as refusal:
+            call()
+        assert refusal.value.status == binding.BAD_ARGUMENT
+    assert bits(instance) == before
+    instance.set_input(0, 5.0)
+    assert instance.get_input(0) == 1.0  # clamped to its range

@@ -1,0 +1,200 @@
+"""One ALi3-P step and runs of it on systems made by hand: energy, convergence, projections, halving, refusal, the clock."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mbs.kernel import binding
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from scipy.integrate import solve_ivp
+
+from .scenes import GRAVITY, everything, four_bar, pendulum
+from .system_builder import Row, SystemBuilder, distance_row
+
+ROUND_OFF = 1e-12  # relative
+A01 = {1.0: (0.986292, -0.165011), 5.0: (-0.942305, -0.334754), 10.0: (-0.275087, -0.961419)}  # project data, benchmark A01
+ENERGY_BOUND_J = {0.01: 0.10, 0.03: 1.0, 0.05: 3.2}  # the paper's Table 1: 0.21, 0.83, 9.03
+
+
+def start(builder: SystemBuilder, **settings: float) -> Instance:
+    instance = Instance(LoadedSystem(builder.to_bytes()))
+    instance.set_settings(**settings)
+    instance.initialise(0.0)
+    return instance
+
+
+def run(instance: Instance, h: float, steps: int) -> np.ndarray:
+    out = np.empty((steps, instance.system.sizes.ns))
+    assert instance.run(h, steps, None, 1, out) == steps
+    return out
+
+
+def test_pendulum_follows_its_reference_with_order_two() -> None:
+    error = {}
+    for h in (0.004, 0.002, 0.001):
+        path = run(start(pendulum()), h, round(10.0 / h))
+        error[h] = max(np.hypot(*(path[round(t / h) - 1, :2] - xy)) for t, xy in A01.items())
+    assert error[0.001] < 2e-4
+    for h in (0.004, 0.002):
+        assert 3.6 < error[h] / error[h / 2] < 4.4  # order two
+
+
+@pytest.mark.parametrize("groups", [None, [2, 2, 2], [1] * 6], ids=["one front", "three fronts", "six fronts"])
+@pytest.mark.parametrize("h", [0.01, 0.03, 0.05])
+def test_double_four_bar_keeps_its_energy_through_ten_singular_positions(h: float, groups: list[int] | None) -> None:
+    instance = start(four_bar(2, groups))
+    before = instance.sensors()[2]
+    energy = run(instance, h, int(10.0 / h))[:, 2] - before
+    report = instance.report()
+    assert -ENERGY_BOUND_J[h] < energy.min() < -0.01 * ENERGY_BOUND_J[h]  # trapezoidal rule with projections: a loss
+    assert energy.max() < 0.2 * ENERGY_BOUND_J[h]
+    assert report["halvings"] == 0
+    assert report["max_iterations"] <= 4
+    assert 1.0 <= report["iterations"] / report["steps"] <= {0.01: 2.0, 0.03: 2.2, 0.05: 2.6}[h]
+
+
+def test_a_step_that_lands_on_the_singular_position_does_not_leave_the_path() -> None:
+    instance = start(four_bar())
+    before = instance.sensors()[2]
+    energy = run(instance, 0.003, 3333)[:, 2] - before
+    assert abs(energy).max() < 0.012
+
+
+def test_without_projections_the_energy_blows_up() -> None:
+    instance = start(four_bar(), project=0)
+    before = instance.sensors()[2]
+    energy = run(instance, 0.01, 600)[:, 2] - before
+    assert abs(energy).max() > 1e3
+
+
+@pytest.mark.parametrize("update", [0, 1], ids=["linearised", "paper"])
+def test_both_multiplier_updates_end_in_the_same_step(update: int) -> None:
+    states = []
+    for alpha in (1e7, 1e8):
+        tight = {"tolerance_r": 1e-11, "tolerance_phi": 1e-11, "max_iterations": 100}
+        instance = start(four_bar(), update=update, alpha=alpha, **tight)
+        run(instance, 0.01, 20)
+        assert instance.report()["halvings"] == 0
+        states.append(np.array(instance.get_state()[0]))
+    reference = start(four_bar(), tolerance_r=1e-13, tolerance_phi=1e-13)
+    run(reference, 0.01, 20)
+    for q in states:
+        np.testing.assert_allclose(q, np.array(reference.get_state()[0]), atol=1e-9)
+
+
+def test_projected_rates_satisfy_the_constraints_to_round_off() -> None:
+    instance = start(everything())
+    instance.set_input(0, 0.7)
+    row_ptr = np.array(everything().arrays()["row_ptr"])
+    columns = np.array(everything().arrays()["row_col"])
+    for _ in range(40):
+        instance.step(0.01)
+        q, qd, qdd, _, y = (np.array(v) for v in instance.get_state())
+        values = {k: np.array(v) for k, v in instance.evaluate(q, qd, y, instance.time).items()}
+        for k in range(len(row_ptr) - 1):
+            part = slice(row_ptr[k], row_ptr[k + 1])
+            J, c = values["jacobian"][part], columns[part]
+            assert abs(values["phi"][k]) < 1e-9
+            assert abs(J @ qd[c] + values["phi_t"][k]) < ROUND_OFF * (1.0 + abs(qd).max())
+            assert abs(J @ qdd[c] + values["gamma"][k]) < ROUND_OFF * (1.0 + abs(qdd).max())
+    assert abs(qd).max() > 0.1  # it does move
+
+
+def test_the_clock_is_an_integer_counter() -> None:
+    instance = start(pendulum())
+    for _ in range(1000):
+        instance.step(0.1 / 8)
+    assert instance.time == 1000 * (0.1 / 8)
+    instance.step(0.001)
+    assert instance.time == 1000 * (0.1 / 8) + 0.001
+
+
+def test_a_step_that_does_not_converge_is_halved_and_arrives_at_the_same_time() -> None:
+    instance = start(four_bar(), max_iterations=2, tolerance_r=1e-12, tolerance_phi=1e-12)
+    for _ in range(5):
+        instance.step(0.1)
+    report = instance.report()
+    assert report["halvings"] > 0
+    assert report["steps"] == 5
+    assert report["failures"] == 0
+    assert instance.time == pytest.approx(0.5, abs=1e-15)
+    fine = start(four_bar())
+    run(fine, 0.001, 500)
+    np.testing.assert_allclose(instance.get_state()[0], fine.get_state()[0], atol=2e-2)
+
+
+def test_a_refused_step_keeps_the_last_good_state() -> None:
+    instance = start(four_bar(), max_iterations=1, max_halvings=2, tolerance_r=1e-300, tolerance_phi=1e-300)
+    before = [bytes(part) for part in instance.get_state()]
+    with pytest.raises(KernelError) as refusal:
+        instance.step(0.01)
+    assert refusal.value.status == binding.NOT_CONVERGED
+    assert [bytes(part) for part in instance.get_state()] == before
+    assert instance.time == 0.0
+    assert instance.report()["failures"] == 1
+    assert instance.report()["steps"] == 0
+    instance.set_settings(tolerance_r=1e-10, tolerance_phi=1e-10, max_iterations=20)
+    instance.step(0.01)
+    other = start(four_bar())
+    other.step(0.01)
+    assert [bytes(part) for part in instance.get_state()] == [bytes(part) for part in other.get_state()]
+
+
+def test_numbers_that_overflow_are_refused_before_they_reach_the_state() -> None:
+    b = pendulum()
+    b.qd0 = np.array([0.0, 1e120])
+    instance = start(b)
+    with pytest.raises(KernelError) as refusal:
+        instance.step(0.01)
+    assert refusal.value.status in (binding.NOT_FINITE, binding.SINGULAR, binding.NOT_CONVERGED)
+    assert np.isfinite(np.array(instance.get_state()[1])).all()
+
+
+def test_a_coordinate_without_mass_and_row_is_called_singular() -> None:
+    b = SystemBuilder(np.diag([1.0, 0.0]), [0.0, 0.0], rows=[Row(0.0, {0: 1.0})])
+    with pytest.raises(KernelError) as refusal:
+        start(b)
+    assert refusal.value.status == binding.SINGULAR
+
+
+@pytest.mark.parametrize("h", [0.0, -0.01, float("nan"), float("inf")])
+def test_steps_of_no_length_are_refused(h: float) -> None:
+    instance = start(pendulum())
+    with pytest.raises(KernelError) as refusal:
+        instance.step(h)
+    assert refusal.value.status == binding.BAD_ARGUMENT
+
+
+def test_far_from_the_origin_a_free_scene_steps_as_near_it() -> None:
+    """Two points joined by a rod, not tied to the ground: squares of coordinates must not cost digits 10 km away."""
+
+    def rod(x: float) -> Instance:
+        b = SystemBuilder(np.eye(4), [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], rows=[distance_row((0, 1), (2, 3), 1.0, False)])
+        east, north = np.array([1.0, 0.0, 1.0, 0.0]), np.array([0.0, 1.0, 0.0, 1.0])
+        zero = np.zeros(4)
+        b.pose = {"pose_0": b.q0, "pose_x": east, "pose_y": north, "pose_z": zero, "pose_cos": zero, "pose_sin": zero}
+        b.pose["pose_speed"] = zero
+        b.q0 = b.q0 + x * east + x * north
+        return start(b)
+
+    near, far = rod(0.0), rod(1e4)
+    for _ in range(200):
+        near.step(0.01)
+        far.step(0.01)
+    q, r = np.array(near.get_state()[0]), np.array(far.get_state()[0])
+    np.testing.assert_allclose(r - 1e4, q, atol=1e-9)
+    assert far.report()["max_iterations"] <= near.report()["max_iterations"] + 1
+
+
+def test_double_four_bar_follows_its_exact_reduction() -> None:
+    """The cranks stay parallel and the couplers only translate: 3 theta'' = 3.5 g sin(theta) for two windows."""
+    exact = solve_ivp(
+        lambda _, x: [x[1], 3.5 / 3.0 * GRAVITY * np.sin(x[0])], (0.0, 2.0), [0.0, 1.0], rtol=1e-11, atol=1e-12
+    ).y[0, -1]
+    error = []
+    for h in (0.004, 0.002, 0.001):
+        tip = run(start(four_bar()), h, round(2.0 / h))[-1, :2]
+        error.append(np.hypot(tip[0] - np.sin(exact), tip[1] - np.cos(exact)))
+    assert error[-1] < 1e-4
+    assert 3.6 < error[0] / error[1] < 4.4  # order two
+    assert 3.6 < error[1] / error[2] < 4.4
