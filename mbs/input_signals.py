@@ -21,14 +21,14 @@ class InputSignals:
         held outside. A time given twice is a jump; at that very instant the value before it counts, because the step
         that ends there lies before it.
     declared : sequence of mapping
-        Entries `name`, `unit`, `min`, `max` (finite) of every input of the System, in order.
+        Entries `name`, `unit`, `min`, `max` (None: open) of every input of the System, in order.
     """
 
     def __init__(self, signals: Mapping[str, Signal], declared: list[dict[str, Any]]) -> None:
         self._names = [str(d["name"]) for d in declared]
         self._units = [str(d["unit"]) for d in declared]
-        self._min = np.array([d["min"] for d in declared], float)
-        self._max = np.array([d["max"] for d in declared], float)
+        self._min = np.array([-np.inf if d["min"] is None else d["min"] for d in declared], float)
+        self._max = np.array([np.inf if d["max"] is None else d["max"] for d in declared], float)
         self._signals: dict[int, Signal] = {}
         for name, signal in signals.items():
             if name not in self._names:
@@ -57,7 +57,7 @@ class InputSignals:
         return values
 
     def _check(self, i: int, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
-        good = (values >= self._min[i]) & (values <= self._max[i])
+        good = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
         if not good.all():
             k = int(np.argmin(good))
             right = f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"

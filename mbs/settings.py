@@ -29,8 +29,8 @@ class Settings:
     project : bool
         Project velocities and accelerations, equations (24) and (25) of the paper.
     update : {"linearised", "paper"}
-        Multiplier update: with the linearised constraint, or equation (16) of the paper. The latter adds alpha times the
-        round-off of Phi to the multipliers: `tolerance_r` must then be well above ``1e-16 / eps_rel``.
+        Multiplier update: with the linearised constraint, or equation (16) of the paper. The latter adds alpha times
+        the round-off of Phi to the multipliers: `tolerance_r` must then be well above ``1e-16 / eps_rel``.
     geometric : bool
         Exact geometric term of the quadratic constraints in the tangent (23).
     """

@@ -151,7 +151,7 @@ class Simulation:
             )
         self.instance.set_parameter(index, value)
 
-    def static_equilibrium(self, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
+    def static_equilibrium(self, tolerance: float = 1e-6, max_iterations: int = 1000) -> None:
         """Move to the static equilibrium near the present position, all velocities zero, time unchanged.
 
         Parameters
@@ -262,9 +262,10 @@ class Simulation:
     def _error(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
         report = self.instance.report()
         message = f"{what}: {error.message}"
-        row = int(report["worst_row"])
-        if 0 <= row < len(self._meta["rows"]):
+        row, coordinate = int(report["worst_row"]), int(report["worst_coordinate"])
+        if row < len(self._meta["rows"]):
             message += f" Worst constraint: {self._meta['rows'][row]['name']!r}, open by {report['violation']:.3g} m."
+        message += f" Worst balance: {self._meta['coordinates'][coordinate]!r}, residual {report['residual']:.3g}."
         return SimulationError(message, self.time, error.status, trajectory)
 
 

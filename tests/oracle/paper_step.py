@@ -1,8 +1,9 @@
-"""One step of the paper's method, equations (15) to (25), with dense matrices and nothing left out or rearranged.
+"""One step of the paper's method, equations (15) to (25), with dense matrices and nothing left out.
 
 Constraints do not depend on time here (Phi_t = 0). What the paper leaves open follows the kernel: Newton starts from
-q + h qd + h^2/2 qdd; the projections use the tangent of the last Newton iteration, and M + h/2 C + h^2/4 K in (24),
-(25) is that tangent less the penalty term; they are made PASSES times, since a finite penalty leaves a part behind.
+q + h qd + h^2/2 qdd; the projections use the tangent of the last Newton iteration, its Phi_q' included, and are made
+PASSES times, since a finite penalty leaves a part behind. They are solved for the change of qd and qdd, that is (24)
+less [df/dq] qd* and (25) less [df/dq] qdd* on both sides, because the sums lose their last digits to the penalty.
 """
 
 from __future__ import annotations
@@ -70,10 +71,9 @@ def paper_step(m, state, h, alpha, iterations, update, geometric=True, project=T
     qd = 2.0 / h * q + qdhat  # (17)
     qdd = 4.0 / h**2 * q + qddhat  # (18)
     if project:
-        Phiq = m.Phiq(q)
-        penalty = c * Phiq.T @ (alpha * Phiq)
+        spread, Phiq = c * Phiq.T * alpha, m.Phiq(q)
         for _ in range(PASSES):
-            qd = np.linalg.solve(df, (df - penalty) @ qd)  # (24)
+            qd = qd - np.linalg.solve(df, spread @ (Phiq @ qd))  # (24)
         for _ in range(PASSES):
-            qdd = np.linalg.solve(df, (df - penalty) @ qdd - c * Phiq.T @ (alpha * m.Phiqdot_qd(qd)))  # (25)
+            qdd = qdd - np.linalg.solve(df, spread @ (Phiq @ qdd + m.Phiqdot_qd(qd)))  # (25)
     return PaperState(q, qd, qdd, lam)

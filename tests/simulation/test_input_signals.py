@@ -9,7 +9,7 @@ from mbs.input_signals import InputSignals
 
 DECLARED = [
     {"name": "steering", "unit": "1", "min": -1.0, "max": 1.0},
-    {"name": "force", "unit": "N", "min": -1e300, "max": 1e300},
+    {"name": "force", "unit": "N", "min": None, "max": None},
 ]
 H = 0.1
 TOLERANCE = 1e-6 * H
@@ -65,6 +65,11 @@ def test_columns_follow_the_signals_given():
 def test_a_wrong_signal_is_refused_by_name(signals, sentence):
     with pytest.raises(ValueError, match=sentence):
         InputSignals(signals, DECLARED)
+
+
+def test_an_open_range_still_refuses_infinity():
+    with pytest.raises(ValueError, match="'force' is inf N at t = 0 s; it must be finite"):
+        at(float("inf"), 0.0)
 
 
 @pytest.mark.parametrize(
