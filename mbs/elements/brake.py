@@ -28,7 +28,7 @@ class Brake:
     stick_damping: float
 
     @staticmethod
-    def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.5e-3) -> Brake:
+    def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.9e-3) -> Brake:
         """Brake that lets the tread give by `travel` (m) at full torque, critically damped with the wheel's inertia."""
         torque, r = (
             positive(max_torque, "The largest torque of a brake"),

@@ -1,0 +1,195 @@
+"""Compiles the element sources with the test harness and calls them with plain arrays."""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import shutil
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.affine import Affine, AffineVector
+from mbs.elements import ElementRecord, PlaneRoad, Road
+
+Array = NDArray[np.float64]
+KERNEL = Path(__file__).parents[2] / "mbs" / "kernel" / "src"
+SOURCES = (
+    "spring_damper",
+    "scalar_spring_damper",
+    "input_force",
+    "body_force",
+    "body_torque",
+    "gyroscopic_spin",
+    "drag",
+    "tyre",
+    "tmeasy",
+    "brake",
+    "automatic_drive",
+    "road",
+)
+
+
+@cache
+def library() -> ctypes.CDLL:
+    """The elements as a small library of their own, compiled once per process."""
+    folder = Path(tempfile.mkdtemp(prefix="ali3_elements_"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    target = folder / ("elements.dll" if sys.platform == "win32" else "elements.so")
+    files = [str(KERNEL / f"{name}.c") for name in SOURCES]
+    flags = ["-std=c11", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{KERNEL}"]
+    command = [sys.executable, "-m", "ziglang", "cc", *flags, str(Path(__file__).with_name("harness.c")), *files]
+    subprocess.run([*command, "-lm", "-o", str(target)], check=True, capture_output=True, text=True)
+    lib = ctypes.CDLL(str(target))
+    lib.harness_evaluate.restype = ctypes.c_double
+    lib.harness_check.restype = ctypes.c_char_p
+    lib.harness_road_check.restype = ctypes.c_char_p
+    return lib
+
+
+def _doubles(values: ArrayLike) -> ctypes.Array[ctypes.c_double]:
+    flat = np.ravel(np.asarray(values, float))
+    return (ctypes.c_double * max(1, len(flat)))(*flat)
+
+
+def _ints(values: ArrayLike) -> ctypes.Array[ctypes.c_int32]:
+    flat = [int(v) for v in np.ravel(np.asarray(values, int))]
+    return (ctypes.c_int32 * max(1, len(flat)))(*flat)
+
+
+def signals(n: int) -> tuple[Affine, ...]:
+    """Placeholder expressions: one coordinate each."""
+    return tuple(Affine({i: 1.0}) for i in range(n))
+
+
+def vectors(*sizes: int) -> list[AffineVector]:
+    """Placeholder vectors of distinct coordinates."""
+    every = iter(signals(sum(sizes)))
+    return [AffineVector(tuple(next(every) for _ in range(size))) for size in sizes]
+
+
+@dataclass
+class Result:
+    """What one evaluation of an element gives."""
+
+    f: Array
+    S: Array
+    y: Array
+    out: dict[str, float]
+    potential: float
+
+
+@dataclass
+class Element:
+    """A record that can be evaluated in isolation."""
+
+    element: ElementRecord
+    road: Road = PlaneRoad()  # noqa: RUF009
+    n_inputs: int = 4
+
+    def __post_init__(self) -> None:
+        e = self.element
+        counts = (len(e.signals), len(e.real), len(e.integer), len(e.states), len(e.outputs))
+        self.sizes = _ints(counts)
+        assert library().harness_sizes_match(int(e.type), self.sizes), f"sizes {counts} of {e.type} are not those of the kernel"
+        assert self.check() is None, self.check()
+
+    def check(self, n_inputs: int | None = None, n_roads: int = 1) -> str | None:
+        """The kernel's sentence about the data, None if they are good."""
+        e = self.element
+        n = self.n_inputs if n_inputs is None else n_inputs
+        text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(e.integer), n, n_roads)
+        return None if text is None else text.decode()
+
+    def with_real(self, **values: float) -> Element:
+        """The same element with some reals changed by name, as a parameter would."""
+        e = self.element
+        real = list(e.real)
+        for key, value in values.items():
+            real[list(e.real_names).index(key)] = value
+        return replace(self, element=replace(e, real=real))
+
+    def __call__(
+        self,
+        u: ArrayLike,
+        ud: ArrayLike,
+        y: ArrayLike | None = None,
+        h: float = 0.0,
+        wC: float = 0.0,
+        wK: float = 0.0,
+        inputs: ArrayLike = (),
+        accept: bool = False,
+    ) -> Result:
+        e = self.element
+        n = len(e.signals)
+        assert np.size(u) == n == np.size(ud)
+        given = np.zeros(self.n_inputs)
+        given[: np.size(inputs)] = inputs
+        y_new, f, S, out = (_doubles(np.full(max(1, k), np.nan)) for k in (len(e.states), n, n * n, len(e.outputs)))
+        real = self.road.real
+        potential = library().harness_evaluate(
+            int(e.type),
+            int(accept),
+            self.sizes,
+            _doubles(u),
+            _doubles(ud),
+            _doubles(e.states if y is None else y),
+            y_new,
+            *(ctypes.c_double(v) for v in (h, wC, wK)),
+            _doubles(e.real),
+            _ints(e.integer),
+            _doubles(given),
+            self.road.type,
+            len(real),
+            _doubles(real),
+            f,
+            S,
+            out,
+        )
+        names = [o.name for o in e.outputs]
+        return Result(
+            np.array(f), np.array(S).reshape(n, n), np.array(y_new)[: len(e.states)], dict(zip(names, out, strict=False)), potential
+        )
+
+
+def tangent_by_differences(
+    element: Element, u: Array, ud: Array, y: Array | None, h: float, wC: float, wK: float, inputs: ArrayLike, step: float = 1e-6
+) -> Array:
+    """sym(wC C + wK K) with C = -df/dud, K = -df/du by central differences, shape (nsig, nsig)."""
+    n = len(u)
+    J = np.zeros((n, n))
+    for j in range(n):
+        e = np.zeros(n)
+        e[j] = step
+        up, down = element(u, ud + e, y, h, inputs=inputs), element(u, ud - e, y, h, inputs=inputs)
+        J[:, j] -= wC * (up.f - down.f) / (2.0 * step)
+        up, down = element(u + e, ud, y, h, inputs=inputs), element(u - e, ud, y, h, inputs=inputs)
+        J[:, j] -= wK * (up.f - down.f) / (2.0 * step)
+    return 0.5 * (J + J.T)
+
+
+def contacts(road: Road, centre: ArrayLike, axis: ArrayLike, radius: float) -> list[dict[str, Array]]:
+    """Contacts of a disc with a road."""
+    out = (ctypes.c_double * 24)()
+    real = road.real
+    count = library().harness_contacts(
+        road.type, len(real), _doubles(real), _doubles(centre), _doubles(axis), ctypes.c_double(radius), out
+    )
+    values = np.array(out).reshape(2, 12)[:count]
+    return [
+        {"penetration": v[0], "point": v[1:4], "normal": v[4:7], "down": v[7:10], "cosine": v[10], "friction": v[11]}
+        for v in values
+    ]
+
+
+def frame(rng: np.random.Generator) -> Array:
+    """Random rotation matrix, columns a, b, c."""
+    Q, R = np.linalg.qr(rng.normal(size=(3, 3)))
+    Q = Q * np.sign(np.diag(R))
+    return Q if np.linalg.det(Q) > 0.0 else -Q
