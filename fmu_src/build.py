@@ -77,6 +77,7 @@ def build_fmu(
                     importlib.metadata.version("ali3"),
                     system.to_bytes(),
                     table,
+                    [row["name"] for row in system.meta["rows"]],
                     float(experiment["stop_time_s"]),
                     step,
                     Path(binding.__file__),

@@ -48,13 +48,12 @@ class Manoeuvre:
         if not len(self.time):
             return {}
         # Times add up with rounding errors; a step must not be missed for them.
-        t += 1e-9
-        k = int(np.searchsorted(self.time, t, side="right"))
+        k = int(np.searchsorted(self.time, t + 1e-9, side="right"))
         if k == 0 or k == len(self.time):
             row = 0 if k == 0 else -1
             return {name: float(values[row]) for name, values in self.inputs.items()}
         t0, t1 = self.time[k - 1], self.time[k]
-        s = (t - t0) / (t1 - t0)
+        s = max(t - t0, 0.0) / (t1 - t0)
         return {name: float(v[k - 1] + s * (v[k] - v[k - 1])) for name, v in self.inputs.items()}
 
 

@@ -135,7 +135,7 @@ def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
     for name in result.names:
         groups.setdefault(result.units[name], []).append(name)
     panels = [(unit, names[k : k + 5]) for unit, names in groups.items() for k in range(0, len(names), 5)][:_MAX_PANELS]
-    columns = min(3, len(panels) + 1)
+    columns = 3 if len(panels) + 1 > 4 else 2
     lines = -(-(len(panels) + 1) // columns)
     figure = plt.figure(figsize=(16, 1.2 + 3.3 * lines), layout="constrained")
     rect = (0.005, 0.005, 0.99, 1.0 - 0.6 / (1.2 + 3.3 * lines) - 0.005)
@@ -197,7 +197,7 @@ def _table(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
     for k, (what, value) in enumerate(rows):
         y = 1.0 - (k + 0.5) / n
         axes.text(0.0, y, what, transform=axes.transAxes, va="center", fontsize=9, color="#555555")
-        axes.text(0.36, y, value, transform=axes.transAxes, va="center", fontsize=9, color=BLACK)
+        axes.text(0.42, y, value, transform=axes.transAxes, va="center", fontsize=9, color=BLACK)
 
 
 def _named(
@@ -228,5 +228,10 @@ def _lines(
     axes.margins(x=0)
     if len(series) > 1:
         axes.legend(
-            ncols=len(series), loc="upper right", bbox_to_anchor=(1.0, 1.13), handlelength=1.2, columnspacing=1.0
+            ncols=len(series),
+            loc="lower right",
+            bbox_to_anchor=(1.01, 0.985),
+            borderaxespad=0.1,
+            handlelength=1.2,
+            columnspacing=1.0,
         )

@@ -40,6 +40,8 @@ class Contents:
     system : bytes
         System file.
     table : sequence of Variable
+    rows : sequence of str
+        Names of the constraint rows, for messages.
     stop_time, step_size : float
         Default experiment, s.
     binding : Path
@@ -53,6 +55,7 @@ class Contents:
     version: str
     system: bytes
     table: Sequence[Variable]
+    rows: Sequence[str]
     stop_time: float
     step_size: float
     binding: Path
@@ -96,7 +99,9 @@ def pack(contents: Contents, file: Path) -> str:
     files |= {name: data for name, data in entries.items() if name.startswith("binaries/")}
     files |= {
         f"resources/{main}.py": script.encode(),
-        f"resources/{package}/fmu.json": json.dumps({"identity": identity, "variables": records}, indent=1).encode(),
+        f"resources/{package}/fmu.json": json.dumps(
+            {"identity": identity, "variables": records, "rows": list(contents.rows)}, indent=1
+        ).encode(),
         "resources/slavemodule.txt": main.encode(),
         "resources/guid.txt": guid.encode(),
         "documentation/index.html": _documentation(contents).encode(),

@@ -36,6 +36,7 @@ class _Shared:
 
     def __init__(self) -> None:
         description = json.loads((_HERE / "fmu.json").read_text(encoding="utf-8"))
+        self.rows: list[str] = description["rows"]
         self.table: list[dict[str, Any]] = description["variables"]
         self.identity = bytes.fromhex(description["identity"])[:16]
         folder = _HERE / ("win64" if sys.platform == "win32" else "linux64")
@@ -56,6 +57,7 @@ class Slave(Fmi2Slave):
         shared = _Shared.get()
         self._identity = shared.identity
         self._table = shared.table
+        self._rows = shared.rows
         self._kernel = binding.Instance(shared.system)
         self._n_known = sum(v["causality"] != "output" for v in self._table)
         # Values by value reference; the outputs are filled when they are asked for.
@@ -123,10 +125,11 @@ class Slave(Fmi2Slave):
             self._apply_pending()
             self._advance(time, current_time + step_size)
         except binding.KernelError as error:
+            worst = self._worst()
             kernel.restore(saved)
             return self._discard(
                 f"The step from {time:.6g} s over {step_size:.6g} s was refused, "
-                f"the state at {time:.6g} s is kept: {error}"
+                f"the state at {time:.6g} s is kept: {error}{worst}"
             )
         except Exception as error:
             kernel.restore(saved)
@@ -261,6 +264,13 @@ class Slave(Fmi2Slave):
         else:
             self._kernel.run(h, n)
 
+    def _worst(self) -> str:
+        report = self._kernel.report()
+        row = report["worst_row"]
+        if not 0 <= row < len(self._rows) or not report["violation"] > 0.0:
+            return ""
+        return f" Worst constraint: '{self._rows[row]}', open by {report['violation']:.3g} m."
+
     def _apply_pending(self) -> None:
         for vr in sorted(self._pending):
             v = self._table[vr]
@@ -285,7 +295,7 @@ class Slave(Fmi2Slave):
             kernel.initialise(self._start_time)
         except Exception as error:
             self._initialised = False
-            return self._refuse(f"The initial state could not be found: {error}")
+            return self._refuse(f"The initial state could not be found: {error}{self._worst()}")
         self._pending.clear()
         self._initialised = True
         self._outputs_fresh = False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import platform
 import sys
 import traceback
 import warnings
@@ -54,6 +55,8 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
 def build(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     """Builds the FMU of a function of `scenes.py` once."""
     made: dict[str, Path] = {}
+    if sys.platform not in ("linux", "win32") or platform.machine().lower() not in ("x86_64", "amd64"):
+        pytest.skip("PythonFMU has libraries for x86-64 Linux and Windows only")
 
     def make(scene: str) -> Path:
         if scene not in made:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import mbs
-from mbs.elements.input_force import InputForce
-from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 
 
 def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
@@ -13,8 +11,8 @@ def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
     m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
     angle = m.relative_angle("angle", m.ground, rod)
     torque = m.input("torque", min=-30.0, max=30.0, unit="N.m", description="Torque of the motor in the hinge")
-    m.add(InputForce(torque.index).record("motor", [angle.affine]))
-    spring = m.add(ScalarSpringDamper(5.0, 0.3).record("spring", angle.affine))
+    m.torque_on("motor", angle, input=torque)
+    spring = m.torsional_spring_damper("spring", angle, stiffness=5.0, damping=0.3)
     target = (spring, "stiffness", 1.0)
     m.parameter("spring.stiffness", 5.0, 0.0, 50.0, "N.m/rad", "Stiffness of the spring", targets=[target])
     m.sense_position("rod.x", rod, component="x", description="Centre of mass, horizontal")
@@ -48,7 +46,7 @@ def sled() -> mbs.Model:
     m.floating = True
     body = m.body("chassis", mass=10.0, com=(0.3, 0.0), inertia=2.0)
     thrust = m.input("thrust", min=-5.0, max=5.0, unit="N")
-    m.add(InputForce(thrust.index).record("engine", [body.point((0.3, 0.0))[0]]))
+    m.force("engine", body, inputs=(thrust, None), axes="body")
     m.sense_position("chassis.x", body, component="x")
     m.sense_position("chassis.y", body, component="y")
     m.sense_yaw("chassis.yaw", body)

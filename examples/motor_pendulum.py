@@ -1,0 +1,28 @@
+"""A model of your own, its FMU, a run in FMPy: python examples/motor_pendulum.py"""
+
+from pathlib import Path
+
+import fmpy
+
+import mbs
+from fmu_src.build import build_fmu
+
+
+def motor_pendulum() -> mbs.Model:
+    """A rod that hangs on a hinge with a motor."""
+    m = mbs.Model("motor pendulum", dimension=2)
+    rod = m.body("rod", mass=2.0, com=(0.0, -0.5), inertia=0.17)
+    m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
+    angle = m.relative_angle("angle", m.ground, rod)
+    torque = m.input("torque", min=-20.0, max=20.0, unit="N.m", description="Torque of the motor")
+    m.torque_on("motor", angle, input=torque)
+    m.sense_coordinate("rod.angle", angle, description="Angle of the rod, zero when it hangs")
+    m.sense_position("rod.tip_x", rod, (0.0, -1.0), "x", description="Free end, horizontal")
+    m.sense_energy("energy.total", description="Kinetic and potential energy")
+    return m
+
+
+if __name__ == "__main__":
+    fmu = build_fmu(mbs.compile(motor_pendulum()), "motor_pendulum", Path("dist"))
+    result = fmpy.simulate_fmu(str(fmu), stop_time=5.0, start_values={"torque": 4.0})
+    print(f"{fmu}: the rod swings out to {max(result['rod.angle']):.3f} rad")

@@ -1,0 +1,138 @@
+"""The command from FMU to table and picture, run as a user runs it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy.util import read_csv
+from matplotlib import image
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'
+
+
+def drive(*arguments: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "hosts.drive", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=ROOT,
+        env=os.environ | {"PYTHONIOENCODING": "utf-8"},
+    )
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    folder = tmp_path_factory.mktemp("fmus")
+    scenes = {"sledge": HERE / "scenes.py", "motor_pendulum": ROOT / "examples" / "motor_pendulum.py"}
+    made = {}
+    for function, file in scenes.items():
+        name, system = load_scene(f"{file}:{function}")
+        made[function] = build_fmu(system, name, folder, [PLATFORM])
+    return made
+
+
+@pytest.fixture
+def turn(tmp_path: Path) -> Path:
+    (tmp_path / "turn.csv").write_text("# start: initial.speed=10\n" + TURN)
+    return tmp_path / "turn.csv"
+
+
+def colours(picture: Path) -> int:
+    pixels = (255 * image.imread(picture)[..., :3]).astype(int)
+    return len(np.unique(pixels.reshape(-1, 3), axis=0))
+
+
+def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+    done = drive(fmus["sledge"], "--manoeuvre", turn, "--step", 0.02, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    for row in (
+        "distance driven",
+        "speed at start, top, end",
+        "wheels in the air",
+        "largest wheel load",
+        "failed steps",
+    ):
+        assert row in done.stdout
+    assert "0 of 150" in done.stdout
+    assert "3.00 s simulated in" in done.stdout
+    table = read_csv(tmp_path / "out" / "sledge_python_turn.csv")
+    assert table["time"] == pytest.approx(0.02 * np.arange(151))
+    assert table["chassis.x"][0] == 0.0
+    assert table["speed"][0] == pytest.approx(10.0)
+    # The inputs of a row are those of the step that ends there.
+    assert (table["steering"][50], table["steering"][51]) == (0.0, 0.5)
+    picture = tmp_path / "out" / "sledge_python_turn.png"
+    assert image.imread(picture).shape[:2] == (1210, 1760)
+    assert colours(picture) > 200
+
+
+def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
+    (tmp_path / "swing.csv").write_text('"time","torque"\n0,0\n1,0\n1,4\n4,4\n')
+    done = drive(fmus["motor_pendulum"], "-m", tmp_path / "swing.csv", "--out", tmp_path)
+    assert done.returncode == 0, done.stderr
+    table = read_csv(tmp_path / "motor_pendulum_python_swing.csv")
+    assert np.ptp(table["rod.angle"]) > 0.5
+    assert np.ptp(table["rod.angle"][:100]) < 1e-9
+    assert colours(tmp_path / "motor_pendulum_python_swing.png") > 100
+
+
+def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) -> None:
+    (tmp_path / "hard.csv").write_text('"time","torque"\n0,0\n1,90\n')
+    done = drive(fmus["motor_pendulum"], "-m", tmp_path / "hard.csv", "--out", tmp_path)
+    assert done.returncode == 0
+    assert "FMU: 'torque' was set to" in done.stdout
+
+
+def test_no_fmu_tells_how_to_build_it(turn: Path, tmp_path: Path) -> None:
+    done = drive(tmp_path / "dist" / "PrototypeCarPython.fmu", "-m", turn)
+    assert done.returncode == 2
+    assert "There is no file" in done.stderr
+    assert "python build_fmu.py" in done.stderr
+
+
+def test_bad_files_are_named(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+    (tmp_path / "text.fmu").write_text("no zip")
+    assert "is not an FMU" in drive(tmp_path / "text.fmu", "-m", turn).stderr
+    (tmp_path / "u.csv").write_text('"time","lever"\n0,0\n1,0\n')
+    done = drive(fmus["sledge"], "-m", tmp_path / "u.csv")
+    assert done.returncode == 2
+    assert "'lever', which is no input" in done.stderr
+    assert "steering, throttle, brake" in done.stderr
+    (tmp_path / "s.csv").write_text("# start: initial.sped=1\n" + TURN)
+    assert "no parameter or input 'initial.sped'" in drive(fmus["sledge"], "-m", tmp_path / "s.csv").stderr
+    assert "must be positive" in drive(fmus["sledge"], "-m", turn, "--step", -1).stderr
+    assert "driver needs variables" in drive(fmus["motor_pendulum"], "-m", "double_lane_change").stderr
+
+
+def test_the_host_knows_fmi_only() -> None:
+    for file in (ROOT / "hosts").rglob("*.py"):
+        text = file.read_text(encoding="utf-8")
+        assert "import mbs" not in text
+        assert "from mbs" not in text
+        assert "fmu_src" not in text
+
+
+@pytest.mark.slow  # the first time, the kernel is compiled for Windows too
+def test_example_of_the_readme_builds_and_swings(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, str(ROOT / "examples" / "motor_pendulum.py")],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        check=True,
+    )
+    # 4 N m against 9.81 N m of weight: at rest again where 4 a = 9.81 (1 - cos a).
+    assert "swings out to 0.869 rad" in done.stdout
+    assert 9.81 * (1.0 - np.cos(0.869)) == pytest.approx(4.0 * 0.869, abs=5e-3)

@@ -1,0 +1,87 @@
+"""The driver steers a car without slip through the double lane change, and holds its speed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hosts.course import iso_3888_1
+from hosts.driver import DriverSettings, make_driver
+from hosts.errors import HostError
+from hosts.manoeuvre import load_manoeuvre
+
+SETTINGS = {"course": "iso_3888_1", "speed": "15", "vehicle_width": "1.5"}
+
+
+def drive_bicycle(settings: dict[str, str], step: float = 0.01) -> dict[str, np.ndarray]:
+    """A kinematic bicycle whose pedals accelerate by at most 4 m/s2."""
+    driver = make_driver(settings)
+    s = driver.settings
+    x, y, yaw, speed = -s.rear_axle, 0.0, 0.0, s.speed - 2.0
+    rows = []
+    for k in range(1200):
+        cx, cy = x + s.rear_axle * math.cos(yaw), y + s.rear_axle * math.sin(yaw)
+        rows.append((cx, cy, yaw, speed))
+        act = driver.act(k * step, {"chassis.x": cx, "chassis.y": cy, "chassis.yaw": yaw, "speed": speed})
+        speed += step * 4.0 * (act["throttle"] - act["brake"])
+        yaw += step * speed * math.tan(act["steering"] * s.wheel_angle_max) / s.wheelbase
+        x += step * speed * math.cos(yaw)
+        y += step * speed * math.sin(yaw)
+    return dict(zip(("x", "y", "yaw", "speed"), np.array(rows).T, strict=True))
+
+
+def test_course_has_the_lengths_and_widths_of_the_standard() -> None:
+    course = iso_3888_1(vehicle_width=2.0, x_start=0.0)
+    assert [(g.x_start, g.x_end) for g in course.gates] == [(0.0, 15.0), (45.0, 70.0), (95.0, 125.0)]
+    widths = [g.y_left - g.y_right for g in course.gates]
+    assert widths == pytest.approx([1.1 * 2.0 + 0.25, 1.2 * 2.0 + 0.25, 1.3 * 2.0 + 0.25])
+    assert [g.centre for g in course.gates] == pytest.approx([0.0, 3.5, 0.0])
+
+
+def test_path_runs_through_the_middle_of_the_gates_and_is_smooth() -> None:
+    course = iso_3888_1(1.5)
+    for gate in course.gates:
+        assert course.path(np.linspace(gate.x_start, gate.x_end, 7)) == pytest.approx(np.full(7, gate.centre))
+    x = np.linspace(0.0, 160.0, 4001)
+    slope = np.gradient(course.path(x), x)
+    curvature = 0.5 * np.pi**2 * 3.5 / 25.0**2
+    assert np.abs(np.diff(slope)).max() < 1.1 * curvature * (x[1] - x[0])
+
+
+@pytest.mark.parametrize("speed", ["10", "15", "20"])
+def test_double_lane_change_is_passed(speed: str) -> None:
+    run = drive_bicycle(SETTINGS | {"speed": speed})
+    driver = make_driver(SETTINGS)
+    outside = driver.course.corners_outside(run["x"], run["y"], run["yaw"], 3.2, 1.5)
+    assert outside < 0.0
+    assert run["y"].max() > 3.0
+    assert run["x"].max() > 100.0
+    assert run["speed"][-1] == pytest.approx(float(speed), abs=0.2)
+
+
+def test_driving_straight_misses_the_second_lane() -> None:
+    course = iso_3888_1(1.5)
+    x = np.linspace(0.0, 150.0, 500)
+    assert course.corners_outside(x, np.zeros(500), np.zeros(500), 3.2, 1.5) > 3.0
+
+
+def test_settings_of_the_manoeuvre_are_those_of_a_driver() -> None:
+    driver = make_driver(load_manoeuvre("double_lane_change").driver)
+    assert driver.settings.speed == load_manoeuvre("double_lane_change").start["initial.speed"]
+    assert driver.settings == DriverSettings(speed=driver.settings.speed)
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"course": "moon", "speed": "1"}, "no course 'moon'"),
+        ({"course": "iso_3888_1", "speed": "fast"}, "not a number"),
+        ({"course": "iso_3888_1"}, "needs a course and a speed"),
+        ({"course": "iso_3888_1", "speed": "1", "mood": "2"}, "'mood'"),
+    ],
+)
+def test_bad_settings_are_refused(settings: dict[str, str], message: str) -> None:
+    with pytest.raises(HostError, match=message):
+        make_driver(settings)

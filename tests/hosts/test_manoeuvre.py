@@ -1,0 +1,109 @@
+"""Manoeuvre files: read as FMPy reads them, and refused with a sentence that names the place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy.util import read_csv
+
+from hosts.errors import HostError
+from hosts.manoeuvre import FOLDER, load_manoeuvre, manoeuvre_names
+
+GOOD = '"time","steering","throttle"\n0,0,0\n1,0,0\n1,0.5,1\n2,0.5,0\n'
+
+
+def written(folder: Path, text: str, settings: str = "") -> str:
+    (folder / "m.csv").write_text(text)
+    if settings:
+        (folder / "m.ini").write_text(settings)
+    return str(folder / "m.csv")
+
+
+def test_a_doubled_time_is_a_step_and_the_rest_is_linear(tmp_path: Path) -> None:
+    manoeuvre = load_manoeuvre(written(tmp_path, GOOD))
+    assert manoeuvre.stop_time == 2.0
+    assert manoeuvre.at(0.5) == {"steering": 0.0, "throttle": 0.0}
+    assert manoeuvre.at(1.0) == {"steering": 0.5, "throttle": pytest.approx(1.0)}
+    assert manoeuvre.at(1.5) == {"steering": 0.5, "throttle": pytest.approx(0.5)}
+    assert manoeuvre.at(9.0) == {"steering": 0.5, "throttle": 0.0}
+
+
+def test_a_step_is_not_missed_for_rounding(tmp_path: Path) -> None:
+    manoeuvre = load_manoeuvre(written(tmp_path, '"time","u"\n0,0\n0.3,0\n0.3,1\n1,1\n'))
+    assert 3 * 0.1 != 0.3
+    assert manoeuvre.at(0.1 + 0.2)["u"] == 1.0
+    assert manoeuvre.at(np.nextafter(0.3, 0.0))["u"] == 1.0
+
+
+def test_start_values_from_a_comment_and_from_the_file_beside(tmp_path: Path) -> None:
+    text = "# start: initial.speed=15, initial.yaw=0.1\n" + GOOD
+    manoeuvre = load_manoeuvre(written(tmp_path, text, "[run]\nstop_time = 7\n[start]\ninitial.yaw = 0.2\n"))
+    assert manoeuvre.start == {"initial.speed": 15.0, "initial.yaw": 0.2}
+    assert manoeuvre.stop_time == 7.0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('"time","u"\n0,0\n2,1\n1,1\n', r"line 4: time goes back from 2 s to 1 s"),
+        ('"time","u"\n0,0\n1,nan\n', r"line 3, column 'u': the value is nan"),
+        ('"time","u"\n0,0\ninf,1\n', r"line 3, column 'time': the value is inf"),
+        ('"time","u"\n0,zero\n', r"line 2, column 'u': 'zero' is not a number"),
+        ('"time","u"\n0,0,0\n', r"line 2: 3 values where the heading has 2 columns"),
+        ('"u","time"\n0,0\n', r"line 1: the heading is"),
+        ('"time","u","u"\n0,0,0\n', r"line 1: the heading is"),
+        ('"time"\n0\n', r"line 1: the heading is"),
+        ('"time","u"\n', r"holds no values"),
+        ("", r"holds no values"),
+        ('"time","u"\n0,0\n', r"does not say how long"),
+        ('# start: speed\n"time","u"\n0,0\n1,0\n', r"line 1: 'speed' is not of the form"),
+    ],
+)
+def test_bad_tables_are_refused(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(HostError, match=message):
+        load_manoeuvre(written(tmp_path, text))
+
+
+def test_binary_tables_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "m.csv").write_bytes(bytes(range(128, 256)))
+    with pytest.raises(HostError, match="cannot be read as text"):
+        load_manoeuvre(str(tmp_path / "m.csv"))
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ("[begin]\nx = 1\n", r"section \[begin\]"),
+        ("[start]\nx = fast\n", "'fast' is not a number"),
+        ("x\n", "not understood"),
+    ],
+)
+def test_bad_settings_are_refused(tmp_path: Path, settings: str, message: str) -> None:
+    with pytest.raises(HostError, match=message):
+        load_manoeuvre(written(tmp_path, GOOD, settings))
+
+
+def test_unknown_names_and_files_are_named() -> None:
+    with pytest.raises(HostError, match=r"no manoeuvre 'loop'.*slalom"):
+        load_manoeuvre("loop")
+    with pytest.raises(HostError, match=r"no file nowhere\.csv"):
+        load_manoeuvre("nowhere.csv")
+
+
+@pytest.mark.parametrize("name", manoeuvre_names())
+def test_manoeuvres_of_the_host_are_whole(name: str) -> None:
+    manoeuvre = load_manoeuvre(name)
+    assert manoeuvre.stop_time > 1.0
+    for values in manoeuvre.inputs.values():
+        assert values.min() >= -1.0
+        assert values.max() <= 1.0
+
+
+@pytest.mark.parametrize("name", [p.stem for p in sorted(FOLDER.glob("*.csv"))])
+def test_fmpy_reads_the_same_tables(name: str) -> None:
+    table = read_csv(FOLDER / f"{name}.csv")
+    manoeuvre = load_manoeuvre(name)
+    assert np.array_equal(table["time"], manoeuvre.time)
+    assert all(np.array_equal(table[n], values) for n, values in manoeuvre.inputs.items())
