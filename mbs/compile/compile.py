@@ -12,6 +12,7 @@ from scipy import sparse
 from mbs.affine import Affine
 from mbs.compile.consistent import close_position, start_velocity
 from mbs.compile.dependent_rows import independent_rows
+from mbs.compile.equilibrium import equilibrium
 from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, lengths, reduce_coordinates, transformation
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
@@ -124,7 +125,14 @@ def compile(model: Model) -> System:
         "inputs": len(model.inputs),
         "sensors": len(model.sensors),
     }
-    return System(tables, _meta(model, kept, order, rows, report))
+    system = System(tables, _meta(model, kept, order, rows, report))
+    if not model.start_in_equilibrium:
+        return system
+    q = equilibrium(system, model.equilibrium_parameters)
+    z[order] = q
+    tables.update(q0=q, qd0=np.zeros_like(q))
+    tables.update({name: values[order] for name, values in pose_arrays(model, kept, full, z).items() if len(values)})
+    return System(tables, system.meta)
 
 
 def _symmetric(matrix: sparse.csr_matrix) -> sparse.csr_matrix:

@@ -68,6 +68,8 @@ class ModelCore:
         fall = np.array([0.0, -9.81]) if dimension == 2 else np.array([0.0, 0.0, -9.81])
         self.gravity: Vector = fall if gravity is None else vector(gravity, dimension, f"gravity of model '{name}'")
         self.floating = False
+        self.start_in_equilibrium = False
+        self.equilibrium_parameters: dict[str, float] = {}  # values that hold only while it is sought
         self.stop_time = 10.0
         self.step = 0.01
         self.ground: Body = Ground(self, "ground", np.zeros(dimension), 0)

@@ -152,6 +152,15 @@ class SensorVocabulary(ModelCore):
         """
         return self._moving(name, body, point, component, axes, 2, unit, description)
 
+    def sense_component(
+        self, name: str, vector: AffineVector, axis: AffineVector, order: int = 0, unit: str = "", description: str = ""
+    ) -> Sensor:
+        """Component of a vector between points (order 0), of its rate (1) or second rate (2) along a moving axis."""
+        if order not in (0, 1, 2):
+            raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0, 1 or 2.")
+        signals = [*spatial(vector), *spatial(axis)]
+        return self._sense(name, unit or RATE_UNITS["m"][order], description, 3, signals, integers=[order])
+
     def sense_coordinate(
         self,
         name: str,

@@ -6,7 +6,7 @@
 #include "ali3_internal.h"
 
 static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
-static const double FIRST_C = 1e-4, LEAST_C = 1e-10, LARGEST_C = 1e4;
+static const double FIRST_C = 1e-4, LEAST_C = 1e-10, LARGEST_C = 10.0;
 static const double PENALTY = 1e7; /* c alpha, as in a step with eps_rel = 2.5e-8 */
 static const double CLOSED = 1e-10; /* m */
 

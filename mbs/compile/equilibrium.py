@@ -1,0 +1,38 @@
+"""Static equilibrium near the reference position, for models that start in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.errors import ModelError
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.system import System
+
+TOLERANCE = 1e-8  # N
+MAX_ITERATIONS = 400
+
+
+def equilibrium(system: System, parameters: Mapping[str, float]) -> NDArray[np.float64]:
+    """Coordinates, shape (nq,), where all forces balance with the inputs at their start values.
+
+    `parameters` hold only while it is sought: a drive that pushes has no equilibrium.
+    """
+    instance = Instance(LoadedSystem(system.to_bytes()))
+    names = [entry["name"] for entry in system.meta["parameters"]]
+    unknown = [name for name in parameters if name not in names]
+    if unknown:
+        raise ModelError(
+            f"The equilibrium of '{system.meta['name']}' sets '{unknown[0]}', which is no parameter of it."
+        )
+    try:
+        for name, value in parameters.items():
+            instance.set_parameter(names.index(name), value)
+        instance.static_equilibrium(0.0, TOLERANCE, MAX_ITERATIONS)
+    except KernelError as error:
+        raise ModelError(
+            f"The model '{system.meta['name']}' has no static equilibrium near its drawing: {error.message}"
+        ) from None
+    return np.array(instance.get_state()[0], float)

@@ -1,0 +1,104 @@
+"""The prototype car of the paper (section 3.4) with a rigid chassis: 14 degrees of freedom, steering, throttle and brake."""
+
+from __future__ import annotations
+
+from mbs.elements.automatic_drive import AutomaticDrive
+from mbs.elements.road import KerbRoad, PlaneRoad, Road
+from mbs.model import Model
+from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.front_suspension import front_suspension
+from mbs.scenes.prototype_car.outputs import chassis_outputs, control_outputs, health_outputs, wheel_outputs
+from mbs.scenes.prototype_car.rear_suspension import rear_suspension
+from mbs.scenes.prototype_car.side import FRONT_SIDES, REAR_SIDES
+from mbs.scenes.prototype_car.tyre_data import FRICTION
+from mbs.scenes.prototype_car.wheels import wheel
+
+FAR_AWAY = 1e6  # m: the default kerb lies where no manoeuvre goes
+KERB_HEIGHT = 0.08  # m, of the paper's test
+
+
+def build(road: Road | None = None) -> Model:
+    """The car at rest in static equilibrium, its front axle over the origin.
+
+    Parameters
+    ----------
+    road : Road, optional
+        By default level ground with a kerb, down by `road.kerb_height` at `road.kerb_x` (parameters; far away unless
+        set), and the friction `road.friction`.
+    """
+    m = Model("prototype car", gravity=(0.0, 0.0, -car_data.GRAVITY))
+    m.floating = True
+    m.start_in_equilibrium = True
+    m.stop_time, m.step = 10.0, 0.002
+    steering = m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left")
+    throttle = m.input("throttle", min=0.0, max=1.0, description="throttle pedal")
+    pedal = m.input("brake", min=0.0, max=1.0, description="brake pedal")
+    # the tie rods are behind the axle: the rack moves right to steer left
+    rack = m.guide_input(
+        "rack", input=steering, gain=-car_data.RACK_TRAVEL, frequency=car_data.RACK_FREQUENCY, unit="m"
+    )
+    ground = m.road(road or KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", FRICTION))
+
+    chassis = m.body("chassis", **car_data.CHASSIS)
+    spins = {}
+    for side in FRONT_SIDES:
+        spins[side.wheel] = wheel(m, front_suspension(m, chassis, side, rack), side, ground, pedal)
+    for side in REAR_SIDES:
+        spins[side.wheel] = wheel(m, rear_suspension(m, chassis, side), side, ground, pedal)
+    # x and z of the chassis: the reaction of the drive is about its lateral axis (z cross x = y)
+    z, x = chassis.vector((0.0, 0.0, 1.0)), chassis.vector((1.0, 0.0, 0.0))
+    drive = AutomaticDrive(**car_data.DRIVELINE)
+    m.add(drive.record("drive", spins["RL"].coordinate, spins["RR"].coordinate, z, x, throttle.index))
+    m.drag("drag", chassis, car_data.REFERENCE_POINT, drag_area=car_data.DRAG_AREA, air_density=car_data.AIR_DENSITY)
+
+    m.parameter(
+        "drive.creep_torque",
+        drive.creep_torque,
+        0.0,
+        200.0,
+        "N.m",
+        "torque per rear wheel at rest with closed throttle, the selector in drive; 0: neutral",
+        targets=[("drive", "creep_torque", 1.0)],
+    )
+    m.equilibrium_parameters = {"drive.creep_torque": 0.0}
+    _road_parameters(m, road, ground)
+    chassis_outputs(m, chassis)
+    control_outputs(m, rack, [steering, throttle, pedal])
+    for w, spin in spins.items():
+        wheel_outputs(m, chassis, spin, w)
+    health_outputs(m)
+    return m
+
+
+def _road_parameters(m: Model, road: Road | None, ground: int) -> None:
+    """What a user may set of the road."""
+    names = (road or KerbRoad).real_names
+    target = ("road", ground)
+    if "friction" in names:
+        friction = road.friction if isinstance(road, KerbRoad | PlaneRoad) else FRICTION if road is None else 1.0
+        m.parameter(
+            "road.friction",
+            friction,
+            0.05,
+            2.0,
+            "1",
+            "friction of the road",
+            targets=[(target, names.index("friction"), 1.0)],
+        )
+    if road is None:
+        place, low, step = (names.index(n) for n in ("position", "lower_height", "step"))
+        m.parameter(
+            "road.kerb_x", FAR_AWAY, -FAR_AWAY, FAR_AWAY, "m", "x of the kerb's edge", targets=[(target, place, 1.0)]
+        )
+        m.parameter(
+            "road.kerb_height",
+            KERB_HEIGHT,
+            0.001,
+            0.5,
+            "m",
+            "drop behind the kerb's edge",
+            targets=[(target, low, -1.0), (target, step, 1.0)],
+        )
+
+
+__all__ = ["build"]

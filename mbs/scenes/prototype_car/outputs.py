@@ -1,0 +1,110 @@
+"""What the car reports: names, units and axes as users of vehicle models expect them (ISO 8855)."""
+
+from __future__ import annotations
+
+import math
+
+from mbs.affine import AffineVector
+from mbs.model import Model
+from mbs.model.body import Body
+from mbs.model.guides import Guide
+from mbs.model.inputs import Input
+from mbs.model.spin import Spin
+from mbs.scenes.prototype_car.car_data import ACCELEROMETERS, RACK_PER_TURN, REFERENCE_POINT
+
+FORWARD, LEFT, UP = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
+
+def chassis_outputs(m: Model, chassis: Body) -> None:
+    """Pose, velocity and acceleration of the reference point, in earth and vehicle axes."""
+    for c in "xyz":
+        m.sense_position(f"chassis.{c}", chassis, REFERENCE_POINT, c, description=f"{c} of the reference point, earth")
+    m.sense_yaw("chassis.yaw", chassis, description="heading, positive to the left")
+    m.sense_pitch("chassis.pitch", chassis, description="positive nose down")
+    m.sense_roll("chassis.roll", chassis, description="positive left side up")
+    for c in "wxyz":
+        m.sense_quaternion(f"chassis.q{c}", chassis, c, description="orientation quaternion, scalar qw")
+    for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
+        m.sense_velocity(f"chassis.v{c}", chassis, REFERENCE_POINT, c, chassis, description=f"velocity {way}")
+    for c in "xyz":
+        m.sense_angular_rate(f"chassis.w{c}", chassis, c, description=f"angular velocity about the vehicle's {c} axis")
+    for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
+        m.sense_acceleration(
+            f"chassis.a{c}", chassis, REFERENCE_POINT, c, chassis, description=f"acceleration {way}, without gravity"
+        )
+    reference = chassis.point(REFERENCE_POINT)
+    m.sense_norm("speed", reference, 1, description="speed of the reference point")
+    m.sense_direction(
+        "sideslip",
+        reference,
+        chassis.vector(FORWARD),
+        chassis.vector(LEFT),
+        description="direction of travel from the heading, positive to the left; 0 below 1 mm/s",
+    )
+    for corner, point in ACCELEROMETERS.items():
+        for c in "xyz":
+            m.sense_acceleration(
+                f"accelerometer_{corner}.a{c}",
+                chassis,
+                point,
+                c,
+                chassis,
+                description=f"acceleration of the {corner} corner of the chassis base, vehicle axes, without gravity",
+            )
+
+
+def control_outputs(m: Model, rack: Guide, inputs: list[Input]) -> None:
+    """Steering and drive as the car has them."""
+    m.sense_guide("steering_rack", rack, description="rack travel, positive to the left (turns the wheels right)")
+    m.sense_guide(
+        "steering_wheel_angle",
+        rack,
+        scale=-2.0 * math.pi / RACK_PER_TURN,
+        unit="rad",
+        description="angle of the steering wheel, positive to the left",
+    )
+    m.sense_element("engine_speed", "drive", "engine_speed", description="speed of the engine")
+    m.sense_element("gear", "drive", "gear", description="gear engaged")
+    m.sense_element("drive_torque", "drive", "wheel_torque", description="torque on each rear wheel")
+    for channel in inputs:
+        m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
+
+
+def wheel_outputs(m: Model, chassis: Body, spin: Spin, w: str) -> None:
+    """Attitude, travel, spin and tyre forces of one wheel."""
+    forward, left, up = (chassis.vector(v) for v in (FORWARD, LEFT, UP))
+    m.sense_angle_between(
+        f"wheel_{w}.steer", spin.axis, left, up, description="steer angle about the vehicle's z axis, positive left"
+    )
+    m.sense_angle_between(
+        f"wheel_{w}.camber", spin.axis, left, forward, description="turn of the wheel axis about the x axis"
+    )
+    m.sense_coordinate(f"wheel_{w}.omega", spin, 1, description="absolute angular velocity, positive forward")
+    _travel(m, chassis, spin, w)
+    for name, output in (
+        ("Fx", "longitudinal_force"),
+        ("Fy", "lateral_force"),
+        ("Fz", "vertical_force"),
+        ("Mz", "aligning_moment"),
+        ("slip", "slip"),
+        ("slip_angle", "slip_angle"),
+        ("deflection", "deflection"),
+    ):
+        m.sense_element(f"wheel_{w}.{name}", f"tyre {w}", output)
+    m.sense_element(f"wheel_{w}.brake_torque", f"brake {w}", "torque")
+    m.sense_element(f"spring_{w}.length", f"spring {w}", "length")
+    m.sense_element(f"spring_{w}.force", f"spring {w}", "force")
+
+
+def health_outputs(m: Model) -> None:
+    """Energies and the work of the solver."""
+    for kind in ("kinetic", "gravity", "elastic", "total"):
+        m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")
+    for kind in ("iterations", "violation", "residual", "halvings", "status"):
+        m.sense_solver(f"solver.{kind}", kind, description=f"{kind} of the solver, last step")
+
+
+def _travel(m: Model, chassis: Body, spin: Spin, w: str) -> None:
+    reference = [c.reference for c in m.coordinates]
+    gap: AffineVector = spin.centre - chassis.point(spin.centre.value(reference))
+    m.sense_component(f"wheel_{w}.travel", gap, chassis.vector(UP), description="of the wheel centre, positive in bump")
