@@ -9,7 +9,7 @@ import numpy as np
 
 from tests.elements.harness import Array, Element, Result
 
-TOLERANCE = 1e-10  # on the residual over mass, m or rad
+TOLERANCE = 1e-13  # on the residual over mass, m or rad
 CAP = 60  # iterations
 
 
