@@ -10,7 +10,9 @@ GRAVITY = 9.81
 
 def pendulum() -> SystemBuilder:
     """A01: 1 kg on a massless rod of 1 m, starting horizontally at rest; sensors x, y, total energy."""
-    b = SystemBuilder(np.eye(2), [-1.0, 0.0], gravity=[0.0, -GRAVITY], rows=[distance_row((0.0, 0.0), (0, 1), 1.0, True)])
+    b = SystemBuilder(
+        np.eye(2), [-1.0, 0.0], gravity=[0.0, -GRAVITY], rows=[distance_row((0.0, 0.0), (0, 1), 1.0, True)]
+    )
     x, y = b.signal({0: 1.0}), b.signal({1: 1.0})
     b.sensors = [(0, [x], [1.0]), (0, [y], [1.0]), (10, [3], [])]
     return b
@@ -47,7 +49,12 @@ def everything() -> SystemBuilder:
     rows = [
         distance_row((0, 1), (2, 3), 1.25, False),
         Row(0.0, theta=4, angle=[(2, -1, 1.0, 0.0), (0, -1, -1.0, 0.0), (3, -1, 0.0, 1.0), (1, -1, 0.0, -1.0)]),
-        Row(-1.0, {0: 1.0, 1: 0.5}, {}, guided=[(0, 1, 1, -1, 0.3), (0, 2, -1, -1, 0.2), (1, 2, 1, 0, 0.1), (1, 1, 0, 0, 0.4)]),
+        Row(
+            -1.0,
+            {0: 1.0, 1: 0.5},
+            {},
+            guided=[(0, 1, 1, -1, 0.3), (0, 2, -1, -1, 0.2), (1, 2, 1, 0, 0.1), (1, 1, 0, 0, 0.4)],
+        ),
     ]
     q0 = [0.8, 0.3, 1.55, 1.3, np.arctan2(1.0, 0.75)]
     b = SystemBuilder(M, q0, [0.1, -0.2, 0.3, 0.2, 0.0], [0.0, -9.81 * 2, 0.0, -9.81 * 2.5, 0.0], rows, [2, 1, 2])
@@ -57,5 +64,12 @@ def everything() -> SystemBuilder:
     dx, dy = b.signal({0: -1.0, 2: 1.0}), b.signal({1: -1.0, 3: 1.0}, 0.5)
     b.elements = [Element(1, [dx, dy], [400.0, 20.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=3)]
     b.parameters = [(400.0, 0.0, 1000.0, [(0, 0, 1.0)])]
-    b.sensors = [(0, [dx], [1.0]), (8, [0, 1], [1.0]), (11, [0], []), (12, [0, 0], [1.0]), (10, [3], []), (9, [1, 0], [1.0])]
+    b.sensors = [
+        (0, [dx], [1.0]),
+        (8, [0, 1], [1.0]),
+        (11, [0], []),
+        (12, [0, 0], [1.0]),
+        (10, [3], []),
+        (9, [1, 0], [1.0]),
+    ]
     return b

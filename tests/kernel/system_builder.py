@@ -123,7 +123,11 @@ class SystemBuilder:
     def value(self, row: Row, q: np.ndarray, s: np.ndarray | None = None) -> float:
         """Value of a row in user units; guides are zero unless given."""
         x = np.append(q, 1.0)  # index -1 means 1
-        v = row.constant + sum(c * q[i] for i, c in row.lin.items()) + sum(h * q[i] * q[j] for (i, j), h in row.quad.items())
+        v = (
+            row.constant
+            + sum(c * q[i] for i, c in row.lin.items())
+            + sum(h * q[i] * q[j] for (i, j), h in row.quad.items())
+        )
         if row.theta is not None:
             C = sum(hc * x[i] * x[j] for i, j, hc, _ in row.angle)
             S = sum(hs * x[i] * x[j] for i, j, _, hs in row.angle)
@@ -251,14 +255,20 @@ class SystemBuilder:
         a["guide_real_ptr"] = pointers([len(g[2]) for g in self.guides])
         a["guide_real"] = [v for g in self.guides for v in g[2]]
         a["road_type"] = [r[0] for r in self.roads]
-        a["road_real_ptr"], a["road_real"] = pointers([len(r[1]) for r in self.roads]), [v for r in self.roads for v in r[1]]
+        a["road_real_ptr"], a["road_real"] = (
+            pointers([len(r[1]) for r in self.roads]),
+            [v for r in self.roads for v in r[1]],
+        )
         for k, name in enumerate(("value", "min", "max")):
             a[f"par_{name}"] = [p[k] for p in self.parameters]
         a["par_ptr"] = pointers([len(p[3]) for p in self.parameters])
         for k, name in enumerate(("target", "index", "scale")):
             a[f"par_{name}"] = [t[k] for p in self.parameters for t in p[3]]
         a["sen_type"] = [s[0] for s in self.sensors]
-        a["sen_int_ptr"], a["sen_int"] = pointers([len(s[1]) for s in self.sensors]), [v for s in self.sensors for v in s[1]]
+        a["sen_int_ptr"], a["sen_int"] = (
+            pointers([len(s[1]) for s in self.sensors]),
+            [v for s in self.sensors for v in s[1]],
+        )
         a["sen_real_ptr"] = pointers([len(s[2]) for s in self.sensors])
         a["sen_real"] = [v for s in self.sensors for v in s[2]]
         a.update(self.pose)

@@ -12,7 +12,11 @@ from .scenes import GRAVITY, everything, four_bar, pendulum
 from .system_builder import Row, SystemBuilder, distance_row
 
 ROUND_OFF = 1e-12  # relative
-A01 = {1.0: (0.986292, -0.165011), 5.0: (-0.942305, -0.334754), 10.0: (-0.275087, -0.961419)}  # project data, benchmark A01
+A01 = {
+    1.0: (0.986292, -0.165011),
+    5.0: (-0.942305, -0.334754),
+    10.0: (-0.275087, -0.961419),
+}  # project data, benchmark A01
 ENERGY_BOUND_J = {0.01: 0.10, 0.03: 1.0, 0.05: 3.2}  # the paper's Table 1: 0.21, 0.83, 9.03
 
 
@@ -169,7 +173,9 @@ def test_far_from_the_origin_a_free_scene_steps_as_near_it() -> None:
     """Two points joined by a rod, not tied to the ground: squares of coordinates must not cost digits 10 km away."""
 
     def rod(x: float) -> Instance:
-        b = SystemBuilder(np.eye(4), [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], rows=[distance_row((0, 1), (2, 3), 1.0, False)])
+        b = SystemBuilder(
+            np.eye(4), [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], rows=[distance_row((0, 1), (2, 3), 1.0, False)]
+        )
         east, north = np.array([1.0, 0.0, 1.0, 0.0]), np.array([0.0, 1.0, 0.0, 1.0])
         zero = np.zeros(4)
         b.pose = {"pose_0": b.q0, "pose_x": east, "pose_y": north, "pose_z": zero, "pose_cos": zero, "pose_sin": zero}

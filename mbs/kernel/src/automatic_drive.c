@@ -1,10 +1,11 @@
 /* Engine, torque converter, automatic gears and open differential: equal torques on two wheels, reaction on the frame that carries them.
  * Signals: chi of the left and right wheel (absolute rates about the axis f x g), f (3), g (3) orthonormal on the frame.
  * Reals: see the enum, then one total ratio per gear, tallest last. Integers: throttle input (0..1), number of gears.
- * States: gear, gear before the last shift, time since it. Outputs: engine speed rad/s, gear, torque per wheel N m, engine torque N m.
+ * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step. Outputs: engine speed rad/s, gear, torque per wheel N m, engine torque N m.
  *
  * There is no engine inertia: with turbine speed wt = ratio * W and stall speed ws (idle .. stall with the throttle) the engine turns at
- * sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over in RAMP seconds, so torque is continuous. */
+ * sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over in RAMP seconds, so torque is continuous;
+ * the clock of a shift starts where the wheel rate crossed the shift speed within the step, so its time does not depend on the step. */
 #include "element.h"
 #include "element_math.h"
 
@@ -72,7 +73,7 @@ static double torque(const double *p, double ratio, double throttle, double W, d
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real, *ratios = p + RATIOS;
   const int gears = a->integer[1], gear = gear_of(a->y_old[0], gears), before = gear_of(a->y_old[1], gears);
-  for (int i = 0; i < 3; i++) a->y_new[i] = a->y_old[i];
+  for (int i = 0; i < 4; i++) a->y_new[i] = a->y_old[i];
   if (a->h > 0.0) a->y_new[2] = ali3_clamp(a->y_old[2] + a->h, 0.0, LONG_AGO);
   const double x = p[RAMP] > 0.0 ? ali3_clamp(a->y_new[2] / p[RAMP], 0.0, 1.0) : 1.0;
   const double ratio = ratios[before - 1] + (ratios[gear - 1] - ratios[before - 1]) * x * x * (3.0 - 2.0 * x);
@@ -89,19 +90,40 @@ static void evaluate(ali3_element_args *a) {
   a->out[3] = engine;
 }
 
+/* Wheel rates of the shift up and down from a gear. */
+static void shift_rates(const double *p, int gear, double throttle, double *up, double *down) {
+  *up = (p[UP_CLOSED] + throttle * (p[UP_OPEN] - p[UP_CLOSED])) / p[RATIOS + gear - 1];
+  *down = (p[DOWN_CLOSED] + throttle * (p[DOWN_OPEN] - p[DOWN_CLOSED])) / p[RATIOS + gear - 1];
+}
+
 static void accept(ali3_element_args *a) {
-  const double *p = a->real;
-  const int gears = a->integer[1], gear = gear_of(a->y_new[0], gears);
-  const double throttle = throttle_of(a), turbine = p[RATIOS + gear - 1] * wheel_rate(a);
-  int wanted = gear;
-  if (turbine > p[UP_CLOSED] + throttle * (p[UP_OPEN] - p[UP_CLOSED]) && gear < gears)
-    wanted = gear + 1;
-  else if (turbine < p[DOWN_CLOSED] + throttle * (p[DOWN_OPEN] - p[DOWN_CLOSED]) && gear > 1)
-    wanted = gear - 1;
-  if (wanted == gear || a->y_new[2] < p[DWELL]) return;
-  a->y_new[0] = wanted;
+  const double *p = a->real, throttle = throttle_of(a), now = wheel_rate(a), before = a->y_new[3];
+  const int gears = a->integer[1];
+  int gear = gear_of(a->y_new[0], gears);
+  double up, down, limit;
+  a->y_new[3] = now;
+  if (!(a->h > 0.0)) { /* a start: the gear that fits the speed, long engaged */
+    for (shift_rates(p, gear, throttle, &up, &down); now > up && gear < gears;)
+      shift_rates(p, ++gear, throttle, &up, &down);
+    a->y_new[0] = a->y_new[1] = gear;
+    a->y_new[2] = LONG_AGO;
+    return;
+  }
+  if (a->y_new[2] < p[DWELL]) return;
+  shift_rates(p, gear, throttle, &up, &down);
   a->y_new[1] = gear;
-  a->y_new[2] = 0.0;
+  if (now > up && gear < gears) {
+    limit = up;
+    gear++;
+  } else if (now < down && gear > 1) {
+    limit = down;
+    gear--;
+  } else {
+    return;
+  }
+  const double crossed = fabs(now - before) > 0.0 ? ali3_clamp((now - limit) / (now - before), 0.0, 1.0) : 0.0;
+  a->y_new[0] = gear;
+  a->y_new[2] = ali3_clamp(crossed * a->h, 0.0, a->y_new[2] - p[DWELL]);
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
@@ -121,4 +143,4 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 extern const ali3_element_type ali3_automatic_drive;
-const ali3_element_type ali3_automatic_drive = {evaluate, accept, 8, -1, 2, 3, 4, check};
+const ali3_element_type ali3_automatic_drive = {evaluate, accept, 8, -1, 2, 4, 4, check};

@@ -7,17 +7,17 @@
 #include <stdint.h>
 
 enum { /* element types; the numbers are part of the file format and equal mbs/elements/types.py */
-  ALI3_SPRING_DAMPER = 1,      /* two points */
-  ALI3_SCALAR_SPRING_DAMPER,   /* one signal: torsional, or along a coordinate */
-  ALI3_INPUT_FORCE,            /* one input times constant weights on its signals */
-  ALI3_BODY_FORCE,             /* inputs along body axes at a point */
-  ALI3_BODY_TORQUE,            /* inputs as a torque, earth or body axes */
-  ALI3_GYROSCOPIC_SPIN,        /* axisymmetric wheel on a carrier */
-  ALI3_DRAG,                   /* quadratic aerodynamic drag */
-  ALI3_TYRE,
-  ALI3_BRAKE,                  /* elastoplastic friction between a spin and its carrier */
-  ALI3_AUTOMATIC_DRIVE,        /* engine, converter, gears, open differential */
-  ALI3_ELEMENT_TYPE_END
+       ALI3_SPRING_DAMPER = 1,      /* two points */
+       ALI3_SCALAR_SPRING_DAMPER,   /* one signal: torsional, or along a coordinate */
+       ALI3_INPUT_FORCE,            /* one input times constant weights on its signals */
+       ALI3_BODY_FORCE,             /* inputs along body axes at a point */
+       ALI3_BODY_TORQUE,            /* inputs as a torque, earth or body axes */
+       ALI3_GYROSCOPIC_SPIN,        /* axisymmetric wheel on a carrier */
+       ALI3_DRAG,                   /* quadratic aerodynamic drag */
+       ALI3_TYRE,
+       ALI3_BRAKE,                  /* elastoplastic friction between a spin and its carrier */
+       ALI3_AUTOMATIC_DRIVE,        /* engine, converter, gears, open differential */
+       ALI3_ELEMENT_TYPE_END
 };
 
 #define ALI3_MAX_SIGNALS 24    /* per element */
@@ -42,14 +42,16 @@ typedef struct {
 } ali3_element_args;
 
 typedef void ali3_element_function(ali3_element_args *a);
-typedef void ali3_element_accept_function(ali3_element_args *a); /* once per accepted step: discrete changes in y_new */
+typedef void ali3_element_accept_function(
+    ali3_element_args *a); /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
 
 typedef struct {
   ali3_element_function *evaluate;
   ali3_element_accept_function *accept;  /* may be NULL */
   /* sizes that the loader checks; -1: any. check (may be NULL) returns NULL or one sentence for bad data. */
   int32_t nsig, nreal, nint, nstate, nout;
-  const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint, int32_t n_inputs, int32_t n_roads);
+  const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                       int32_t n_inputs, int32_t n_roads);
 } ali3_element_type;
 
 const ali3_element_type *ali3_element_type_get(int32_t type); /* NULL if unknown; table in elements.c */

@@ -6,21 +6,24 @@
 #include "ali3_internal.h"
 
 static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
-static const double FIRST_C = 1e-4, LEAST_C = 1e-10, LARGEST_C = 10.0;
-static const double PENALTY = 1e7; /* c alpha, as in a step with eps_rel = 2.5e-8 */
+static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 */
+static const double PENALTY = 1e9; /* c alpha, as in a step with eps_rel = 2.5e-10 */
 static const double CLOSED = 1e-10; /* m */
+static const double OPEN = 1e-2; /* m: c does not grow beyond it */
+static const double ROUND_OFF = 1e-12; /* of the forces in balance */
 
-/* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report. */
+/* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report, what lies above round-off is returned. */
 static double balance(ali3_instance *in, double c) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;
-  double largest = 0.0;
+  double largest = 0.0, scale = 0.0;
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
   const ali3_force_call call = {v->q,       v->qd,        in->now.y,         0.0, 0.0, c, true, in->Q,
                                 in->y_work, in->out_work, in->potential_work};
   ali3_forces(in, &call);
   ali3_rows_transposed(S, in->J, v->lam, in->r);
   for (int32_t i = 0; i < S->size.nq; i++) {
+    scale = fmax(scale, fabs(in->Q[i]));
     in->r[i] -= in->Q[i];
     if (!(fabs(in->r[i]) <= largest)) {
       largest = fabs(in->r[i]);
@@ -29,7 +32,7 @@ static double balance(ali3_instance *in, double c) {
   }
   in->report.residual = largest;
   in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
-  return largest;
+  return largest <= ROUND_OFF * scale ? 0.0 : largest;
 }
 
 /* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T is no way down. */
@@ -44,7 +47,8 @@ static ali3_status factorise(ali3_instance *in, double c) {
   return status == ALI3_OK && in->report.negative_pivots > 0 ? ALI3_SINGULAR : status;
 }
 
-static ali3_status correct(ali3_instance *in, double c) {
+/* *part: what was taken of the Newton step. */
+static ali3_status correct(ali3_instance *in, double c, double *part) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   double *lam = in->next.lam, longest = 0.0;
@@ -55,10 +59,10 @@ static ali3_status correct(ali3_instance *in, double c) {
   if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
   for (int32_t i = 0; i < nq; i++)
     if (fabs(in->x[i]) > longest) longest = fabs(in->x[i]);
-  const double part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
+  *part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
   ali3_rows_times(S, in->J, in->x, in->gamma);
-  for (int32_t k = 0; k < nc; k++) lam[k] += part * PENALTY / c * (in->Phi[k] + in->gamma[k]);
-  for (int32_t i = 0; i < nq; i++) in->next.q[i] += part * in->x[i];
+  for (int32_t k = 0; k < nc; k++) lam[k] += *part * PENALTY / c * (in->Phi[k] + in->gamma[k]);
+  for (int32_t i = 0; i < nq; i++) in->next.q[i] += *part * in->x[i];
   return ALI3_OK;
 }
 
@@ -76,16 +80,18 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
     if (iteration > 0 && last <= tolerance && in->report.violation <= CLOSED) break;
     while ((status = factorise(in, c)) == ALI3_SINGULAR && c > LEAST_C) {
       c *= 0.25;
-      balance(in, c); /* the element tangents carry c */
+      balance(in, c);
     }
-    if (status == ALI3_OK) status = correct(in, c);
+    double part = 1.0;
+    if (status == ALI3_OK) status = correct(in, c, &part);
     if (status != ALI3_OK) return status;
     const double previous = last, used = c;
-    const double growth = in->report.violation > 1e-6 ? 1.0 : 2.0;
     last = balance(in, c);
-    c = last > 4.0 * previous ? 0.25 * used : growth * used * (last < 0.5 * previous ? 2.0 : 1.0);
-    if (c > LARGEST_C) c = LARGEST_C;
-    if (c != used) last = balance(in, c);
+    if (part < 1.0 || last > 4.0 * previous)
+      c = fmax(0.5 * c, LEAST_C);
+    else if (in->report.violation <= OPEN)
+      c = fmin(4.0 * c, LARGEST_C);
+    if (c != used) last = balance(in, c); /* the element tangents carry c */
   }
   in->report.last_iterations = iteration;
   if (!(last <= tolerance && in->report.violation <= CLOSED)) return ALI3_NOT_CONVERGED;

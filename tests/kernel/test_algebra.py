@@ -1,0 +1,182 @@
+"""Rows, tangent and factorization against dense NumPy and finite differences."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mbs.kernel.binding import Instance, LoadedSystem
+
+from .scenes import everything, four_bar
+from .system_builder import Element, SystemBuilder, distance_row
+
+SEED = 11
+DIFFERENCE = 1e-6
+FD_TOLERANCE = 2e-8  # of central differences with that step
+
+
+def initialised(builder: SystemBuilder) -> Instance:
+    instance = Instance(LoadedSystem(builder.to_bytes()))
+    instance.initialise(0.4)
+    return instance
+
+
+def guide_values(t: float) -> np.ndarray:
+    """The guides of `everything` with input 0 at rest: filtered input, then 10 t^3 - 15 t^4 + 6 t^5."""
+    return np.array([0.0, 10 * t**3 - 15 * t**4 + 6 * t**5])
+
+
+def dense_jacobian(builder: SystemBuilder, values: np.ndarray) -> np.ndarray:
+    arrays = builder.arrays()
+    ptr, col = np.array(arrays["row_ptr"]), np.array(arrays["row_col"])
+    J = np.zeros((len(ptr) - 1, len(builder.q0)))
+    for k in range(len(J)):
+        J[k, col[ptr[k] : ptr[k + 1]]] = values[ptr[k] : ptr[k + 1]]
+    return J
+
+
+def test_rows_are_the_polynomials_they_were_made_of() -> None:
+    b = everything()
+    instance = initialised(b)
+    scale = np.array(b.arrays()["row_scale"])
+    rng = np.random.default_rng(SEED)
+    for t in (0.0, 0.3, 0.9, 1.7):
+        q = b.q0 + rng.normal(size=5)
+        s = guide_values(t) if t < 1.0 else np.array([0.0, 1.0])
+        phi = np.array(instance.evaluate(q, np.zeros(5), None, t)["phi"])
+        np.testing.assert_allclose(phi, scale * [b.value(row, q, s) for row in b.rows], rtol=1e-12, atol=1e-13)
+
+
+def test_jacobian_and_rates_agree_with_differences() -> None:
+    b = everything()
+    instance = initialised(b)
+    rng = np.random.default_rng(SEED + 1)
+    for t in (0.2, 0.5, 0.8):
+        q, qd = b.q0 + 0.5 * rng.normal(size=5), rng.normal(size=5)
+        now = {k: np.array(v) for k, v in instance.evaluate(q, qd, None, t).items()}
+        J = dense_jacobian(b, now["jacobian"])
+
+        def phi(x: np.ndarray, at: float) -> np.ndarray:
+            return np.array(instance.evaluate(x, qd, None, at)["phi"])  # noqa: B023
+
+        def rate(at: float) -> np.ndarray:
+            x = q + (at - t) * qd  # noqa: B023
+            v = instance.evaluate(x, qd, None, at)  # noqa: B023
+            return dense_jacobian(b, np.array(v["jacobian"])) @ qd + np.array(v["phi_t"])  # noqa: B023
+
+        d = DIFFERENCE
+        for i, e in enumerate(d * np.eye(5)):
+            np.testing.assert_allclose(J[:, i], (phi(q + e, t) - phi(q - e, t)) / (2 * d), atol=FD_TOLERANCE)
+        np.testing.assert_allclose(now["phi_t"], (phi(q, t + d) - phi(q, t - d)) / (2 * d), atol=FD_TOLERANCE)
+        np.testing.assert_allclose(now["gamma"], (rate(t + d) - rate(t - d)) / (2 * d), atol=FD_TOLERANCE)
+        assert abs(now["phi_t"]).max() > 1e-3
+
+
+@pytest.mark.parametrize("groups", [[5], [2, 1, 2], [1, 1, 1, 1, 1]])
+@pytest.mark.parametrize("geometric", [0, 1])
+def test_the_tangent_is_the_derivative_of_the_residual(groups: list[int], geometric: int) -> None:
+    """df/dq of (22) at fixed multipliers: M + c alpha Phi_q' Phi_q + c sum lam_k H_k - c dQ/dq - h/2 dQ/dqd."""
+    b = everything()
+    b.groups = groups
+    instance = initialised(b)
+    instance.set_settings(geometric=geometric)
+    h, lam = 0.01, np.array([30.0, -20.0, 50.0])
+    c, alpha, d = h * h / 4, 1 / (instance.settings()["eps_rel"] * h * h), DIFFERENCE
+    q, qd = (np.array(v) for v in instance.get_state()[:2])
+
+    def at(x: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        values = instance.evaluate(x, v, None, instance.time)
+        return dense_jacobian(b, np.array(values["jacobian"])), np.array(values["force"])
+
+    J, _ = at(q, qd)
+    expected = b.mass + c * alpha * J.T @ J
+    for i, e in enumerate(d * np.eye(5)):
+        (J1, Q1), (J0, Q0) = at(q + e, qd), at(q - e, qd)
+        expected[:, i] += c * geometric * (J1 - J0).T @ lam / (2 * d) - c * (Q1 - Q0) / (2 * d)
+        expected[:, i] -= h / 2 * (at(q, qd + e)[1] - at(q, qd - e)[1]) / (2 * d)
+    tangent = np.reshape(instance.tangent(h, lam), (5, 5))
+    assert (tangent == tangent.T).all()
+    expected = 0.5 * (expected + expected.T)  # a damper in motion has an unsymmetric part, which is left out
+    penalty = c * alpha * J.T @ J
+    np.testing.assert_allclose(tangent - penalty, expected - penalty, atol=1e-6)
+
+
+def chain(n: int, groups: list[int]) -> SystemBuilder:
+    """A hanging chain of n points and springs to the ground that slant: every front passes something on."""
+    rows = [distance_row((0.0, 0.0), (0, 1), 1.0, True)]
+    rows += [distance_row((2 * i, 2 * i + 1), (2 * i + 2, 2 * i + 3), 1.0, False) for i in range(n - 1)]
+    angle = 0.4 + 0.13 * np.arange(n)
+    q0 = np.column_stack([np.cumsum(np.sin(angle)), -np.cumsum(np.cos(angle))]).ravel()
+    mass = np.diag(1.0 + 0.1 * np.arange(2 * n))
+    gravity = -9.81 * np.diag(mass) * np.tile([0.0, 1.0], n)
+    b = SystemBuilder(mass, q0, None, gravity, rows, groups)
+    signals = [b.signal({2 * n - 2: 1.0}, 0.5), b.signal({2 * n - 1: 1.0}, -0.5)]
+    b.elements = [Element(1, signals, [300.0, 8.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=3)]
+    return b
+
+
+@pytest.mark.parametrize("groups", [[12], [4, 4, 4], [2] * 6, [1] * 12, [3, 1, 5, 3]], ids=str)
+def test_fronts_solve_as_one_dense_front_does(groups: list[int]) -> None:
+    """Thirty steps do not depend on how the coordinates are cut into fronts; the tangent is positive definite."""
+    b = chain(6, groups)
+    instance = initialised(b)
+    reference = initialised(chain(6, [12]))
+    for i in (instance, reference):
+        i.set_settings(tolerance_r=1e-13, tolerance_phi=1e-12)
+    for _ in range(30):
+        instance.step(0.01)
+        reference.step(0.01)
+    np.testing.assert_allclose(instance.get_state()[0], reference.get_state()[0], atol=1e-7)
+    tangent = np.reshape(instance.tangent(0.01), (12, 12))
+    np.testing.assert_allclose(tangent, np.reshape(reference.tangent(0.01), (12, 12)), rtol=1e-6, atol=1.0)
+    assert np.linalg.eigvalsh(tangent).min() > 0
+
+
+def test_accelerations_and_multipliers_at_the_start_solve_the_index_one_equations() -> None:
+    b = chain(6, [4, 4, 4])
+    b.qd0 = np.random.default_rng(SEED + 2).normal(size=12)
+    instance = initialised(b)
+    q, qd, qdd, lam, _ = (np.array(v) for v in instance.get_state())
+    values = {k: np.array(v) for k, v in instance.evaluate(q, qd).items()}
+    J = dense_jacobian(b, values["jacobian"])
+    K = np.block([[b.mass, J.T], [J, np.zeros((6, 6))]])
+    exact = np.linalg.solve(K, np.concatenate([values["force"], -values["gamma"]]))
+    np.testing.assert_allclose(qdd, exact[:12], rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(lam, exact[12:], rtol=1e-9, atol=1e-7)
+    np.testing.assert_allclose(J @ qd, 0.0, atol=1e-11)
+
+
+def test_velocities_given_are_projected_in_the_mass_metric() -> None:
+    b = chain(4, [8])
+    given = np.random.default_rng(SEED + 3).normal(size=8)
+    b.qd0 = given
+    instance = initialised(b)
+    q, qd = (np.array(v) for v in instance.get_state()[:2])
+    J = dense_jacobian(b, np.array(instance.evaluate(q, qd)["jacobian"]))
+    inverse = np.diag(1.0 / np.diag(b.mass))
+    expected = given - inverse @ J.T @ np.linalg.solve(J @ inverse @ J.T, J @ given)
+    np.testing.assert_allclose(qd, expected, atol=1e-11)
+
+
+def test_redundant_rows_start_and_step_as_single_ones() -> None:
+    single, double = four_bar(), four_bar()
+    double.rows = [row for row in double.rows for _ in range(2)]
+    a, b = initialised(single), initialised(double)
+    np.testing.assert_allclose(a.get_state()[2], b.get_state()[2], atol=1e-10)
+    for _ in range(100):
+        a.step(0.01)
+        b.step(0.01)
+    np.testing.assert_allclose(a.get_state()[0], b.get_state()[0], atol=1e-7)
+
+
+def test_accelerations_exist_on_the_singular_position() -> None:
+    """Cranks horizontal: five rows of rank three; the start must still find M qdd + Phi_q' lam = Q."""
+    b = four_bar()
+    b.q0 = np.array([1.0, 0.0, 2.0, 0.0, 3.0, 0.0])
+    b.qd0 = np.tile([0.0, -1.0], 3)
+    instance = initialised(b)
+    q, qd, qdd, lam, _ = (np.array(v) for v in instance.get_state())
+    values = {k: np.array(v) for k, v in instance.evaluate(q, qd).items()}
+    J = dense_jacobian(b, values["jacobian"])
+    assert np.linalg.matrix_rank(J) == 3
+    np.testing.assert_allclose(b.mass @ qdd + J.T @ lam, values["force"], atol=1e-9)
+    np.testing.assert_allclose(J @ qdd + values["gamma"], 0.0, atol=1e-9)

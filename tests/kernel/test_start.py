@@ -1,0 +1,91 @@
+"""Position problem and static equilibrium."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mbs.kernel import binding
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+
+from .scenes import GRAVITY, four_bar, pendulum
+from .system_builder import Element, Row, SystemBuilder, distance_row
+
+
+def instance_of(builder: SystemBuilder) -> Instance:
+    return Instance(LoadedSystem(builder.to_bytes()))
+
+
+def test_the_position_problem_finds_the_nearest_point() -> None:
+    b = pendulum()
+    b.mass = np.diag([1.0, 1.0])
+    instance = instance_of(b)
+    instance.set_q([-1.8, 0.6], [0.0, 0.0])
+    instance.initialise(0.0)
+    np.testing.assert_allclose(instance.get_state()[0], np.array([-1.8, 0.6]) / np.hypot(1.8, 0.6), atol=1e-9)
+    assert instance.report()["violation"] < 1e-11
+
+
+def test_an_assembly_that_needs_large_motions_closes() -> None:
+    instance = instance_of(four_bar())
+    instance.set_q([0.1, 3.0, 2.5, -0.5, 0.3, 0.2])
+    instance.initialise(0.0)
+    assert instance.report()["violation"] < 1e-11
+    q = np.reshape(instance.get_state()[0], (3, 2))
+    np.testing.assert_allclose(np.linalg.norm(q - [[0, 0], [1, 0], [2, 0]], axis=1), 1.0, atol=1e-11)
+
+
+def test_an_assembly_that_cannot_close_is_refused_with_its_worst_row() -> None:
+    """A point cannot be 1 m from the origin, 1 m from (4, 0) and on y = 0 at once; the row of y is satisfied."""
+    rows = [
+        Row(0.0, {1: 1.0}),
+        distance_row((0.0, 0.0), (0, 1), 1.0, True),
+        distance_row((4.0, 0.0), (0, 1), 1.0, True),
+    ]
+    instance = instance_of(SystemBuilder(np.eye(2), [1.5, 0.0], rows=rows))
+    before = bytes(instance.get_state()[0])
+    with pytest.raises(KernelError) as refusal:
+        instance.initialise(0.0)
+    assert refusal.value.status == binding.NOT_ASSEMBLED
+    assert instance.report()["worst_row"] in (1, 2)
+    assert instance.report()["violation"] > 0.1
+    assert "open by" in refusal.value.message
+    assert bytes(instance.get_state()[0]) == before
+
+
+def test_a_consistent_position_is_kept_bit_for_bit() -> None:
+    instance = instance_of(four_bar())
+    instance.initialise(0.0)
+    assert list(instance.get_state()[0]) == [0.0, 1.0, 1.0, 1.0, 2.0, 1.0]
+
+
+def test_a_pendulum_comes_to_hang() -> None:
+    instance = instance_of(pendulum())
+    instance.static_equilibrium(0.0, 1e-8, 300)
+    q, qd, qdd, lam, _ = (np.array(v) for v in instance.get_state())
+    np.testing.assert_allclose(q, [0.0, -1.0], atol=1e-8)
+    np.testing.assert_allclose(qd, 0.0)
+    np.testing.assert_allclose(qdd, 0.0, atol=1e-7)
+    assert abs(lam[0]) == pytest.approx(GRAVITY, rel=1e-6)
+    for _ in range(100):
+        instance.step(0.01)
+    np.testing.assert_allclose(instance.get_state()[0], [0.0, -1.0], atol=1e-7)
+
+
+def test_a_mass_on_a_spring_sags_by_its_weight_and_keeps_its_free_direction() -> None:
+    """A spring along y only (one signal): x is free and must stay."""
+    b = SystemBuilder(np.diag([2.0, 2.0]), [0.3, 0.0], gravity=[0.0, -2.0 * GRAVITY])
+    b.elements = [Element(2, [b.signal({1: 1.0})], [500.0, 10.0, 0.0, 0.0], outputs=1)]
+    instance = instance_of(b)
+    instance.static_equilibrium(0.0, 1e-9, 100)
+    np.testing.assert_allclose(instance.get_state()[0], [0.3, -2.0 * GRAVITY / 500.0], atol=1e-11)
+
+
+def test_no_equilibrium_is_refused_and_the_state_kept() -> None:
+    b = SystemBuilder(np.eye(2), [0.0, 0.0], gravity=[0.0, -GRAVITY])
+    instance = instance_of(b)
+    instance.initialise(0.0)
+    before = bytes(instance.get_state()[0])
+    with pytest.raises(KernelError) as refusal:
+        instance.static_equilibrium(0.0, 1e-6, 20)
+    assert refusal.value.status == binding.NOT_CONVERGED
+    assert bytes(instance.get_state()[0]) == before
