@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+
 from .system_builder import Element, Row, SystemBuilder, distance_row
 
 GRAVITY = 9.81
@@ -44,7 +45,7 @@ def four_bar(windows: int = 2, groups: list[int] | None = None) -> SystemBuilder
 
 
 def everything() -> SystemBuilder:
-    """Two planar points with a spring, a distance row, an angle row, guides of both kinds, an input, a parameter and a pose."""
+    """Two planar points with a spring, a distance row, an angle row, both kinds of guide, an input and a parameter."""
     M = np.diag([1.0, 2.0, 1.5, 2.5, 0.0])
     rows = [
         distance_row((0, 1), (2, 3), 1.25, False),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from mbs.kernel.binding import Instance, LoadedSystem
 
 from .scenes import everything, four_bar

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 
@@ -26,7 +27,8 @@ def exercise(data: bytes) -> bool:
     try:
         instance = Instance(LoadedSystem(data))
     except KernelError as refusal:
-        assert refusal.status in (binding.BAD_FILE, binding.BAD_ARGUMENT, binding.NO_MEMORY)
+        if refusal.status not in (binding.BAD_FILE, binding.BAD_ARGUMENT, binding.NO_MEMORY):
+            raise
         return False
     try:
         instance.initialise(0.0)

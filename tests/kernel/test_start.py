@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 

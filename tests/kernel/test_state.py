@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 

@@ -1,12 +1,13 @@
-"""One ALi3-P step and runs of it on systems made by hand: energy, convergence, projections, halving, refusal, the clock."""
+"""ALi3-P steps of systems made by hand: energy, convergence, projections, halving, refusal, the clock."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
-from scipy.integrate import solve_ivp
 
 from .scenes import GRAVITY, everything, four_bar, pendulum
 from .system_builder import Row, SystemBuilder, distance_row
