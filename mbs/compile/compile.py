@@ -50,13 +50,13 @@ def compile(model: Model) -> System:
     ]
     linear = [e for (_, _, e), s in zip(equations, stays, strict=True) if not s]
     kept, full, redundant = reduce_coordinates(model, linear)
-    if not kept:
-        raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
     candidates = [row_terms(e, j, k, full) for (j, k, e), s in zip(equations, stays, strict=True) if s]
     for body in model.bodies:
         candidates += rigid_rows(body, full)
     rows, dependent = independent_rows(candidates)
+    if not kept:
+        raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
     T, z0 = transformation(full, len(kept))
     M_full = full_mass(model)

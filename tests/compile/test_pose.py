@@ -1,0 +1,72 @@
+"""A scene that is not tied to the ground starts wherever and with whatever heading and speed it is told."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Model, ModelError, Simulation, compile
+from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.simulation import Pose
+
+EXACT = 1e-9
+
+
+def trolley(floating=True):
+    """A frame with a hinged arm and a wheel reduced to its spin."""
+    m = Model("trolley")
+    m.floating = floating
+    frame = m.body("frame", mass=10.0, com=(0.1, 0.0, 0.5), inertia=(1.0, 1.2, 1.5))
+    arm = m.body("arm", mass=2.0, com=(0.5, 0.4, 0.6), inertia=(0.1, 0.15, 0.2))
+    m.revolute("hinge", frame, arm, point=(0.4, 0.2, 0.6), axis=(1.0, 0.5, 0.0))
+    angle = m.relative_angle("theta", frame, arm, axis=(1.0, 0.5, 0.0), zero=0.2)
+    m.spin(
+        "wheel", carrier=arm, centre=(0.5, 0.7, 0.3), axis=(0, 1, 0), mass=5.0, spin_inertia=0.2,
+        diametral_inertia=0.15, rolling_radius=0.3,
+    )  # fmt: skip
+    for c in "xyz":
+        m.sense_position(f"p{c}", arm, (0.5, 0.7, 0.3), c)
+        m.sense_velocity(f"v{c}", arm, (0.5, 0.7, 0.3), c)
+    m.sense_yaw("yaw", frame)
+    m.sense_coordinate("angle", angle)
+    m.sense_coordinate("spin", m.spins[0], order=1)
+    return m
+
+
+def test_pose_moves_turns_and_starts_the_whole_scene():
+    x, y, z, yaw, speed = 3.0, -2.0, 0.4, 0.9, 7.0
+    s = Simulation(compile(trolley()), pose=Pose(x, y, z, yaw, speed)).sensors
+    c, d = np.cos(yaw), np.sin(yaw)
+    expected = np.array([[c, -d, 0], [d, c, 0], [0, 0, 1]]) @ [0.5, 0.7, 0.3] + [x, y, z]
+    np.testing.assert_allclose([s["px"], s["py"], s["pz"]], expected, rtol=0, atol=EXACT)
+    np.testing.assert_allclose([s["vx"], s["vy"], s["vz"]], [speed * c, speed * d, 0.0], rtol=0, atol=EXACT)
+    assert s["yaw"] == pytest.approx(yaw, abs=EXACT)
+    assert s["angle"] == pytest.approx(0.2, abs=EXACT)
+    assert s["spin"] == pytest.approx(speed / 0.3, rel=EXACT)
+
+
+def test_the_zero_pose_is_the_start():
+    system = compile(trolley())
+    instance = Instance(LoadedSystem(system.to_bytes()))
+    instance.set_pose(0.0, 0.0, 0.0, 0.0, 0.0)
+    instance.initialise(0.0)
+    np.testing.assert_allclose(np.array(instance.get_state()[0]), system.arrays["q0"], rtol=0, atol=EXACT)
+
+
+def test_motion_does_not_depend_on_the_pose():
+    """The same scene elsewhere and turned does the same, seen from itself."""
+    here = Simulation(compile(trolley())).run(0.5, 0.005)
+    yaw = 2.2
+    there = Simulation(compile(trolley()), pose=Pose(5.0, 1.0, 0.0, yaw, 0.0)).run(0.5, 0.005)
+    c, d = np.cos(yaw), np.sin(yaw)
+    x, y = there["px"] - 5.0, there["py"] - 1.0
+    np.testing.assert_allclose(c * x + d * y, here["px"], rtol=0, atol=1e-7)
+    np.testing.assert_allclose(-d * x + c * y, here["py"], rtol=0, atol=1e-7)
+    np.testing.assert_allclose(there["angle"], here["angle"], rtol=0, atol=1e-7)
+
+
+def test_a_scene_tied_to_the_ground_cannot_float():
+    m = trolley()
+    m.spherical("anchor", m.bodies[0], m.ground, point=(0, 0, 0.5))
+    with pytest.raises(ModelError, match="declared floating"):
+        compile(m)

@@ -1,0 +1,96 @@
+"""Position and velocity problem: what does not close is closed, or refused with names and amounts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Model, ModelError, Simulation, compile
+from mbs.scenes import bricard, double_four_bar
+
+CLOSED = 1e-9
+
+
+def four_bar(coupler=2.0, gap=0.0):
+    """Crank 1 m, rocker 1.5 m, ground 2 m; the coupler is drawn from crank tip and may miss the rocker."""
+    m = Model("four-bar", dimension=2)
+    crank = m.body("crank", mass=1.0, com=(0, 0.5), inertia=0.1)
+    rod = m.body("coupler", mass=2.0, com=(0.5 * coupler, 1.0), inertia=0.5)
+    rocker = m.body("rocker", mass=1.5, com=(2.0, 0.75), inertia=0.3)
+    m.revolute("A", m.ground, crank, point=(0, 0))
+    m.revolute("B", crank, rod, point=(0, 1))
+    m.revolute("C", rod, rocker, point=((coupler, 1.0), (2.0 + gap, 1.5)))
+    m.revolute("D", rocker, m.ground, point=(2, 0))
+    for name, body, p in (("B", crank, (0, 1)), ("C", rod, (coupler, 1.0)), ("Cr", rocker, (2.0 + gap, 1.5))):
+        for c in "xy":
+            m.sense_position(f"{name}.{c}", body, p, c)
+    return m
+
+
+def test_a_drawing_that_does_not_close_is_closed():
+    s = Simulation(compile(four_bar(2.1, 0.1))).sensors
+    C, Cr, B = (np.array([s[f"{n}.x"], s[f"{n}.y"]]) for n in ("C", "Cr", "B"))
+    np.testing.assert_allclose(C, Cr, rtol=0, atol=CLOSED)
+    assert np.linalg.norm(B) == pytest.approx(1.0, abs=CLOSED)
+    assert np.linalg.norm(C - B) == pytest.approx(2.1, abs=CLOSED)
+    assert np.linalg.norm(C - [2, 0]) == pytest.approx(np.hypot(0.1, 1.5), abs=CLOSED)
+
+
+def test_an_assembly_that_cannot_close_is_refused_with_names_and_amounts():
+    with pytest.raises(ModelError, match="cannot be closed") as error:
+        compile(four_bar(6.0))  # 6 m cannot span 2 m between 1 m and 1.5 m
+    assert "'coupler' by" in str(error.value)
+    assert " m" in str(error.value)
+
+
+def test_a_rigid_contradiction_of_linear_joints_is_refused_by_name():
+    m = Model("twice pinned", dimension=2)
+    body = m.body("bar", mass=1.0, com=(0.5, 0), inertia=0.1)
+    m.revolute("left", m.ground, body, point=(0, 0))
+    m.revolute("right", m.ground, body, point=((1.1, 0), (1.0, 0)))
+    with pytest.raises(ModelError, match="bar"):
+        compile(m)
+    m = Model("torn", dimension=2)
+    bob = m.point_mass("bob", mass=1.0, position=(0, 0))
+    m.spherical("here", m.ground, bob, point=(0, 0))
+    m.spherical("there", m.ground, bob, point=((0.2, 0), (0, 0)))
+    with pytest.raises(ModelError, match=r"'(here|there)' cannot close.*0\.2 m"):
+        compile(m)
+
+
+def test_given_velocities_are_met_where_the_joints_allow_them():
+    """Only one crank is given a velocity; the others follow from the joints."""
+    system = compile(double_four_bar.build(40))
+    s = Simulation(system).sensors
+    assert s["B0.velocity.x"] == pytest.approx(1.0, abs=CLOSED)
+    assert s["B0.velocity.y"] == pytest.approx(0.0, abs=CLOSED)
+    inertia = (41 / 3 + 40) / 2  # (N+1) cranks about their pins and N translating couplers
+    assert s["energy.kinetic"] == pytest.approx(inertia, rel=1e-9)
+
+
+def test_velocities_against_the_joints_are_projected():
+    m = Model("pin", dimension=2)
+    body = m.body("bar", mass=2.0, com=(0.5, 0), inertia=2.0 / 12.0)
+    m.revolute("pin", m.ground, body, point=(0, 0))
+    m.initial_velocity(body, linear=(5.0, 1.0))
+    m.sense_angular_rate("rate", body)
+    # least change in kinetic energy: angular momentum about the pin is kept, (2/3) w = 2 * 0.5 * 1
+    assert Simulation(compile(m)).sensors["rate"] == pytest.approx(1.5, rel=1e-9)
+
+
+def test_a_model_that_cannot_move_or_has_no_bodies_is_refused():
+    with pytest.raises(ModelError, match="no bodies"):
+        compile(Model("nothing"))
+    m = Model("fixed", dimension=2)
+    m.weld("fixed", m.ground, m.body("block", mass=1.0, com=(0, 0), inertia=1.0))
+    with pytest.raises(ModelError, match="cannot move"):
+        compile(m)
+
+
+def test_the_kernel_finds_nothing_to_correct():
+    """Initialising moves the compiled start by no more than round-off."""
+    for model in (bricard.build(), double_four_bar.build(), four_bar(2.1, 0.1)):
+        system = compile(model)
+        state = Simulation(system).state
+        np.testing.assert_allclose(state.q, system.arrays["q0"], rtol=0, atol=1e-9)
+        np.testing.assert_allclose(state.qd, system.arrays["qd0"], rtol=0, atol=1e-9)

@@ -1,0 +1,109 @@
+"""Bodies in natural coordinates: the constant mass matrix is that of a rigid body."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from mbs import Model, ModelError
+
+ROUND_OFF = 1e-12
+
+
+def spatial_body(inertia=(0.3, 0.5, 0.6)):
+    m = Model("one body")
+    return m, m.body("plate", mass=2.5, com=(0.4, -0.3, 1.2), inertia=inertia)
+
+
+def test_mass_matrix_gives_the_kinetic_energy_of_a_rigid_body():
+    rng = np.random.default_rng(1)
+    A = rng.normal(size=(3, 3))
+    second = A @ A.T
+    inertia = np.trace(second) * np.eye(3) - second  # from a mass distribution, so physically possible
+    _, body = spatial_body(inertia)
+    for _ in range(5):
+        R = Rotation.random(random_state=rng).as_matrix()
+        v, w = rng.normal(size=3), rng.normal(size=3)
+        q = np.concatenate([rng.normal(size=3), *R.T])
+        qd = body.velocity(v, w, q)
+        expected = 0.5 * 2.5 * v @ v + 0.5 * w @ (R @ inertia @ R.T) @ w
+        assert 0.5 * qd @ body.mass_block() @ qd == pytest.approx(expected, rel=ROUND_OFF)
+
+
+def test_planar_mass_matrix_gives_the_kinetic_energy_of_a_rigid_body():
+    m = Model("plane", dimension=2)
+    body = m.body("link", mass=1.5, com=(0.2, 0.1), inertia=0.04)
+    angle, v, w = 0.7, np.array([0.3, -0.4]), 2.2
+    q = np.array([0.0, 0.0, np.cos(angle), np.sin(angle)])
+    qd = body.velocity(v, np.array([w]), q)
+    assert 0.5 * qd @ body.mass_block() @ qd == pytest.approx(0.5 * 1.5 * v @ v + 0.5 * 0.04 * w * w, rel=ROUND_OFF)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_mass_added_off_centre_moves_with_the_body(dimension):
+    """Kinetic energy of the body and of a particle fixed to it, against the sum of both."""
+    m = Model("two in one", dimension=dimension)
+    com, place = np.array([0.1, 0.2, 0.3])[:dimension], np.array([0.5, -0.1, 0.7])[:dimension]
+    body = m.body("carrier", mass=2.0, com=com, inertia=0.3 if dimension == 2 else (0.3, 0.4, 0.5))
+    alone = body.mass_block()
+    body.add_mass(1.2, place, np.zeros((3, 3)))
+    rng = np.random.default_rng(2)
+    q = body.reference()
+    v = rng.normal(size=dimension)
+    w = rng.normal(size=1 if dimension == 2 else 3)
+    qd = body.velocity(v, w, q)
+    arm = place - com
+    turn = w[0] * np.array([-arm[1], arm[0]]) if dimension == 2 else np.cross(w, arm)
+    expected = 0.5 * qd @ alone @ qd + 0.5 * 1.2 * (v + turn) @ (v + turn)
+    assert 0.5 * qd @ body.mass_block() @ qd == pytest.approx(expected, rel=ROUND_OFF)
+
+
+def test_points_and_vectors_follow_the_body():
+    m, body = spatial_body()
+    R = Rotation.from_rotvec([0.3, -0.5, 0.8]).as_matrix()
+    shift = np.array([1.0, 2.0, -0.5])
+    q = np.concatenate([body.com + shift, *R.T])
+    p = np.array([0.7, 0.1, 0.9])
+    expected = body.com + shift + R @ (p - body.com)
+    np.testing.assert_allclose(body.point(p).value(q), expected, rtol=0, atol=ROUND_OFF)
+    np.testing.assert_allclose(body.vector(p).value(q), R @ p, rtol=0, atol=ROUND_OFF)
+    np.testing.assert_allclose(m.ground.point(p).value(q), p, rtol=0, atol=0)
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"mass": -1.0}, "mass of body 'x' is -1; it must be greater than zero"),
+        ({"mass": float("nan")}, "mass of body 'x' is nan"),
+        ({"mass": "heavy"}, "must be a number"),
+        ({"com": (0.0, 0.0)}, "centre of mass of body 'x' has shape"),
+        ({"com": (0.0, 0.0, float("inf"))}, "must be finite"),
+        ({"inertia": (1.0, 1.0, 2.5)}, "greater than the sum of the others"),
+        ({"inertia": (1.0, 1.0, -0.1)}, "principal value -0.1"),
+        ({"inertia": [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]}, "not symmetric"),
+        ({"inertia": (1.0, 1.0)}, "3 principal values or a 3x3 matrix"),
+    ],
+)
+def test_impossible_bodies_are_refused_by_name(given, sentence):
+    data = {"mass": 1.0, "com": (0.0, 0.0, 0.0), "inertia": (1.0, 1.0, 1.0), **given}
+    with pytest.raises(ModelError, match="'x'") as error:
+        Model("refusals").body("x", **data)
+    assert sentence in str(error.value)
+
+
+def test_names_are_unique_and_not_empty():
+    m, _ = spatial_body()
+    with pytest.raises(ModelError, match="already has a body named 'plate'"):
+        m.body("plate", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    with pytest.raises(ModelError, match="not empty"):
+        m.point_mass(" ", mass=1.0, position=(0, 0, 0))
+
+
+def test_a_body_of_another_model_is_refused():
+    m, body = spatial_body()
+    other, stranger = spatial_body()
+    with pytest.raises(ModelError, match="belongs to model"):
+        m.spherical("ball", body, stranger, point=(0, 0, 0))
+    with pytest.raises(ModelError, match="belongs to model"):
+        other.initial_velocity(body, linear=(1, 0, 0))

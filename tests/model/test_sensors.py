@@ -1,0 +1,157 @@
+"""Sensors read what they say; joint forces come from the multipliers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from mbs import Model, ModelError, Simulation, compile
+
+EXACT = 1e-9
+
+
+def flying_plate():
+    m = Model("plate", gravity=(0, 0, 0))
+    body = m.body("plate", mass=1.3, com=(0.2, 0.1, 0.4), inertia=(0.2, 0.3, 0.4))
+    m.initial_velocity(body, linear=(1.0, -0.5, 0.3), angular=(0.7, 1.1, -0.4))
+    p = (0.5, 0.3, 0.1)
+    for c in "xyz":
+        for quantity in ("position", "velocity", "acceleration"):
+            sense = getattr(m, f"sense_{quantity}")
+            sense(f"{quantity}.{c}", body, p, c)
+            sense(f"{quantity}.{c}.body", body, p, c, axes="body")
+        m.sense_angular_rate(f"rate.{c}", body, c)
+        for k in "xyz":
+            m.sense_coordinate(f"axis.{c}.{k}", body.vector(np.eye(3)["xyz".index(c)])["xyz".index(k)])
+    for c in "wxyz":
+        m.sense_quaternion(f"quaternion.{c}", body, c)
+    m.sense_yaw("yaw", body)
+    m.sense_pitch("pitch", body)
+    m.sense_roll("roll", body)
+    m.sense_norm("speed", body.point(p), order=1)
+    m.sense_angle_between("turn", body.vector((0, 1, 0)), body.vector((1, 0, 0)), body.vector((0, 0, 1)))
+    m.sense_energy("kinetic", "kinetic")
+    return m
+
+
+def test_orientation_and_body_axes_agree_with_the_rotation_matrix():
+    t = Simulation(compile(flying_plate())).run(0.5, 0.001)
+    R = np.array([[t[f"axis.{c}.{k}"][-1] for c in "xyz"] for k in "xyz"])  # columns are the body axes
+    np.testing.assert_allclose(R.T @ R, np.eye(3), rtol=0, atol=EXACT)
+    assert np.linalg.norm(R - np.eye(3)) > 0.3
+    yaw, pitch, roll = Rotation.from_matrix(R).as_euler("ZYX")
+    assert t["yaw"][-1] == pytest.approx(yaw, abs=EXACT)
+    assert t["pitch"][-1] == pytest.approx(pitch, abs=EXACT)
+    assert t["roll"][-1] == pytest.approx(roll, abs=EXACT)
+    x, y, z, w = Rotation.from_matrix(R).as_quat(canonical=True)
+    for c, value in zip("wxyz", (w, x, y, z), strict=True):
+        assert t[f"quaternion.{c}"][-1] == pytest.approx(value, abs=EXACT)
+    velocity = np.array([t[f"velocity.{c}"][-1] for c in "xyz"])
+    for quantity in ("position", "velocity", "acceleration"):
+        earth = np.array([t[f"{quantity}.{c}"][-1] for c in "xyz"])
+        body = np.array([t[f"{quantity}.{c}.body"][-1] for c in "xyz"])
+        np.testing.assert_allclose(body, R.T @ earth, rtol=0, atol=EXACT)
+    assert t["speed"][-1] == pytest.approx(np.linalg.norm(velocity), rel=EXACT)
+    assert t["turn"][-1] == pytest.approx(np.pi / 2, abs=EXACT)
+
+
+def test_start_velocity_energy_and_euler_equations():
+    """At the start: velocity and acceleration of a point of a body that turns freely."""
+    simulation = Simulation(compile(flying_plate()))
+    s = simulation.sensors
+    v, w, arm = np.array([1.0, -0.5, 0.3]), np.array([0.7, 1.1, -0.4]), np.array([0.3, 0.2, -0.3])
+    I = np.array([0.2, 0.3, 0.4])
+    wd = -np.cross(w, I * w) / I
+    expected = {"velocity": v + np.cross(w, arm), "acceleration": np.cross(wd, arm) + np.cross(w, np.cross(w, arm))}
+    for quantity, values in expected.items():
+        for c, value in zip("xyz", values, strict=True):
+            assert s[f"{quantity}.{c}"] == pytest.approx(value, abs=EXACT)
+    for c, value in zip("xyz", w, strict=True):
+        assert s[f"rate.{c}"] == pytest.approx(value, abs=EXACT)
+    assert s["kinetic"] == pytest.approx(0.5 * 1.3 * v @ v + 0.5 * w @ (I * w), rel=EXACT)
+
+
+def test_forces_of_kept_joints():
+    """A hanging chain of two links: the upper pin carries both, the rod below its load; the rows come from the joints."""
+    m = Model("chain", dimension=2)
+    upper = m.body("upper", mass=2.0, com=(0, -0.5), inertia=0.2)
+    bob = m.point_mass("bob", mass=3.0, position=(0, -2))
+    pin = m.revolute("pin", upper, m.ground, point=(0, 0))
+    rod = m.distance("rod", (upper, (0, -1)), bob)
+    without = compile(m)
+    m.sense_joint_force("pin.x", pin, "x")
+    m.sense_joint_force("pin.y", "pin", "y")
+    m.sense_joint_force("tension", rod, "tension")
+    system = compile(m)
+    assert system.nc == without.nc + 2
+    assert system.nq == without.nq + 2
+    assert system.report["degrees_of_freedom"] == without.report["degrees_of_freedom"] == 2
+    s = Simulation(system).sensors
+    assert s["pin.y"] == pytest.approx(5.0 * 9.81, rel=EXACT)
+    assert s["pin.x"] == pytest.approx(0.0, abs=1e-7)
+    assert s["tension"] == pytest.approx(3.0 * 9.81, rel=EXACT)
+
+
+def test_tension_of_a_pendulum_in_motion():
+    """Tension m (g cos + v^2 / L) at every instant."""
+    m = Model("pendulum", dimension=2)
+    bob = m.point_mass("bob", mass=1.5, position=(-0.8, 0.0))
+    rod = m.distance("rod", (m.ground, (0, 0)), bob)
+    m.sense_joint_force("tension", rod, "tension")
+    for c in "xy":
+        m.sense_position(c, bob, None, c)
+        m.sense_velocity(f"v{c}", bob, None, c)
+    t = Simulation(compile(m)).run(1.0, 0.0005)
+    speed2 = t["vx"] ** 2 + t["vy"] ** 2
+    expected = 1.5 * (9.81 * -t["y"] / 0.8 + speed2 / 0.8)
+    assert np.max(expected) > 40.0
+    # multipliers of the trapezoidal rule are of order one in h
+    assert np.max(np.abs(t["tension"] - expected)) < 1e-3 * np.max(expected)
+
+
+def test_energies_add_up():
+    m = Model("spring", dimension=2)
+    bob = m.point_mass("bob", mass=1.0, position=(0.3, -1.0))
+    m.spring_damper("spring", (m.ground, (0, 0)), bob, stiffness=80.0, free_length=0.9)
+    for kind in ("kinetic", "gravity", "elastic", "total"):
+        m.sense_energy(kind, kind)
+    m.sense_element("force", "spring", "force")
+    m.sense_position("x", bob, None, "x")
+    m.sense_position("y", bob, None, "y")
+    t = Simulation(compile(m)).run(0.5, 0.0005)
+    np.testing.assert_allclose(t["kinetic"] + t["gravity"] + t["elastic"], t["total"], rtol=0, atol=EXACT)
+    stretch = np.hypot(t["x"], t["y"]) - 0.9
+    np.testing.assert_allclose(t["elastic"], 40.0 * stretch**2, rtol=0, atol=EXACT)
+    np.testing.assert_allclose(t["gravity"], 9.81 * t["y"], rtol=0, atol=EXACT)
+    np.testing.assert_allclose(t["force"], 80.0 * stretch, rtol=0, atol=EXACT)
+    assert np.max(np.abs(t["total"] - t["total"][0])) < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("act", "sentence"),
+    [
+        (lambda m, b: m.sense_position("s", b, None, "w"), "'x', 'y' or 'z'"),
+        (lambda m, b: m.sense_position("s", b, None, "x", axes="wheel"), "'earth', 'body' or a body"),
+        (lambda m, b: m.sense_energy("s", "dark"), "kinetic, gravity"),
+        (lambda m, b: m.sense_element("s", "spring", "force"), "no such element"),
+        (lambda m, b: m.sense_joint_force("s", "hinge"), "no joint named 'hinge'"),
+        (lambda m, b: m.sense_solver("s", "mood"), "iterations"),
+        (lambda m, b: m.sense_coordinate("s", b), "needs a coordinate"),
+        (lambda m, b: m.sense_coordinate("s", b.point((0, 0, 0))[0], order=3), "0, 1 or 2"),
+    ],
+)
+def test_impossible_sensors_are_refused(act, sentence):
+    m = Model("refusal")
+    body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    with pytest.raises(ModelError) as error:
+        act(m, body)
+    assert sentence in str(error.value)
+
+
+def test_a_joint_without_multipliers_of_a_force_is_refused():
+    m = Model("refusal")
+    body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    slider = m.prismatic("slider", body, m.ground, axis=(1, 0, 0))
+    with pytest.raises(ModelError, match="no force reading"):
+        m.sense_joint_force("s", slider)

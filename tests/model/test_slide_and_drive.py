@@ -1,0 +1,94 @@
+"""A sliding point (rack), driven distances and driven components follow their guides."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Model, ModelError, Simulation, compile
+
+CLOSED = 1e-9  # m
+
+
+def rack_and_lever():
+    """A lever about the origin that a rod ties to a point sliding along x on the ground."""
+    m = Model("rack", dimension=2, gravity=(0, 0))
+    lever = m.body("lever", mass=1.0, com=(0.0, 0.5), inertia=0.1)
+    m.revolute("pin", m.ground, lever, point=(0, 0))
+    u = m.input("rack", min=-0.2, max=0.2, unit="m")
+    guide = m.guide_input("rack", input=u, gain=1.0, frequency=5.0, unit="m")
+    end = m.slide("rack end", m.ground, point=(0.8, 0.9), direction=(1, 0), guide=guide)
+    m.distance("tie rod", (lever, (0.0, 1.0)), end)
+    m.sense_position("tip.x", lever, (0, 1), "x")
+    m.sense_position("tip.y", lever, (0, 1), "y")
+    m.sense_guide("s", guide)
+    return m
+
+
+def test_the_rod_keeps_its_length_while_its_end_slides():
+    system = compile(rack_and_lever())
+    assert system.report["degrees_of_freedom"] == 0
+    simulation = Simulation(system)
+    simulation.set_input("rack", 0.15)
+    t = simulation.run(1.0, 0.005)
+    length = np.hypot(t["tip.x"] - 0.8 - t["s"], t["tip.y"] - 0.9)
+    np.testing.assert_allclose(length, np.hypot(0.8, 0.1), rtol=0, atol=CLOSED)
+    assert t["s"][-1] == pytest.approx(0.15, abs=1e-6)
+    assert t["tip.x"][-1] > 0.1
+
+
+def test_only_one_end_may_slide():
+    m = rack_and_lever()
+    u = m.input("other")
+    guide = m.guide_input("other", input=u, frequency=1.0)
+    a = m.slide("a", m.ground, point=(0, 0), direction=(1, 0), guide=guide)
+    b = m.slide("b", m.ground, point=(1, 0), direction=(1, 0), guide=guide)
+    with pytest.raises(ModelError, match="Both ends"):
+        m.distance("twice", a, b)
+
+
+def test_a_driven_distance_follows_its_guide():
+    m = Model("jack", dimension=2)
+    bob = m.point_mass("bob", mass=2.0, position=(0.0, -1.0))
+    guide = m.guide_time("length", ([0.0, 0.5, 1.0], [1.0, 1.3, 0.8]), unit="m")
+    m.drive("jack", ((m.ground, (0, 0)), bob), guide)
+    m.sense_position("y", bob, None, "y")
+    m.sense_guide("asked", guide)
+    t = Simulation(compile(m)).run(1.0, 0.01)
+    np.testing.assert_allclose(-t["y"], t["asked"], rtol=0, atol=CLOSED)
+    assert t["asked"][-1] == pytest.approx(0.8)
+
+
+def test_a_driven_component_follows_its_guide():
+    m = Model("shaker", dimension=2, gravity=(0, 0))
+    table = m.body("table", mass=1.0, com=(0, 0), inertia=0.1)
+    m.prismatic("slide", table, m.ground, axis=(1, 0))
+    guide = m.guide_time("shake", ([0.0, 0.5, 1.0], [0.0, 0.02, -0.01]), unit="m")
+    m.drive("shaker", table.point((0, 0))[0], guide)
+    m.sense_position("x", table, None, "x")
+    m.sense_guide("asked", guide)
+    t = Simulation(compile(m)).run(1.0, 0.01)
+    np.testing.assert_allclose(t["x"], t["asked"], rtol=0, atol=CLOSED)
+    assert np.max(t["x"]) > 0.02
+
+
+@pytest.mark.parametrize(
+    ("motion", "sentence"),
+    [
+        (([0.0, 1.0, 0.5], [0, 1, 2]), "guide 'g'"),
+        (3.0, "must be a PPoly or"),
+        (([0.0, 1.0], [0.0, float("nan")]), "guide 'g'"),
+    ],
+)
+def test_impossible_motions_are_refused(motion, sentence):
+    with pytest.raises(ModelError, match="guide 'g'") as error:
+        Model("refusal").guide_time("g", motion)
+    assert sentence in str(error.value)
+
+
+def test_a_guide_of_another_model_is_refused():
+    other = Model("other")
+    guide = other.guide_time("g", ([0.0, 1.0], [0.0, 1.0]))
+    m = Model("this")
+    with pytest.raises(ModelError, match="guide made by model 'this'"):
+        m.slide("s", m.ground, point=(0, 0, 0), direction=(1, 0, 0), guide=guide)
