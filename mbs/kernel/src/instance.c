@@ -14,7 +14,7 @@ const char *ali3_status_text(ali3_status s) {
       "there is not enough memory",
       "the instance must be initialised first",
       "the position problem does not close",
-      "the step did not converge, also not in halves",
+      "the iteration did not converge, also not in smaller steps",
       "the tangent is singular",
       "a number that is not finite appeared",
   };

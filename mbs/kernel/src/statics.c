@@ -1,5 +1,6 @@
 /* Static equilibrium by a pseudo-transient Newton iteration: mass / c + stiffness, with c growing while the balance improves.
- * The mass keeps free directions (position on a plane, spin) where they are. */
+ * The mass keeps free directions (position on a plane) where they are. A coordinate without stiffness that no row holds, such as the
+ * spin of a driven wheel, cannot come into balance at rest: it is held. in->d0 marks it with 0, the others with 1. */
 #include <math.h>
 #include <string.h>
 
@@ -24,7 +25,7 @@ static double balance(ali3_instance *in, double c) {
   ali3_rows_transposed(S, in->J, v->lam, in->r);
   for (int32_t i = 0; i < S->size.nq; i++) {
     scale = fmax(scale, fabs(in->Q[i]));
-    in->r[i] -= in->Q[i];
+    in->r[i] = in->d0[i] * (in->r[i] - in->Q[i]);
     if (!(fabs(in->r[i]) <= largest)) {
       largest = fabs(in->r[i]);
       in->report.worst_coordinate = i;
@@ -43,6 +44,11 @@ static ali3_status factorise(ali3_instance *in, double c) {
   ali3_rows_square(S, in->J, PENALTY, in->F);
   ali3_geometric(in, in->next.q, in->next.s, in->next.lam, c, in->F);
   ali3_forces_tangent(in, in->F);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    const int32_t pos = S->diagonal_pos[i];
+    in->d0[i] = in->F[pos] == S->front_mass[pos] + S->mass_missing[i] ? 0.0 : 1.0;
+    in->r[i] *= in->d0[i];
+  }
   const ali3_status status = ali3_factorise(in, in->F);
   return status == ALI3_OK && in->report.negative_pivots > 0 ? ALI3_SINGULAR : status;
 }
@@ -73,6 +79,7 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   if (status != ALI3_OK) return status;
   ali3_vectors_copy(in, &in->next, &in->now);
   memset(in->next.qd, 0, (size_t)S->size.nq * sizeof(double));
+  for (int32_t i = 0; i < S->size.nq; i++) in->d0[i] = 1.0;
   double c = FIRST_C, last = balance(in, c);
   int32_t iteration = 0;
   for (; iteration < max_iterations; iteration++) {
