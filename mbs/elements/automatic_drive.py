@@ -90,7 +90,7 @@ class AutomaticDrive:
             (left, right, *f.components, *g.components),
             (*values, *ratios),
             (index(throttle, f"The input of {what}"), len(ratios)),
-            (float(gear), float(gear), 1e3),
+            (float(gear), float(gear), 1e3, 0.0),
             (
                 Output("engine_speed", "rad/s", "speed of the engine"),
                 Output("gear", "1", "gear engaged"),

@@ -1,6 +1,7 @@
 /* Static equilibrium by a pseudo-transient Newton iteration: mass / c + stiffness, with c growing while the balance improves.
- * The mass keeps free directions (position on a plane) where they are. A coordinate without stiffness that no row holds, such as the
- * spin of a driven wheel, cannot come into balance at rest: it is held. in->d0 marks it with 0, the others with 1. */
+ * The mass keeps free directions (position on a plane) where they are. A coordinate that no row, stiffness or weight touches, such
+ * as the spin of a driven wheel, cannot come into balance at rest: it is held. in->w marks with 0 what may be held, in->d0 what is;
+ * both have 1 elsewhere. */
 #include <math.h>
 #include <string.h>
 
@@ -46,7 +47,7 @@ static ali3_status factorise(ali3_instance *in, double c) {
   ali3_forces_tangent(in, in->F);
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t pos = S->diagonal_pos[i];
-    in->d0[i] = in->F[pos] == S->front_mass[pos] + S->mass_missing[i] ? 0.0 : 1.0;
+    in->d0[i] = in->F[pos] == S->front_mass[pos] + S->mass_missing[i] ? in->w[i] : 1.0;
     in->r[i] *= in->d0[i];
   }
   const ali3_status status = ali3_factorise(in, in->F);
@@ -72,6 +73,15 @@ static ali3_status correct(ali3_instance *in, double c, double *part) {
   return ALI3_OK;
 }
 
+static void mark(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    in->w[i] = S->gravity_force[i] == 0.0 ? 0.0 : 1.0;
+    in->d0[i] = 1.0;
+  }
+  for (int32_t k = 0; k < S->size.nnz_rows; k++) in->w[S->row_col[k]] = 1.0;
+}
+
 ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations) {
   const ali3_system *S = in->system;
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
@@ -79,7 +89,7 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   if (status != ALI3_OK) return status;
   ali3_vectors_copy(in, &in->next, &in->now);
   memset(in->next.qd, 0, (size_t)S->size.nq * sizeof(double));
-  for (int32_t i = 0; i < S->size.nq; i++) in->d0[i] = 1.0;
+  mark(in);
   double c = FIRST_C, last = balance(in, c);
   int32_t iteration = 0;
   for (; iteration < max_iterations; iteration++) {

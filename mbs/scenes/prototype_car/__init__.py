@@ -1,4 +1,4 @@
-"""The prototype car of the paper (section 3.4) with a rigid chassis: 14 degrees of freedom, steering, throttle and brake."""
+"""The prototype car of the paper (section 3.4), rigid: 14 degrees of freedom, steering, throttle and brake."""
 
 from __future__ import annotations
 

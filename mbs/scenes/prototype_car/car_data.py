@@ -4,19 +4,21 @@ SI units. Earth axes in the reference configuration: x forward, y left, z up; or
 the front axle, car in static equilibrium. Points are those of the left side; the right side mirrors y.
 
 Published [P] in J. Cuadrado, M. Gonzalez, R. Gutierrez, M. A. Naya, "Real-time MBS formulations: towards virtual
-engineering": total mass, springs and dampers, tyre radii and vertical stiffness, kerb, speed, duration, step. Everything
-else is assumed [A]: no hardpoints, masses of parts or inertias of the real car are public; the set was chosen so that
-every published number holds at once.
+engineering": total mass, springs and dampers, tyre radii and vertical stiffness, kerb, speed, duration, step.
+Everything else is assumed [A]: no hardpoints, masses of parts or inertias of the real car are public; the set was
+chosen so that every published number holds at once.
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 GRAVITY = 9.81
 TOTAL_MASS = 597.0  # [P]
 WHEELBASE = 2.300  # [A]
 REFERENCE_POINT = (-1.3046, 0.0, 0.3530)  # centre of mass of the whole car, origin of the vehicle axes [A]
 
-CHASSIS = {  # frame, engine, driver, equipment [A]
+CHASSIS: dict[str, Any] = {  # frame, engine, driver, equipment [A]
     "mass": 476.0,
     "com": (-1.3321, 0.0, 0.3769),
     "inertia": ((77.9, 0.0, 14.6), (0.0, 420.9, 0.0), (14.6, 0.0, 457.7)),
@@ -41,7 +43,7 @@ FRONT = {  # double wishbones, coil-overs on the lower ones [A]
     "spring_upper": (0.0000, 0.3800, 0.7850),  # on the chassis
     "wheel_centre": (0.0000, 0.6700, 0.2489),
 }
-FRONT_SPRING = {"stiffness": 12360.0, "free_length": 0.750, "damping": 1000.0}  # [P]
+FRONT_SPRING: dict[str, Any] = {"stiffness": 12360.0, "free_length": 0.750, "damping": 1000.0}  # [P]
 FRONT_BODIES = {  # [A]
     "lower_wishbone": {"mass": 3.0, "com": (0.000, 0.420, 0.160), "inertia": (0.030, 0.025, 0.050)},
     "upper_wishbone": {"mass": 2.0, "com": (-0.005, 0.440, 0.377), "inertia": (0.012, 0.012, 0.022)},
@@ -58,7 +60,7 @@ REAR = {  # lower arm, strut, toe link; driven wheels [A]
     "strut_top": (-2.3000, 0.4550, 0.9270),
     "wheel_centre": (-2.3000, 0.6600, 0.2623),
 }
-REAR_SPRING = {"stiffness": 10595.0, "free_length": 0.916, "damping": 1000.0}  # [P]
+REAR_SPRING: dict[str, Any] = {"stiffness": 10595.0, "free_length": 0.916, "damping": 1000.0}  # [P]
 REAR_BODIES = {  # [A]
     "lower_arm": {"mass": 3.5, "com": (-2.265, 0.430, 0.177), "inertia": (0.035, 0.020, 0.050)},
     "upright": {"mass": 12.0, "com": (-2.300, 0.585, 0.300), "inertia": (0.180, 0.160, 0.060)},
@@ -69,7 +71,7 @@ RACK_TRAVEL = 0.060  # m each way; about 27 deg at the outer and 33 deg at the i
 RACK_PER_TURN = 0.042  # m per turn of the steering wheel [A]
 RACK_FREQUENCY = 10.0  # Hz, of the follower between input and rack [A]
 
-DRIVELINE = {  # simple automatic, open differential [A]
+DRIVELINE: dict[str, Any] = {  # simple automatic, open differential [A]
     "max_torque": 110.0,
     "max_power": 50.0e3,
     "efficiency": 0.85,

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from mbs.affine import AffineVector
 from mbs.model import Model
 from mbs.model.body import Body
@@ -105,6 +107,6 @@ def health_outputs(m: Model) -> None:
 
 
 def _travel(m: Model, chassis: Body, spin: Spin, w: str) -> None:
-    reference = [c.reference for c in m.coordinates]
+    reference = np.array([c.reference for c in m.coordinates])
     gap: AffineVector = spin.centre - chassis.point(spin.centre.value(reference))
     m.sense_component(f"wheel_{w}.travel", gap, chassis.vector(UP), description="of the wheel centre, positive in bump")
