@@ -90,3 +90,19 @@ def test_no_equilibrium_is_refused_and_the_state_kept() -> None:
         instance.static_equilibrium(0.0, 1e-6, 20)
     assert refusal.value.status == binding.NOT_CONVERGED
     assert bytes(instance.get_state()[0]) == before
+
+
+def test_a_torque_on_a_free_spin_does_not_spoil_the_equilibrium_of_the_rest() -> None:
+    """Nothing can balance the torque at rest: the spin is held, the sprung mass finds its place, then the spin is free."""
+    torque, inertia = 3.0, 2.0
+    b = SystemBuilder(np.diag([2.0, inertia]), [0.0, 0.7], gravity=[-2.0 * GRAVITY, 0.0])
+    b.elements = [
+        Element(2, [b.signal({0: 1.0})], [500.0, 10.0, 0.0, 0.0], outputs=1),
+        Element(2, [b.signal({1: 1.0})], [0.0, 0.0, 0.0, torque], outputs=1),
+    ]
+    instance = instance_of(b)
+    instance.static_equilibrium(0.0, 1e-9, 100)
+    q, qd, qdd = (np.array(v) for v in instance.get_state()[:3])
+    np.testing.assert_allclose(q, [-2.0 * GRAVITY / 500.0, 0.7], atol=1e-11)
+    np.testing.assert_allclose(qd, 0.0)
+    np.testing.assert_allclose(qdd, [0.0, torque / inertia], atol=1e-8)
