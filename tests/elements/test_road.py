@@ -19,7 +19,7 @@ def axis_of(yaw: float, camber: float) -> Array:
     return np.array([-np.sin(yaw) * np.cos(camber), np.cos(yaw) * np.cos(camber), np.sin(camber)])
 
 
-def rim(centre: Array, axis: Array, radius: float, count: int = 200001) -> Array:
+def rim(centre: Array, axis: Array, radius: float, count: int = 60001) -> Array:
     """Points of a circle about the centre in the wheel plane, shape (count, 3)."""
     a = np.cross(axis, [0.0, 0.0, 1.0])
     a /= np.linalg.norm(a)
@@ -51,7 +51,7 @@ def test_kerb_distance_is_that_of_the_nearest_point_of_the_solid_in_the_wheel_pl
     axis = axis_of(yaw, camber)
     kinds = set()
     for x in np.linspace(1.6, 2.4, 17):
-        for height in (0.12, 0.2, 0.28):
+        for height in (0.06, 0.12, 0.28):
             centre = np.array([x, 0.3, 0.02 + height])
             if side * (x - 2.0) <= 0.0 and centre[2] <= top + 0.02:
                 continue  # the centre would be inside the step
@@ -67,7 +67,7 @@ def test_kerb_distance_is_that_of_the_nearest_point_of_the_solid_in_the_wheel_pl
                 start = np.where(speed < 0.0, np.maximum(start, crossing), start)
                 end = np.where(speed > 0.0, np.minimum(end, crossing), end)
             nearest = float(np.min(start[start <= end]))
-            assert RADIUS - c["penetration"] == pytest.approx(nearest, abs=3e-5)  # rays are 3e-5 rad apart
+            assert RADIUS - c["penetration"] == pytest.approx(nearest, abs=1e-4)  # rays are 1e-4 rad apart
             kinds.add(int(np.argmax(np.abs(c["normal"]))) if np.max(np.abs(c["normal"])) > 0.999 else 3)
     assert {2, 3} <= kinds  # plane and edge were met
     if (yaw, camber) == (0.0, 0.0):

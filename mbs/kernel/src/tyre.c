@@ -117,12 +117,11 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
                slips = t[0].max_slip + t[1].max_slip;
   const double scale[2] = {t[0].max_slip / slips + bx / (bx + by), t[1].max_slip / slips + by / (bx + by)};
   const double n[2] = {v[0] / (scale[0] * w), v[1] / (scale[1] * w)}, s = ali3_hypot(n[0], n[1]);
-  double J[2][2], safe[2], kappa[2], offset[2], D[2], full[2];
+  double J[2][2], safe[2], offset[2], D[2], full[2];
   for (int i = 0; i < 2; i++) {
     double slope;
     const double g = q * ali3_tmeasy_secant(&t[i], s * scale[i], &slope) / w;
-    kappa[i] = 1.0 / (d[i] + g);
-    const double theta = ali3_theta(a->h, c[i] * kappa[i]), b = a->h * theta;
+    const double theta = ali3_theta(a->h, c[i] / (d[i] + g)), b = a->h * theta;
     offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c[i];
     full[i] = q * t[i].max_force;
@@ -135,20 +134,14 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
     }
   }
   const double use = contact->load > NO_LOAD ? ali3_hypot(F[0] / full[0], F[1] / full[1]) : 0.0;
-  if (use > 1.0) { /* radial return to the ellipse; the deflection then follows at its own rate c/d */
+  if (use > 1.0) { /* radial return to the ellipse */
     const double e[2] = {F[0] / full[0] / full[0] / use, F[1] / full[1] / full[1] / use};
     for (int j = 0; j < 2; j++) {
       const double along = (e[0] * J[0][j] + e[1] * J[1][j]) / use;
-      safe[j] /= use;
       for (int i = 0; i < 2; i++) J[i][j] = (J[i][j] - F[i] * along) / use;
+      safe[j] /= use;
     }
-    for (int i = 0; i < 2; i++) {
-      const double rate = c[i] * (kappa[i] + (1.0 - 1.0 / use) * (1.0 / d[i] - kappa[i]));
-      const double theta = ali3_theta(a->h, rate);
-      F[i] /= use;
-      offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
-      D[i] = d[i] + a->h * theta * c[i];
-    }
+    for (int i = 0; i < 2; i++) F[i] /= use;
   }
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];

@@ -1,0 +1,281 @@
+"""The tyre in steady states: radial force, TMeasy curves, virtual work, tangent."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbs.elements import KerbRoad, PlaneRoad, TyreCurve
+from tests.elements.harness import Array, Element, Result, tangent_by_differences, vectors
+from tests.elements.tyre_data import LATERAL, LONGITUDINAL, TYRE, curve, tyre_element, upright
+
+R = TYRE.radius
+SPEED = 20.0  # m/s
+STEADY = 1e-6  # relative; the deflections settle within the time given
+
+
+def height(load: float) -> float:
+    return R - load / TYRE.stiffness
+
+
+def slip_radius(load: float, omega: float) -> float:
+    """Advance per radian: (2 R + loaded)/3 when rolling, the loaded radius at standstill."""
+    rolling = (2.0 * R + height(load)) / 3.0
+    share = (rolling * omega) ** 2 / ((rolling * omega) ** 2 + 0.25)
+    return height(load) + share * (rolling - height(load))
+
+
+def steady(load: float, sx: float, sy: float, element: Element | None = None, speed: float = SPEED) -> Result:
+    """Forces after settling with theoretical slips sx (driven: negative), sy of a wheel that rolls at `speed`."""
+    element = element or tyre_element()
+    rolling = (2.0 * R + height(load)) / 3.0
+    omega = speed / rolling
+    ud = np.array([sx * speed + slip_radius(load, omega) * omega, sy * speed, 0.0, 0.0, 0.0, 0.0, omega])
+    y = np.zeros(4)
+    for _ in range(100):
+        r = element(upright(height(load)), ud, y, 0.01)
+        y = r.y
+    return r
+
+
+@pytest.mark.parametrize("load", [600.0, 1267.3, 1661.0, 3000.0])
+@pytest.mark.parametrize("slip", [0.001, 0.02, 0.08, 0.13, 0.16, 0.4, 0.8, 1.5])
+def test_pure_slip_gives_the_tmeasy_curves(load: float, slip: float) -> None:
+    for sign in (1.0, -1.0):
+        x, y = steady(load, sign * slip, 0.0).out, steady(load, 0.0, sign * slip).out
+        assert x["vertical_force"] == pytest.approx(load, rel=1e-12)
+        assert x["longitudinal_force"] == pytest.approx(-curve(LONGITUDINAL, load, 1500.0, sign * slip), rel=STEADY)
+        assert y["lateral_force"] == pytest.approx(-curve(LATERAL, load, 1500.0, sign * slip), rel=STEADY)
+        assert abs(x["lateral_force"]) < 1e-9
+        assert abs(y["longitudinal_force"]) < 1e-9
+
+
+@pytest.mark.parametrize(("load", "lateral", "longitudinal"), [(1267.3, 20870.0, 23070.0), (1661.0, 25990.0, 30710.0)])
+def test_initial_slopes_at_the_static_loads_of_the_car(load: float, lateral: float, longitudinal: float) -> None:
+    s = 1e-4
+    assert -steady(load, 0.0, s).out["lateral_force"] / s == pytest.approx(lateral, rel=2e-3)
+    assert -steady(load, s, 0.0).out["longitudinal_force"] / s == pytest.approx(longitudinal, rel=2e-3)
+
+
+def test_friction_scales_forces_and_slips_but_not_the_initial_slope() -> None:
+    low = tyre_element(road=PlaneRoad(friction=0.4))
+    tuned = tyre_element(replace(TYRE, friction_factor=0.5))
+    for slip in (0.03, 0.1, 0.3):
+        full = steady(1500.0, 0.0, 2.0 * slip).out["lateral_force"]
+        assert steady(1500.0, 0.0, slip, low).out["lateral_force"] == pytest.approx(0.5 * full, rel=1e-5)
+        assert steady(1500.0, 0.0, slip, tuned).out["lateral_force"] == pytest.approx(0.5 * full, rel=1e-5)
+    ice = steady(1500.0, 0.0, 0.1, tyre_element(road=PlaneRoad(friction=0.0))).out
+    assert abs(ice["lateral_force"]) < 1e-2
+
+
+def test_combined_slip_stays_in_the_friction_ellipse_and_opposes_the_slip() -> None:
+    load, reached = 1500.0, 0.0
+    for angle in np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False):
+        for s in (0.02, 0.1, 0.15, 0.3, 1.0):
+            r = steady(load, s * np.cos(angle), s * np.sin(angle)).out
+            x, y = r["longitudinal_force"], r["lateral_force"]
+            use = np.hypot(x / 1694.0, y / 1501.0)
+            reached = max(reached, use)
+            assert use < 1.0 + 1e-9
+            assert x * np.cos(angle) + y * np.sin(angle) < 0.0
+    assert reached > 0.98
+    braked = steady(load, 0.12, 0.05).out["lateral_force"]
+    assert abs(braked) < 0.8 * abs(steady(load, 0.0, 0.05).out["lateral_force"])  # braking takes side force away
+
+
+def test_locked_wheel_slides_with_the_sliding_force_at_any_speed() -> None:
+    element = tyre_element()
+    for speed in (0.05, 1.0, 30.0):
+        y = np.zeros(4)
+        for _ in range(3000):
+            r = element(upright(height(1500.0)), [speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], y, 0.01)
+            y = r.y
+        assert r.out["longitudinal_force"] == pytest.approx(-1202.0, rel=1e-4)
+
+
+def test_aligning_moment_turns_towards_the_direction_of_travel_and_fades_with_slip() -> None:
+    small = steady(1500.0, 0.0, 0.01).out
+    trail = -small["aligning_moment"] / small["lateral_force"]
+    contact_length = 2.0 * np.sqrt(R * 1500.0 / TYRE.stiffness)
+    assert trail == pytest.approx(0.178 * contact_length, rel=0.08)
+    assert small["aligning_moment"] * small["slip_angle"] > 0.0
+    assert abs(steady(1500.0, 0.0, 1.2).out["aligning_moment"]) < 1e-9
+    moments = [steady(1500.0, 0.0, s).out["aligning_moment"] for s in np.linspace(0.1633, 0.1635, 3)]
+    assert moments[0] > 0.0 > moments[-1]  # the trail passes through zero at its first zero
+    assert np.ptp(moments) < 0.5
+
+
+def test_radial_force_has_spring_damper_and_rim_and_cannot_pull() -> None:
+    element = tyre_element()
+
+    def load(depth: float, rate: float) -> float:
+        return element(upright(R - depth), [0.0, 0.0, -rate, 0.0, 0.0, 0.0, 0.0]).out["vertical_force"]
+
+    assert load(0.02, 0.0) == pytest.approx(1200.0)
+    assert load(0.02, 0.5) == pytest.approx(1300.0)
+    assert load(0.0025, 0.5) == pytest.approx(150.0 + 50.0)
+    assert load(0.10, 0.0) == pytest.approx(6000.0 + 3000.0)
+    assert load(0.001, -10.0) == 0.0
+    assert load(-0.1, 3.0) == 0.0
+
+
+def test_outputs_describe_the_contact() -> None:
+    out = steady(1500.0, 0.05, 0.0).out
+    assert out["deflection"] == pytest.approx(0.025)
+    assert out["loaded_radius"] == pytest.approx(0.245)
+    assert (out["contact_x"], out["contact_y"], out["contact_z"]) == pytest.approx((0.0, 0.0, 0.0), abs=1e-15)
+    assert out["slip"] == pytest.approx(-0.05 / 1.05, rel=0.01)
+    side = steady(1500.0, 0.0, 0.1).out
+    assert side["slip_angle"] == pytest.approx(np.arctan(0.1), rel=0.01)
+    locked = tyre_element()(upright(0.25), [5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).out
+    assert locked["slip"] == pytest.approx(-1.0, abs=1e-4)
+
+
+def wheel_motion(rng: np.random.Generator, speed: float) -> tuple[Array, Array, float]:
+    """Random pose near upright with a rigid wheel's rates; returns u, ud and the spin."""
+    axis = np.array([0.15, 1.0, -0.1]) + 0.02 * rng.normal(size=3)
+    axis /= np.linalg.norm(axis)
+    omega = speed / R * (1.0 + 0.03 * rng.normal())
+    turn = 0.3 * rng.normal(size=3)
+    rate = np.cross(turn, axis)
+    u = np.r_[0.0, 0.0, 0.245, axis, 0.3]
+    return u, np.r_[[speed, 0.0, 0.0] + 0.3 * rng.normal(size=3), rate, omega], omega
+
+
+@pytest.mark.parametrize("speed", [0.0, 10.0])
+def test_force_has_the_power_of_force_times_material_velocity_of_the_patch(speed: float) -> None:
+    element = tyre_element(replace(TYRE, trail=(0.0, 0.0), rolling_resistance=0.0), PlaneRoad(grade_x=0.1, grade_y=-0.05, friction=0.8))
+    n = np.array([-0.1, 0.05, 1.0]) / np.linalg.norm([0.1, 0.05, 1.0])
+    rng = np.random.default_rng(9)
+    for _ in range(10):
+        u, ud, omega = wheel_motion(rng, speed)
+        r = element(u, ud, np.r_[0.002, -0.003, 0.0, 0.0], 0.005)
+        axis = u[3:6]
+        forward = np.cross(axis, n)
+        forward /= np.linalg.norm(forward)
+        force = (
+            r.out["longitudinal_force"] * forward + r.out["lateral_force"] * np.cross(n, forward) + r.out["vertical_force"] * n
+        )
+        rho = np.array([r.out[f"contact_{k}"] for k in "xyz"]) - u[:3]
+        assert rho @ axis == pytest.approx(0.0, abs=1e-12)
+        spin = omega * axis + np.cross(axis, ud[3:6])
+        patch = ud[:3] + np.cross(spin, rho)
+        assert r.f @ ud == pytest.approx(force @ patch, rel=1e-9, abs=1e-6)
+        assert np.allclose(r.f[:3], force, atol=1e-9)
+        # the moment about the centre, by virtual rotations of the wheel
+        for turn in np.eye(3):
+            virtual = np.r_[0.0, 0.0, 0.0, np.cross(turn, axis), turn @ axis]
+            assert r.f @ virtual == pytest.approx(np.cross(rho, force) @ turn, abs=1e-8)
+
+
+def test_aligning_moment_and_rolling_resistance_are_moments_on_the_wheel() -> None:
+    free = tyre_element(replace(TYRE, trail=(0.0, 0.0), rolling_resistance=0.0))
+    for tyre in (replace(TYRE, rolling_resistance=0.0), replace(TYRE, rolling_resistance=0.02)):
+        a, b = steady(1500.0, 0.0, 0.05, tyre_element(tyre)), steady(1500.0, 0.0, 0.05, free)
+        difference = a.f - b.f
+        # about the vertical: e turns to -x
+        assert difference[3] == pytest.approx(-a.out["aligning_moment"], rel=1e-9)
+        assert np.allclose(difference[:3], 0.0, atol=1e-9)
+        omega = SPEED / ((2.0 * R + height(1500.0)) / 3.0)
+        assert difference[6] == pytest.approx(-tyre.rolling_resistance * 1500.0 * R * np.tanh(omega), rel=1e-9)
+
+
+COUPLING = 0.06  # of the largest entry: load coupling, turning of frames, transport speed are left out of the tangent
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.5, 10.0, 30.0])
+def test_tangent_is_near_the_derivative_and_positive_semidefinite(speed: float) -> None:
+    element = tyre_element(replace(TYRE, rolling_resistance=0.0))
+    rng = np.random.default_rng(10)
+    h = 0.005
+    for _ in range(20):
+        u, ud, _ = wheel_motion(rng, speed)
+        y = np.r_[0.001 * rng.normal(size=2), 0.02 * rng.normal(size=2)]
+        r = element(u, ud, y, h, 0.5 * h, 0.25 * h * h)
+        wanted = tangent_by_differences(element, u, ud, y, h, 0.5 * h, 0.25 * h * h, ())
+        difference = np.max(np.abs(r.S - wanted)) / np.max(np.abs(wanted))
+        smallest = np.linalg.eigvalsh(r.S)[0]
+        assert smallest > -1e-12
+        if np.linalg.eigvalsh(wanted)[0] > -1e-3 and not sliding(r):
+            assert difference < COUPLING
+
+
+def sliding(r: Result) -> bool:
+    """Beyond half of the grip the tangent is kept above its secant on purpose."""
+    return bool(np.hypot(r.out["longitudinal_force"] / 1694.0, r.out["lateral_force"] / 1501.0) > 0.4)
+
+
+def test_tangent_is_exact_where_nothing_is_left_out() -> None:
+    """Straight wheel, sticking: only the spring, the carcass and their levers."""
+    tyre = replace(TYRE, rolling_resistance=0.0, trail=(0.0, 0.0))
+    element = tyre_element(tyre)
+    h = 0.005
+    u, ud = upright(0.245), np.zeros(7)
+    r = element(u, ud, None, h, 0.5 * h, 0.0)
+    wanted = tangent_by_differences(element, u, ud, None, h, 0.5 * h, 0.0, (), step=1e-5)
+    assert np.max(np.abs(r.S - wanted)) < 2e-3 * np.max(np.abs(wanted))
+    spring = 0.5 * h * (tyre.carcass_damping[0] + 0.5 * h * tyre.carcass_stiffness[0])
+    assert r.S[0, 0] == pytest.approx(spring, rel=1e-4)
+    assert r.S[0, 6] == pytest.approx(-spring * 0.245, rel=1e-4)
+
+
+def test_forces_do_not_jump_over_a_kerb() -> None:
+    """All along a drop the force changes by little from one millimetre to the next, edge and lower level included."""
+    road = KerbRoad(0.0, 0.08, friction=0.8)
+    element = tyre_element(road=road)
+    last, both = None, 0
+    for x in np.linspace(-0.1, 0.3, 4001):
+        z = 0.08 + R - 0.02 - 0.09 * np.clip(x / 0.2, 0.0, 1.0)  # a path that presses on edge and lower level
+        r = element(np.array([x, 0.0, z, 0.0, 1.0, 0.0, 0.0]), np.array([5.0, 0.1, 0.0, 0.0, 0.0, 0.0, 18.0]), np.r_[1e-3, 1e-3, 0.0, 0.0])
+        both += x > 0.15 and abs(r.f[0]) > 1.0
+        if last is not None:
+            assert np.max(np.abs(r.f - last)) < 120.0
+        last = r.f
+    assert both
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"radius": 0.1}, "bottoming radius"),
+        ({"stiffness": 0.0}, "stiffness of the tyre 'left' is 0"),
+        ({"carcass_damping": (0.0, 500.0)}, "carcass"),
+        ({"max_load_factor": 8.0}, "per load of the tyre 'left' at 12000 N"),
+        ({"lateral": TyreCurve((1.0, 2.0), (1.0, 2.0), (0.2, 0.2), (1.0, 2.0), (0.1, 0.1))}, "must exceed"),
+        ({"trail_end": (0.1, 0.1)}, "end slip of the trail"),
+        ({"rolling_resistance": -1.0}, "must not be negative"),
+        ({"damping": float("nan")}, "finite"),
+    ],
+)
+def test_bad_tyre_data_are_refused_with_a_sentence(change: dict[str, object], sentence: str) -> None:
+    centre, axis, spin = vectors(3, 3, 1)
+    try:
+        replace(TYRE, **change).record("left", centre, axis, spin[0], 0)  # type: ignore[arg-type]
+    except ValueError as error:
+        assert sentence in str(error)
+    else:
+        pytest.fail("accepted")
+
+
+@pytest.mark.parametrize(
+    ("change", "word"),
+    [
+        ({"radius": 0.1}, "bottoming radius"),
+        ({"stiffness": 0.0}, "vertical stiffness"),
+        ({"nominal_load": 0.0}, "nominal load"),
+        ({"carcass_stiffness_y": 0.0}, "carcass"),
+        ({"lateral_max_force_1": -1.0}, "zero or negative"),
+        ({"lateral_slide_slip_1": 0.0}, "slips"),
+        ({"trail_end_1": 0.0}, "trail"),
+        ({"friction_factor": -1.0}, "friction factor"),
+    ],
+)
+def test_kernel_checks_tyre_data(change: dict[str, float], word: str) -> None:
+    element = tyre_element()
+    names = list(element.element.real_names)
+    real = [change.get(n, v) for n, v in zip(names, element.element.real, strict=True)]
+    element.element = replace(element.element, real=real)
+    assert word in (element.check() or "")
+    assert "road that does not exist" in (tyre_element().check(n_roads=0) or "")
