@@ -1,12 +1,10 @@
-"""A driver that follows a course: pure pursuit of a point ahead on the path, speed held with throttle and brake."""
+"""A driver that follows a course with a view ahead, and holds the speed with throttle and brake."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-
-import numpy as np
 
 from hosts.course import Course, course_of
 from hosts.errors import HostError
@@ -23,25 +21,29 @@ class DriverSettings:
     ----------
     speed : float
         To be held, m/s.
-    preview_time : float
-        How far ahead the driver looks, s.
     wheelbase : float
         m.
-    rear_axle : float
-        Distance from the origin of the vehicle axes back to the rear axle, m.
     wheel_angle_max : float
         Mean angle of the front wheels at full steering, rad.
+    curvature_preview, heading_preview : float
+        How far ahead the driver reads the curvature and the direction of the path, s; it makes up for the car's delay.
+    heading_gain : float
+        Wheel angle per error of the heading.
+    lateral_gain : float
+        Wheel angle per distance from the path, rad/m.
     vehicle_length, vehicle_width : float
-        Outline centred on the wheelbase, m.
+        Outline centred on the origin of the vehicle axes, m.
     speed_gain, speed_integral : float
         Pedal per m/s, pedal per m.
     """
 
     speed: float
-    preview_time: float = 0.5
     wheelbase: float = 2.3
-    rear_axle: float = 1.0
     wheel_angle_max: float = 0.525
+    curvature_preview: float = 0.25
+    heading_preview: float = 0.1
+    heading_gain: float = 0.8
+    lateral_gain: float = 0.05
     vehicle_length: float = 3.2
     vehicle_width: float = 1.5
     speed_gain: float = 0.3
@@ -79,17 +81,13 @@ class Driver:
             `ACTS`.
         """
         s = self.settings
-        yaw, speed = senses["chassis.yaw"], max(senses["speed"], 1.0)
-        x = senses["chassis.x"] - s.rear_axle * math.cos(yaw)
-        y = senses["chassis.y"] - s.rear_axle * math.sin(yaw)
-        # The arc from the rear axle, tangent to the heading, through the point ahead (pure pursuit).
-        ahead = s.wheelbase + s.preview_time * speed
-        dx = x + ahead
-        dy = float(self.course.path(np.array(dx))) - y
-        lateral = -math.sin(yaw) * ahead + math.cos(yaw) * dy
-        curvature = 2.0 * lateral / (ahead * ahead + dy * dy)
-        steering = math.atan(s.wheelbase * curvature) / s.wheel_angle_max
-        error = s.speed - senses["speed"]
+        x, y, yaw, speed = (senses[name] for name in SENSES)
+        curvature = self.course.path(x + s.curvature_preview * speed)[2]
+        slope = self.course.path(x + s.heading_preview * speed)[1]
+        angle = math.atan(s.wheelbase * curvature)
+        angle += s.heading_gain * (math.atan(slope) - yaw) + s.lateral_gain * (self.course.path(x)[0] - y)
+        steering = angle / s.wheel_angle_max
+        error = s.speed - speed
         step, self._time = time - self._time, time
         pedal = s.speed_gain * error + s.speed_integral * self._integral
         if -1.0 < pedal < 1.0:

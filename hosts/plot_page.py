@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
@@ -47,6 +48,7 @@ _STYLE = {
     "lines.solid_capstyle": "round",
 }
 _MAX_PANELS = 9
+_STANDING = 0.5
 
 
 def plot_page(
@@ -73,61 +75,78 @@ def plot_page(
         plt.close(figure)
 
 
-def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | None) -> Figure:
-    figure = plt.figure(figsize=(16, 11), layout="constrained")
-    figure.get_layout_engine().set(rect=(0.005, 0.005, 0.99, 0.945), w_pad=0.1, h_pad=0.1)  # type: ignore[union-attr]
-    grid = figure.add_gridspec(4, 3, height_ratios=(0.95, 1, 1, 1))
-    _path(figure.add_subplot(grid[0, :2]), result, course)
-    _table(figure.add_subplot(grid[0, 2]), rows)
-    t = result.time
+@dataclass(frozen=True)
+class _Panel:
+    """A plot over time: what, in which unit, which lines (label, variable, colour) and how high it is at least."""
 
-    a = figure.add_subplot(grid[1, 0])
-    _lines(a, t, [("speed", 3.6 * result["speed"], BLUE)], "Speed", "km/h")
-    a.set_ylim(bottom=min(0.0, a.get_ylim()[0]))
-    b = figure.add_subplot(grid[1, 1], sharex=a)
-    _named(
-        b,
-        result,
-        [("longitudinal", "chassis.ax", BLUE), ("lateral", "chassis.ay", RED)],
-        "Acceleration of the chassis",
-        "m/s²",
-    )
-    c = figure.add_subplot(grid[1, 2], sharex=a)
-    _named(c, result, [("vertical", "chassis.az", GREEN)], "Vertical acceleration", "m/s²")
+    title: str
+    unit: str
+    lines: tuple[tuple[str, str, str], ...]
+    factor: float = 1.0
+    least: float = 0.0
 
-    d = figure.add_subplot(grid[2, 0], sharex=a)
-    colours = dict(zip(WHEELS, (BLUE, SKY, RED, ORANGE), strict=True))
-    _named(d, result, [(w, f"wheel_{w}.Fz", colours[w]) for w in WHEELS], "Wheel loads", "kN", 1e-3)
-    e = figure.add_subplot(grid[2, 1], sharex=a)
-    travel = [(w, f"wheel_{w}.travel", colours[w]) for w in WHEELS if f"wheel_{w}.travel" in result]
-    if travel:
-        _named(e, result, travel, "Wheel travel against the chassis", "mm", 1e3)
-    else:
-        _named(e, result, [(w, f"wheel_{w}.Fx", colours[w]) for w in WHEELS], "Longitudinal tyre forces", "kN", 1e-3)
-    f = figure.add_subplot(grid[2, 2], sharex=a)
-    _named(f, result, [(w, f"wheel_{w}.Fy", colours[w]) for w in WHEELS], "Lateral tyre forces", "kN", 1e-3)
 
-    g = figure.add_subplot(grid[3, 0], sharex=a)
-    _named(
-        g,
-        result,
-        [("steering", "steering", BLUE), ("throttle", "throttle", GREEN), ("brake", "brake", RED)],
+def _wheels(quantity: str) -> tuple[tuple[str, str, str], ...]:
+    colours = (BLUE, SKY, RED, ORANGE)
+    return tuple((w, f"wheel_{w}.{quantity}", c) for w, c in zip(WHEELS, colours, strict=True))
+
+
+_DEGREES = 180.0 / np.pi
+_CAR_PANELS = (
+    _Panel("Speed", "km/h", (("speed", "speed", BLUE),), 3.6),
+    _Panel("Acceleration", "m/s²", (("longitudinal", "chassis.ax", BLUE), ("lateral", "chassis.ay", RED)), 1.0, 0.5),
+    _Panel("Vertical acceleration", "m/s²", (("vertical", "chassis.az", GREEN),), 1.0, 0.5),
+    _Panel("Wheel loads", "kN", _wheels("Fz"), 1e-3),
+    _Panel("Longitudinal forces", "kN", _wheels("Fx"), 1e-3, 0.2),
+    _Panel("Lateral forces", "kN", _wheels("Fy"), 1e-3, 0.2),
+    _Panel(
         "Inputs",
         "1",
-        steps=True,
-    )
-    g.set_ylim(-1.08, 1.08)
-    h = figure.add_subplot(grid[3, 1], sharex=a)
-    degrees = 180.0 / np.pi
-    _named(
-        h, result, [("roll", "chassis.roll", BLUE), ("pitch", "chassis.pitch", RED)], "Roll and pitch", "deg", degrees
-    )
-    i = figure.add_subplot(grid[3, 2], sharex=a)
-    _named(i, result, [("yaw rate", "chassis.wz", BLUE)], "Yaw rate", "deg/s", degrees)
-    for axes in (g, h, i):
-        axes.set_xlabel("time, s")
-    a.set_xlim(t[0], t[-1])
+        (("steering", "steering", BLUE), ("throttle", "throttle", GREEN), ("brake", "brake", RED)),
+        1.0,
+        0.5,
+    ),
+    _Panel("Wheel travel", "mm", _wheels("travel"), 1e3, 5.0),
+    _Panel("Roll and pitch", "deg", (("roll", "chassis.roll", BLUE), ("pitch", "chassis.pitch", RED)), _DEGREES, 1.0),
+    _Panel("Yaw rate", "deg/s", (("yaw rate", "chassis.wz", BLUE),), _DEGREES, 2.0),
+    _Panel("Sideslip", "deg", (("sideslip", "sideslip", BLUE),), _DEGREES, 1.0),
+    _Panel("Newton iterations of a step", "1", (("iterations", "solver.iterations", BLACK),)),
+)
+
+
+def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | None) -> Figure:
+    panels = [p for p in _CAR_PANELS if any(name in result for _, name, _ in p.lines)]
+    lines = -(-len(panels) // 3)
+    height = 4.0 + 2.6 * lines
+    figure = plt.figure(figsize=(16, height), layout="constrained")
+    engine = figure.get_layout_engine()
+    engine.set(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)  # type: ignore[union-attr]
+    grid = figure.add_gridspec(lines + 1, 3, height_ratios=(1.2, *[1.0] * lines))
+    _path(figure.add_subplot(grid[0, :2]), result, course)
+    _table(figure.add_subplot(grid[0, 2]), rows)
+    first: Axes | None = None
+    for k, panel in enumerate(panels):
+        axes = figure.add_subplot(grid[1 + k // 3, k % 3], sharex=first)
+        first = first or axes
+        series = [(label, panel.factor * _shown(result, name), c) for label, name, c in panel.lines if name in result]
+        _lines(axes, result.time, series, panel.title, panel.unit, steps=panel.title == "Inputs")
+        if k >= len(panels) - 3:
+            axes.set_xlabel("time, s")
+        low, high = axes.get_ylim()
+        if high - low < panel.least:
+            middle = 0.5 * (low + high)
+            axes.set_ylim(middle - 0.5 * panel.least, middle + 0.5 * panel.least)
+        if panel.title == "Speed":
+            axes.set_ylim(min(0.0, low), low + 1.05 * (high - low))
     return figure
+
+
+def _shown(result: Result, name: str) -> np.ndarray:
+    """Values to be drawn: a car that stands has no direction of travel."""
+    values = result[name]
+    if name != "sideslip" or "chassis.vx" not in result:
+        return values
+    return np.where(np.abs(result["chassis.vx"]) < _STANDING, np.nan, values)
 
 
 def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
@@ -178,7 +197,9 @@ def _path(axes: Axes, result: Result, course: Course | None) -> None:
     gates_y = [v for g in course.gates for v in (g.y_right, g.y_left)] if course is not None else []
     low, high = min([float(y.min()), *gates_y]), max([float(y.max()), *gates_y])
     stretched = height > 0.02 * width and high - low < 0.12 * width
+    middle = 0.5 * float(x.min() + x.max())
     if not stretched:
+        axes.set_xlim(middle - 0.55 * width, middle + 0.55 * width)
         axes.set_aspect("equal", adjustable="datalim")
     else:
         pad = 0.25 * (high - low)
@@ -200,19 +221,6 @@ def _table(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
         axes.text(0.42, y, value, transform=axes.transAxes, va="center", fontsize=9, color=BLACK)
 
 
-def _named(
-    axes: Axes,
-    result: Result,
-    series: Sequence[tuple[str, str, str]],
-    title: str,
-    unit: str,
-    factor: float = 1.0,
-    steps: bool = False,
-) -> None:
-    present = [(label, factor * result[name], colour) for label, name, colour in series if name in result]
-    _lines(axes, result.time, present, title, unit, steps)
-
-
 def _lines(
     axes: Axes,
     t: np.ndarray,
@@ -222,7 +230,9 @@ def _lines(
     steps: bool = False,
 ) -> None:
     for label, values, colour in series:
-        axes.plot(t, values, color=colour, label=label, drawstyle="steps-pre" if steps else "default")
+        # The right wheels are dashed, so that the left ones show through where they do the same.
+        style = (0, (4, 3)) if label in ("FR", "RR") else "-"
+        axes.plot(t, values, color=colour, label=label, linestyle=style, drawstyle="steps-pre" if steps else "default")
     axes.set_title(title)
     axes.set_ylabel(unit if unit != "1" else "")
     axes.margins(x=0)
@@ -232,6 +242,6 @@ def _lines(
             loc="lower right",
             bbox_to_anchor=(1.01, 0.985),
             borderaxespad=0.1,
-            handlelength=1.2,
+            handlelength=1.6,
             columnspacing=1.0,
         )

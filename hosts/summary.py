@@ -47,11 +47,11 @@ def summary(
     for name, label in (("ax", "longitudinal"), ("ay", "lateral"), ("az", "vertical")):
         if f"chassis.{name}" in result:
             a = result[f"chassis.{name}"]
-            rows.append((f"{label} acceleration", f"{a.min():+.2f} to {a.max():+.2f} m/s2"))
+            rows.append((f"{label} acceleration", f"{_signed(a.min())} to {_signed(a.max())} m/s2"))
     for name in ("roll", "pitch"):
         if f"chassis.{name}" in result:
             angle = np.degrees(result[f"chassis.{name}"])
-            rows.append((name, f"{angle.min():+.2f} to {angle.max():+.2f} deg"))
+            rows.append((name, f"{_signed(angle.min())} to {_signed(angle.max())} deg"))
     loads = {w: result[f"wheel_{w}.Fz"] for w in WHEELS if f"wheel_{w}.Fz" in result}
     if loads:
         largest = max(loads, key=lambda w: float(loads[w].max()))
@@ -64,7 +64,7 @@ def summary(
         rows.append((course.name, f"passed, {-out:.2f} m to spare" if out <= 0.0 else f"missed by {out:.2f} m"))
     if "solver.iterations" in result and len(result.time) > 1:
         n = result["solver.iterations"][1:]
-        rows.append(("Newton iterations of a step", f"{n.mean():.2f} on average, {n.max():.0f} at most"))
+        rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))
     if "solver.halvings" in result:
         rows.append(("steps repeated in halves", f"{result['solver.halvings'][-1]:.0f}"))
     rows.append(("failed steps", f"{result.failed_steps} of {len(result.time) - 1 + result.failed_steps}"))
@@ -76,3 +76,7 @@ def summary(
         )
     )
     return rows
+
+
+def _signed(value: float) -> str:
+    return f"{round(float(value), 2) + 0.0:+.2f}"
