@@ -1,0 +1,84 @@
+"""Bricard's loop (IFToMM benchmark A04): one redundant constraint at every position."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbs import Settings, Simulation, SimulationError, compile, simulate
+from mbs.scenes import bricard
+
+PERIOD = 5.0  # s
+CAP = 20  # Newton iterations
+ONE_STEP = Settings(max_iterations=CAP, max_halvings=0)
+SOFTER = 1e-6  # eps_rel; (16) turns alpha times the round-off of Phi into multipliers, and so into the residual
+
+
+@pytest.fixture(scope="module")
+def system():
+    return compile(bricard.build())
+
+
+def place(trajectory):
+    return np.column_stack([trajectory[f"P3.position.{c}"] for c in "xyz"])
+
+
+def test_the_redundant_row_is_there_and_the_loop_swings_back_after_five_seconds(system):
+    assert (system.report["rows"], system.report["rank"], system.report["degrees_of_freedom"]) == (24, 23, 1)
+    p = place(simulate(system, PERIOD, 0.001))
+    np.testing.assert_allclose(p[1000], (0.274481, -0.886708, -0.462330), atol=1e-5)
+    np.testing.assert_allclose(p[-1], p[0], atol=1e-3)
+    np.testing.assert_allclose([p.min(axis=0), p.max(axis=0)], [(-1, -1, -0.5), (1, -0.866025, 0)], atol=2e-4)
+
+
+@pytest.mark.parametrize("h", [0.1, 0.05, 0.01, 0.005])
+def test_the_linearised_update_needs_one_to_three_iterations(system, h):
+    report = simulate(system, 10.0, h, settings=ONE_STEP).report
+    assert report.max_iterations <= 3
+    assert report.mean_iterations < (3.0 if h > 0.05 else 2.05)
+
+
+@pytest.mark.parametrize("h", [0.1, 0.05])
+def test_the_paper_s_update_hits_the_cap_and_with_a_softer_penalty_takes_more_iterations(system, h):
+    paper = replace(ONE_STEP, update="paper")
+    with pytest.raises(SimulationError, match="did not converge"):
+        simulate(system, 10.0, h, settings=paper)
+    softer, linearised = (simulate(system, 10.0, h, settings=replace(s, eps_rel=SOFTER)) for s in (paper, ONE_STEP))
+    assert softer.report.mean_iterations > 1.2 * linearised.report.mean_iterations
+    # the same converged step, by two roads
+    np.testing.assert_allclose(place(softer), place(linearised), atol=1e-5)
+
+
+def test_positions_do_not_depend_on_a_fixed_penalty_over_decades(system):
+    expected = place(simulate(system, 2.0, 0.01))
+    for k in range(8, 15):
+        run = simulate(system, 2.0, 0.01, settings=Settings(alpha=10.0**k))
+        np.testing.assert_allclose(place(run), expected, atol=1e-6)
+    assert np.ptp(expected, axis=0).min() > 0.1
+
+
+def test_a_step_too_large_to_converge_is_made_in_halves(system):
+    h = 0.4
+    with pytest.raises(SimulationError, match="did not converge"):
+        simulate(system, 12.0, h, settings=Settings(max_halvings=0))
+    halved = simulate(system, 12.0, h)
+    assert halved.report.halvings > 0
+    assert halved.report.failures == 0
+    assert halved.report.steps == len(halved.t) - 1
+    assert halved.report.violation < Settings().tolerance_phi
+
+
+def test_a_refused_step_keeps_the_last_good_state(system):
+    simulation = Simulation(system, settings=Settings(max_halvings=1))
+    before = simulation.state
+    with pytest.raises(SimulationError, match="did not converge") as refusal:
+        while simulation.time < 100.0:
+            before, time = simulation.state, simulation.time
+            simulation.step(0.8)
+    assert refusal.value.time == time == simulation.time
+    for part, other in zip(vars(before).values(), vars(simulation.state).values(), strict=True):
+        assert np.array_equal(part, other)
+    simulation.step(0.01, n=100)
+    assert simulation.time == pytest.approx(time + 1.0)
