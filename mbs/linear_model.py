@@ -144,7 +144,7 @@ def linearise(simulation: Simulation) -> LinearModel:
         + [_difference(evaluator.rates, state, dy=unit[k]) for k in slots]
     )
     slope = np.array(columns).T  # (nq + len(slots), 2 n + len(slots)): of forces and of slot rates
-    A = np.zeros((2 * n + len(slots), 2 * n + len(slots)))
+    A: Array = np.zeros((2 * n + len(slots), 2 * n + len(slots)))
     A[:n, n : 2 * n] = np.eye(n)
     A[n : 2 * n] = V.T @ slope[: len(state.q)]
     A[n : 2 * n, :n] -= V.T @ GV
