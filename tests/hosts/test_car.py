@@ -1,0 +1,127 @@
+"""The prototype car's FMU driven through the manoeuvres of the host, as a user does it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy.util import read_csv
+
+import mbs
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts.manoeuvre import load_manoeuvre
+from mbs.simulation import Pose
+
+ROOT = Path(__file__).parents[2]
+PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+WHEELS = ("FL", "FR", "RL", "RR")
+GRAVITY = 9.81
+STEP = 0.01
+
+# Wheel loads at rest of the project's data, N.
+FRONT_LOAD, REAR_LOAD = 1267.3, 1661.0
+# A quarter car off the kerb at 5 m/s, same data: peak load of a front wheel, N, and time in the air, ms.
+KERB_FRONT_PEAK, KERB_FRONT_AIR = 2520.0, 52.0
+# The whole car rolls, pitches and slows down before the edge; the quarter car does not.
+KERB_PEAK_SHARE, KERB_AIR_SHARE = 0.1, 0.4
+
+
+@pytest.fixture(scope="module")
+def car(tmp_path_factory: pytest.TempPathFactory) -> tuple[mbs.System, Path]:
+    name, system = load_scene("prototype_car")
+    return system, build_fmu(system, name, tmp_path_factory.mktemp("car"), [PLATFORM])
+
+
+def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: float = STEP) -> tuple[np.ndarray, str]:
+    """Results and what the command printed; every step must have been accepted, without a word from the FMU."""
+    command = [sys.executable, "-m", "hosts.drive", str(car[1]), "--manoeuvre", manoeuvre]
+    command += ["--step", str(step), "--out", str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "FMU:" not in done.stdout
+    return read_csv(folder / f"prototype_car_python_{manoeuvre}.csv"), done.stdout
+
+
+def test_launch_and_brake(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
+    r, _ = drive(car, "launch_and_brake", tmp_path)
+    t, speed = r["time"], r["speed"]
+    assert 20.0 < speed.max() < 35.0
+    assert np.all(np.diff(speed[(t > 1.5) & (t < 9.0)]) > 0.0)
+    assert speed[t > 14.0].max() < 1e-2
+    assert np.ptp(r["chassis.x"][t > 14.0]) < 1e-3
+    assert np.abs(r["chassis.y"]).max() < 1e-3
+
+
+def test_kerb_drop(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
+    r, said = drive(car, "kerb_drop", tmp_path, 0.002)
+    for wheel in ("FL", "FR"):
+        load = r[f"wheel_{wheel}.Fz"]
+        assert load.max() == pytest.approx(KERB_FRONT_PEAK, rel=KERB_PEAK_SHARE)
+        assert 2.0 * np.count_nonzero(load < 1.0) == pytest.approx(KERB_FRONT_AIR, rel=KERB_AIR_SHARE)
+    assert r["chassis.z"][0] - r["chassis.z"][-1] == pytest.approx(0.08, abs=2e-3)
+    assert "failed steps               0 of 2000" in said
+
+
+def test_drop_comes_to_rest_on_four_wheels(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
+    r, _ = drive(car, "drop", tmp_path)
+    assert all(r[f"wheel_{w}.Fz"][1:10].max() == 0.0 for w in WHEELS)
+    first = r["time"] < 0.1
+    assert r["chassis.az"][first][1:].mean() < -0.8 * GRAVITY
+    for wheel in WHEELS:
+        load = FRONT_LOAD if wheel.startswith("F") else REAR_LOAD
+        assert r[f"wheel_{wheel}.Fz"][-1] == pytest.approx(load, rel=0.03)
+
+
+def test_step_steer(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
+    r, _ = drive(car, "step_steer", tmp_path)
+    late = r["time"] > 5.0
+    assert r["chassis.ay"][late].mean() == pytest.approx(4.0, abs=0.6)
+    assert r["chassis.wz"][late].mean() * r["speed"][late].mean() == pytest.approx(
+        r["chassis.ay"][late].mean(), rel=0.03
+    )
+    # The left side rises in a left turn, and the right wheels carry more.
+    assert r["chassis.roll"][late].min() > 0.0
+    assert r["wheel_FR.Fz"][late].min() > r["wheel_FL.Fz"][late].max()
+    assert np.abs(r["chassis.ay"][r["time"] < 1.0]).max() < 1e-3
+
+
+def test_slalom_is_the_same_to_both_sides(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
+    r, _ = drive(car, "slalom", tmp_path)
+    ay = r["chassis.ay"]
+    assert ay.max() > 3.0
+    assert ay.max() == pytest.approx(-ay.min(), rel=0.1)
+
+
+def test_steady_cornering(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
+    r, _ = drive(car, "steady_cornering", tmp_path)
+    late = r["time"] > 15.0
+    assert r["chassis.wz"][late] * r["speed"][late] == pytest.approx(r["chassis.ay"][late], rel=0.03)
+    load = sum(r[f"wheel_{w}.Fz"][late].mean() for w in WHEELS)
+    assert load == pytest.approx(597.0 * GRAVITY, rel=5e-3)
+
+
+def test_double_lane_change_is_passed(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
+    r, said = drive(car, "double_lane_change", tmp_path)
+    assert "ISO 3888-1                 passed" in said
+    assert r["speed"].min() > 18.5
+    assert np.abs(r["chassis.ay"]).max() > 4.0
+
+
+def test_fmu_is_the_engine_bit_for_bit(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
+    """The slalom with one inner step per communication step, against the engine stepped by hand."""
+    system, _ = car
+    h = float(system.meta["experiment"]["step_s"])
+    r, _ = drive(car, "slalom", tmp_path, h)
+    manoeuvre = load_manoeuvre("slalom")
+    simulation = mbs.Simulation(system, inputs=manoeuvre.at(0.0), pose=Pose(speed=15.0))
+    outputs = [s["name"] for s in system.meta["sensors"]]
+    for k in range(round(2.0 / h)):
+        for name, value in manoeuvre.at(k * h).items():
+            simulation.set_input(name, value)
+        simulation.step(h)
+        if k % 100 == 99:
+            assert [float(r[name][k + 1]) for name in outputs] == list(simulation.sensors.values())
