@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Affine:
 
     __rmul__ = __mul__
 
-    def value(self, q_full: np.ndarray) -> float:
+    def value(self, q_full: NDArray[np.float64]) -> float:
         """Value at full coordinates `q_full`."""
         return self.constant + sum(c * float(q_full[i]) for i, c in self.terms.items())
 
@@ -87,7 +87,7 @@ class AffineVector:
         """Product with a constant vector."""
         return sum_affine(a * float(c) for a, c in zip(self.components, np.asarray(constant, float), strict=True))
 
-    def value(self, q_full: np.ndarray) -> np.ndarray:
+    def value(self, q_full: NDArray[np.float64]) -> NDArray[np.float64]:
         """Value at full coordinates `q_full`, shape (2,) or (3,)."""
         return np.array([a.value(q_full) for a in self.components])
 

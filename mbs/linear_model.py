@@ -36,6 +36,7 @@ RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the larges
 STATE_TOLERANCE = (
     1e-3  # 1/s; slots with smaller slopes of their rates (gears, clocks) have no dynamics; above round-off
 )
+FREE = 1e-3  # 1/s; smaller eigenvalues are those of free motions, which are zero up to round-off
 OSCILLATION_TOLERANCE = 1e-9  # imaginary part over modulus of an eigenvalue below which it counts as real
 
 
@@ -62,7 +63,12 @@ class Mode:
     @property
     def damping_ratio(self) -> float:
         """``-Re(s) / |s|``: 0 undamped, 1 without oscillation, negative unstable; 0 for a free motion."""
-        return float(-self.eigenvalue.real / abs(self.eigenvalue)) if self.eigenvalue else 0.0
+        return 0.0 if self.is_free else float(-self.eigenvalue.real / abs(self.eigenvalue))
+
+    @property
+    def is_free(self) -> bool:
+        """A motion that nothing holds back: its eigenvalue is zero."""
+        return abs(self.eigenvalue) < FREE
 
 
 @dataclass(frozen=True)
@@ -96,7 +102,8 @@ class LinearModel:
 
     def oscillating_modes(self) -> tuple[Mode, ...]:
         """The modes with a complex eigenvalue."""
-        return tuple(m for m in self.modes if abs(m.eigenvalue.imag) > OSCILLATION_TOLERANCE * abs(m.eigenvalue))
+        held = (m for m in self.modes if not m.is_free)
+        return tuple(m for m in held if abs(m.eigenvalue.imag) > OSCILLATION_TOLERANCE * abs(m.eigenvalue))
 
     def __str__(self) -> str:
         lines = [f"{self.degrees_of_freedom} degrees of freedom, {len(self.slots)} element states"]

@@ -149,6 +149,15 @@ class TestTyre:
         assert model.slots == (1,)
 
 
+def test_a_free_motion_is_no_oscillation():
+    m = Model("free", dimension=2, gravity=(0.0, 0.0))
+    m.point_mass("body", mass=MASS, position=(0.0, 0.0))
+    model = linearise(Simulation(compile(m)))
+    assert model.degrees_of_freedom == 2
+    assert all(mode.is_free and mode.damping_ratio == 0.0 for mode in model.modes)
+    assert model.oscillating_modes() == ()
+
+
 def test_linearising_changes_nothing():
     simulation = Simulation(pendulum(damped=True))
     simulation.step(0.01, n=20)
