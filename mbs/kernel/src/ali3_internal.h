@@ -66,9 +66,11 @@ struct ali3_system {
   ali3_sizes size;
   int32_t nr;        /* roads */
   int32_t max_front; /* largest front */
-  int32_t max_el_coordinates;
   /* derived at load, in one block */
   void *derived;
+  int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q */
+  double *hess_val;
+  unsigned char *row_wide; /* 1: the row fills most of its front */
   ali3_term *quad;             /* as quad_* */
   ali3_angle_term *angle;      /* as angle_a */
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
@@ -118,7 +120,7 @@ struct ali3_instance {
   double *Q;                               /* nq */
   double *u, *ud;                          /* signals */
   double *S;                               /* signal tangents of all elements */
-  double *SB;                              /* one element: nsig x its coordinates, then its coordinates squared */
+  double *SB; /* one element: signals x coordinates */
   double *local;                           /* one front */
   double *shifted;                         /* nq */
   double *y_work, *out_work, *potential_work, *parameter_work;
@@ -157,10 +159,11 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
 
 /* constraints.c */
 void ali3_constraints(ali3_instance *in, const double *q, const double *s, double *Phi, double *J);
-void ali3_constraint_rates(ali3_instance *in, const double *q, const double *qd, const ali3_vectors *guides,
-                           double *Phit, double *gamma);
+void ali3_constraint_rate(ali3_instance *in, const double *q, const ali3_vectors *guides, double *Phit);
+void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd, const ali3_vectors *guides,
+                           double *gamma);
 void ali3_geometric(ali3_instance *in, const double *q, const double *s, const double *lam, double weight, double *F);
-void ali3_rows_square(const ali3_system *S, const double *J, double weight, double *F);
+void ali3_rows_square(ali3_instance *in, const double *J, double weight, double *F);
 void ali3_rows_times(const ali3_system *S, const double *J, const double *x, double *out);
 void ali3_rows_transposed(const ali3_system *S, const double *J, const double *w, double *out); /* out = J' w */
 
@@ -183,7 +186,7 @@ void ali3_solve(ali3_instance *in, const double *F, double *b);
 void ali3_mass_times(const ali3_system *S, const double *x, double *out);
 double ali3_penalty(const ali3_settings *s, double h);
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
-double ali3_project(ali3_instance *in, double factor, const double *b, double *v, int32_t sweeps);
+double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double tolerance, int32_t sweeps);
 bool ali3_finite(const double *v, int64_t n);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
 

@@ -41,19 +41,15 @@ void ali3_constraints(ali3_instance *in, const double *q, const double *s, doubl
   const ali3_system *S = in->system;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
-    double value = S->row_const[k];
+    double value = 0.0;
     for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
-      J[i] = S->row_lin[i];
-      value += S->row_lin[i] * q[S->row_col[i]];
+      const double lin = S->row_lin[i];
+      double sum = lin;
+      for (int32_t t = S->hess_ptr[i]; t < S->hess_ptr[i + 1]; t++) sum += S->hess_val[t] * q[S->hess_col[t]];
+      J[i] = sum;
+      value += (sum + lin) * q[S->row_col[i]];
     }
-    for (int32_t t = S->quad_ptr[k]; t < S->quad_ptr[k + 1]; t++) {
-      const ali3_term *x = &S->quad[t];
-      const double ha = x->h * q[x->a], hb = x->h * q[x->b];
-      value += ha * q[x->b];
-      J[x->ja] += hb;
-      J[x->jb] += ha;
-    }
-    Phi[k] = value;
+    Phi[k] = S->row_const[k] + 0.5 * value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
     const ali3_guide_term *g = &S->gterm[t];
@@ -80,26 +76,38 @@ void ali3_constraints(ali3_instance *in, const double *q, const double *s, doubl
   }
 }
 
-/* Phit = d Phi / dt, gamma = d(Phi_q)/dt qd + d(Phi_t)/dt, so that Phi'' = Phi_q qdd + gamma. */
-void ali3_constraint_rates(ali3_instance *in, const double *q, const double *qd, const ali3_vectors *guides,
-                           double *Phit, double *gamma) {
+/* Phit = d Phi / dt */
+void ali3_constraint_rate(ali3_instance *in, const double *q, const ali3_vectors *guides, double *Phit) {
+  const ali3_system *S = in->system;
+  memset(Phit, 0, (size_t)S->size.nc * sizeof *Phit);
+  if (S->n_gterm_row == 0) return;
+  q = near_origin(in, q);
+  for (int64_t t = 0; t < S->n_gterm_row; t++) {
+    const ali3_guide_term *g = &S->gterm[t];
+    const double qa = g->term.a < 0 ? 1.0 : q[g->term.a], qb = g->term.b < 0 ? 1.0 : q[g->term.b];
+    Phit[g->row] += guide_rate(g, guides) * qa * qb;
+  }
+}
+
+/* gamma = d(Phi_q)/dt qd + d(Phi_t)/dt, so that Phi'' = Phi_q qdd + gamma. */
+void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd, const ali3_vectors *guides,
+                           double *gamma) {
   const ali3_system *S = in->system;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
-    double sum = 0.0;
-    for (int32_t t = S->quad_ptr[k]; t < S->quad_ptr[k + 1]; t++) {
-      const ali3_term *x = &S->quad[t];
-      sum += x->h * qd[x->a] * qd[x->b];
+    double value = 0.0;
+    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
+      double sum = 0.0;
+      for (int32_t t = S->hess_ptr[i]; t < S->hess_ptr[i + 1]; t++) sum += S->hess_val[t] * qd[S->hess_col[t]];
+      value += sum * qd[S->row_col[i]];
     }
-    Phit[k] = 0.0;
-    gamma[k] = 2.0 * sum;
+    gamma[k] = value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
     const ali3_guide_term *g = &S->gterm[t];
     const double qa = g->term.a < 0 ? 1.0 : q[g->term.a], qb = g->term.b < 0 ? 1.0 : q[g->term.b];
     const double va = g->term.a < 0 ? 0.0 : qd[g->term.a], vb = g->term.b < 0 ? 0.0 : qd[g->term.b];
     const double w = guide_factor(g, guides->s), wd = guide_rate(g, guides), wdd = guide_second_rate(g, guides);
-    Phit[g->row] += wd * qa * qb;
     gamma[g->row] += wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
   }
   for (int64_t i = 0; i < S->n_angle_row; i++) {
@@ -153,11 +161,25 @@ void ali3_geometric(ali3_instance *in, const double *q, const double *s, const d
   }
 }
 
-/* F += weight * J' J, row by row into the front of the row. */
-void ali3_rows_square(const ali3_system *S, const double *J, double weight, double *F) {
+/* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are contiguous. */
+void ali3_rows_square(ali3_instance *in, const double *J, double weight, double *F) {
+  const ali3_system *S = in->system;
+  double *restrict spread = in->local;
   for (int32_t k = 0; k < S->size.nc; k++) {
     const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = S->row_ptr[k + 1];
     double *block = F + S->front_off[f];
+    if (S->row_wide[k]) {
+      const int32_t last = S->row_loc[end - 1] + 1;
+      for (int32_t i = S->row_loc[S->row_ptr[k]]; i < last; i++) spread[i] = 0.0;
+      for (int32_t i = S->row_ptr[k]; i < end; i++) spread[S->row_loc[i]] = J[i];
+      for (int32_t j = S->row_ptr[k]; j < end; j++) {
+        const int32_t from = S->row_loc[j];
+        double *restrict column = block + (int64_t)from * n;
+        const double factor = weight * J[j];
+        for (int32_t i = from; i < last; i++) column[i] += factor * spread[i];
+      }
+      continue;
+    }
     for (int32_t j = S->row_ptr[k]; j < end; j++) {
       double *column = block + (int64_t)S->row_loc[j] * n;
       const double factor = weight * J[j];

@@ -75,29 +75,29 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
 /* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a tangent. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
+  double *restrict SB = in->SB; /* a row per signal, a column per coordinate of the element */
   for (int32_t e = 0; e < S->size.ne; e++) {
     const int32_t front = S->el_front[e];
     if (front < 0) continue;
-    const int32_t n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e],
-                  m = S->el_coordinate_ptr[e + 1] - S->el_coordinate_ptr[e];
-    const double *tangent = in->S + S->el_S_off[e];
-    double *SB = in->SB, *K = in->SB + (int64_t)n * m; /* n rows of m, m rows of m */
-    memset(SB, 0, (size_t)(n * m + m * m) * sizeof(double));
+    const int32_t n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+    const int32_t m = S->el_coordinate_ptr[e + 1] - S->el_coordinate_ptr[e];
+    const int32_t *loc = S->el_coordinate_loc + S->el_coordinate_ptr[e];
+    const int32_t size = S->front_ptr[front + 1] - S->front_ptr[front];
+    double *block = F + S->front_off[front];
+    memset(SB, 0, (size_t)(n * m) * sizeof(double));
     for (int32_t k = S->el_entry_ptr[e]; k < S->el_entry_ptr[e + 1]; k++) {
-      const double *from = tangent + S->el_entry_signal[k] * n, value = S->el_entry_value[k];
-      double *to = SB + S->el_entry_local[k];
-      for (int32_t i = 0; i < n; i++) to[(int64_t)i * m] += from[i] * value;
+      const double *row = in->S + S->el_S_off[e] + S->el_entry_signal[k] * n, value = S->el_entry_value[k];
+      for (int32_t i = 0; i < n; i++) SB[i * m + S->el_entry_local[k]] += row[i] * value;
     }
     for (int32_t k = S->el_entry_ptr[e]; k < S->el_entry_ptr[e + 1]; k++) {
-      const double *from = SB + (int64_t)S->el_entry_signal[k] * m, value = S->el_entry_value[k];
-      double *to = K + (int64_t)S->el_entry_local[k] * m;
-      for (int32_t j = 0; j < m; j++) to[j] += value * from[j];
-    }
-    const int32_t *loc = S->el_coordinate_loc + S->el_coordinate_ptr[e],
-                  size = S->front_ptr[front + 1] - S->front_ptr[front];
-    for (int32_t j = 0; j < m; j++) {
-      double *column = F + S->front_off[front] + (int64_t)loc[j] * size;
-      for (int32_t i = j; i < m; i++) column[loc[i]] += K[(int64_t)j * m + i];
+      const double *row = SB + S->el_entry_signal[k] * m, value = S->el_entry_value[k];
+      const int32_t j = S->el_entry_local[k];
+      double *restrict column = block + (int64_t)loc[j] * size;
+      if (loc[m - 1] - loc[0] == m - 1) {
+        for (int32_t i = j; i < m; i++) column[loc[0] + i] += value * row[i];
+      } else {
+        for (int32_t i = j; i < m; i++) column[loc[i]] += value * row[i];
+      }
     }
   }
 }

@@ -4,24 +4,57 @@
 
 #include "ali3_internal.h"
 
-/* One pivot at a time: column j of the rest loses L_jp times the unscaled column p, so the inner loop is an axpy. */
-static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n) {
-  for (int32_t p = 0; p < n_pivot; p++) {
-    double *column = block + (int64_t)p * n;
-    const double d = column[p];
-    if (!(fabs(d) > 1e-14 * in->system->mass_floor[first + p]) || !(fabs(d) < 1e300)) {
-      in->report.worst_coordinate = first + p;
-      return d == d ? ALI3_SINGULAR : ALI3_NOT_FINITE;
-    }
+enum { PANEL = 4 };
+
+/* A pivot D must neither vanish beside the mass of its coordinate nor be infinite. */
+static ali3_status check_pivot(ali3_instance *in, int32_t coordinate, double d) {
+  if (fabs(d) > 1e-14 * in->system->mass_floor[coordinate] && fabs(d) < 1e300) {
     if (d < 0.0) in->report.negative_pivots++;
-    const double inverse = 1.0 / d;
-    for (int32_t j = p + 1; j < n; j++) {
-      const double factor = column[j] * inverse;
-      double *target = block + (int64_t)j * n;
-      for (int32_t i = j; i < n; i++) target[i] -= factor * column[i];
+    return ALI3_OK;
+  }
+  in->report.worst_coordinate = coordinate;
+  return d == d ? ALI3_SINGULAR : ALI3_NOT_FINITE;
+}
+
+static void subtract(double *restrict target, const double *restrict column, double factor, int32_t from, int32_t n) {
+  for (int32_t i = from; i < n; i++) target[i] -= factor * column[i];
+}
+
+/* Four pivots at once, so that a column is loaded and stored once for eight operations. */
+static void subtract_panel(double *restrict target, const double *restrict c, int32_t n, const double f[PANEL],
+                           int32_t from) {
+  const double *restrict c1 = c + n, *restrict c2 = c + 2 * (int64_t)n, *restrict c3 = c + 3 * (int64_t)n;
+  const double f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
+  for (int32_t i = from; i < n; i++) target[i] -= (f0 * c[i] + f1 * c1[i]) + (f2 * c2[i] + f3 * c3[i]);
+}
+
+/* Panels of pivots: first the columns of the panel among themselves, then column j of the rest loses L_jp times the unscaled
+ * column p, so that the inner loops run down columns. */
+static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n) {
+  for (int32_t start = 0; start < n_pivot; start += PANEL) {
+    const int32_t end = start + PANEL < n_pivot ? start + PANEL : n_pivot;
+    double *panel = block + (int64_t)start * n, inverse[PANEL], factor[PANEL];
+    for (int32_t p = start; p < end; p++) {
+      double *column = block + (int64_t)p * n;
+      for (int32_t k = start; k < p; k++)
+        subtract(column, block + (int64_t)k * n, block[(int64_t)k * n + p] * inverse[k - start], p, n);
+      const ali3_status status = check_pivot(in, first + p, column[p]);
+      if (status != ALI3_OK) return status;
+      inverse[p - start] = 1.0 / column[p];
     }
-    for (int32_t i = p + 1; i < n; i++) column[i] *= inverse;
-    column[p] = inverse;
+    for (int32_t j = end; j < n; j++) {
+      for (int32_t p = start; p < end; p++) factor[p - start] = block[(int64_t)p * n + j] * inverse[p - start];
+      if (end - start == PANEL)
+        subtract_panel(block + (int64_t)j * n, panel, n, factor, j);
+      else
+        for (int32_t p = start; p < end; p++)
+          subtract(block + (int64_t)j * n, block + (int64_t)p * n, factor[p - start], j, n);
+    }
+    for (int32_t p = start; p < end; p++) {
+      double *column = block + (int64_t)p * n;
+      for (int32_t i = p + 1; i < n; i++) column[i] *= inverse[p - start];
+      column[p] = inverse[p - start];
+    }
   }
   return ALI3_OK;
 }
@@ -48,40 +81,53 @@ ali3_status ali3_factorise(ali3_instance *in, double *F) {
   return ALI3_OK;
 }
 
+/* x becomes D^-1 L^-1 x in the pivots, reduced by them in the rest; two columns at a time. */
+static void forward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
+  int32_t p = 0;
+  for (; p + 1 < n_pivot; p += 2) {
+    const double *restrict a = block + (int64_t)p * n, *restrict b = a + n;
+    const double first = x[p], second = x[p + 1] - a[p + 1] * first;
+    x[p + 1] = second;
+    for (int32_t i = p + 2; i < n; i++) x[i] -= a[i] * first + b[i] * second;
+  }
+  if (p < n_pivot) {
+    const double *restrict a = block + (int64_t)p * n, first = x[p];
+    for (int32_t i = p + 1; i < n; i++) x[i] -= a[i] * first;
+  }
+  for (p = 0; p < n_pivot; p++) x[p] *= block[(int64_t)p * n + p];
+}
+
+/* Sum of column and x from `from` on, in two sums so that additions need not wait for each other. */
+static double product(const double *restrict column, const double *restrict x, int32_t from, int32_t n) {
+  double even = 0.0, odd = 0.0;
+  int32_t i = from;
+  for (; i + 1 < n; i += 2) {
+    even += column[i] * x[i];
+    odd += column[i + 1] * x[i + 1];
+  }
+  if (i < n) even += column[i] * x[i];
+  return even + odd;
+}
+
 /* b becomes the solution. */
 void ali3_solve(ali3_instance *in, const double *F, double *b) {
   const ali3_system *S = in->system;
   double *x = in->local;
   in->report.solves++;
   for (int32_t f = 0; f < S->size.nf; f++) {
-    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first,
-                  n = S->front_ptr[f + 1] - S->front_ptr[f];
+    const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
     const int32_t *idx = S->front_idx + S->front_ptr[f];
-    const double *block = F + S->front_off[f];
     for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
-    for (int32_t p = 0; p < n_pivot; p++) {
-      const double *column = block + (int64_t)p * n, value = x[p];
-      for (int32_t i = p + 1; i < n; i++) x[i] -= column[i] * value;
-    }
-    for (int32_t p = 0; p < n_pivot; p++) x[p] *= block[(int64_t)p * n + p];
+    forward(F + S->front_off[f], x, n_pivot, n);
     for (int32_t i = 0; i < n; i++) b[idx[i]] = x[i];
   }
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
-    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first,
-                  n = S->front_ptr[f + 1] - S->front_ptr[f];
-    const int32_t *idx = S->front_idx + S->front_ptr[f];
+    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
     const double *block = F + S->front_off[f];
     for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
     for (int32_t p = n_pivot - 1; p >= 0; p--) {
-      const double *column = block + (int64_t)p * n;
-      double even = x[p], odd = 0.0; /* two sums, so that additions need not wait for each other */
-      int32_t i = p + 1;
-      for (; i + 1 < n; i += 2) {
-        even -= column[i] * x[i];
-        odd -= column[i + 1] * x[i + 1];
-      }
-      if (i < n) even -= column[i] * x[i];
-      x[p] = even + odd;
+      x[p] -= product(block + (int64_t)p * n, x, p + 1, n);
       b[first + p] = x[p];
     }
   }

@@ -10,7 +10,7 @@ static const double CLOSED = 1e-12; /* violation that needs no work, m */
 static const double ASSEMBLED = 1e-9; /* violation accepted when nothing better can be had, m */
 static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
 static const double ROUND_OFF = 1e-13;
-enum { POSITION_ITERATIONS = 200, RATE_SWEEPS = 30, MULTIPLIER_ITERATIONS = 60 };
+enum { POSITION_ITERATIONS = 200, MULTIPLIER_ITERATIONS = 60 };
 
 /* F = M (+ what massless coordinates lack) + ALPHA Phi_q' Phi_q, factorised. */
 static ali3_status factorise_metric(ali3_instance *in, bool fill_massless) {
@@ -18,8 +18,7 @@ static ali3_status factorise_metric(ali3_instance *in, bool fill_massless) {
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
   if (fill_massless)
     for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
-  ali3_rows_square(S, in->J, ALPHA, in->F);
-  memcpy(in->J_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
+  ali3_rows_square(in, in->J, ALPHA, in->F);
   return ali3_factorise(in, in->F);
 }
 
@@ -58,42 +57,56 @@ static ali3_status close_position(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* M qdd + Phi_q' lam = Q, Phi_q qdd = -gamma, in corrections of qdd; the multipliers start from zero. */
-static ali3_status accelerations(ali3_instance *in) {
+/* M x + Phi_q' lam = Q, Phi_q x = -b, in corrections with the factorised metric; x and lam start from zero. */
+static ali3_status solve_index_one(ali3_instance *in, const double *Q, const double *b, double *x, double *lam) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  double *qdd = in->now.qdd, *lam = in->now.lam;
-  memset(qdd, 0, (size_t)nq * sizeof(double));
+  memset(x, 0, (size_t)nq * sizeof(double));
   memset(lam, 0, (size_t)nc * sizeof(double));
-  for (int iteration = 0;; iteration++) {
+  for (int iteration = 0; iteration < MULTIPLIER_ITERATIONS; iteration++) {
     double force = 0.0, force_scale = 0.0, violation = 0.0, violation_scale = 0.0;
-    ali3_mass_times(S, qdd, in->r);
+    ali3_mass_times(S, x, in->r);
     ali3_rows_transposed(S, in->J, lam, in->x);
-    ali3_rows_times(S, in->J, qdd, in->mu);
+    ali3_rows_times(S, in->J, x, in->mu);
     for (int32_t i = 0; i < nq; i++) {
-      in->r[i] -= in->Q[i];
-      const double balance = fabs(in->r[i] + in->x[i]) * S->mass_floor_inverse[i];
-      const double size = (fabs(in->r[i]) + fabs(in->x[i])) * S->mass_floor_inverse[i];
-      if (balance > force) force = balance;
-      if (size > force_scale) force_scale = size;
+      in->r[i] -= Q[i];
+      force = fmax(force, fabs(in->r[i] + in->x[i]) * S->mass_floor_inverse[i]);
+      force_scale = fmax(force_scale, (fabs(in->r[i]) + fabs(in->x[i])) * S->mass_floor_inverse[i]);
     }
     for (int32_t k = 0; k < nc; k++) {
-      const double size = fabs(in->mu[k]) + fabs(in->gamma[k]);
-      in->mu[k] += in->gamma[k];
-      if (fabs(in->mu[k]) > violation) violation = fabs(in->mu[k]);
-      if (size > violation_scale) violation_scale = size;
+      violation_scale = fmax(violation_scale, fabs(in->mu[k]) + fabs(b[k]));
+      in->mu[k] += b[k];
+      violation = fmax(violation, fabs(in->mu[k]));
+      in->mu[k] = lam[k] + ALPHA * in->mu[k];
     }
     if (force <= ROUND_OFF * force_scale && violation <= ROUND_OFF * violation_scale) break;
-    if (iteration == MULTIPLIER_ITERATIONS) break; /* as good as round-off allows */
-    for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->mu[k];
     ali3_rows_transposed(S, in->J, in->mu, in->x);
     for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
     ali3_solve(in, in->F, in->x);
     if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
-    for (int32_t i = 0; i < nq; i++) qdd[i] += in->x[i];
+    for (int32_t i = 0; i < nq; i++) x[i] += in->x[i];
     ali3_rows_times(S, in->J, in->x, in->Phi);
     for (int32_t k = 0; k < nc; k++) lam[k] = in->mu[k] + ALPHA * in->Phi[k];
   }
+  return ALI3_OK;
+}
+
+/* The velocity nearest to the one given in the mass metric: M dv + Phi_q' mu = 0, Phi_q (v + dv) + Phi_t = 0. */
+static ali3_status close_velocity(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  ali3_vectors *v = &in->now;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  ali3_constraint_rate(in, v->q, v, in->Phit);
+  ali3_rows_times(S, in->J, v->qd, in->gamma);
+  for (int32_t k = 0; k < nc; k++) in->gamma[k] += in->Phit[k];
+  memset(in->D, 0, (size_t)nq * sizeof(double));
+  const ali3_status status = solve_index_one(in, in->D, in->gamma, in->w, in->lam);
+  if (status != ALI3_OK) return status;
+  for (int32_t i = 0; i < nq; i++) v->qd[i] += in->w[i];
+  ali3_rows_times(S, in->J, v->qd, in->gamma);
+  for (int32_t k = 0; k < nc; k++) in->gamma[k] += in->Phit[k];
+  int32_t worst = 0;
+  in->report.velocity_violation = ali3_violation(S, in->gamma, &worst);
   return ALI3_OK;
 }
 
@@ -102,21 +115,16 @@ ali3_status ali3_solve_rates(ali3_instance *in) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  ali3_status status = factorise_metric(in, true);
+  ali3_status status = factorise_metric(in, false);
+  if (status == ALI3_OK) status = close_velocity(in);
   if (status != ALI3_OK) return status;
-  ali3_constraint_rates(in, v->q, v->qd, v, in->Phit, in->gamma);
-  in->report.velocity_violation = ali3_project(in, ALPHA, in->Phit, v->qd, RATE_SWEEPS);
-  ali3_constraint_rates(in, v->q, v->qd, v, in->Phit, in->gamma);
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
   const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
   memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
   ali3_forces(in, &call);
-  ali3_forces_accept(in, &call); /* discrete states, such as a gear, that fit the start */
-  memcpy(v->y, in->y_work, (size_t)S->size.ny * sizeof(double));
-  ali3_forces(in, &call);
-  status = factorise_metric(in, false);
-  if (status == ALI3_OK) status = accelerations(in);
-  if (status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector)) status = ALI3_NOT_FINITE;
-  return status;
+  if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
+  status = solve_index_one(in, in->Q, in->gamma, v->qdd, v->lam);
+  return status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector) ? ALI3_NOT_FINITE : status;
 }
 
 ali3_status ali3_solve_initial(ali3_instance *in, double t) {

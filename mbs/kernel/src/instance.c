@@ -50,9 +50,9 @@ void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vec
 static size_t signal_work(const ali3_system *s) {
   size_t largest = 0;
   for (int32_t e = 0; e < s->size.ne; e++) {
-    const size_t n = (size_t)(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e]),
-                 m = (size_t)(s->el_coordinate_ptr[e + 1] - s->el_coordinate_ptr[e]);
-    if (n * m + m * m > largest) largest = n * m + m * m;
+    const size_t n = (size_t)(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e]);
+    const size_t m = (size_t)(s->el_coordinate_ptr[e + 1] - s->el_coordinate_ptr[e]);
+    if (n * m > largest) largest = n * m;
   }
   return largest;
 }

@@ -30,7 +30,8 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   copy(work->sdd, in->now.sdd, z->ng);
   ali3_guides_time(in, work, t);
   ali3_constraints(in, q, work->s, in->Phi, in->J);
-  ali3_constraint_rates(in, q, qd, work, in->Phit, in->gamma);
+  ali3_constraint_rate(in, q, work, in->Phit);
+  ali3_constraint_gamma(in, q, qd, work, in->gamma);
   const ali3_force_call call = {q,          qd,           y != NULL ? y : in->now.y, 0.0, 0.0, 0.0, false, in->Q,
                                 in->y_work, in->out_work, in->potential_work};
   ali3_forces(in, &call);
@@ -55,7 +56,7 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
   ali3_forces(in, &call);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  ali3_rows_square(S, in->J, c * ali3_penalty(&in->settings, h), in->F);
+  ali3_rows_square(in, in->J, c * ali3_penalty(&in->settings, h), in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
   ali3_forces_tangent(in, in->F);
   memset(dense, 0, (size_t)nq * (size_t)nq * sizeof(double));

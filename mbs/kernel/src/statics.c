@@ -27,7 +27,7 @@ static double balance(ali3_instance *in, double c) {
   for (int32_t i = 0; i < S->size.nq; i++) {
     scale = fmax(scale, fabs(in->Q[i]));
     in->r[i] = in->d0[i] * (in->r[i] - in->Q[i]);
-    if (!(fabs(in->r[i]) <= largest)) {
+    if (!(fabs(in->r[i]) <= largest) && largest == largest) { /* a NaN stays */
       largest = fabs(in->r[i]);
       in->report.worst_coordinate = i;
     }
@@ -42,7 +42,7 @@ static ali3_status factorise(ali3_instance *in, double c) {
   const ali3_system *S = in->system;
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
   for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
-  ali3_rows_square(S, in->J, PENALTY, in->F);
+  ali3_rows_square(in, in->J, PENALTY, in->F);
   ali3_geometric(in, in->next.q, in->next.s, in->next.lam, c, in->F);
   ali3_forces_tangent(in, in->F);
   for (int32_t i = 0; i < S->size.nq; i++) {

@@ -5,7 +5,8 @@
 #include "ali3_internal.h"
 
 enum { MAX_SWEEPS = 3 };
-static const double ROUND_OFF = 1e-13; /* relative violation at which a projection ends */
+/* Relative violations at which projections end: velocities at round-off; accelerations only steer the next prediction. */
+static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
 
 bool ali3_finite(const double *v, int64_t n) {
   double sum = 0.0; /* x - x is 0 for finite x, NaN else */
@@ -28,7 +29,7 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   double largest = 0.0;
   for (int32_t k = 0; k < S->size.nc; k++) {
     const double v = fabs(Phi[k]) * S->row_measure[k];
-    if (!(v <= largest)) {
+    if (!(v <= largest) && largest == largest) { /* a NaN stays */
       largest = v;
       *worst = k;
     }
@@ -39,7 +40,7 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q' that spreads
  * the correction is that of the tangent: the penalty would amplify what a later one has outside its range. The violation is judged
  * at the converged position. Returns it. */
-double ali3_project(ali3_instance *in, double factor, const double *b, double *v, int32_t sweeps) {
+double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double tolerance, int32_t sweeps) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   for (int32_t sweep = 0;; sweep++) {
@@ -52,7 +53,7 @@ double ali3_project(ali3_instance *in, double factor, const double *b, double *v
     }
     for (int32_t i = 0; i < nq; i++)
       if (fabs(v[i]) > scale) scale = fabs(v[i]);
-    if (sweep == sweeps || violation <= ROUND_OFF * scale) return violation;
+    if (sweep == sweeps || violation <= tolerance * scale) return violation;
     for (int32_t k = 0; k < nc; k++) in->mu[k] *= factor;
     ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
     ali3_solve(in, in->F, in->x);
@@ -86,7 +87,7 @@ static bool judge(ali3_instance *in, double h) {
   ali3_rows_transposed(S, in->J, in->next.lam, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
     const double size = fabs(in->r[i] + c * in->x[i]) * S->mass_floor_inverse[i];
-    if (!(size <= largest)) {
+    if (!(size <= largest) && largest == largest) { /* a NaN stays */
       largest = size;
       in->report.worst_coordinate = i;
     }
@@ -103,7 +104,7 @@ static ali3_status correct(ali3_instance *in, double h, double alpha) {
   const double c = 0.25 * h * h;
   double *lam = in->next.lam;
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  ali3_rows_square(S, in->J, c * alpha, in->F);
+  ali3_rows_square(in, in->J, c * alpha, in->F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, lam, c, in->F);
   ali3_forces_tangent(in, in->F);
   const ali3_status status = ali3_factorise(in, in->F);
@@ -162,13 +163,13 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;
   const ali3_force_call call = {to->q, to->qd, from->y, h, 0.5 * h, c, false, in->Q, to->y, to->out, to->potential};
   ali3_forces_accept(in, &call);
-  ali3_constraint_rates(in, to->q, to->qd, to, in->Phit, in->gamma);
+  ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, MAX_SWEEPS);
-    ali3_constraint_rates(in, to->q, to->qd, to, in->Phit, in->gamma);
-    ali3_project(in, c * alpha, in->gamma, to->qdd, MAX_SWEEPS);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, VELOCITY_TOLERANCE, MAX_SWEEPS);
+    ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
+    ali3_project(in, c * alpha, in->gamma, to->qdd, ACCELERATION_TOLERANCE, MAX_SWEEPS);
   } else {
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, 0);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, 0.0, 0);
   }
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
   const ali3_vectors swap = in->now;

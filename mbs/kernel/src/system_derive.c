@@ -20,6 +20,10 @@ static void *take(ali3_pool *pool, size_t count, size_t item) {
 
 static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne, na = (size_t)s->n_angle_row;
+  s->hess_ptr = take(p, (size_t)s->n_row_col + 1, sizeof(int32_t));
+  s->hess_col = take(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
+  s->hess_val = take(p, 2 * (size_t)s->n_quad_a, sizeof(double));
+  s->row_wide = take(p, (size_t)s->size.nc, 1);
   s->quad = take(p, (size_t)s->n_quad_a, sizeof *s->quad);
   s->angle = take(p, (size_t)s->n_angle_a, sizeof *s->angle);
   s->angle_theta_col = take(p, na, sizeof(int32_t));
@@ -94,6 +98,32 @@ static void derive_rows(ali3_system *s) {
   }
 }
 
+/* The products of the rows once more, sorted by the entry of Phi_q they add to. */
+static void derive_hessian(ali3_system *s) {
+  memset(s->hess_ptr, 0, ((size_t)s->n_row_col + 1) * sizeof(int32_t));
+  for (int64_t t = 0; t < s->n_quad_a; t++) {
+    s->hess_ptr[s->quad[t].ja + 1]++;
+    if (s->quad[t].a != s->quad[t].b) s->hess_ptr[s->quad[t].jb + 1]++;
+  }
+  for (int64_t i = 0; i < s->n_row_col; i++) s->hess_ptr[i + 1] += s->hess_ptr[i];
+  for (int64_t t = 0; t < s->n_quad_a; t++) { /* hess_ptr[i] moves to the end of entry i, the start of i + 1 */
+    const ali3_term x = s->quad[t];
+    const int32_t at = s->hess_ptr[x.ja]++;
+    s->hess_col[at] = x.b;
+    s->hess_val[at] = x.a == x.b ? 2.0 * x.h : x.h;
+    if (x.a == x.b) continue;
+    const int32_t mirror = s->hess_ptr[x.jb]++;
+    s->hess_col[mirror] = x.a;
+    s->hess_val[mirror] = x.h;
+  }
+  for (int64_t i = s->n_row_col; i > 0; i--) s->hess_ptr[i] = s->hess_ptr[i - 1];
+  s->hess_ptr[0] = 0;
+  for (int32_t k = 0; k < s->size.nc; k++) {
+    const int32_t f = s->row_front[k], n = s->front_ptr[f + 1] - s->front_ptr[f];
+    s->row_wide[k] = 2 * (s->row_ptr[k + 1] - s->row_ptr[k]) > n && n > 8;
+  }
+}
+
 static void derive_mass(ali3_system *s) {
   const int32_t nq = s->size.nq;
   double sum = 0.0;
@@ -148,7 +178,6 @@ static void derive_element(ali3_system *s, int32_t e) {
   }
   s->el_entry_ptr[e + 1] = first + n;
   s->el_coordinate_ptr[e + 1] = start + unique;
-  if (unique > s->max_el_coordinates) s->max_el_coordinates = unique;
 }
 
 static void derive_elements(ali3_system *s) {
@@ -185,6 +214,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   pool.used = 0;
   place(s, &pool, (size_t)n_entry);
   derive_rows(s);
+  derive_hessian(s);
   derive_mass(s);
   derive_elements(s);
   s->shift_x = s->shift_y = s->shift_z = -1;
