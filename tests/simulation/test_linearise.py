@@ -62,8 +62,8 @@ def test_mode_shapes_are_those_of_the_two_masses():
     k = 500.0
     model = linearise(Simulation(two_masses((k, k), (0.0, 0.0))))
     golden = (1 + np.sqrt(5)) / 2
-    along = [model.coordinates.index(name) for name in model.coordinates if name.endswith("rx")]
-    assert len(along) == 2
+    along = np.flatnonzero(np.abs(model.basis).max(axis=1) > 1e-9)
+    assert len(along) == 2  # one coordinate of each mass moves
     slow, fast = (np.abs(mode.shape[along]) for mode in model.oscillating_modes())
     np.testing.assert_allclose(sorted(slow), [1 / golden, 1.0], rtol=RELATIVE)
     np.testing.assert_allclose(sorted(fast), [1 / golden, 1.0], rtol=RELATIVE)
@@ -81,7 +81,7 @@ def test_a_moving_state_is_varied_with_its_velocity_on_the_constraint():
     m.initial_velocity(bob, linear=(0.0, rate * radius, 0.0))
     simulation = Simulation(compile(m))
     model = linearise(simulation)
-    order = [model.coordinates.index(f"bob.r{axis}") for axis in "xyz"]
+    order = [next(i for i, name in enumerate(model.coordinates) if name.endswith(axis)) for axis in "xyz"]
     r, v = simulation.state.q[order], simulation.state.qd[order]
     V, n = model.basis[order], model.degrees_of_freedom
     assert n == 2
