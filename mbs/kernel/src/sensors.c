@@ -105,7 +105,7 @@ static double norm(const ali3_instance *in, const int32_t *v) {
 }
 
 static double direction(const ali3_instance *in, const int32_t *v) {
-  static const double SLOWEST = 1e-3; /* m/s */
+  static const double SLOWEST = 0.1; /* m/s */
   const double along = component(in, v + 1, v + 4, v[0]), across = component(in, v + 1, v + 7, v[0]);
   return v[0] == 1 && along * along + across * across < SLOWEST * SLOWEST ? 0.0 : atan2(across, along);
 }

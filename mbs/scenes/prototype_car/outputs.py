@@ -41,7 +41,7 @@ def chassis_outputs(m: Model, chassis: Body) -> None:
         reference,
         chassis.vector(FORWARD),
         chassis.vector(LEFT),
-        description="direction of travel from the heading, positive to the left; 0 below 1 mm/s",
+        description="direction of travel from the heading, positive to the left; 0 below 0.1 m/s",
     )
     for corner, point in ACCELEROMETERS.items():
         for c in "xyz":
