@@ -1,4 +1,4 @@
-"""The double four-bar (paper, section 3.1): ten singular positions in 10 s, against its exact reduction to one angle."""
+"""The double four-bar (paper, section 3.1): ten singular positions in 10 s, against its exact reduction."""
 
 from __future__ import annotations
 
@@ -111,11 +111,7 @@ def test_a_tight_tolerance_is_what_singular_passages_need_at_small_steps():
 def test_without_projections_the_velocities_run_away(windows):
     system, h = compile(double_four_bar.build(windows)), 0.01
     projected = simulate(system, END, h)
-    try:
-        bare = simulate(system, END, h, settings=Settings(project=False))
-    except SimulationError as error:
-        assert error.trajectory is not None
-        bare = error.trajectory
+    bare = simulate(system, END, h, settings=Settings(project=False))
     assert energy_deviation(projected) < 0.1
     assert energy_deviation(bare) > 1e3
     assert projected.report.velocity_violation < 1e-10
@@ -157,20 +153,19 @@ def test_a_thousand_windows_take_the_iterations_of_two():
 
 
 def test_a_step_that_is_refused_keeps_the_state_and_the_run_can_go_on():
-    """One iteration is not enough through the first crossing."""
-    simulation = Simulation(
-        compile(double_four_bar.build()), settings=Settings(max_iterations=1, max_halvings=0, tolerance_phi=1e-12)
-    )
-    accepted = simulation.save()
+    """Two iterations are not enough for a long step."""
+    simulation = Simulation(compile(double_four_bar.build()))
+    simulation.step(0.01, n=50)
+    accepted, time = simulation.save(), simulation.time
+    simulation.instance.set_settings(max_iterations=2, max_halvings=0)
     with pytest.raises(SimulationError, match="did not converge") as refusal:
-        for _ in range(1000):
-            accepted, time = simulation.save(), simulation.time
-            simulation.step(0.01)
+        simulation.step(0.5)
     assert refusal.value.time == time == simulation.time
-    fresh = Simulation(simulation.system, settings=simulation.settings)
-    fresh.restore(accepted)
-    for part, other in zip(vars(simulation.state).values(), vars(fresh.state).values(), strict=True):
-        assert np.array_equal(part, other)
     simulation.instance.set_settings(max_iterations=20)
     simulation.step(0.01, n=10)
+    other = Simulation(simulation.system)
+    other.restore(accepted)
+    other.step(0.01, n=10)
+    for part, expected in zip(vars(simulation.state).values(), vars(other.state).values(), strict=True):
+        assert np.array_equal(part, expected)
     assert simulation.time == pytest.approx(time + 0.1)

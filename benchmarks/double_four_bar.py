@@ -1,0 +1,265 @@
+"""The N-four-bar: ``python -m benchmarks.double_four_bar [--json FILE] [--chart FILE] [--quick]``.
+
+Ten seconds through ten singular positions, against the exact reduction to one angle; the paper's Table 1 beside it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+import mbs
+from benchmarks.common import describe, machine, median_wall, print_table, write_json
+from mbs.scenes import double_four_bar
+from mbs.scenes.double_four_bar import GRAVITY, START_SPEED
+
+END = 10.0  # s
+REPEATS = 15
+LONG = 0.2  # s of wall time beyond which three repeats must do
+PAPER = {0.01: (0.21, 0.86), 0.03: (0.83, 0.37), 0.05: (9.03, 0.26)}  # s: (J, s), Table 1
+METHODS = {
+    "ALi3-P": mbs.Settings(),
+    "ALi3-P, tolerance 1e-12": mbs.Settings(tolerance_r=1e-12, tolerance_phi=1e-12),
+    # the residual that the paper's update (16) reaches in double precision
+    "ALi3-P, paper's update": mbs.Settings(update="paper", tolerance_r=1e-7),
+    "ALi3 without projections": mbs.Settings(project=False),
+}
+WINDOWS = (1, 2, 40, 200, 1000)
+STEPS = (0.1, 0.05, 0.03, 0.01, 0.005, 0.002, 0.001)
+FEW_STEPS = (0.05, 0.01, 0.002)  # for the long chains
+TABLE = {
+    "method": "",
+    "N": "d",
+    "h_s": "g",
+    "energy_deviation_J": ".3g",
+    "position_error_m": ".2e",
+    "iterations_mean": ".2f",
+    "iterations_max": "d",
+    "us_per_step": ".2f",
+    "wall_s": ".2e",
+    "realtime_factor": ".0f",
+    "failed_at_s": ".3f",
+}
+
+
+def exact(windows: int, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Position of B0, shape (n, 2), m: the cranks stay parallel, [(N+1)/3 + N] theta'' = [(N+1)/2 + N] g sin(theta)."""
+    factor = ((windows + 1) / 2 + windows) / ((windows + 1) / 3 + windows) * GRAVITY
+    solution = solve_ivp(
+        lambda _, x: [x[1], factor * np.sin(x[0])],
+        (0.0, t[-1]),
+        [0.0, START_SPEED],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        t_eval=t,
+    )
+    return np.column_stack([np.sin(solution.y[0]), np.cos(solution.y[0])])
+
+
+def measure(system: mbs.System, windows: int, method: str, h: float, compile_s: float) -> dict[str, Any]:
+    """One row: accuracy from a recorded run, time from runs that record only the end.
+
+    Parameters
+    ----------
+    system : mbs.System
+    windows : int
+    method : str
+        One of `METHODS`.
+    h : float
+        s.
+    compile_s : float
+        What compile() took, s.
+    """
+    settings, failed = METHODS[method], None
+    try:
+        run = mbs.simulate(system, END, h, settings=settings, progress=False)
+    except mbs.SimulationError as error:
+        failed = error.time
+    row = {
+        "method": method,
+        "N": windows,
+        "h_s": h,
+        "energy_deviation_J": None,
+        "position_error_m": None,
+        "iterations_mean": None,
+        "iterations_max": None,
+        "us_per_step": None,
+        "wall_s": None,
+        "realtime_factor": None,
+        "failed_at_s": failed,
+        "compile_s": compile_s,
+        "coordinates": system.nq,
+        "rows": system.nc,
+        "factor_nonzeros": system.report["factor_nonzeros"],
+    }
+    if failed is not None or run.report is None:
+        return row
+    energy = run["energy.total"]
+    place = np.column_stack([run["B0.position.x"], run["B0.position.y"]])
+    steps = len(run.t) - 1
+
+    def again() -> float:
+        return mbs.simulate(system, END, h, settings=settings, every=steps, progress=False).wall_s
+
+    wall = median_wall(again, repeats=REPEATS if run.wall_s < LONG else 3)
+    return row | {
+        "energy_deviation_J": float(np.abs(energy - energy[0]).max()),
+        "position_error_m": float(np.linalg.norm(place - exact(windows, run.t), axis=1).max()),
+        "iterations_mean": run.report.mean_iterations,
+        "iterations_max": run.report.max_iterations,
+        "us_per_step": 1e6 * wall / steps,
+        "wall_s": wall,
+        "realtime_factor": END / wall,
+        "halvings": run.report.halvings,
+    }
+
+
+def measure_all(windows: Sequence[int]) -> list[dict[str, Any]]:
+    """All rows, in the order of the table."""
+    rows = []
+    for n in windows:
+        begin = time.perf_counter()
+        system = mbs.compile(double_four_bar.build(n))
+        compile_s = time.perf_counter() - begin
+        print(f"N = {n}: {system.nq} coordinates, {system.nc} rows, compiled in {compile_s:.2f} s", flush=True)
+        methods = METHODS if n <= 2 else [m for m in METHODS if METHODS[m].project]
+        for method in methods:
+            steps = STEPS if n <= 40 else FEW_STEPS
+            rows += [measure(system, n, method, h, compile_s) for h in steps]
+    return rows
+
+
+def compare_with_paper(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The paper's Table 1 beside the rows of N = 2."""
+    found = {r["h_s"]: r for r in rows if r["N"] == 2 and r["method"] == "ALi3-P"}
+    lines = []
+    for h, (energy, wall) in PAPER.items():
+        if h in found:
+            r = found[h]
+            lines.append(
+                {
+                    "h_s": h,
+                    "paper_energy_J": energy,
+                    "energy_J": r["energy_deviation_J"],
+                    "energy_ratio": energy / r["energy_deviation_J"],
+                    "paper_wall_s": wall,
+                    "wall_s": r["wall_s"],
+                    "wall_ratio": wall / r["wall_s"],
+                }
+            )
+    return lines
+
+
+def cost_of_accuracy(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Ratios within this run, N = 2: what the tight tolerance and the paper's update cost against the default."""
+    base = {r["h_s"]: r for r in rows if r["N"] == 2 and r["method"] == "ALi3-P"}
+    lines = []
+    for r in rows:
+        if (
+            r["N"] == 2
+            and r["wall_s"]
+            and r["method"] != "ALi3-P"
+            and METHODS[r["method"]].project
+            and r["h_s"] in base
+        ):
+            b = base[r["h_s"]]
+            lines.append(
+                {
+                    "method": r["method"],
+                    "h_s": r["h_s"],
+                    "wall / ALi3-P": r["wall_s"] / b["wall_s"],
+                    "iterations / ALi3-P": r["iterations_mean"] / b["iterations_mean"],
+                    "error / ALi3-P": r["position_error_m"] / b["position_error_m"],
+                }
+            )
+    return lines
+
+
+def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
+    """Position error against wall time, log-log; colours of Okabe and Ito, a marker per method, a panel per N."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    look = dict(zip(METHODS, (("#0072B2", "o"), ("#009E73", "s"), ("#E69F00", "^"), ("#D55E00", "x")), strict=True))
+    processor = machine()["processor"]
+    windows = [n for n in (2, 40) if any(r["N"] == n for r in rows)]
+    figure, axes = plt.subplots(
+        1, len(windows), figsize=(4.6 * len(windows), 4.4), sharey=True, squeeze=False, layout="constrained"
+    )
+    for ax, n in zip(axes[0], windows, strict=True):
+        for method, (colour, marker) in look.items():
+            part = [
+                r for r in rows if r["N"] == n and r["method"] == method and r["wall_s"] and METHODS[method].project
+            ]
+            if not part:
+                continue
+            x, y = ([r[key] for r in part] for key in ("wall_s", "position_error_m"))
+            ax.loglog(x, y, marker=marker, color=colour, label=method, linewidth=1.6, markersize=6, fillstyle="none")
+            if method == "ALi3-P":
+                for r in part:
+                    ax.annotate(
+                        f"{1e3 * r['h_s']:g} ms",
+                        (r["wall_s"], r["position_error_m"]),
+                        xytext=(-7, -4),
+                        textcoords="offset points",
+                        ha="right",
+                        va="top",
+                        fontsize=8,
+                    )
+        ax.set_title(f"N = {n}: {2 * n + 1} links, 10 s, ten singular positions", fontsize=10)
+        ax.set_xlabel(f"wall time, s ({processor})")
+        ax.grid(True, which="major", alpha=0.35)
+        ax.margins(x=0.16)
+    axes[0, 0].set_ylabel("largest position error of B0, m")
+    axes[0, 0].legend(fontsize=8, loc="lower left")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(file, dpi=110, metadata={"Software": None})
+    plt.close(figure)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.double_four_bar", description=__doc__)
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
+    parser.add_argument("--chart", type=Path, metavar="FILE", help="draw error against wall time (PNG)")
+    parser.add_argument("--quick", action="store_true", help="N = 1 and 2 only")
+    options = parser.parse_args(arguments)
+    rows = measure_all(WINDOWS[:2] if options.quick else WINDOWS)
+    meta = describe(
+        "double four-bar",
+        METHODS["ALi3-P"],
+        end_s=END,
+        repeats=REPEATS,
+        wall="median of the repeats, time in the kernel's step loop, one warm-up",
+        methods={name: settings.kernel_fields() for name, settings in METHODS.items()},
+        paper_table_1=[{"h_s": h, "energy_deviation_J": e, "wall_s": w} for h, (e, w) in PAPER.items()],
+    )
+    print(f"\n{meta['machine']['processor']}, {meta['machine']['cores']} cores, {meta['machine']['system']}\n")
+    print_table(rows, TABLE)
+    print("\nThe paper's Table 1 (Matlab, its own machine) beside this run, N = 2; ratio = paper / here")
+    print_table(compare_with_paper(rows), dict.fromkeys(compare_with_paper(rows)[0], ".3g"))
+    print("\nRatios within this run, N = 2")
+    ratios = cost_of_accuracy(rows)
+    print_table(ratios, dict.fromkeys(ratios[0], ".3g"))
+    if options.json is not None:
+        write_json(options.json, meta, rows)
+        print(f"written: {options.json}")
+    if options.chart is not None:
+        draw(rows, options.chart)
+        print(f"written: {options.chart}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
