@@ -1,0 +1,254 @@
+"""Accuracy and speed of the prototype car: ``python -m benchmarks.car [--json FILE] [--no-fmu] [--chart FILE]``.
+
+Per manoeuvre and step, against the stored reference (see `benchmarks.car_references`):
+
+- `path_error_m`: largest distance between the car's reference point and its place in the reference at the same time;
+  `path_error_rel`: that over the length of the reference's path.
+- `wheel_load_error_rel`: largest error of a wheel load over the largest wheel load of the manoeuvre.
+- `us_per_step`, `realtime_factor`: median wall time of the kernel. The `_fmpy` ones go through the FMU: FMPy sets the
+  inputs, makes a communication step of the same length and gets four outputs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import astuple
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks import car_manoeuvres, car_references
+from benchmarks.common import describe, median_wall, print_table, write_json
+from mbs import Settings, Trajectory
+from mbs.input_signals import InputSignals
+from mbs.kernel.binding import Instance, LoadedSystem
+
+STEPS = (0.01, 0.005, 0.002, 0.001)  # s
+PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
+AIM = 50.0  # times real time
+OUTPUTS = (*car_references.POSITION, "speed")
+COLUMNS = {
+    "manoeuvre": "",
+    "h_s": ".3f",
+    "path_error_m": ".2e",
+    "path_error_rel": ".1e",
+    "wheel_load_error_rel": ".1e",
+    "iterations_mean": ".2f",
+    "iterations_max": ".0f",
+    "halvings": ".0f",
+    "us_per_step": ".1f",
+    "realtime_factor": ".0f",
+    "us_per_step_fmpy": ".1f",
+    "realtime_factor_fmpy": ".0f",
+}
+
+
+def wall_of_kernel(name: str, h: float, repeats: int) -> float:
+    """Median wall time of all steps of a manoeuvre, s; start and input table are made before."""
+    manoeuvre = car_manoeuvres.load(name)
+    parameters, pose = car_manoeuvres.start_of(manoeuvre)
+    system = car_manoeuvres.system_of(name)
+    meta = system.meta
+    names = [p["name"] for p in meta["parameters"]]
+    steps = round(manoeuvre.stop_time / h)
+    signals = InputSignals({k: (manoeuvre.time, v) for k, v in manoeuvre.inputs.items()}, meta["inputs"])
+    table = np.zeros((steps, len(meta["inputs"])))
+    table[:, signals.columns()] = signals.at(h * np.arange(1, steps + 1), 1e-6 * h)
+    loaded = LoadedSystem(system.to_bytes())
+    values = np.empty((1, len(meta["sensors"])))
+
+    def once() -> float:
+        instance = Instance(loaded)
+        instance.set_settings(**Settings().kernel_fields())
+        for parameter, value in parameters.items():
+            instance.set_parameter(names.index(parameter), value)
+        for i, column in enumerate(signals.columns()):
+            instance.set_input(column, float(signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0, i]))
+        if pose is not None:
+            instance.set_pose(*astuple(pose))
+        instance.initialise(0.0)
+        begin = time.perf_counter()
+        instance.run(h, steps, table, steps, values)
+        return time.perf_counter() - begin
+
+    return median_wall(once, repeats)
+
+
+def wall_of_fmu(file: Path, name: str, h: float, repeats: int) -> float:
+    """Median wall time of the communication loop of a manoeuvre through FMPy, s."""
+    from hosts.fmu import Fmu
+
+    manoeuvre = car_manoeuvres.load(name)
+    steps = round(manoeuvre.stop_time / h)
+    rows = [list(manoeuvre.at(k * h).values()) for k in range(steps)]
+
+    def once() -> float:
+        with Fmu(file) as fmu:
+            inputs, outputs = fmu.references(manoeuvre.inputs), fmu.references(OUTPUTS)
+            fmu.initialise(manoeuvre.start | manoeuvre.at(0.0) | {"step_size": h})
+            begin = time.perf_counter()
+            for k, row in enumerate(rows):
+                fmu.set(inputs, row)
+                fmu.step(k * h, h)
+                fmu.get(outputs)
+            return time.perf_counter() - begin
+
+    return median_wall(once, repeats)
+
+
+def measure(name: str, h: float, fmu: Path | None, repeats: int) -> dict[str, Any]:
+    """One row: a manoeuvre with one step."""
+    t, values, length = car_references.read(name)
+    found: Trajectory = car_manoeuvres.run(name, h, every=round(car_manoeuvres.sampling(name) / h))
+    report = found.report
+    assert report is not None
+    if len(found.t) != len(t) or not np.allclose(found.t, t, rtol=0.0, atol=1e-6):
+        raise ValueError(
+            f"The reference of {name} is of another duration; run python -m benchmarks.car_references {name}."
+        )
+    error = car_references.path_error(found, values)
+    duration = float(found.t[-1])
+    wall = wall_of_kernel(name, h, repeats)
+    row: dict[str, Any] = {
+        "manoeuvre": name,
+        "h_s": h,
+        "path_error_m": error,
+        "path_error_rel": error / length,
+        "wheel_load_error_rel": car_references.load_error(found, values),
+        "iterations_mean": report.mean_iterations,
+        "iterations_max": report.max_iterations,
+        "halvings": report.halvings,
+        "us_per_step": 1e6 * wall * h / duration,
+        "realtime_factor": duration / wall,
+        "us_per_step_fmpy": None,
+        "realtime_factor_fmpy": None,
+    }
+    if fmu is not None and name not in car_manoeuvres.OTHER_ROAD:
+        wall = wall_of_fmu(fmu, name, h, max(1, repeats // 2))
+        row |= {"us_per_step_fmpy": 1e6 * wall * h / duration, "realtime_factor_fmpy": duration / wall}
+    return row
+
+
+def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
+    """Per manoeuvre and for all: the largest step within the bounds, and its real-time factor."""
+    lines, largest = [], []
+    names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
+    for name in names:
+        good = [
+            row
+            for row in rows
+            if row["manoeuvre"] == name
+            and row["path_error_rel"] <= PATH_BOUND
+            and row["wheel_load_error_rel"] <= LOAD_BOUND
+        ]
+        if not good:
+            lines.append(f"{name}: no step stays within the bounds")
+            continue
+        best = max(good, key=lambda row: row["h_s"])
+        largest.append(best["h_s"])
+        lines.append(f"{name}: {1e3 * best['h_s']:g} ms, {best['realtime_factor']:.0f} times real time")
+    if len(largest) == len(names):
+        h = min(largest)
+        slowest = min(row["realtime_factor"] for row in rows if row["h_s"] == h)
+        word = "reached" if slowest >= AIM else "missed"
+        lines.append(f"all: {1e3 * h:g} ms, at least {slowest:.0f} times real time (aim {AIM:g}: {word})")
+    return lines
+
+
+def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
+    """Errors over wall time of a step, as a picture."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, 2, figsize=(13, 5.5), layout="constrained", sharex=True)
+    parts = (
+        ("path_error_rel", "path error / path length", PATH_BOUND),
+        ("wheel_load_error_rel", "wheel load error / largest load", LOAD_BOUND),
+    )
+    for ax, (key, label, bound) in zip(axes, parts, strict=True):
+        for number, name in enumerate(dict.fromkeys(row["manoeuvre"] for row in rows)):
+            mine = [row for row in rows if row["manoeuvre"] == name]
+            cost = [1e-3 * row["us_per_step"] / row["h_s"] for row in mine]
+            style = {"marker": "osv^DP*Xd"[number % 9], "markersize": 5, "label": name.replace("_", " ")}
+            ax.loglog(cost, [row[key] for row in mine], **style)
+        ax.axhline(bound, color="0.4", linestyle="--", linewidth=1)
+        ax.text(1.0, bound, f"{100 * bound:g} % ", transform=ax.get_yaxis_transform(), ha="right", va="bottom")
+        ax.set_xlabel("wall time per simulated second, ms (steps 10, 5, 2, 1 ms from the left)")
+        ax.set_ylabel(label)
+        ax.grid(True, which="major", alpha=0.3)
+    axes[1].legend(fontsize="small")
+    figure.suptitle("Prototype car: error against cost")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(file, dpi=120)
+    plt.close(figure)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Measure, print, and write what was asked for."""
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.car", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows} there")
+    parser.add_argument("--chart", type=Path, metavar="FILE", help="draw errors against cost into a PNG")
+    parser.add_argument("--no-fmu", action="store_true", help="leave the runs through FMPy out")
+    parser.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs per row; default: 5")
+    parser.add_argument(
+        "--manoeuvres", nargs="+", default=car_manoeuvres.NAMES, choices=car_manoeuvres.NAMES, metavar="NAME"
+    )
+    options = parser.parse_args(arguments)
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        fmu = None if options.no_fmu else _build_fmu(Path(folder))
+        for name in options.manoeuvres:
+            for h in STEPS:
+                rows.append(measure(name, h, fmu, options.repeats))
+                print(f"{name}, {1e3 * h:g} ms: {rows[-1]['us_per_step']:.1f} us per step", file=sys.stderr, flush=True)
+    print_table(rows, COLUMNS)
+    print()
+    print(
+        f"Largest step within {100 * PATH_BOUND:g} % of the path's length and {100 * LOAD_BOUND:g} % of the largest "
+        "wheel load:"
+    )
+    lines = verdict(rows)
+    print("\n".join(f"  {line}" for line in lines))
+    if options.json:
+        meta = describe(
+            "car",
+            Settings(),
+            reference=f"own engine, h = {car_references.STEP:g} s, tests/data/car",
+            repeats=options.repeats,
+            fmpy="set 3 inputs, one communication step of h, get 4 outputs; null: without FMU or another road",
+            verdict=lines,
+        )
+        write_json(options.json, meta, rows)
+    if options.chart:
+        chart(rows, options.chart)
+    return 0
+
+
+def _build_fmu(folder: Path) -> Path | None:
+    """The FMU of the car for this platform, or None when it cannot be had."""
+    if sys.platform not in ("linux", "win32"):
+        print("The FMU runs on Linux and Windows; its columns stay empty.", file=sys.stderr)
+        return None
+    try:
+        import fmpy  # noqa: F401
+        import pythonfmu  # noqa: F401
+    except ImportError as error:
+        print(f"{error.name} is not installed; the columns of the FMU stay empty.", file=sys.stderr)
+        return None
+    from fmu_src.build import build_fmu
+
+    platform = "win64" if sys.platform == "win32" else "linux64"
+    return build_fmu(car_manoeuvres.system_of("drop"), "prototype_car", folder, (platform,))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
