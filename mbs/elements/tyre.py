@@ -81,7 +81,7 @@ class Tyre:
     friction_factor: float = 1.0
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
-        """Element of a wheel: centre, unit spin axis (pointing left), absolute spin; `road` is the number of its road."""
+        """Element of a wheel: centre, unit spin axis (pointing left), absolute spin, number of the road."""
         what = f"the tyre '{name}'"
         size(centre, (3,), f"The centre of {what}")
         size(axis, (3,), f"The axis of {what}")

@@ -14,9 +14,17 @@ extern const ali3_element_type ali3_spring_damper, ali3_scalar_spring_damper, al
     ali3_body_torque, ali3_gyroscopic_spin, ali3_drag, ali3_tyre, ali3_brake, ali3_automatic_drive;
 
 static const ali3_element_type *type_of(int32_t type) {
-  const ali3_element_type *all[] = {
-      0, &ali3_spring_damper, &ali3_scalar_spring_damper, &ali3_input_force, &ali3_body_force, &ali3_body_torque,
-      &ali3_gyroscopic_spin, &ali3_drag, &ali3_tyre, &ali3_brake, &ali3_automatic_drive};
+  const ali3_element_type *all[] = {0,
+                                    &ali3_spring_damper,
+                                    &ali3_scalar_spring_damper,
+                                    &ali3_input_force,
+                                    &ali3_body_force,
+                                    &ali3_body_torque,
+                                    &ali3_gyroscopic_spin,
+                                    &ali3_drag,
+                                    &ali3_tyre,
+                                    &ali3_brake,
+                                    &ali3_automatic_drive};
   return all[type];
 }
 
@@ -35,14 +43,14 @@ EXPORT const char *harness_check(int32_t type, const int32_t sizes[5], const dou
   return t->check ? t->check(sizes[0], real, sizes[1], integer, sizes[2], n_inputs, n_roads) : 0;
 }
 
-EXPORT double harness_evaluate(int32_t type, int32_t accepted, const int32_t sizes[5], const double *u, const double *ud,
-                               const double *y_old, double *y_new, double h, double wC, double wK, const double *real,
-                               const int32_t *integer, const double *input, int32_t road_type, int32_t road_nreal,
-                               const double *road_real, double *f, double *S, double *out) {
+EXPORT double harness_evaluate(int32_t type, int32_t accepted, const int32_t sizes[5], const double *u,
+                               const double *ud, const double *y_old, double *y_new, double h, double wC, double wK,
+                               const double *real, const int32_t *integer, const double *input, int32_t road_type,
+                               int32_t road_nreal, const double *road_real, double *f, double *S, double *out) {
   const ali3_element_type *t = type_of(type);
   const ali3_road road = {road_type, road_nreal, road_real};
-  ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u, ud, y_old, y_new, h, wC, wK, real, integer,
-                         input, &road, f, S, out, 0.0};
+  ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u,     ud, y_old, y_new, h,
+                         wC,       wK,       real,     integer,  input,    &road, f,  S,     out,   0.0};
   memset(f, 0, (size_t)sizes[0] * sizeof *f);
   if (S) memset(S, 0, (size_t)(sizes[0] * sizes[0]) * sizeof *S);
   t->evaluate(&a);
@@ -55,8 +63,8 @@ EXPORT const char *harness_road_check(int32_t type, const double *real, int32_t 
 }
 
 /* out: per contact penetration, point, normal, down, cosine, friction (12 numbers) */
-EXPORT int32_t harness_contacts(int32_t type, int32_t nreal, const double *real, const double *centre, const double *axis,
-                                double radius, double out[24]) {
+EXPORT int32_t harness_contacts(int32_t type, int32_t nreal, const double *real, const double *centre,
+                                const double *axis, double radius, double out[24]) {
   const ali3_road road = {type, nreal, real};
   ali3_contact contact[2];
   const int32_t count = ali3_road_contacts(&road, centre, axis, radius, contact);

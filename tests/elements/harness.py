@@ -97,7 +97,9 @@ class Element:
         e = self.element
         counts = (len(e.signals), len(e.real), len(e.integer), len(e.states), len(e.outputs))
         self.sizes = _ints(counts)
-        assert library().harness_sizes_match(int(e.type), self.sizes), f"sizes {counts} of {e.type} are not those of the kernel"
+        assert library().harness_sizes_match(int(e.type), self.sizes), (
+            f"sizes {counts} of {e.type} are not those of the kernel"
+        )
         assert self.check() is None, self.check()
 
     def check(self, n_inputs: int | None = None, n_roads: int = 1) -> str | None:
@@ -154,12 +156,24 @@ class Element:
         )
         names = [o.name for o in e.outputs]
         return Result(
-            np.array(f), np.array(S).reshape(n, n), np.array(y_new)[: len(e.states)], dict(zip(names, out, strict=False)), potential
+            np.array(f),
+            np.array(S).reshape(n, n),
+            np.array(y_new)[: len(e.states)],
+            dict(zip(names, out, strict=False)),
+            potential,
         )
 
 
 def tangent_by_differences(
-    element: Element, u: Array, ud: Array, y: Array | None, h: float, wC: float, wK: float, inputs: ArrayLike, step: float = 1e-6
+    element: Element,
+    u: Array,
+    ud: Array,
+    y: Array | None,
+    h: float,
+    wC: float,
+    wK: float,
+    inputs: ArrayLike,
+    step: float = 1e-6,
 ) -> Array:
     """sym(wC C + wK K) with C = -df/dud, K = -df/du by central differences, shape (nsig, nsig)."""
     n = len(u)

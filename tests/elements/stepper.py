@@ -1,4 +1,4 @@
-"""A few coordinates with constant mass and elements, stepped by the trapezoidal rule with Newton on the elements' tangents."""
+"""A few coordinates with constant mass and elements: trapezoidal rule, Newton with the elements' tangents."""
 
 from __future__ import annotations
 
@@ -50,7 +50,11 @@ class Stepper:
 
     def step(self, h: float) -> None:
         q = self.q + h * self.qd + 0.5 * h * h * self.qdd
-        for count in range(1, CAP + 1):
+        count = 0
+        while True:
+            count += 1
+            if count > CAP:
+                raise AssertionError(f"no convergence at t = {self.t + h:g}")
             qd = 2.0 / h * (q - self.q) - self.qd
             qdd = 2.0 / h * (qd - self.qd) - self.qdd
             Q, S = self.force(q, qd, h)
@@ -58,8 +62,6 @@ class Stepper:
             if np.max(np.abs(r / self.M)) < TOLERANCE:
                 break
             q = q - np.linalg.solve(np.diag(self.M) + S, r)
-        else:
-            raise AssertionError(f"no convergence at t = {self.t + h:g}")
         self.iterations.append(count)
         self.results = self._evaluate(q, qd, h, accept=True)
         self.y = [r.y for r in self.results]

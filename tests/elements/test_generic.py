@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -36,7 +38,9 @@ def elements() -> dict[str, Element]:
         "spring in space": spring(),
         "spring in the plane": spring(2),
         "spring on both stops": Element(SpringDamper(100.0, 5.0, 0.4, EndStops(2.5, 300.0)).record("s", p)),
-        "spring on its rebound stop": Element(SpringDamper(100.0, 5.0, 0.4, EndStops(0.1, 3.0, 0.2, 9.0)).record("s", p)),
+        "spring on its rebound stop": Element(
+            SpringDamper(100.0, 5.0, 0.4, EndStops(0.1, 3.0, 0.2, 9.0)).record("s", p)
+        ),
         "stops not overlapping": spring(3, EndStops(0.1, 80000.0, stops.rebound_length, 50000.0)),
         "scalar spring": Element(ScalarSpringDamper(30.0, 2.0, 0.3, 5.0).record("s", signals(1)[0])),
         "input force": Element(InputForce(1, (1.0, -2.0)).record("i", signals(2))),
@@ -80,7 +84,11 @@ def test_spring_force_is_tension_positive_and_elastic_force_the_gradient_of_its_
         assert r.out["force"] == pytest.approx(expected, abs=1e-8)
         seen.add(int(np.sign(length - 0.60) + np.sign(length - 0.90)))
         slope = [
-            (element(length * n + 1e-6 * e, np.zeros(3)).potential - element(length * n - 1e-6 * e, np.zeros(3)).potential) / 2e-6
+            (
+                element(length * n + 1e-6 * e, np.zeros(3)).potential
+                - element(length * n - 1e-6 * e, np.zeros(3)).potential
+            )
+            / 2e-6
             for e in np.eye(3)
         ]
         assert np.allclose(r.f, -np.array(slope), atol=0.1)  # a stop's force has a kink, 5e4 N/m times 1e-6 m
@@ -164,7 +172,9 @@ def test_drag_opposes_the_speed_with_its_square() -> None:
     r = elements()["drag in space"](np.zeros(3), v)
     assert np.allclose(r.f, -0.5 * 1.225 * 0.8 * 13.0 * v, rtol=1e-14)
     assert r.out["force"] == pytest.approx(0.5 * 1.225 * 0.8 * 169.0)
-    assert np.array_equal(elements()["drag in space"](np.zeros(3), np.zeros(3), None, 0.01, 0.005, 0.0).S, np.zeros((3, 3)))
+    assert np.array_equal(
+        elements()["drag in space"](np.zeros(3), np.zeros(3), None, 0.01, 0.005, 0.0).S, np.zeros((3, 3))
+    )
 
 
 @pytest.mark.parametrize(
@@ -177,8 +187,14 @@ def test_drag_opposes_the_speed_with_its_square() -> None:
             lambda: SpringDamper(1.0, stops=EndStops(0.9, 1.0, 0.8, 1.0)).record("strut", vectors(3)[0]),
             "must be less than the rebound length",
         ),
-        (lambda: ScalarSpringDamper(1.0, -2.0).record("bar", signals(1)[0]), "damping of the spring-damper 'bar' is -2"),
-        (lambda: InputForce(0, (1.0, 2.0)).record("Push", signals(1)), "The input force 'Push' has 2 weights for 1 signals"),
+        (
+            lambda: ScalarSpringDamper(1.0, -2.0).record("bar", signals(1)[0]),
+            "damping of the spring-damper 'bar' is -2",
+        ),
+        (
+            lambda: InputForce(0, (1.0, 2.0)).record("Push", signals(1)),
+            "The input force 'Push' has 2 weights for 1 signals",
+        ),
         (lambda: InputForce(-1).record("push", signals(1)), "must be a whole number"),
         (lambda: BodyForce((0, 1)).record("push", vectors(3)[0], vectors(3, 3, 3)), "has 2 inputs; it needs 3"),
         (lambda: BodyForce((0, 1, 2)).record("push", vectors(3)[0], vectors(3)), "must be three vectors"),
@@ -189,12 +205,8 @@ def test_drag_opposes_the_speed_with_its_square() -> None:
     ],
 )
 def test_bad_data_are_refused_with_a_sentence(make: object, sentence: str) -> None:
-    with pytest.raises(ValueError, match="."):
+    with pytest.raises(ValueError, match=re.escape(sentence)):
         make()  # type: ignore[operator]
-    try:
-        make()  # type: ignore[operator]
-    except ValueError as error:
-        assert sentence in str(error)
 
 
 @pytest.mark.parametrize("name", ["input force", "body force in space", "torque in earth axes"])

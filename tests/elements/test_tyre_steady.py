@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -146,7 +147,9 @@ def wheel_motion(rng: np.random.Generator, speed: float) -> tuple[Array, Array, 
 
 @pytest.mark.parametrize("speed", [0.0, 10.0])
 def test_force_has_the_power_of_force_times_material_velocity_of_the_patch(speed: float) -> None:
-    element = tyre_element(replace(TYRE, trail=(0.0, 0.0), rolling_resistance=0.0), PlaneRoad(grade_x=0.1, grade_y=-0.05, friction=0.8))
+    element = tyre_element(
+        replace(TYRE, trail=(0.0, 0.0), rolling_resistance=0.0), PlaneRoad(grade_x=0.1, grade_y=-0.05, friction=0.8)
+    )
     n = np.array([-0.1, 0.05, 1.0]) / np.linalg.norm([0.1, 0.05, 1.0])
     rng = np.random.default_rng(9)
     for _ in range(10):
@@ -156,7 +159,9 @@ def test_force_has_the_power_of_force_times_material_velocity_of_the_patch(speed
         forward = np.cross(axis, n)
         forward /= np.linalg.norm(forward)
         force = (
-            r.out["longitudinal_force"] * forward + r.out["lateral_force"] * np.cross(n, forward) + r.out["vertical_force"] * n
+            r.out["longitudinal_force"] * forward
+            + r.out["lateral_force"] * np.cross(n, forward)
+            + r.out["vertical_force"] * n
         )
         rho = np.array([r.out[f"contact_{k}"] for k in "xyz"]) - u[:3]
         assert rho @ axis == pytest.approx(0.0, abs=1e-12)
@@ -182,29 +187,27 @@ def test_aligning_moment_and_rolling_resistance_are_moments_on_the_wheel() -> No
         assert difference[6] == pytest.approx(-tyre.rolling_resistance * 1500.0 * R * np.tanh(omega), rel=1e-9)
 
 
-COUPLING = 0.06  # of the largest entry: load coupling, turning of frames, transport speed are left out of the tangent
+# Of the largest entry. Left out: load coupling, turning of frames, transport speed; near the limit the safe secant is kept on purpose.
+COUPLING, LIMIT = 0.07, 0.3
 
 
-@pytest.mark.parametrize("speed", [0.0, 0.5, 10.0, 30.0])
-def test_tangent_is_near_the_derivative_and_positive_semidefinite(speed: float) -> None:
+@pytest.mark.parametrize(("speed", "spread"), [(0.0, 0.02), (0.5, 1.0), (10.0, 1.0), (30.0, 0.3)])
+def test_tangent_is_near_the_derivative_and_positive_semidefinite(speed: float, spread: float) -> None:
     element = tyre_element(replace(TYRE, rolling_resistance=0.0))
     rng = np.random.default_rng(10)
-    h = 0.005
-    for _ in range(20):
+    h, easy = 0.005, 0
+    for _ in range(40):
         u, ud, _ = wheel_motion(rng, speed)
+        steady_part = np.r_[speed, np.zeros(5), speed / R]
+        ud = steady_part + spread * (ud - steady_part)
         y = np.r_[0.001 * rng.normal(size=2), 0.02 * rng.normal(size=2)]
         r = element(u, ud, y, h, 0.5 * h, 0.25 * h * h)
         wanted = tangent_by_differences(element, u, ud, y, h, 0.5 * h, 0.25 * h * h, ())
-        difference = np.max(np.abs(r.S - wanted)) / np.max(np.abs(wanted))
-        smallest = np.linalg.eigvalsh(r.S)[0]
-        assert smallest > -1e-12
-        if np.linalg.eigvalsh(wanted)[0] > -1e-3 and not sliding(r):
-            assert difference < COUPLING
-
-
-def sliding(r: Result) -> bool:
-    """Beyond half of the grip the tangent is kept above its secant on purpose."""
-    return bool(np.hypot(r.out["longitudinal_force"] / 1694.0, r.out["lateral_force"] / 1501.0) > 0.4)
+        assert np.linalg.eigvalsh(r.S)[0] > -1e-12
+        use = np.hypot(r.out["longitudinal_force"] / 1694.0, r.out["lateral_force"] / 1501.0)
+        easy += use < 0.4
+        assert np.max(np.abs(r.S - wanted)) < (COUPLING if use < 0.4 else LIMIT) * np.max(np.abs(wanted))
+    assert easy >= 5
 
 
 def test_tangent_is_exact_where_nothing_is_left_out() -> None:
@@ -228,7 +231,11 @@ def test_forces_do_not_jump_over_a_kerb() -> None:
     last, both = None, 0
     for x in np.linspace(-0.1, 0.3, 4001):
         z = 0.08 + R - 0.02 - 0.09 * np.clip(x / 0.2, 0.0, 1.0)  # a path that presses on edge and lower level
-        r = element(np.array([x, 0.0, z, 0.0, 1.0, 0.0, 0.0]), np.array([5.0, 0.1, 0.0, 0.0, 0.0, 0.0, 18.0]), np.r_[1e-3, 1e-3, 0.0, 0.0])
+        r = element(
+            np.array([x, 0.0, z, 0.0, 1.0, 0.0, 0.0]),
+            np.array([5.0, 0.1, 0.0, 0.0, 0.0, 0.0, 18.0]),
+            np.r_[1e-3, 1e-3, 0.0, 0.0],
+        )
         both += x > 0.15 and abs(r.f[0]) > 1.0
         if last is not None:
             assert np.max(np.abs(r.f - last)) < 120.0
@@ -251,12 +258,8 @@ def test_forces_do_not_jump_over_a_kerb() -> None:
 )
 def test_bad_tyre_data_are_refused_with_a_sentence(change: dict[str, object], sentence: str) -> None:
     centre, axis, spin = vectors(3, 3, 1)
-    try:
+    with pytest.raises(ValueError, match=re.escape(sentence)):
         replace(TYRE, **change).record("left", centre, axis, spin[0], 0)  # type: ignore[arg-type]
-    except ValueError as error:
-        assert sentence in str(error)
-    else:
-        pytest.fail("accepted")
 
 
 @pytest.mark.parametrize(

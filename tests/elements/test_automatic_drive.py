@@ -1,0 +1,165 @@
+"""Engine, converter and gears."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbs.elements import AutomaticDrive
+from tests.elements.harness import Element, frame, tangent_by_differences, vectors
+
+DRIVE = AutomaticDrive(max_torque=110.0, max_power=50e3)
+
+
+def drive_element(drive: AutomaticDrive = DRIVE, gear: int = 1) -> Element:
+    left, right, f, g = vectors(1, 1, 3, 3)
+    return Element(drive.record("drive", left[0], right[0], f, g, 0, gear))
+
+
+def signals_of(
+    left: float, right: float, omega: np.ndarray | None = None, R: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    R = np.eye(3) if R is None else R
+    omega = np.zeros(3) if omega is None else omega
+    return np.r_[0.0, 0.0, R[:, 0], R[:, 1]], np.r_[left, right, np.cross(omega, R[:, 0]), np.cross(omega, R[:, 1])]
+
+
+def test_both_wheels_get_the_same_torque_and_the_frame_its_reaction() -> None:
+    rng = np.random.default_rng(17)
+    R, omega = frame(rng), rng.normal(size=3)
+    axis = R[:, 2]
+    u, ud = signals_of(20.0, 35.0, omega, R)
+    r = drive_element()(u, ud, inputs=[0.7])
+    torque = r.out["wheel_torque"]
+    assert torque > 0.0
+    assert r.f[0] == r.f[1] == torque
+    for turn in np.eye(3):
+        virtual = np.r_[0.0, 0.0, np.cross(turn, R[:, 0]), np.cross(turn, R[:, 1])]
+        assert r.f @ virtual == pytest.approx(-2.0 * torque * (axis @ turn), abs=1e-9)
+    relative = 0.5 * (20.0 + 35.0) - omega @ axis
+    assert r.f @ ud == pytest.approx(2.0 * torque * relative, rel=1e-12)
+
+
+def test_stall_torque_creep_and_top_speed() -> None:
+    element = drive_element()
+    stall = element(*signals_of(0.0, 0.0), inputs=[1.0]).out
+    assert 2.0 * stall["wheel_torque"] == pytest.approx(110.0 * 10.5 * 0.85 * 1.9)
+    assert stall["engine_speed"] == pytest.approx(DRIVE.stall_speed)
+    creep = element(*signals_of(0.0, 0.0)).out
+    assert creep["wheel_torque"] == pytest.approx(60.0)
+    assert creep["engine_speed"] == pytest.approx(DRIVE.idle_speed)
+    assert element(*signals_of(5.0, 5.0)).out["wheel_torque"] < 30.0
+    assert element(*signals_of(-3.0, -3.0)).out["wheel_torque"] == pytest.approx(60.0)
+    fast = element(*signals_of(30.0, 30.0)).out
+    assert -60.0 < fast["wheel_torque"] < 0.0  # the engine drags mildly
+    limited = element(*signals_of(80.0, 80.0), inputs=[1.0]).out
+    assert limited["wheel_torque"] == 0.0
+
+
+def test_power_at_the_wheels_is_never_more_than_the_engine_gives() -> None:
+    for gear in (1, 2, 3):
+        element = drive_element(gear=gear)
+        for W in np.linspace(0.1, 140.0, 60):
+            out = element(*signals_of(W, W), inputs=[1.0]).out
+            assert 2.0 * out["wheel_torque"] * W <= out["engine_torque"] * out["engine_speed"] + 1e-9
+            assert out["engine_torque"] * out["engine_speed"] <= 50e3 + 1e-6
+
+
+def test_torque_falls_with_speed_and_the_tangent_is_its_derivative() -> None:
+    h = 0.01
+    for throttle in (0.0, 0.3, 1.0):
+        for gear in (1, 3):
+            element = drive_element(gear=gear)
+            last = None
+            for W in np.linspace(-5.0, 70.0, 76) + 0.013:
+                u, ud = signals_of(W, W + 1.0)
+                r = element(u, ud, None, h, 0.5 * h, 0.0, [throttle])
+                assert last is None or r.out["wheel_torque"] <= last + 1e-9
+                last = r.out["wheel_torque"]
+                wanted = tangent_by_differences(element, u, ud, None, h, 0.5 * h, 0.0, [throttle])
+                assert np.max(np.abs(r.S - wanted)) < 1e-6 + 1e-6 * np.max(np.abs(wanted))
+                assert np.linalg.eigvalsh(r.S)[0] > -1e-12
+
+
+def course(
+    element: Element, speed: object, throttle: float, t_end: float, h: float = 0.01
+) -> tuple[np.ndarray, np.ndarray]:
+    """Gears and torques over time while both wheels follow speed(t)."""
+    y, gears, torques = np.array(element.element.states), [], []
+    for i in range(round(t_end / h)):
+        W = speed((i + 1) * h)  # type: ignore[operator]
+        r = element(*signals_of(W, W), y, h, inputs=[throttle], accept=True)
+        y = r.y
+        gears.append(r.out["gear"])
+        torques.append(r.out["wheel_torque"])
+    return np.array(gears), np.array(torques)
+
+
+def test_gears_go_up_and_down_once_each_and_the_torque_has_no_jump() -> None:
+    gears, torques = course(drive_element(), lambda t: 12.0 * t, 1.0, 12.0)
+    assert sorted(set(gears)) == [1.0, 2.0, 3.0]
+    assert np.all(np.diff(gears) >= 0.0)
+    assert np.max(np.abs(np.diff(torques))) < 0.12 * np.max(torques)  # 0.2 s ramp at 10 ms: no step is large
+    down, _ = course(drive_element(gear=3), lambda t: 140.0 - 12.0 * t, 0.0, 11.0)
+    assert np.all(np.diff(down) <= 0.0)
+    assert down[-1] == 1.0
+    assert sorted(set(down)) == [1.0, 2.0, 3.0]
+
+
+def test_shift_is_continuous_in_time() -> None:
+    fine, torques = course(drive_element(), lambda t: 52.0, 1.0, 1.0, 0.0005)
+    assert set(fine) == {1.0, 2.0}
+    assert np.max(np.abs(np.diff(torques))) < 0.01 * np.max(torques)
+
+
+def test_gears_do_not_hunt() -> None:
+    element = drive_element()
+    for throttle in (0.0, 0.5, 1.0):
+        for W in np.linspace(5.0, 140.0, 28):
+            gears, _ = course(element, lambda t, W=W: W + 0.2 * np.sin(20.0 * t), throttle, 6.0, 0.05)
+            assert len(np.flatnonzero(np.diff(gears))) <= 2  # from first to third at most
+    gears, _ = course(element, lambda t: 40.0 + 30.0 * np.sign(np.sin(30.0 * t)), 0.0, 5.0)
+    changes = np.flatnonzero(np.diff(gears)) * 0.01
+    assert len(changes) > 2
+    assert np.min(np.diff(changes)) >= DRIVE.dwell - 0.011  # even then not faster than the dwell time
+
+
+def test_gear_changes_only_between_accepted_steps() -> None:
+    element = drive_element()
+    u, ud = signals_of(80.0, 80.0)
+    assert element(u, ud, None, 0.01, inputs=[1.0]).y[0] == 1.0
+    r = element(u, ud, None, 0.01, inputs=[1.0], accept=True)
+    assert np.array_equal(r.y[:2], [2.0, 1.0])
+    assert 0.0 <= r.y[2] <= 0.01  # the shift began within the step
+    assert r.out["gear"] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"max_torque": -1.0}, "max torque of the drive 'D' is -1"),
+        ({"ratios": ()}, "must fall"),
+        ({"ratios": (4.0, 6.0)}, "must fall"),
+        ({"idle_speed": 0.0}, "must rise from idle"),
+        ({"limit_speed": 100.0}, "must rise from idle"),
+        ({"dwell": 0.1}, "must not be shorter than its ramp"),
+        ({"down_open": 400.0}, "lower the down-shift speed"),
+        ({"creep_speed": 0.0}, "creep speed of the drive 'D' is 0"),
+    ],
+)
+def test_bad_drives_are_refused_with_a_sentence(change: dict[str, object], sentence: str) -> None:
+    left, right, f, g = vectors(1, 1, 3, 3)
+    with pytest.raises(ValueError, match=re.escape(sentence)):
+        replace(DRIVE, **change).record("D", left[0], right[0], f, g, 0)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="gear of the drive 'D' is 4"):
+        DRIVE.record("D", left[0], right[0], f, g, 0, gear=4)
+
+
+def test_kernel_checks_the_drive() -> None:
+    element = drive_element()
+    assert "input that does not exist" in (element.check(n_inputs=0) or "")
+    element.element = replace(element.element, integer=(0, 4))
+    assert "one ratio per gear" in (element.check() or "")

@@ -1,0 +1,108 @@
+"""Any finite input gives finite output, and the same input the same bits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs.elements import (
+    AutomaticDrive,
+    BodyForce,
+    BodyTorque,
+    Brake,
+    Drag,
+    EndStops,
+    GridRoad,
+    GyroscopicSpin,
+    InputForce,
+    KerbRoad,
+    PlaneRoad,
+    ScalarSpringDamper,
+    SpringDamper,
+)
+from tests.elements.harness import Element, contacts, signals, vectors
+from tests.elements.tyre_data import tyre_element
+
+LARGEST = 30  # decades; beyond, products overflow and the kernel refuses the step
+ROADS = {
+    "plane": PlaneRoad(0.1, 0.1, -0.2, 0.8),
+    "kerb": KerbRoad(0.3, 0.1, 0.0, "before", 0.8),
+    "kerb up": KerbRoad(0.3, 0.1, 0.0, "after", 0.8),
+    "grid": GridRoad((-1.0, -1.0), (0.5, 0.5), 0.1 * np.sin(np.arange(36.0)).reshape(6, 6), 0.8),
+}
+
+
+def elements() -> dict[str, Element]:
+    p, a, b, c = vectors(3, 3, 3, 3)
+    f, g, chi = vectors(3, 3, 1)
+    left, right, f2, g2 = vectors(1, 1, 3, 3)
+    return {
+        "spring": Element(SpringDamper(1e4, 1e3, 0.5, EndStops(0.4, 1e5, 0.6, 1e5)).record("s", p)),
+        "scalar spring": Element(ScalarSpringDamper(30.0, 2.0).record("s", signals(1)[0])),
+        "input force": Element(InputForce(0, (1.0, 2.0)).record("i", signals(2))),
+        "body force": Element(BodyForce((0, 1, None)).record("f", p, (a, b, c))),
+        "body torque": Element(BodyTorque((0, 1, 2), "body").record("t", vectors(3, 3, 3))),
+        "gyroscopic spin": Element(GyroscopicSpin(0.5).record("g", f, g, chi[0])),
+        "drag": Element(Drag(0.8).record("d", p)),
+        "brake": Element(Brake(650.0, 2e5, 600.0).record("b", f, g, chi[0], 0)),
+        "drive": Element(AutomaticDrive(110.0, 5e4).record("a", left[0], right[0], f2, g2, 0)),
+        **{f"tyre on {name}": tyre_element(road=road) for name, road in ROADS.items()},
+    }
+
+
+def awkward(rng: np.random.Generator, n: int) -> np.ndarray:
+    """Numbers of all sizes, many of them zero or one."""
+    sizes = rng.choice([-300.0, -20.0, -3.0, 0.0, 1.0, 5.0, LARGEST], size=n, p=[0.05, 0.05, 0.2, 0.4, 0.2, 0.05, 0.05])
+    values = rng.choice([-1.0, 0.0, 1.0, 0.3, -0.7], size=n) * 10.0**sizes
+    return np.asarray(values * rng.choice([1.0, rng.uniform()], size=n))
+
+
+@pytest.mark.parametrize("name", list(elements()))
+def test_finite_in_finite_out(name: str) -> None:
+    element, rng = elements()[name], np.random.default_rng(18)
+    n, states = len(element.element.signals), len(element.element.states)
+    touched = 0
+    for i in range(1500):
+        u, ud, y = awkward(rng, n), awkward(rng, n), awkward(rng, states)
+        if name.startswith("tyre") and i % 2:  # half of them near the road
+            u = np.r_[rng.normal(size=2), rng.uniform(0.0, 0.4), rng.normal(size=3), 0.0]
+        h = float(rng.choice([0.0, 1e-9, 1e-3, 1e-2, 1.0, 1e3]))
+        r = element(u, ud, y, h, 0.5 * h, 0.25 * h * h, awkward(rng, 4))
+        again = element(u, ud, y, h, 0.5 * h, 0.25 * h * h, np.zeros(4))
+        for values in (r.f, r.S, r.y, list(r.out.values()), [r.potential]):
+            assert np.all(np.isfinite(values)), (u, ud, y, h)
+        assert np.array_equal(r.S, r.S.T)
+        if h == 0.0:
+            assert np.array_equal(again.y, y)
+        touched += bool(np.any(r.f != 0.0))
+    assert touched > 300
+
+
+@pytest.mark.parametrize("name", list(elements()))
+def test_same_input_same_bits(name: str) -> None:
+    element, rng = elements()[name], np.random.default_rng(19)
+    n, states = len(element.element.signals), len(element.element.states)
+    u, ud, y = rng.normal(size=n), rng.normal(size=n), 0.01 * rng.normal(size=states)
+    a, b = (element(u, ud, y, 0.01, 0.005, 0.000025, [0.5, 0.6]) for _ in range(2))
+    assert np.array_equal(a.f, b.f)
+    assert np.array_equal(a.S, b.S)
+    assert np.array_equal(a.y, b.y)
+
+
+@pytest.mark.parametrize("name", list(ROADS))
+def test_roads_give_unit_normals_everywhere(name: str) -> None:
+    rng = np.random.default_rng(20)
+    for _ in range(2000):
+        axis = rng.choice([rng.normal(), 0.0, 1.0], size=3)
+        if not np.any(axis):
+            continue
+        axis /= np.linalg.norm(axis)
+        centre = rng.normal(size=3) * 10.0 ** rng.integers(-3, 9)
+        found = contacts(ROADS[name], centre, axis, 0.3)
+        assert 1 <= len(found) <= 2
+        for c in found:
+            assert all(np.all(np.isfinite(v)) for v in c.values())
+            assert np.linalg.norm(c["normal"]) == pytest.approx(1.0, abs=1e-9)
+            assert np.linalg.norm(c["down"]) == pytest.approx(1.0, abs=1e-9)
+            assert c["down"] @ axis == pytest.approx(0.0, abs=1e-6)
+            assert 0.0 < c["cosine"] <= 1.0 + 1e-12
