@@ -6,7 +6,7 @@ import shutil
 import sys
 import tempfile
 import zipfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 
@@ -19,7 +19,9 @@ from fmpy.fmi2 import (
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
     fmi2ComponentEnvironment,
+    fmi2Real,
     fmi2Status,
+    fmi2ValueReference,
 )
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
@@ -117,16 +119,30 @@ class Fmu:
         except FMICallException as error:
             raise HostError(f"The FMU could not be initialised: {self._last_message() or error}") from None
 
-    def set(self, references: list[int], values: list[float]) -> None:
-        """Set inputs."""
-        try:
-            self._slave.setReal(references, values)
-        except FMICallException as error:
-            raise HostError(f"An input was refused: {self._last_message() or error}") from None
+    def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        """A function that sets variables; their references are prepared once."""
+        count = len(names)
+        references, buffer = (fmi2ValueReference * count)(*self.references(names)), (fmi2Real * count)()
 
-    def get(self, references: list[int]) -> list[float]:
-        """Values of variables."""
-        return list(self._slave.getReal(references))
+        def set_values(values: Sequence[float]) -> None:
+            buffer[:] = values
+            try:
+                self._slave.fmi2SetReal(self._slave.component, references, count, buffer)
+            except FMICallException as error:
+                raise HostError(f"An input was refused: {self._last_message() or error}") from None
+
+        return set_values
+
+    def getter(self, names: Sequence[str]) -> Callable[[], list[float]]:
+        """A function that gives the values of variables; their references are prepared once."""
+        count = len(names)
+        references, buffer = (fmi2ValueReference * count)(*self.references(names)), (fmi2Real * count)()
+
+        def get_values() -> list[float]:
+            self._slave.fmi2GetReal(self._slave.component, references, count, buffer)
+            return buffer[:]
+
+        return get_values
 
     def step(self, time: float, step: float) -> None:
         """One communication step; `StepRefusedError` if the FMU refuses it."""

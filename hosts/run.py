@@ -93,7 +93,7 @@ def run(
         if missing:
             raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
     used = list(dict.fromkeys([*manoeuvre.inputs, *(ACTS if driver is not None else ())]))
-    used_references, output_references = fmu.references(used), fmu.references(outputs)
+    set_inputs, get_outputs = fmu.setter(used), fmu.getter(outputs)
     senses = [outputs.index(n) for n in SENSES] if driver is not None else []
 
     first = manoeuvre.at(0.0)
@@ -105,7 +105,7 @@ def run(
     for name, value in {**manoeuvre.start, **first}.items():
         if name in inputs:
             held[inputs.index(name)] = value
-    row = fmu.get(output_references)
+    row = get_outputs()
     values[0] = [*held, *row]
     done, failed = 0, 0
     begin = clock.perf_counter()
@@ -116,7 +116,7 @@ def run(
             wanted |= driver.act(t, {n: row[j] for n, j in zip(SENSES, senses, strict=True)})
         now = [wanted[n] for n in used]
         if used:
-            fmu.set(used_references, now)
+            set_inputs(now)
             held[columns] = now
         try:
             fmu.step(t, step)
@@ -124,7 +124,7 @@ def run(
             failed = 1
             break
         done = k + 1
-        row = fmu.get(output_references)
+        row = get_outputs()
         values[done, : len(inputs)] = held
         values[done, len(inputs) :] = row
         if done % 50 == 0:

@@ -62,8 +62,8 @@ class Slave(Fmi2Slave):
         self._n_known = sum(v["causality"] != "output" for v in self._table)
         # Values by value reference; the outputs are filled when they are asked for.
         self._values = [0.0 if v["start"] is None else v["start"] for v in self._table]
-        self._sensors = [v["index"] for v in self._table[self._n_known :]]
         self._step_reference = next(i for i, v in enumerate(self._table) if v["source"] == "step_size")
+        self._parameters = {i for i, v in enumerate(self._table) if v["source"] == "parameter"}
         self._pending: set[int] = set()
         self._clamped: set[int] = set()
         self._phase = _INSTANTIATED
@@ -120,21 +120,25 @@ class Slave(Fmi2Slave):
         time = kernel.time
         if abs(current_time - time) > _TIME_TOLERANCE:
             return self._refuse(f"fmi2DoStep starts at {current_time} s, but this instance stands at {time} s.")
-        saved = kernel.save()
+        n, h = self._division(time, current_time + step_size)
+        # One step keeps the last state when it fails; several, or a changed parameter, must be taken back together.
+        saved = kernel.save() if n > 1 or self._pending & self._parameters else None
+        inputs = {vr: kernel.get_input(self._table[vr]["index"]) for vr in self._pending - self._parameters}
         try:
             self._apply_pending()
-            self._advance(time, current_time + step_size)
-        except binding.KernelError as error:
+            if n == 1:
+                kernel.step(h)
+            else:
+                kernel.run(h, n)
+        except Exception as error:
             worst = self._worst()
-            kernel.restore(saved)
+            if saved is not None:
+                kernel.restore(saved)
+            for vr, value in inputs.items():
+                kernel.set_input(self._table[vr]["index"], value)
             return self._discard(
                 f"The step from {time:.6g} s over {step_size:.6g} s was refused, "
                 f"the state at {time:.6g} s is kept: {error}{worst}"
-            )
-        except Exception as error:
-            kernel.restore(saved)
-            return self._refuse(
-                f"The step from {time:.6g} s failed and was taken back: {type(error).__name__}: {error}"
             )
         self._pending.clear()
         self._outputs_fresh = False
@@ -149,14 +153,15 @@ class Slave(Fmi2Slave):
     # Values
 
     def get_real(self, vrs: list[int]) -> list[float]:
-        values = self._values
-        n = len(values)
-        if any(not 0 <= vr < n for vr in vrs):
-            self._refuse(f"There is no variable with value reference {next(vr for vr in vrs if not 0 <= vr < n)}.")
+        if not vrs:
+            return []
+        lowest, highest = min(vrs), max(vrs)
+        if lowest < 0 or highest >= len(self._values):
+            self._refuse(f"There is no variable with value reference {lowest if lowest < 0 else highest}.")
             return [math.nan] * len(vrs)
-        if not self._outputs_fresh and any(vr >= self._n_known for vr in vrs):
+        if not self._outputs_fresh and highest >= self._n_known:
             self._evaluate_outputs()
-        return [values[vr] for vr in vrs]
+        return list(map(self._values.__getitem__, vrs))
 
     def set_real(self, vrs: list[int], values: list[float]) -> None:
         # All or nothing: a call with one bad value changes nothing.
@@ -167,6 +172,8 @@ class Slave(Fmi2Slave):
                 return
             accepted.append((vr, checked))
         for vr, value in accepted:
+            if value == self._values[vr]:
+                continue
             self._values[vr] = value
             if self._table[vr]["source"] in ("input", "parameter"):
                 self._pending.add(vr)
@@ -246,23 +253,21 @@ class Slave(Fmi2Slave):
 
     # Inside
 
-    def _advance(self, time: float, end: float) -> None:
+    def _division(self, time: float, end: float) -> tuple[int, float]:
+        """Number and size of the equal inner steps from `time` to `end`."""
         step = self._values[self._step_reference]
         n = max(1, round((end - time) / step))
-        h = step
-        if abs(time + n * step - end) > _STEP_TOLERANCE * step:
-            h = (end - time) / n
-            if abs(h - step) > _STEP_DEVIATION * step and not self._step_warned:
-                self._step_warned = True
-                self.log(
-                    f"The communication step {end - time:.6g} s gives inner steps of {h:.6g} s, while step_size is "
-                    f"{step:.6g} s; results will differ a little. This is said once.",
-                    Fmi2Status.warning,
-                )
-        if n == 1:
-            self._kernel.step(h)
-        else:
-            self._kernel.run(h, n)
+        if abs(time + n * step - end) <= _STEP_TOLERANCE * step:
+            return n, step
+        h = (end - time) / n
+        if abs(h - step) > _STEP_DEVIATION * step and not self._step_warned:
+            self._step_warned = True
+            self.log(
+                f"The communication step {end - time:.6g} s gives inner steps of {h:.6g} s, while step_size is "
+                f"{step:.6g} s; results will differ a little. This is said once.",
+                Fmi2Status.warning,
+            )
+        return n, h
 
     def _worst(self) -> str:
         report = self._kernel.report()
@@ -308,8 +313,8 @@ class Slave(Fmi2Slave):
     def _evaluate_outputs(self) -> None:
         if not self._initialised and not self._initialise():
             return
-        values = self._kernel.sensors()
-        self._values[self._n_known :] = [values[k] for k in self._sensors]
+        # The outputs stand in the table in the order of the sensors.
+        self._values[self._n_known :] = self._kernel.sensors()[:]
         self._outputs_fresh = True
 
     def _evaluate_if_possible(self) -> None:

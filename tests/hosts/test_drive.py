@@ -74,7 +74,9 @@ def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path:
     # The inputs of a row are those of the step that ends there.
     assert (table["steering"][50], table["steering"][51]) == (0.0, 0.5)
     picture = tmp_path / "out" / "sledge_python_turn.png"
-    assert image.imread(picture).shape[:2] == (1210, 1760)
+    height, width = image.imread(picture).shape[:2]
+    assert width == 1760
+    assert height > 900
     assert colours(picture) > 200
 
 
