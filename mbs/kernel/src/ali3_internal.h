@@ -121,6 +121,7 @@ struct ali3_instance {
   double *u, *ud;                          /* signals */
   double *S;                               /* signal tangents of all elements */
   double *SB; /* one element: signals x coordinates */
+  double *correction_q, *step_q, *correction_lam, *step_lam; /* of the last iteration */
   double *local;                           /* one front */
   double *shifted;                         /* nq */
   double *y_work, *out_work, *potential_work, *parameter_work;
@@ -189,6 +190,9 @@ ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
 double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double tolerance, int32_t sweeps);
 bool ali3_finite(const double *v, int64_t n);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
+
+/* accelerate.c */
+void ali3_accelerate(ali3_instance *in, int32_t iteration);
 
 /* initialise.c */
 ali3_status ali3_solve_initial(ali3_instance *in, double t);

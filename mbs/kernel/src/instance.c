@@ -64,7 +64,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_vector = 3 * nq + nc + ny + 3 * (size_t)z->ng + nout + ne + (size_t)z->nu;
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
-  const size_t total = 3 * n_vector + nu + 2 * np + data + 6 * nq + 5 * nc + 2 * (size_t)z->nnz_rows +
+  const size_t total = 3 * n_vector + nu + 2 * np + data + 8 * nq + 7 * nc + 2 * (size_t)z->nnz_rows +
                        (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
                        nout + ne;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
@@ -98,6 +98,10 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->gamma = take(&pool, nc);
   in->mu = take(&pool, nc);
   in->lam = take(&pool, nc);
+  in->correction_q = take(&pool, nq);
+  in->step_q = take(&pool, nq);
+  in->correction_lam = take(&pool, nc);
+  in->step_lam = take(&pool, nc);
   in->J = take(&pool, (size_t)z->nnz_rows);
   in->J_tangent = take(&pool, (size_t)z->nnz_rows);
   in->F = take(&pool, (size_t)z->front_size);

@@ -98,7 +98,7 @@ static bool judge(ali3_instance *in, double h) {
 }
 
 /* One Newton correction (21) with the tangent (23) and the multiplier update. */
-static ali3_status correct(ali3_instance *in, double h, double alpha) {
+static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = 0.25 * h * h;
@@ -116,7 +116,9 @@ static ali3_status correct(ali3_instance *in, double h, double alpha) {
   if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
     ali3_rows_times(S, in->J, in->x, in->gamma);
-    for (int32_t k = 0; k < nc; k++) lam[k] = in->mu[k] + alpha * in->gamma[k];
+    for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
+    ali3_accelerate(in, iteration);
+    for (int32_t k = 0; k < nc; k++) lam[k] += in->lam[k];
   }
   for (int32_t i = 0; i < nq; i++) in->D[i] += in->x[i];
   return ALI3_OK;
@@ -126,7 +128,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *it
   const ali3_settings *settings = &in->settings;
   evaluate(in, h, true);
   for (*iterations = 0; *iterations < settings->max_iterations;) {
-    const ali3_status status = correct(in, h, alpha);
+    const ali3_status status = correct(in, h, alpha, *iterations);
     if (status != ALI3_OK) return status;
     ++*iterations;
     double *J = in->J;
