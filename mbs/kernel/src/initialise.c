@@ -122,6 +122,9 @@ ali3_status ali3_solve_rates(ali3_instance *in) {
   const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
   memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
   ali3_forces(in, &call);
+  ali3_forces_accept(in, &call); /* discrete states, such as a gear, that fit the start */
+  memcpy(v->y, in->y_work, (size_t)S->size.ny * sizeof(double));
+  ali3_forces(in, &call);
   if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
   status = solve_index_one(in, in->Q, in->gamma, v->qdd, v->lam);
   return status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector) ? ALI3_NOT_FINITE : status;
