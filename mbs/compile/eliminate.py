@@ -41,7 +41,9 @@ class Elimination:
     redundant: int
 
 
-def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int]) -> Elimination:
+def eliminate(
+    n: int, equations: Sequence[tuple[str, Affine]], locked: set[int], first: set[int], first_only: bool = False
+) -> Elimination:
     """Solve linear equations for as many coordinates.
 
     Parameters
@@ -52,6 +54,10 @@ def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int])
         Each expression is zero; the name is that of its joint.
     locked : set of int
         Coordinates that must stay (angles and spins).
+    first : set of int
+        Coordinates that are eliminated rather than others at equal cost.
+    first_only : bool
+        Eliminate all that can be of `first` before any other, whatever the cost.
     """
     rows = [dict(e.terms) for _, e in equations]
     constants = [e.constant for _, e in equations]
@@ -63,7 +69,7 @@ def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int])
     solved: dict[int, int] = {}  # row -> column
     redundant = 0
 
-    def best(i: int) -> tuple[int, int]:
+    def best(i: int) -> tuple[bool, int, bool, int]:
         row = rows[i]
         least = PIVOT_THRESHOLD * max(abs(v) for v in row.values())
         columns = [j for j, v in row.items() if abs(v) >= least and j not in locked]
@@ -71,15 +77,15 @@ def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int])
             raise ModelError(
                 f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; drive it by a guide instead."
             )
-        count, j = min((len(users[j]), j) for j in columns)
-        return (len(row) - 1) * (count - 1), j
+        late, count, other, j = min((first_only and j not in first, len(users[j]), j not in first, j) for j in columns)
+        return late, (len(row) - 1) * (count - 1), other, j
 
-    heap: list[tuple[int, int]] = []
+    heap: list[tuple[bool, int, bool, int]] = []
 
     def offer(i: int) -> bool:
         """Queue an unsolved row; an empty one is checked. True if it was redundant."""
         if rows[i]:
-            heapq.heappush(heap, (best(i)[0], i))
+            heapq.heappush(heap, (*best(i)[:3], i))
             return False
         if abs(constants[i]) > CONSISTENT * scale:
             raise ModelError(
@@ -90,12 +96,12 @@ def eliminate(n: int, equations: Sequence[tuple[str, Affine]], locked: set[int])
 
     empty = {i for i in range(len(rows)) if offer(i)}
     while heap:
-        cost, i = heapq.heappop(heap)
+        *cost, i = heapq.heappop(heap)
         if i in solved or i in empty:
             continue
-        now, pivot = best(i)
+        *now, pivot = best(i)
         if now > cost:
-            heapq.heappush(heap, (now, i))
+            offer(i)
             continue
         row = rows[i]
         p = row.pop(pivot)

@@ -1,4 +1,4 @@
-"""From full coordinates to z: scaling to metres, the transformation q_full = T z + z0, mass and gravity."""
+"""From full coordinates to z: the transformation q_full = T z + z0, mass and gravity."""
 
 from __future__ import annotations
 
@@ -10,43 +10,42 @@ from scipy import sparse
 
 from mbs.affine import Affine
 from mbs.compile.eliminate import eliminate
-from mbs.compile.rows import body_length
+from mbs.compile.natural import NaturalCoordinates
+from mbs.compile.polynomial import substitute
 from mbs.model.equation import Equation
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
 
-def lengths(model: Model) -> Array:
-    """Metres per unit of each full coordinate: body axes are stored as L*a so that all of z is in metres."""
-    units = np.ones(len(model.coordinates))
-    for body in model.bodies:
-        if not body.is_point:
-            units[body.start + model.dimension : body.start + body.size] = body_length(body)
-    return units
-
-
-def reduce_coordinates(model: Model, linear: Sequence[Equation]) -> tuple[list[int], list[Affine], int]:
+def reduce_coordinates(
+    natural: NaturalCoordinates, linear: Sequence[Equation], grounded: bool
+) -> tuple[list[int], list[Affine], list[Affine], int]:
     """Eliminate the linear equations.
+
+    Parameters
+    ----------
+    grounded : bool
+        Whether a joint ties the scene to the ground.
 
     Returns
     -------
     kept : list of int
-        Full coordinates that are z (in the units of `lengths`).
+        Natural coordinates that are z.
     full : list of Affine
-        Each full coordinate of the model (unit axes) as an expression of z.
+        Each coordinate of the model (centre of mass, unit axes) as an expression of z.
+    all : list of Affine
+        Each natural coordinate as an expression of z.
     redundant : int
         Linear equations that said nothing new.
     """
-    units = lengths(model)
-    equations = []
-    for equation in linear:
-        form = equation.linear_form()
-        equations.append((equation.name, Affine({i: c / units[i] for i, c in form.terms.items()}, form.constant)))
-    locked = {i for i, info in enumerate(model.coordinates) if info.kind in ("angle", "spin")}
-    result = eliminate(len(model.coordinates), equations, locked)
-    full = [e if u == 1.0 else e * (1.0 / u) for e, u in zip(result.expressions, units, strict=True)]
-    return result.kept, full, result.redundant
+    equations = [(e.name, substitute(e.linear_form(), natural.expressions)) for e in linear]
+    locked = {i for i, info in enumerate(natural.info) if info.kind in ("angle", "spin")}
+    points = {i for i, info in enumerate(natural.info) if info.kind == "point"}
+    # a scene without ties to the ground may go far: its rows must not hold differences of positions
+    result = eliminate(len(natural.info), equations, locked, points, first_only=not grounded)
+    full = [substitute(e, result.expressions) for e in natural.expressions]
+    return result.kept, full, result.expressions, result.redundant
 
 
 def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, Array]:
@@ -91,3 +90,12 @@ def full_gravity(model: Model) -> Array:
             else:
                 force[body.start + 3 : body.start + 12] = np.outer(s, g).ravel()
     return force
+
+
+def symmetric(matrix: sparse.csr_matrix) -> sparse.csr_matrix:
+    """Exactly symmetric, without round-off entries."""
+    m = (0.5 * (matrix + matrix.T)).tocoo()
+    diagonal = np.abs(m.tocsr().diagonal())
+    big = np.sqrt(np.maximum(diagonal[m.row] * diagonal[m.col], 0.0))
+    stay = (np.abs(m.data) > 1e-14 * big) & (m.data != 0.0)
+    return sparse.coo_matrix((m.data[stay], (m.row[stay], m.col[stay])), shape=m.shape).tocsr()

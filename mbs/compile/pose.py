@@ -8,16 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.affine import Affine
+from mbs.compile.natural import NaturalCoordinates
 from mbs.errors import ModelError
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 
 NAMES = ("pose_0", "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed")
 
 
-def pose_arrays(model: Model, kept: Sequence[int], full: Sequence[Affine], q: Array) -> dict[str, Array]:
-    """The `pose_` arrays, in the order of `kept`; empty unless the model floats.
+def pose_arrays(
+    model: Model, natural: NaturalCoordinates, kept: Sequence[int], of_z: Sequence[Affine], q: Array, order: Index
+) -> dict[str, Array]:
+    """The `pose_` arrays in elimination order; empty unless the model floats.
 
     A coordinate is a component of a point or of a vector of a body, so that moving and turning the scene as a whole
     is linear in cos, sin and the shift.
@@ -26,19 +30,21 @@ def pose_arrays(model: Model, kept: Sequence[int], full: Sequence[Affine], q: Ar
     ----------
     q : ndarray
         Position of z to be moved, in the order of `kept`.
+    order : ndarray
+        Elimination order.
     """
     if not model.floating:
         return {name: np.zeros(0) for name in NAMES}
-    tied = [model.coordinates[i].name for i, e in enumerate(full) if abs(e.constant) > 1e-9]
+    tied = [natural.info[i].name for i, e in enumerate(of_z) if abs(e.constant) > 1e-9]
     if tied:
         raise ModelError(
             f"The model '{model.name}' is declared floating, but joints tie it to the ground (coordinate '{tied[0]}')."
         )
     arrays = {name: np.zeros(len(kept)) for name in NAMES}
     spins = {s.index: s for s in model.spins}
-    value = full_values(full, q)
+    value = full_values(of_z, q)
     for k, i in enumerate(kept):
-        info = model.coordinates[i]
+        info = natural.info[i]
         if info.kind == "spin":
             wheel = spins[i]
             if wheel.rolling_radius > 0.0:
@@ -47,18 +53,16 @@ def pose_arrays(model: Model, kept: Sequence[int], full: Sequence[Affine], q: Ar
         if info.kind == "angle":
             arrays["pose_0"][k] = q[k]
             continue
-        # q is in the units of z (metres per unit axis); i - component is the x component of the same point or vector
-        unit = 1.0 / full[i].terms[k]
-        x, y = value[i - info.component] * unit, value[i - info.component + 1] * unit
+        x, y = value[i - info.component], value[i - info.component + 1]
         if info.component == 2:
             arrays["pose_0"][k] = q[k]
         else:
             arrays["pose_cos"][k], arrays["pose_sin"][k] = (x, -y) if info.component == 0 else (y, x)
         if info.kind == "point":
             arrays[f"pose_{'xyz'[info.component]}"][k] = 1.0
-    return arrays
+    return {name: values[order] for name, values in arrays.items()}
 
 
 def full_values(full: Sequence[Affine], z: Array) -> Array:
-    """Full coordinates (unit axes) at z."""
+    """Values of expressions of z."""
     return np.array([e.value(z) for e in full])

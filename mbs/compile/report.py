@@ -8,6 +8,9 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
+from mbs.compile.fronts import Fronts
+from mbs.model.core import ModelCore
+
 RANK_TOLERANCE = 1e-7
 """Singular values of the mass-normalised rows below this part of the largest count as zero."""
 DENSE_RANK = 300
@@ -38,6 +41,24 @@ def rank_at(Phiq: sparse.csr_matrix, mass_diagonal: np.ndarray) -> int | None:
     if not np.array_equal(factor.perm_r, factor.perm_c):
         return None  # rows were exchanged: the signs of the pivots no longer count eigenvalues
     return nc - int(np.sum(factor.U.diagonal() < 0.0))
+
+
+def structure_report(model: ModelCore, fronts: Fronts, rank: int | None, rows: int) -> dict[str, Any]:
+    """Counts of the System and its factor."""
+    return {
+        "bodies": len(model.bodies),
+        "full_coordinates": len(model.coordinates),
+        "coordinates": len(fronts.order),
+        "rows": rows,
+        "rank": rank,
+        "degrees_of_freedom": None if rank is None else len(fronts.order) - rank,
+        "factor_nonzeros": fronts.factor_nonzeros,
+        "fronts": len(fronts.index),
+        "largest_front": max(len(i) for i in fronts.index),
+        "elements": len(model.elements),
+        "inputs": len(model.inputs),
+        "sensors": len(model.sensors),
+    }
 
 
 def report_text(name: str, dimension: int, report: dict[str, Any]) -> str:

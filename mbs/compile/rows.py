@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbs.affine import Affine, AffineVector
+from mbs.compile.local_vectors import body_length, distinct
 from mbs.compile.polynomial import Polynomial, RowTerms, add_product, cleaned, substitute
 from mbs.model.body import Body
 from mbs.model.checks import Vector
@@ -29,26 +30,9 @@ def candidates(body: Body) -> list[Vector]:
     size = body_length(body)
     found: list[Vector] = [size * e for e in np.eye(body.dimension)]
     found += [size * u for u in body.joint_axes]
-    points = _distinct([np.zeros(body.dimension), *body.joint_points])[:MOST_POINTS]
+    points = distinct([np.zeros(body.dimension), *body.joint_points])[:MOST_POINTS]
     found += [p - q for k, p in enumerate(points) for q in points[:k]]
     return [w for w in found if np.linalg.norm(w) > 1e-6 * size]
-
-
-def body_length(body: Body) -> float:
-    """A length typical of the body, m: the distance of its farthest joint point from its centre of mass, or its
-    gyration radius.
-    """
-    farthest = max((float(np.linalg.norm(p)) for p in body.joint_points), default=0.0)
-    gyration = float(np.sqrt(np.trace(body.second_moment) / body.mass)) if body.mass else 0.0
-    return farthest if farthest > 0.1 * gyration else gyration
-
-
-def _distinct(points: list[Vector]) -> list[Vector]:
-    found: list[Vector] = []
-    for p in points:
-        if all(np.linalg.norm(p - q) > 1e-9 for q in found):
-            found.append(p)
-    return found
 
 
 def rigid_rows(body: Body, full: Sequence[Affine]) -> list[RowTerms]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.affine import Affine
+from mbs.compile.front_arrays import Locate
 from mbs.compile.polynomial import substitute
 from mbs.elements.types import ElementType
 from mbs.model.model import Model
@@ -69,7 +70,7 @@ def element_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     return found
 
 
-def element_arrays(model: Model, signals: Signals, front_of: Any) -> Arrays:
+def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
     """The `el_` arrays and `y0`; `front_of(columns)` returns the front and the local indices of columns."""
     numbers, fronts, locals_ = [], [], []
     for element in model.elements:

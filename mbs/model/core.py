@@ -68,6 +68,7 @@ class ModelCore:
         fall = np.array([0.0, -9.81]) if dimension == 2 else np.array([0.0, 0.0, -9.81])
         self.gravity: Vector = fall if gravity is None else vector(gravity, dimension, f"gravity of model '{name}'")
         self.floating = False
+        self.grounded = False  # a joint ties something to the ground
         self.start_in_equilibrium = False
         self.equilibrium_parameters: dict[str, float] = {}  # values that hold only while it is sought
         self.stop_time = 10.0
@@ -113,7 +114,9 @@ class ModelCore:
         if body.is_point:
             return body.point(position)  # type: ignore[arg-type]
         local = vector(position, self.dimension, f"the point of {what} on body '{body.name}'")  # type: ignore[arg-type]
-        if not body.is_ground:
+        if body.is_ground:
+            self.grounded = True
+        else:
             body.joint_points.append(local - body.com)
         return body.point(local)
 
@@ -121,7 +124,9 @@ class ModelCore:
         """A unit joint axis of a body; remembered like a joint point."""
         self.owned(body, what)
         unit = direction(axis, self.dimension, f"the axis of {what} on body '{body.name}'")
-        if not body.is_ground and not body.is_point:
+        if body.is_ground:
+            self.grounded = True
+        elif not body.is_point:
             body.joint_axes.append(unit)
         return body.vector(unit)
 

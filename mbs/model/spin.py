@@ -74,6 +74,7 @@ def spin(
     e = direction(axis, 3, f"the axis of {what}")
     c = vector(centre, 3, f"the centre of {what}")
     x, y = perpendicular(e)
+    carrier.joint_axes.append(e)
     # I = I_d (1 - e e'), zero about the axis, has the second moment J = tr(I)/2 - I = I_d e e'
     carrier.add_mass(m, c, I_d * np.outer(e, e))
     index = model.new_coordinate(name, "spin", 0.0)

@@ -24,7 +24,9 @@ def rows_of_every_kind():
     m.armature("rotor", theta, inertia=0.01)
     steer = m.input("steer", start=0.05, min=-1.0, max=1.0)
     rack = m.guide_input("rack", input=steer, gain=0.5, frequency=2.0)
-    m.distance("tie", m.slide("end", a, point=(0.2, -0.3, 0.1), direction=(0, 0.6, 0.8), guide=rack), (b, (1, 0.2, 0.5)))
+    m.distance(
+        "tie", m.slide("end", a, point=(0.2, -0.3, 0.1), direction=(0, 0.6, 0.8), guide=rack), (b, (1, 0.2, 0.5))
+    )
     wheel = m.spin(
         "wheel", carrier=e, centre=(1.2, 1.3, 0.3), axis=(0, 1, 0), mass=2.0, spin_inertia=0.2, diametral_inertia=0.12
     )

@@ -25,7 +25,7 @@ def test_every_solution_of_z_solves_the_equations(seed):
     rng = np.random.default_rng(seed)
     n, count = 40, 25
     equations = random_equations(rng, n, count)
-    result = eliminate(n, equations, set())
+    result = eliminate(n, equations, set(), set())
     dense = np.array([[e.terms.get(i, 0.0) for i in range(n)] for _, e in equations])
     assert len(result.kept) == n - np.linalg.matrix_rank(dense)
     for _ in range(3):
@@ -39,14 +39,14 @@ def test_every_solution_of_z_solves_the_equations(seed):
 def test_dependent_equations_are_counted_and_contradictions_refused():
     a, b = Affine({0: 1.0, 1: -1.0}, 0.5), Affine({1: 2.0, 2: 1.0}, -1.0)
     total = a * 3.0 + b
-    assert eliminate(3, [("a", a), ("b", b), ("sum", total)], set()).redundant == 1
+    assert eliminate(3, [("a", a), ("b", b), ("sum", total)], set(), set()).redundant == 1
     with pytest.raises(ModelError, match="cannot close") as error:
-        eliminate(3, [("a", a), ("b", b), ("sum", total + 1e-3)], set())
+        eliminate(3, [("a", a), ("b", b), ("sum", total + 1e-3)], set(), set())
     assert "0.001 m" in str(error.value) or "0.000333 m" in str(error.value)
 
 
 def test_locked_coordinates_stay():
-    result = eliminate(3, [("a", Affine({0: 1.0, 1: -1.0, 2: 5.0}))], {2})
+    result = eliminate(3, [("a", Affine({0: 1.0, 1: -1.0, 2: 5.0}))], {2}, set())
     assert 2 in result.kept
     with pytest.raises(ModelError, match="guide"):
-        eliminate(3, [("a", Affine({2: 1.0}, -0.3))], {2})
+        eliminate(3, [("a", Affine({2: 1.0}, -0.3))], {2}, set())

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.compile.mechanisms import MODELS
 
 from mbs import compile
 from mbs.compile.fronts import build_fronts
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
+from tests.compile.mechanisms import MODELS
 
 
 def covered(fronts, n):

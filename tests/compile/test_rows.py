@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.compile.mechanisms import MODELS
 from scipy.spatial.transform import Rotation
 
 from mbs import Model, compile
 from mbs.compile.rows import rigid_rows
 from mbs.kernel.binding import Instance, LoadedSystem
+from tests.compile.mechanisms import MODELS
 
 DERIVATIVE = 2e-8
 ROUND_OFF = 1e-12

@@ -6,10 +6,10 @@ import zlib
 
 import numpy as np
 import pytest
-from tests.compile.mechanisms import MODELS, rows_of_every_kind
 
 from mbs import System, SystemFileError, compile
 from mbs.system import ENTRY, FLOATS, HEADER, INTEGERS
+from tests.compile.mechanisms import MODELS, rows_of_every_kind
 
 
 @pytest.fixture(scope="module")

@@ -115,7 +115,9 @@ def test_revolute_on_the_ground_is_a_physical_pendulum():
     m = Model("pendulum")
     length, mass, inertia = 0.6, 1.4, 0.08
     tilt = 1e-3
-    body = m.body("bob", mass=mass, com=(length * np.sin(tilt), 0, -length * np.cos(tilt)), inertia=(0.05, inertia, 0.1))
+    body = m.body(
+        "bob", mass=mass, com=(length * np.sin(tilt), 0, -length * np.cos(tilt)), inertia=(0.05, inertia, 0.1)
+    )
     m.revolute("pin", m.ground, body, point=(0, 0, 0), axis=(0, 1, 0))
     m.sense_position("x", body, None, "x")
     system = compile(m)

@@ -73,7 +73,7 @@ def test_start_velocity_energy_and_euler_equations():
 
 
 def test_forces_of_kept_joints():
-    """A hanging chain of two links: the upper pin carries both, the rod below its load; the rows come from the joints."""
+    """A hanging chain: the pin carries both parts, the rod what hangs on it; their equations become rows."""
     m = Model("chain", dimension=2)
     upper = m.body("upper", mass=2.0, com=(0, -0.5), inertia=0.2)
     bob = m.point_mass("bob", mass=3.0, position=(0, -2))

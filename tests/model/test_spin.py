@@ -63,7 +63,14 @@ def test_reduced_wheel_agrees_with_a_full_one_and_converges_with_the_square_of_t
 def test_impossible_wheels_are_refused(given, sentence):
     m = Model("refusal")
     carrier = m.body("carrier", mass=0.5, com=(0, 0, 0), inertia=(0.01, 0.01, 0.01))
-    data = {"centre": (0, 0, 0), "axis": (0, 1, 0), "mass": 1.0, "spin_inertia": 0.05, "diametral_inertia": 0.03, **given}
+    data = {
+        "centre": (0, 0, 0),
+        "axis": (0, 1, 0),
+        "mass": 1.0,
+        "spin_inertia": 0.05,
+        "diametral_inertia": 0.03,
+        **given,
+    }
     with pytest.raises(ModelError, match="spin 'wheel'") as error:
         m.spin("wheel", carrier=carrier, **data)
     assert sentence in str(error.value)
