@@ -93,7 +93,7 @@ def test_no_equilibrium_is_refused_and_the_state_kept() -> None:
 
 
 def test_a_torque_on_a_free_spin_does_not_spoil_the_equilibrium_of_the_rest() -> None:
-    """Nothing can balance the torque at rest: the spin is held, the sprung mass finds its place, then the spin is free."""
+    """Nothing balances the torque at rest: the spin is held while the sprung mass finds its place, then it is free."""
     torque, inertia = 3.0, 2.0
     b = SystemBuilder(np.diag([2.0, inertia]), [0.0, 0.7], gravity=[-2.0 * GRAVITY, 0.0])
     b.elements = [

@@ -82,9 +82,11 @@ ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
-/* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and multipliers. */
+/* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
+ * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
-/* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m); then as ali3_initialise. */
+/* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m);
+ * then as ali3_initialise. */
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
 ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
 /* steps: inputs is (n_steps x nu) row major, one row per step, or NULL (keep); every k-th state's sensors go to out
@@ -95,7 +97,8 @@ ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values 
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 ALI3_API double ali3_time(const ali3_instance *in);
 
-/* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit, parameters and settings too. */
+/* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit,
+ * parameters and settings too. */
 ALI3_API size_t ali3_state_size(const ali3_system *s);
 ALI3_API ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size);
 ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size);
@@ -108,7 +111,8 @@ ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const dou
                                    double *phi, double *jacobian_values, double *phi_t,
                                    double *gamma /* d(Phi_q)/dt qd + d(Phi_t)/dt */, double *force /* Q, nq */,
                                    double *outputs);
-/* The tangent (23) as a dense symmetric nq x nq matrix at the present state for step h with multipliers lam (NULL: present). */
+/* The tangent (23) as a dense symmetric nq x nq matrix at the present state for step h with multipliers lam (NULL:
+ * present). */
 ALI3_API ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense);
 /* One element step in isolation: slots y_old -> y_new over h at (q, qd); force (nq) may be NULL. */
 ALI3_API ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old,

@@ -1,6 +1,7 @@
-/* Anderson mixing of depth one for Newton iterations that converge only linearly: element tangents leave out their unsymmetric part
- * (friction depends on the load), which costs a factor per iteration and mostly along one direction. The last two corrections show
- * that direction. Where Newton converges quadratically the corrections shrink faster than SLOW and nothing is mixed. */
+/* Anderson mixing of depth one for Newton iterations that converge only linearly: element tangents leave out their
+ * unsymmetric part (friction depends on the load), which costs a factor per iteration and mostly along one
+ * direction. The last two corrections show that direction. Where Newton converges quadratically the corrections
+ * shrink faster than SLOW and nothing is mixed. */
 #include "ali3_internal.h"
 
 static const double SLOW = 0.05; /* ratio of two corrections from which on convergence counts as linear */

@@ -4,8 +4,8 @@
 
 #include "ali3_internal.h"
 
-/* A scene that is not tied to the ground does not feel a translation, but its squares of coordinates do lose digits far from the
- * origin: there the rows are evaluated at a shifted copy. */
+/* A scene that is not tied to the ground does not feel a translation, but its squares of coordinates do lose digits
+ * far from the origin: there the rows are evaluated at a shifted copy. */
 static const double *near_origin(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   const double *direction[3] = {S->pose_x, S->pose_y, S->pose_z};
@@ -161,7 +161,8 @@ void ali3_geometric(ali3_instance *in, const double *q, const double *s, const d
   }
 }
 
-/* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are contiguous. */
+/* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
+ * contiguous. */
 void ali3_rows_square(ali3_instance *in, const double *J, double weight, double *F) {
   const ali3_system *S = in->system;
   double *restrict spread = in->local;

@@ -72,7 +72,8 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   }
 }
 
-/* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a tangent. */
+/* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a
+ * tangent. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   double *restrict SB = in->SB; /* a row per signal, a column per coordinate of the element */

@@ -28,8 +28,8 @@ static void subtract_panel(double *restrict target, const double *restrict c, in
   for (int32_t i = from; i < n; i++) target[i] -= (f0 * c[i] + f1 * c1[i]) + (f2 * c2[i] + f3 * c3[i]);
 }
 
-/* Panels of pivots: first the columns of the panel among themselves, then column j of the rest loses L_jp times the unscaled
- * column p, so that the inner loops run down columns. */
+/* Panels of pivots: first the columns of the panel among themselves, then column j of the rest loses L_jp times the
+ * unscaled column p, so that the inner loops run down columns. */
 static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n) {
   for (int32_t start = 0; start < n_pivot; start += PANEL) {
     const int32_t end = start + PANEL < n_pivot ? start + PANEL : n_pivot;

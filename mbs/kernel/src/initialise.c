@@ -1,5 +1,5 @@
-/* Consistent start: nearest position on Phi = 0 in the mass metric, velocities likewise, then accelerations and multipliers.
- * All three are proximal augmented Lagrangian iterations, which do not ask for a full-rank Phi_q. */
+/* Consistent start: nearest position on Phi = 0 in the mass metric, velocities likewise, then accelerations and
+ * multipliers. All three are proximal augmented Lagrangian iterations, which do not ask for a full-rank Phi_q. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* Instances: memory, settings, inputs, parameters and the calls of ali3.h around the algorithms. */
+/* Instances: memory, settings, inputs, parameters, the state to start from. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,7 +150,8 @@ ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings) 
   return ALI3_OK;
 }
 
-/* The data of elements, guides and roads from the file and the parameters; refused as a whole when an element cannot take it. */
+/* The data of elements, guides and roads from the file and the parameters; refused as a whole when an element cannot
+ * take it. */
 ali3_status ali3_parameters_apply(ali3_instance *in) {
   const ali3_system *S = in->system;
   double *target[3] = {in->el_real, in->guide_real, in->road_real};
@@ -245,91 +246,5 @@ ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd) {
   if (q != NULL) copy(in->now.q, q, nq);
   if (qd != NULL) copy(in->now.qd, qd, nq);
   in->initialised = 0;
-  return ALI3_OK;
-}
-
-/* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
-static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
-  in->report.last_status = (int32_t)status;
-  if (status != ALI3_OK) {
-    ali3_vectors_copy(in, &in->now, &in->start);
-    in->report.failures++;
-    return status;
-  }
-  in->t_base = t0;
-  in->h_last = 0.0;
-  in->count = 0;
-  in->initialised = 1;
-  return ALI3_OK;
-}
-
-ali3_status ali3_initialise(ali3_instance *in, double t0) {
-  const ali3_report none = {0};
-  if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
-  in->report = none;
-  ali3_vectors_copy(in, &in->start, &in->now);
-  return begin(in, ali3_solve_initial(in, t0), t0);
-}
-
-ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations) {
-  const ali3_report none = {0};
-  if (in == NULL || !(t0 - t0 == 0.0) || !(tolerance > 0.0) || max_iterations < 1) return ALI3_BAD_ARGUMENT;
-  in->report = none;
-  ali3_vectors_copy(in, &in->start, &in->now);
-  return begin(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
-}
-
-double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
-
-ali3_status ali3_step(ali3_instance *in, double h) {
-  if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
-  const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
-  const int64_t count = h == in->h_last ? in->count + 1 : 1;
-  const bool may_halve = in->settings.max_halvings > 0;
-  if (may_halve) ali3_vectors_copy(in, &in->start, &in->now);
-  const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
-  in->report.last_status = (int32_t)status;
-  if (status != ALI3_OK) {
-    if (may_halve) ali3_vectors_copy(in, &in->now, &in->start);
-    in->report.failures++;
-    return status;
-  }
-  in->report.steps++;
-  in->t_base = t_base;
-  in->h_last = h;
-  in->count = count;
-  return ALI3_OK;
-}
-
-ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every, double *out,
-                     int64_t *done) {
-  if (done != NULL) *done = 0;
-  if (in == NULL || n_steps < 0 || every < 1) return ALI3_BAD_ARGUMENT;
-  const int32_t nu = in->system->size.nu, ns = in->system->size.ns;
-  for (int64_t n = 0; n < n_steps; n++) {
-    if (inputs != NULL)
-      for (int32_t i = 0; i < nu; i++) {
-        const ali3_status status = ali3_set_input(in, i, inputs[n * nu + i]);
-        if (status != ALI3_OK) return status;
-      }
-    const ali3_status status = ali3_step(in, h);
-    if (status != ALI3_OK) return status;
-    if (done != NULL) *done = n + 1;
-    if (out != NULL && (n + 1) % every == 0) ali3_sensors_evaluate(in, out + ((n + 1) / every - 1) * ns);
-  }
-  return ALI3_OK;
-}
-
-ali3_status ali3_sensors(ali3_instance *in, double *out) {
-  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
-  ali3_sensors_evaluate(in, out);
-  return ALI3_OK;
-}
-
-ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
-  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
-  *out = in->report;
   return ALI3_OK;
 }

@@ -1,4 +1,5 @@
-/* Looks inside for tests and linearisation: rows, forces, tangent and element steps at given values. The state stays as it is. */
+/* Looks inside for tests and linearisation: rows, forces, tangent and element steps at given values. The state stays
+ * as it is. */
 #include <string.h>
 
 #include "ali3_internal.h"

@@ -1,4 +1,5 @@
-/* A state as bytes: header with magic, version, System checksum, size and own checksum; then all that continues bit for bit. */
+/* A state as bytes: header with magic, version, System checksum, size and own checksum; then all that continues bit
+ * for bit. */
 #include <string.h>
 
 #include "ali3_internal.h"

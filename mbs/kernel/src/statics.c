@@ -1,7 +1,7 @@
-/* Static equilibrium by a pseudo-transient Newton iteration: mass / c + stiffness, with c growing while the balance improves.
- * The mass keeps free directions (position on a plane) where they are. A coordinate that no row, stiffness or weight touches, such
- * as the spin of a driven wheel, cannot come into balance at rest: it is held. in->w marks with 0 what may be held, in->d0 what is;
- * both have 1 elsewhere. */
+/* Static equilibrium by a pseudo-transient Newton iteration: mass / c + stiffness, with c growing while the balance
+ * improves. The mass keeps free directions (position on a plane) where they are. A coordinate that no row, stiffness
+ * or weight touches, such as the spin of a driven wheel, cannot come into balance at rest: it is held. in->w marks
+ * with 0 what may be held, in->d0 what is; both have 1 elsewhere. */
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +14,8 @@ static const double CLOSED = 1e-10; /* m */
 static const double OPEN = 1e-2; /* m: c does not grow beyond it */
 static const double ROUND_OFF = 1e-12; /* of the forces in balance */
 
-/* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report, what lies above round-off is returned. */
+/* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report, what lies above round-off is
+ * returned. */
 static double balance(ali3_instance *in, double c) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;

@@ -1,11 +1,13 @@
-/* One ALi3-P step: trapezoidal rule (17), (18) in the increment D = q_(n+1) - q_n, Newton on (19), (20), projections (24), (25). */
+/* One ALi3-P step: trapezoidal rule (17), (18) in the increment D = q_(n+1) - q_n, Newton on (19), (20), projections
+ * (24), (25). */
 #include <math.h>
 #include <string.h>
 
 #include "ali3_internal.h"
 
 enum { MAX_SWEEPS = 3 };
-/* Relative violations at which projections end: velocities at round-off; accelerations only steer the next prediction. */
+/* Relative violations at which projections end: velocities at round-off; accelerations only steer the next
+ * prediction. */
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
 
 bool ali3_finite(const double *v, int64_t n) {
@@ -37,9 +39,9 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   return largest;
 }
 
-/* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q' that spreads
- * the correction is that of the tangent: the penalty would amplify what a later one has outside its range. The violation is judged
- * at the converged position. Returns it. */
+/* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'
+ * that spreads the correction is that of the tangent: the penalty would amplify what a later one has outside its
+ * range. The violation is judged at the converged position. Returns it. */
 double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double tolerance, int32_t sweeps) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;

@@ -1,4 +1,5 @@
-/* Content of a System: lengths, mass, signals, inputs, guides, roads, parameters, pose. Nothing is indexed before it is checked. */
+/* Content of a System: lengths, mass, signals, inputs, guides, roads, parameters, pose. Nothing is indexed before it
+ * is checked. */
 #include <math.h>
 
 #include "ali3_internal.h"

@@ -1,4 +1,5 @@
-/* What the loops want and the file need not say: terms with their places, the mass matrix in front storage, element entries. */
+/* What the loops want and the file need not say: terms with their places, the mass matrix in front storage, element
+ * entries. */
 #include <stdlib.h>
 #include <string.h>
 
