@@ -33,7 +33,7 @@ def row_fronts(arrays: RowArrays, locate: Locate) -> dict[str, Any]:
     """The arrays `row_front` and `row_loc`."""
     fronts, local = [], []
     for columns in arrays.cliques():
-        s, places = locate(columns)
+        s, places = locate(columns.tolist())
         fronts.append(s)
         local += places
     return {"row_front": np.array(fronts, dtype=np.int64), "row_loc": np.array(local, dtype=np.int64)}

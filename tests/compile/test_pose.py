@@ -65,6 +65,16 @@ def test_motion_does_not_depend_on_the_pose():
     np.testing.assert_allclose(there["angle"], here["angle"], rtol=0, atol=1e-7)
 
 
+def test_far_away_the_rows_lose_no_digits():
+    """100 km from the origin the scene still closes to round-off of its own size: rows hold no positions."""
+    near = Simulation(compile(trolley())).run(0.5, 0.005)
+    far = Simulation(compile(trolley()), pose=Pose(1e5, -1e5, 0.0, 0.0, 0.0)).run(0.5, 0.005)
+    assert far.report.halvings == 0
+    assert far.report.violation < 1e-11
+    np.testing.assert_allclose(far["angle"], near["angle"], rtol=0, atol=1e-7)
+    np.testing.assert_allclose(far["px"] - 1e5, near["px"], rtol=0, atol=1e-7)
+
+
 def test_a_scene_tied_to_the_ground_cannot_float():
     m = trolley()
     m.spherical("anchor", m.bodies[0], m.ground, point=(0, 0, 0.5))
