@@ -112,6 +112,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_step": (c_int32, [c_void_p, c_double]),
     "ali3_run": (c_int32, [c_void_p, c_double, c_int64, _DOUBLES, c_int64, _DOUBLES, POINTER(c_int64)]),
     "ali3_sensors": (c_int32, [c_void_p, _DOUBLES]),
+    "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
+    "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
     "ali3_time": (c_double, [c_void_p]),
     "ali3_state_size": (c_size_t, [c_void_p]),

@@ -15,7 +15,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 1
+#define ALI3_STATE_VERSION 2
 
 typedef enum {
   ALI3_OK = 0,
@@ -67,6 +67,13 @@ ALI3_API uint32_t ali3_version(void);
 
 ALI3_API ali3_status ali3_system_load(const void *bytes, size_t size, ali3_system **out, char *message,
                                       size_t message_size);
+/* The same with memory of the caller's, for the system and its instances; allocate gives zeroed memory, as calloc. */
+typedef struct {
+  void *(*allocate)(size_t count, size_t size);
+  void (*release)(void *block);
+} ali3_memory;
+ALI3_API ali3_status ali3_system_load_with(const void *bytes, size_t size, const ali3_memory *memory, ali3_system **out,
+                                           char *message, size_t message_size);
 ALI3_API void ali3_system_free(ali3_system *s);
 ALI3_API ali3_sizes ali3_system_sizes(const ali3_system *s);
 
@@ -94,6 +101,11 @@ ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
                               double *out, int64_t *done);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
+/* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] = 0). */
+ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);
+/* d(sensors at the end of the last step)/d(inputs of that step) times direction (nu), the state before it held; from
+ * the factorised tangent (23). ALI3_NOT_INITIALISED before the first step. */
+ALI3_API ali3_status ali3_input_derivative(ali3_instance *in, const double *direction, double *out);
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 ALI3_API double ali3_time(const ali3_instance *in);
 

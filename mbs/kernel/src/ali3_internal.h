@@ -61,6 +61,7 @@ struct ali3_system {
 #define ALI3_DECLARE(type, number, name) int64_t n_##name;
   ALI3_SYSTEM_ARRAYS(ALI3_DECLARE)
 #undef ALI3_DECLARE
+  ali3_memory memory;
   unsigned char *bytes; /* the copied file */
   uint32_t crc;
   ali3_sizes size;
@@ -98,18 +99,20 @@ typedef struct {
   double *s, *sd, *sdd;      /* guides */
   double *out, *potential;   /* of the last evaluation of the elements */
   double *used;              /* inputs as used in the last step */
+  double *y_last, *h_last;   /* of the last step: slots at its start (ny), its size; 0 at a start */
 } ali3_vectors;
 
 struct ali3_instance {
   const ali3_system *system;
+  void (*release)(void *block);
   ali3_settings settings;
   ali3_report report;
   double t_base, h_last; /* time = t_base + count * h_last */
   int64_t count;
   int32_t initialised;
-  ali3_vectors now, next, start;
+  ali3_vectors now, next, start, tangent; /* tangent: a direction in the space of states */
   size_t n_vector;
-  double *input, *parameter;
+  double *input, *input_work, *parameter;
   double *el_real, *guide_real, *road_real; /* copies that parameters write to */
   ali3_road *road;
   /* work space */
@@ -203,6 +206,10 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
 
 /* sensors.c */
 void ali3_sensors_evaluate(const ali3_instance *in, double *out);
+void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]);
+
+/* sensor_tangent.c: change of the sensors along in->tangent */
+void ali3_sensors_tangent(const ali3_instance *in, double *out);
 
 /* instance.c */
 ali3_status ali3_parameters_apply(ali3_instance *in);

@@ -121,6 +121,8 @@ ali3_status ali3_solve_rates(ali3_instance *in) {
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
   const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
   memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(v->y_last, v->y, (size_t)S->size.ny * sizeof(double));
+  v->h_last[0] = 0.0;
   ali3_forces(in, &call);
   ali3_forces_accept(in, &call); /* discrete states, such as a gear, that fit the start */
   memcpy(v->y, in->y_work, (size_t)S->size.ny * sizeof(double));

@@ -1,6 +1,5 @@
 /* Instances: memory, settings, inputs, parameters, the state to start from. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "ali3_internal.h"
@@ -41,6 +40,8 @@ static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
   v->out = take(pool, (size_t)z->nout);
   v->potential = take(pool, (size_t)z->ne);
   v->used = take(pool, (size_t)z->nu);
+  v->y_last = take(pool, (size_t)z->ny);
+  v->h_last = take(pool, 1);
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
@@ -61,26 +62,29 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   if (s == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &s->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ny = (size_t)z->ny, nout = (size_t)z->nout, ne = (size_t)z->ne;
-  const size_t n_vector = 3 * nq + nc + ny + 3 * (size_t)z->ng + nout + ne + (size_t)z->nu;
+  const size_t n_vector = 3 * nq + nc + 2 * ny + 3 * (size_t)z->ng + nout + ne + (size_t)z->nu + 1;
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
-  const size_t total = 3 * n_vector + nu + 2 * np + data + 8 * nq + 7 * nc + 2 * (size_t)z->nnz_rows +
+  const size_t total = 4 * n_vector + 2 * nu + 2 * np + data + 8 * nq + 7 * nc + 2 * (size_t)z->nnz_rows +
                        (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
                        nout + ne;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u;
   *out = NULL;
-  char *block = calloc(1, head + roads + total * sizeof(double));
+  char *block = s->memory.allocate(1, head + roads + total * sizeof(double));
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
   double *pool = (double *)(block + head + roads);
   in->system = s;
+  in->release = s->memory.release;
   in->road = (ali3_road *)(block + head);
   in->n_vector = n_vector;
   place_vectors(z, &in->now, &pool);
   place_vectors(z, &in->next, &pool);
   place_vectors(z, &in->start, &pool);
+  place_vectors(z, &in->tangent, &pool);
   in->input = take(&pool, nu);
+  in->input_work = take(&pool, nu);
   in->parameter = take(&pool, np);
   in->parameter_work = take(&pool, np);
   in->el_real = take(&pool, (size_t)s->n_el_real);
@@ -115,14 +119,16 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->potential_work = take(&pool, ne);
   const ali3_status status = ali3_reset(in);
   if (status != ALI3_OK) {
-    free(block);
+    s->memory.release(block);
     return status;
   }
   *out = in;
   return ALI3_OK;
 }
 
-void ali3_instance_free(ali3_instance *in) { free(in); }
+void ali3_instance_free(ali3_instance *in) {
+  if (in != NULL) in->release(in);
+}
 
 ali3_settings ali3_default_settings(void) {
   const ali3_settings settings = {0.0, 1e-9, 1e-10, 1e-10, 20, 4, 1, ALI3_UPDATE_LINEARISED, 1, 0};

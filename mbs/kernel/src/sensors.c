@@ -35,8 +35,8 @@ static double axial_rate(const ali3_instance *in, const int32_t *v) {
 }
 
 /* Scalar first, w >= 0; the largest of the four is found from the trace and the others follow from it. */
-static double quaternion(const ali3_instance *in, int32_t wanted, const int32_t *v) {
-  double R[3][3], n[4];
+void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]) {
+  double R[3][3];
   for (int i = 0; i < 3; i++) {
     double axis[3];
     vector(in, v + 3 * i, 0, axis);
@@ -63,8 +63,8 @@ static double quaternion(const ali3_instance *in, int32_t wanted, const int32_t 
     n[1 + k] = R[k][i] + R[i][k];
   }
   const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3]);
-  if (!(length > 0.0)) return wanted == 0 ? 1.0 : 0.0;
-  return (n[0] < 0.0 ? -n[wanted] : n[wanted]) / length;
+  const double size = n[0] < 0.0 ? -length : length;
+  for (int i = 0; i < 4; i++) n[i] = length > 0.0 ? n[i] / size : (i == 0 ? 1.0 : 0.0);
 }
 
 static double energy(const ali3_instance *in, int32_t kind) {
@@ -121,6 +121,7 @@ static double angle_about(const ali3_instance *in, const int32_t *v) {
 
 static double value(const ali3_instance *in, int32_t type, const int32_t *v, const double *real) {
   const ali3_vectors *now = &in->now;
+  double n[4];
   switch (type) {
   case 0:
   case 1:
@@ -135,7 +136,8 @@ static double value(const ali3_instance *in, int32_t type, const int32_t *v, con
   case 6:
     return real[0] * axial_rate(in, v);
   case 7:
-    return quaternion(in, v[0], v + 1);
+    ali3_quaternion(in, v + 1, n);
+    return n[v[0]];
   case 8:
     return real[0] * now->out[in->system->el_out_ptr[v[0]] + v[1]];
   case 9:

@@ -16,8 +16,8 @@ static const char MAGIC[8] = {'A', 'L', 'I', '3', 'S', 'T', 'A', '\n'};
 enum { CHECKED_FROM = 28 }; /* the checksum covers what follows it */
 
 static size_t vector_count(const ali3_sizes *z) {
-  return 3 * (size_t)z->nq + (size_t)z->nc + (size_t)z->ny + 3 * (size_t)z->ng + (size_t)z->nout + (size_t)z->ne +
-         (size_t)z->nu;
+  return 3 * (size_t)z->nq + (size_t)z->nc + 2 * (size_t)z->ny + 3 * (size_t)z->ng + (size_t)z->nout + (size_t)z->ne +
+         (size_t)z->nu + 1;
 }
 
 size_t ali3_state_size(const ali3_system *s) {

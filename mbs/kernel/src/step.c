@@ -159,6 +159,8 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   }
   memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
+  to->h_last[0] = h;
   const ali3_status status = newton(in, h, alpha, &iterations);
   in->report.iterations += iterations;
   in->report.last_iterations = iterations;

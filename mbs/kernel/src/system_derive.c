@@ -209,7 +209,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
     return ali3_bad(m, "the elements have %lld signal entries", (long long)n_entry);
   ali3_pool pool = {NULL, 0};
   place(s, &pool, (size_t)n_entry);
-  s->derived = malloc(pool.used > 0 ? pool.used : 1);
+  s->derived = s->memory.allocate(1, pool.used > 0 ? pool.used : 1);
   if (s->derived == NULL) return ALI3_NO_MEMORY;
   pool.block = s->derived;
   pool.used = 0;

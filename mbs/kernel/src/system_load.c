@@ -108,15 +108,23 @@ static ali3_status read_directory(ali3_system *s, size_t size, ali3_message m) {
 }
 
 ali3_status ali3_system_load(const void *bytes, size_t size, ali3_system **out, char *message, size_t message_size) {
+  const ali3_memory memory = {calloc, free};
+  return ali3_system_load_with(bytes, size, &memory, out, message, message_size);
+}
+
+ali3_status ali3_system_load_with(const void *bytes, size_t size, const ali3_memory *memory, ali3_system **out,
+                                  char *message, size_t message_size) {
   const ali3_message m = {message, message_size};
   if (message != NULL && message_size > 0) message[0] = 0;
-  if (bytes == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
+  if (bytes == NULL || out == NULL || memory == NULL || memory->allocate == NULL || memory->release == NULL)
+    return ALI3_BAD_ARGUMENT;
   *out = NULL;
   ali3_status status = check_header(bytes, size, m);
   if (status != ALI3_OK) return status;
-  ali3_system *s = calloc(1, sizeof *s);
+  ali3_system *s = memory->allocate(1, sizeof *s);
   if (s == NULL) return ALI3_NO_MEMORY;
-  s->bytes = malloc(size);
+  s->memory = *memory;
+  s->bytes = memory->allocate(1, size);
   if (s->bytes == NULL) {
     ali3_system_free(s);
     return ALI3_NO_MEMORY;
@@ -136,9 +144,10 @@ ali3_status ali3_system_load(const void *bytes, size_t size, ali3_system **out, 
 
 void ali3_system_free(ali3_system *s) {
   if (s == NULL) return;
-  free(s->derived);
-  free(s->bytes);
-  free(s);
+  const ali3_memory memory = s->memory; /* a host's release need not take a null pointer */
+  if (s->derived != NULL) memory.release(s->derived);
+  if (s->bytes != NULL) memory.release(s->bytes);
+  memory.release(s);
 }
 
 ali3_sizes ali3_system_sizes(const ali3_system *s) {
