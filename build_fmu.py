@@ -1,4 +1,4 @@
-"""Builds the FMU of a scene: ``python build_fmu.py [--scene NAME or path/to/file.py:function] [--out DIR]``."""
+"""Builds the FMUs of a scene: ``python build_fmu.py [--scene NAME or path/to/file.py:function] [--kind LIST]``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python build_fmu.py", description="Build the FMU of a scene.")
+    parser = argparse.ArgumentParser(prog="python build_fmu.py", description="Build the FMUs of a scene.")
     parser.add_argument(
         "--scene",
         default="prototype_car",
@@ -20,29 +20,57 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--out", type=Path, default=Path("dist"), metavar="DIR", help="default: dist")
     parser.add_argument(
-        "--platforms", default="linux64,win64", metavar="LIST", help="out of linux64 and win64; default: both"
+        "--kind",
+        "--only",
+        default="native,fmi3,python",
+        metavar="LIST",
+        help="native (FMI 2.0 in C), fmi3 (FMI 3.0 in C), python (FMI 2.0, runs in the host's Python); default: all",
+    )
+    parser.add_argument(
+        "--platforms",
+        metavar="LIST",
+        help="out of linux64, win64 and darwin64; default: all that the kind can have",
     )
     options = parser.parse_args(arguments)
-    try:
-        import pythonfmu  # noqa: F401
-    except ImportError:
-        print('error: PythonFMU is not installed; run: pip install "ali3[fmu]"', file=sys.stderr)
-        return 2
-    from fmu_src.build import build_fmu
+    from fmu_src.build import KINDS, build_fmu
+    from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
     from fmu_src.scene_registry import load_scene
 
+    kinds = options.kind.split(",")
+    platforms = options.platforms.split(",") if options.platforms else None
     try:
+        if set(kinds) - set(KINDS):
+            raise ValueError(f"There is no kind of FMU '{options.kind}'; the kinds are {', '.join(KINDS)}.")
+        if platforms and set(platforms) - set(PLATFORMS):
+            raise ValueError(f"Platform '{options.platforms}' is not known; the platforms are {', '.join(PLATFORMS)}.")
+        if "python" in kinds:
+            _need_pythonfmu()
         print(f"scene {options.scene} ...", flush=True)
         name, system = load_scene(options.scene)
-        file = build_fmu(system, name, options.out, options.platforms.split(","), lambda text: print(text, flush=True))
+        for kind in kinds:
+            able = [p for p in PYTHON_PLATFORMS if p in platforms] if platforms and kind == "python" else platforms
+            if able == []:
+                print(f"python: left out, it runs on {', '.join(PYTHON_PLATFORMS)} only", flush=True)
+                continue
+            file = build_fmu(
+                system, name, options.out, able, lambda text, kind=kind: print(f"{kind}: {text}", flush=True), kind
+            )
+            print(
+                f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(system.meta['inputs'])} inputs, "
+                f"{len(system.meta['sensors'])} outputs",
+                flush=True,
+            )
     except (ValueError, RuntimeError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    print(
-        f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(system.meta['inputs'])} inputs, "
-        f"{len(system.meta['sensors'])} outputs"
-    )
     return 0
+
+
+def _need_pythonfmu() -> None:
+    try:
+        import pythonfmu  # noqa: F401
+    except ImportError:
+        raise ValueError('PythonFMU is not installed; run: pip install "ali3[fmu]", or leave out --kind python') from None
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import importlib.metadata
 import re
 import tempfile
@@ -12,27 +13,40 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import mbs
-from fmu_src.platforms import PLATFORMS, SUFFIXES, TARGETS
-from fmu_src.python_slave.package import Contents, pack
-from fmu_src.python_slave.shell_build import compile_shell
+from fmu_src.native.package import NativeContents, Telling, pack_native
+from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.variables import variable_table
 from mbs.kernel import binding, build
 
 Say = Callable[[str], None]
 _PATIENCE = 2.0
 
+KINDS = {
+    "native": "FMI 2.0 in C, for every tool",
+    "fmi3": "FMI 3.0 in C, with arrays",
+    "python": "FMI 2.0 in Python, for hosts with a Python of their own",
+}
+"""Kinds of FMU."""
 
-def fmu_name(scene: str) -> str:
-    """Name of the FMU of a scene: ``prototype_car`` -> ``PrototypeCarPython``."""
+_NAME_SUFFIX = {"native": "", "fmi3": "FMI3", "python": "Python"}
+
+
+def fmu_name(scene: str, kind: str = "native") -> str:
+    """Name of the FMU of a scene: ``prototype_car`` -> ``PrototypeCar``."""
     words = [w for w in re.split(r"[^A-Za-z0-9]+", scene) if w]
     name = "".join(w[0].upper() + w[1:] for w in words)
     if not name or not name[0].isalpha() or not name.isascii():
         raise ValueError(f"'{scene}' gives no name for an FMU; a scene's name begins with a letter from a to z.")
-    return f"{name}Python"
+    return name + _NAME_SUFFIX[kind]
 
 
 def build_fmu(
-    system: mbs.System, name: str, out: Path, platforms: Sequence[str] = PLATFORMS, say: Say = lambda text: None
+    system: mbs.System,
+    name: str,
+    out: Path,
+    platforms: Sequence[str] | None = None,
+    say: Say = lambda text: None,
+    kind: str = "native",
 ) -> Path:
     """Build the FMU of a System.
 
@@ -43,50 +57,79 @@ def build_fmu(
         Of the scene, such as ``prototype_car``.
     out : Path
         Folder; made if it is not there.
-    platforms : sequence of str
-        Out of ``linux64`` and ``win64``.
+    platforms : sequence of str, optional
+        Out of ``linux64``, ``win64`` and ``darwin64``; by default all the kind can have.
     say : callable
         Is told what is going on, one line at a time.
+    kind : str
+        One of `KINDS`.
 
     Returns
     -------
     Path
         The FMU.
     """
-    unknown = set(platforms) - set(PLATFORMS)
-    if unknown or not platforms:
-        raise ValueError(f"Platform '{', '.join(unknown)}' is not known; PythonFMU runs on {', '.join(PLATFORMS)}.")
-    model_name = fmu_name(name)
-    experiment = system.meta["experiment"]
-    step = float(experiment["step_s"])
-    table = variable_table(system.meta, pose=bool(system.meta["floating"]), step_size=step)
+    if kind not in KINDS:
+        raise ValueError(f"There is no kind of FMU '{kind}'; the kinds are {', '.join(KINDS)}.")
+    able = PYTHON_PLATFORMS if kind == "python" else PLATFORMS
+    chosen = tuple(able if platforms is None else platforms)
+    unknown = sorted(set(chosen) - set(able))
+    if unknown or not chosen:
+        raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
+    step = float(system.meta["experiment"]["step_s"])
+    contents = NativeContents(
+        fmu_name(name, kind),
+        system.meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
+        importlib.metadata.version("ali3"),
+        system,
+        variable_table(system.meta, pose=bool(system.meta["floating"]), step_size=step),
+    )
+    file = out / f"{contents.model_name}.fmu"
+
+    told = functools.partial(_told, say)
+
+    if kind == "python":
+        _pack_python(contents, chosen, file, told)
+    elif kind == "fmi3":
+        from fmu_src.native.package_fmi3 import pack_fmi3
+
+        pack_fmi3(contents, chosen, file, told)
+    else:
+        pack_native(contents, chosen, file, told)
+    return file
+
+
+def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, told: Telling) -> None:
+    # PythonFMU is needed for this kind only.
+    from fmu_src.python_slave.package import Contents, pack
+    from fmu_src.python_slave.shell_build import compile_shell
+
     kernels, shells = {}, {}
     with tempfile.TemporaryDirectory() as folder:
         for platform in platforms:
             place = Path(folder, platform)
             place.mkdir()
-            with _told(say, f"compiling for {platform}", "the first time for Windows takes two minutes"):
-                kernels[platform] = build.compile_library(TARGETS[platform], place / f"kernel{SUFFIXES[platform]}")
+            with told(f"compiling for {platform}", "the first time for Windows takes two minutes"):
+                library = place / f"kernel{SUFFIXES[platform]}"
+                kernels[platform] = build.compile_library(TARGETS[platform][0], library)
                 shells[platform] = compile_shell(platform, place)
-        file = out / f"{model_name}.fmu"
-        with _told(say, "packing"):
+        with told("packing"):
             pack(
                 Contents(
-                    model_name,
-                    system.meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
-                    importlib.metadata.version("ali3"),
-                    system.to_bytes(),
-                    table,
-                    [row["name"] for row in system.meta["rows"]],
-                    float(experiment["stop_time_s"]),
-                    step,
+                    contents.model_name,
+                    contents.description,
+                    contents.version,
+                    contents.system.to_bytes(),
+                    contents.table,
+                    contents.rows,
+                    contents.stop_time,
+                    contents.step_size,
                     Path(binding.__file__),
                     kernels,
                     shells,
                 ),
                 file,
             )
-    return file
 
 
 @contextmanager

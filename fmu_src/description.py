@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
-from fmu_src.units import DISPLAY_UNITS, parse_unit
+from fmu_src.units import DISPLAY_UNITS, QUANTITIES, canonical_unit, parse_unit
 from fmu_src.variables import Variable
 
 # Fixed, so that the same sources give the same bytes.
@@ -33,6 +34,10 @@ class Description:
         Default experiment, s.
     needs_execution_tool : bool
         Whether a Python interpreter must be there.
+    capable : bool
+        Whether the slave interpolates inputs, gives derivatives and respects the host's memory functions.
+    sources : sequence of str
+        C files in the folder ``sources``, if it can be compiled from them.
     """
 
     model_name: str
@@ -44,6 +49,8 @@ class Description:
     stop_time: float
     step_size: float
     needs_execution_tool: bool
+    capable: bool = False
+    sources: Sequence[str] = ()
 
 
 def number(value: float) -> str:
@@ -78,22 +85,28 @@ def model_description(head: Description, table: Sequence[Variable]) -> bytes:
         variableNamingConvention="structured",
         numberOfEventIndicators="0",
     )
-    ElementTree.SubElement(
+    capable = str(head.capable).lower()
+    face = ElementTree.SubElement(
         root,
         "CoSimulation",
         modelIdentifier=head.model_identifier,
         needsExecutionTool=str(head.needs_execution_tool).lower(),
         canHandleVariableCommunicationStepSize="true",
-        canInterpolateInputs="false",
-        maxOutputDerivativeOrder="0",
+        canInterpolateInputs=capable,
+        maxOutputDerivativeOrder="1" if head.capable else "0",
         canRunAsynchronuously="false",
         canBeInstantiatedOnlyOncePerProcess="false",
-        canNotUseMemoryManagementFunctions="true",
+        canNotUseMemoryManagementFunctions=str(not head.capable).lower(),
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
-        providesDirectionalDerivative="false",
+        providesDirectionalDerivative=capable,
     )
-    _units(root, table)
+    if head.sources:
+        files = ElementTree.SubElement(face, "SourceFiles")
+        for name in head.sources:
+            ElementTree.SubElement(files, "File", name=name)
+    units(root, table)
+    _types(root, table)
     categories = ElementTree.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         ElementTree.SubElement(categories, "Category", name=name, description=text)
@@ -105,14 +118,16 @@ def model_description(head: Description, table: Sequence[Variable]) -> bytes:
         stepSize=number(head.step_size),
     )
     variables = ElementTree.SubElement(root, "ModelVariables")
+    types = declared_types(table)
     for reference, v in enumerate(table):
-        _variable(variables, reference, v)
+        _variable(variables, reference, v, types)
     _structure(root, table)
     ElementTree.indent(root)
     return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
 
 
-def _units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
+def units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
+    """Definitions of all units in use; the same in FMI 2.0 and 3.0."""
     definitions = ElementTree.SubElement(root, "UnitDefinitions")
     for name in sorted({v.unit for v in table}):
         unit = parse_unit(name)
@@ -126,7 +141,53 @@ def _units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
             ElementTree.SubElement(element, "DisplayUnit", name=display, factor=number(factor))
 
 
-def _variable(parent: ElementTree.Element, reference: int, v: Variable) -> None:
+def type_name(v: Variable) -> str:
+    """Name of the declared type of a variable: its quantity and, where it has one, its range."""
+    name = QUANTITIES.get(canonical_unit(v.unit), "Quantity_" + re.sub(r"\W", "_", v.unit))
+    if v.min is None and v.max is None:
+        return name if v.display_unit is not None or v.unit not in DISPLAY_UNITS else f"{name}_plain"
+    return f"{name}_{_end(v.min)}_to_{_end(v.max)}"
+
+
+def type_attributes(v: Variable) -> dict[str, str]:
+    """Attributes of the declared type of a variable."""
+    attributes = {"quantity": QUANTITIES.get(canonical_unit(v.unit), "Quantity"), "unit": v.unit}
+    if v.display_unit is not None:
+        attributes["displayUnit"] = v.display_unit
+    for key, value in (("min", v.min), ("max", v.max)):
+        if value is not None:
+            attributes[key] = number(value)
+    return attributes
+
+
+def declared_types(table: Sequence[Variable]) -> dict[str, dict[str, str]]:
+    """Attributes of all declared types by name, sorted."""
+    types: dict[str, dict[str, str]] = {}
+    for v in table:
+        types.setdefault(_unique_type(v, types), type_attributes(v))
+    return dict(sorted(types.items()))
+
+
+def _unique_type(v: Variable, types: dict[str, dict[str, str]]) -> str:
+    name, k = type_name(v), 2
+    while name in types and types[name] != type_attributes(v):
+        name, k = f"{type_name(v)}_{k}", k + 1
+    return name
+
+
+def _end(value: float | None) -> str:
+    return "open" if value is None else f"{value:g}".replace("-", "minus").replace("+", "").replace(".", "p")
+
+
+def _types(root: ElementTree.Element, table: Sequence[Variable]) -> None:
+    definitions = ElementTree.SubElement(root, "TypeDefinitions")
+    for name, attributes in declared_types(table).items():
+        ElementTree.SubElement(ElementTree.SubElement(definitions, "SimpleType", name=name), "Real", attributes)
+
+
+def _variable(
+    parent: ElementTree.Element, reference: int, v: Variable, types: dict[str, dict[str, str]]
+) -> None:
     attributes = {"name": v.name, "valueReference": str(reference)}
     if v.description:
         attributes["description"] = v.description
@@ -134,7 +195,7 @@ def _variable(parent: ElementTree.Element, reference: int, v: Variable) -> None:
     if v.causality != "input":
         attributes["initial"] = "calculated" if v.causality == "output" else "exact"
     scalar = ElementTree.SubElement(parent, "ScalarVariable", attributes)
-    real = {"unit": v.unit}
+    real = {"declaredType": _unique_type(v, types), "unit": v.unit}
     if v.display_unit is not None:
         real["displayUnit"] = v.display_unit
     for key, value in (("min", v.min), ("max", v.max), ("start", v.start)):

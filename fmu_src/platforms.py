@@ -1,10 +1,25 @@
-"""The platforms an FMU is built for, by FMI's names."""
+"""The platforms an FMU is built for, by the names of FMI 2.0."""
 
 from __future__ import annotations
 
-TARGETS = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}
-"""Target triples of `zig cc`. PythonFMU has libraries for these two only."""
+TARGETS = {
+    "linux64": ("x86_64-linux-gnu.2.17",),
+    "win64": ("x86_64-windows-gnu",),
+    "darwin64": ("x86_64-macos.10.13", "aarch64-macos.11.0"),
+}
+"""Target triples of `zig cc`; the two of darwin64 become one universal file."""
 
-SUFFIXES = {"linux64": ".so", "win64": ".dll"}
+SUFFIXES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"}
 
 PLATFORMS = tuple(TARGETS)
+
+PYTHON_PLATFORMS = ("linux64", "win64")
+"""PythonFMU has libraries for these two only."""
+
+FMI3_FOLDERS = {
+    "x86_64-linux-gnu.2.17": "x86_64-linux",
+    "x86_64-windows-gnu": "x86_64-windows",
+    "x86_64-macos.10.13": "x86_64-darwin",
+    "aarch64-macos.11.0": "aarch64-darwin",
+}
+"""Folders of binaries in FMI 3.0, one per target."""

@@ -35,6 +35,32 @@ DISPLAY_UNITS: dict[str, tuple[str, float]] = {
     "Pa": ("MPa", 1e-6),
 }
 
+# Unit, with its symbols in one spelling -> what is measured in it.
+QUANTITIES: dict[str, str] = {
+    "1": "Ratio",
+    "m": "Length",
+    "s": "Time",
+    "rad": "Angle",
+    "m/s": "Velocity",
+    "rad/s": "AngularVelocity",
+    "m/s2": "Acceleration",
+    "rad/s2": "AngularAcceleration",
+    "N": "Force",
+    "N.m": "Torque",
+    "N.m/rad": "RotationalStiffness",
+    "N/m": "Stiffness",
+    "J": "Energy",
+    "W": "Power",
+    "Pa": "Stress",
+    "kg": "Mass",
+    "Hz": "Frequency",
+}
+
+
+def canonical_unit(name: str) -> str:
+    """One spelling of products and powers: ``N m`` and ``N*m`` become ``N.m``."""
+    return re.sub(r"[*· ]+", ".", name).replace("^", "").replace("Nm", "N.m")
+
 
 @dataclass(frozen=True)
 class Unit:

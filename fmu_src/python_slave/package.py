@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import hashlib
-import html
-import importlib.metadata
 import json
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pythonfmu
 
+from fmu_src.archive import identity_of, licence, write_zip
 from fmu_src.description import Description, model_description
+from fmu_src.documentation import documentation
 from fmu_src.platforms import SUFFIXES
 from fmu_src.variables import Variable, table_records
 
@@ -22,8 +19,6 @@ _HERE = Path(__file__).parent
 _PYTHONFMU = Path(pythonfmu.__file__).parent
 _PYTHONFMU_MODULES = ("_version", "default_experiment", "enums", "fmi2slave", "logmsg", "variables")
 _PYTHONFMU_LIBRARY = {"linux64": "libpythonfmu-export.so", "win64": "pythonfmu-export.dll"}
-# The earliest time a zip can carry.
-_ZIP_DATE = (1980, 1, 1, 0, 0, 0)
 
 
 @dataclass(frozen=True)
@@ -81,16 +76,10 @@ def pack(contents: Contents, file: Path) -> str:
     records = table_records(contents.table)
     entries = _package_files(contents)
     template = (_HERE / "main_template.py").read_text(encoding="utf-8")
-    digest = hashlib.sha256(template.encode())
-    for name in sorted(entries):
-        digest.update(name.encode() + b"\0" + hashlib.sha256(entries[name]).digest())
-    digest.update(
-        json.dumps(
-            [contents.model_name, contents.description, contents.version, contents.stop_time, records], sort_keys=True
-        ).encode()
+    identity, guid = identity_of(
+        entries | {"main": template.encode()},
+        [contents.model_name, contents.description, contents.version, contents.stop_time, records],
     )
-    identity = digest.hexdigest()[:32]
-    guid = f"{{{identity[:8]}-{identity[8:12]}-{identity[12:16]}-{identity[16:20]}-{identity[20:]}}}"
 
     # Names of their own per build: a host's Python keeps one module per name, whatever FMU it came from.
     package = f"ali3_{identity[:12]}"
@@ -105,9 +94,16 @@ def pack(contents: Contents, file: Path) -> str:
         ).encode(),
         "resources/slavemodule.txt": main.encode(),
         "resources/guid.txt": guid.encode(),
-        "documentation/licenses/ALi3.txt": _license("ali3"),
-        "documentation/licenses/PythonFMU.txt": _license("pythonfmu"),
-        "documentation/index.html": _documentation(contents).encode(),
+        "documentation/licenses/ALi3.txt": licence("ali3"),
+        "documentation/licenses/PythonFMU.txt": licence("pythonfmu"),
+        "documentation/index.html": documentation(
+            contents.model_name,
+            contents.description,
+            contents.version,
+            contents.step_size,
+            contents.table,
+            ["FMI 2.0 co-simulation in Python: the host's machine needs Python 3.10 or newer."],
+        ).encode(),
         "modelDescription.xml": model_description(
             Description(
                 contents.model_name,
@@ -123,17 +119,8 @@ def pack(contents: Contents, file: Path) -> str:
             contents.table,
         ),
     }
-    _write_zip(files, file)
+    write_zip(files, file)
     return guid
-
-
-def _license(distribution: str) -> bytes:
-    """The licence text an installed distribution carries."""
-    files = importlib.metadata.files(distribution) or []
-    texts = [Path(str(f.locate())).read_bytes() for f in files if f.name.upper().startswith("LICENSE")]
-    if not texts:
-        raise RuntimeError(f"The licence of '{distribution}' is not installed with it; install the package again.")
-    return texts[0]
 
 
 def _package_files(contents: Contents) -> dict[str, bytes]:
@@ -155,38 +142,3 @@ def _package_files(contents: Contents) -> dict[str, bytes]:
         library = _PYTHONFMU / "resources" / "binaries" / platform / _PYTHONFMU_LIBRARY[platform]
         entries[f"{stem}-pythonfmu{suffix}"] = library.read_bytes()
     return entries
-
-
-def _write_zip(files: Mapping[str, bytes], file: Path) -> None:
-    file.parent.mkdir(parents=True, exist_ok=True)
-    partial = file.with_suffix(".part")
-    # Stored, not deflated: the bytes do not depend on the version of a compression library.
-    with zipfile.ZipFile(partial, "w", zipfile.ZIP_STORED) as archive:
-        # The description first: readers that stream find it at once.
-        for name in sorted(files, key=lambda n: (n != "modelDescription.xml", n)):
-            info = zipfile.ZipInfo(name, _ZIP_DATE)
-            info.create_system = 3
-            info.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
-            archive.writestr(info, files[name])
-    partial.replace(file)
-
-
-def _documentation(contents: Contents) -> str:
-    def cell(value: Any) -> str:
-        return "" if value is None else html.escape(f"{value:g}" if isinstance(value, float) else str(value))
-
-    columns = ("name", "causality", "variability", "unit", "start", "min", "max", "description")
-    head = "".join(f"<th>{c}</th>" for c in columns)
-    rows = "\n".join(
-        "<tr>" + "".join(f"<td>{cell(getattr(v, c))}</td>" for c in columns) + "</tr>" for v in contents.table
-    )
-    name = html.escape(contents.model_name)
-    return (
-        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{name}</title><style>'
-        "body{font-family:sans-serif;margin:2em}td,th{padding:.2em .8em;text-align:left;border-bottom:1px solid #ddd}"
-        f"</style></head>\n<body><h1>{name}</h1><p>{html.escape(contents.description)}</p>\n"
-        f"<p>FMI 2.0 co-simulation, made by ALi3 {html.escape(contents.version)}. "
-        f"Default step {contents.step_size:g} s. Inputs are held over a communication step; outputs belong to its end. "
-        "A step that fails is refused (fmi2Discard) and the last good state is kept.</p>\n"
-        f"<table><tr>{head}</tr>\n{rows}\n</table></body></html>\n"
-    )

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
+from fmu_src.native.sources import HERE as FMI_HEADERS
 from fmu_src.platforms import SUFFIXES, TARGETS
+from mbs.kernel import build
 
 _HERE = Path(__file__).parent
 
@@ -25,19 +25,7 @@ def compile_shell(platform: str, folder: Path) -> Path:
     -------
     Path
         The library.
-
-    Raises
-    ------
-    RuntimeError
-        With the compiler's words.
     """
     library = folder / f"shell{SUFFIXES[platform]}"
-    flags = ["-shared", "-fPIC", "-O2", "-std=c11", "-fvisibility=hidden", "-s", "-Wall", "-Wextra", "-Werror"]
-    command = [sys.executable, "-m", "ziglang", "cc", "-target", TARGETS[platform], *flags]
-    command += ["-o", str(library), str(_HERE / "shell.c")]
-    if platform == "linux64":
-        command.append("-ldl")
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError(f"The FMU's shell could not be compiled for {platform}:\n{done.stderr.strip()}")
+    build.compile_c([_HERE / "shell.c"], TARGETS[platform][0], library, include=(FMI_HEADERS,), what="the FMU's shell")
     return library

@@ -9,6 +9,7 @@ import platform
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -79,26 +80,60 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
     Path
         The library.
     """
-    if importlib.util.find_spec("ziglang") is None:
-        raise RuntimeError("the kernel needs the compiler of the package 'ziglang': python -m pip install ziglang")
     target = target or host_target()
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)
+    compile_c(sources(), target, path, what="the kernel")
+    return path
+
+
+def compile_c(
+    files: Sequence[Path], target: str, path: Path, *, include: Sequence[Path] = (), defines: Sequence[str] = (), what: str,
+    shared: bool = True,
+) -> None:
+    """Compile C files into one library or program.
+
+    Parameters
+    ----------
+    files : sequence of Path
+        C files.
+    target : str
+        Triple as `zig cc -target` takes it.
+    path : Path
+        The file to write; an older one is replaced only when the new one is whole.
+    include : sequence of Path
+        Folders of headers.
+    defines : sequence of str
+        Macros.
+    what : str
+        Name for messages.
+    shared : bool
+        A library; otherwise a program.
+
+    Raises
+    ------
+    RuntimeError
+        With the compiler's words.
+    """
+    if importlib.util.find_spec("ziglang") is None:
+        raise RuntimeError(f"{what} needs the compiler of the package 'ziglang': python -m pip install ziglang")
     path.parent.mkdir(parents=True, exist_ok=True)
     cache = str(cache_directory())
     environment = os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache}
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         made = Path(folder) / path.name
         command = [sys.executable, "-m", "ziglang", "cc", "-target", target, *FLAGS]
-        if "macos" in target:
+        if not shared:
+            command = [part for part in command if part not in ("-shared", "-fPIC")]
+        elif "macos" in target:
             command.append(f"-Wl,-install_name,@rpath/{path.name}")
-        command += ["-o", str(made), *map(str, sources())]
+        command += [f"-I{place}" for place in include] + [f"-D{name}" for name in defines]
+        command += ["-o", str(made), *map(str, files)]
         if "linux" in target:
-            command.append("-lm")
+            command += ["-lm", "-ldl"]
         result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         if result.returncode != 0:
-            raise RuntimeError(f"the kernel did not compile for {target}:\n{result.stderr}")
+            raise RuntimeError(f"{what} did not compile for {target}:\n{result.stderr}")
         made.replace(path)  # at once, so that a program that has the old library loaded keeps it whole
-    return path
 
 
 def main() -> None:

@@ -52,37 +52,43 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
 
 
 @pytest.fixture(scope="session")
-def build(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+def build(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
     """Builds the FMU of a function of `scenes.py` once."""
-    made: dict[str, Path] = {}
+    made: dict[tuple[str, str], Path] = {}
     if sys.platform not in ("linux", "win32") or platform.machine().lower() not in ("x86_64", "amd64"):
         pytest.skip("PythonFMU has libraries for x86-64 Linux and Windows only")
 
-    def make(scene: str) -> Path:
-        if scene not in made:
+    def make(scene: str, kind: str = "native") -> Path:
+        if (scene, kind) not in made:
             name, system = load_scene(f"{SCENES}:{scene}")
-            made[scene] = build_fmu(system, name, tmp_path_factory.mktemp(scene), [PLATFORM])
-        return made[scene]
+            made[scene, kind] = build_fmu(system, name, tmp_path_factory.mktemp(scene), [PLATFORM], kind=kind)
+        return made[scene, kind]
 
     return make
 
 
+@pytest.fixture(params=["native", "python"])
+def kind(request: pytest.FixtureRequest) -> str:
+    """Both kinds of FMU of FMI 2.0 behave alike."""
+    return str(request.param)
+
+
 @pytest.fixture
-def crane(build: Callable[[str], Path]) -> Path:
+def crane(build: Callable[..., Path], kind: str) -> Path:
     """A rod on a hinge with a motor, a spring and a parameter."""
-    return build("crane")
+    return build("crane", kind)
 
 
 @pytest.fixture
-def reach(build: Callable[[str], Path]) -> Path:
+def reach(build: Callable[..., Path], kind: str) -> Path:
     """A mechanism that an input can pull beyond its reach."""
-    return build("reach")
+    return build("reach", kind)
 
 
 @pytest.fixture
-def sled(build: Callable[[str], Path]) -> Path:
+def sled(build: Callable[..., Path], kind: str) -> Path:
     """A body that is not tied to the ground."""
-    return build("sled")
+    return build("sled", kind)
 
 
 class Host:
@@ -127,6 +133,14 @@ class Host:
 
     def set(self, name: str, value: float) -> int:
         return self.call("setReal", [self.references[name]], [value])
+
+    def restore(self, data: bytes) -> int:
+        """Status of setting a serialised state, whichever of the two calls refuses it."""
+        try:
+            state = self.slave.deSerializeFMUstate(data)
+        except FMICallException as error:
+            return int(error.status)
+        return self.call("setFMUstate", state)
 
     def get(self, name: str) -> float:
         return float(self.slave.getReal([self.references[name]])[0])

@@ -44,7 +44,7 @@ def test_out_of_range_is_clamped_and_said_once(crane: Path, host: HostMaker) -> 
     assert driven.run(5, 0.01)[-1][0] == full.run(5, 0.01)[-1][0]
     assert len(driven.messages) == 1
     assert "'torque'" in driven.messages[0]
-    assert "99.0" in driven.messages[0]
+    assert "set to 99" in driven.messages[0]
 
 
 @pytest.mark.parametrize(
@@ -52,6 +52,8 @@ def test_out_of_range_is_clamped_and_said_once(crane: Path, host: HostMaker) -> 
 )
 def test_a_parameter_out_of_range_is_refused(crane: Path, host: HostMaker, name: str, value: float) -> None:
     driven = host(crane)
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
     before = driven.get(name)
     assert driven.set(name, value) == ERROR
     assert driven.get(name) == before
@@ -108,9 +110,10 @@ def test_a_wrong_guid_is_refused(crane: Path, host: HostMaker) -> None:
     assert "GUID" in driven.messages[-1]
 
 
-def test_what_is_not_supported_says_so(crane: Path, host: HostMaker) -> None:
+def test_what_is_not_supported_says_so(crane: Path, host: HostMaker, kind: str) -> None:
     driven = host(crane).start()
-    assert driven.call("setRealInputDerivatives", [0], [1], [1.0]) == ERROR
+    order = 1 if kind == "python" else 4
+    assert driven.call("setRealInputDerivatives", [0], [order], [1.0]) == ERROR
     assert driven.call("cancelStep") == ERROR
     assert driven.messages
 

@@ -11,7 +11,7 @@ import fmpy
 import pytest
 from fmpy.validation import validate_fmu
 
-from fmu_src.build import build_fmu
+from fmu_src.build import KINDS, build_fmu
 from fmu_src.scene_registry import load_scene
 from fmu_src.units import parse_unit
 from fmu_src.variables import variable_table
@@ -20,17 +20,19 @@ SCENES = Path(__file__).parent / "scenes.py"
 META = {"inputs": [], "parameters": [], "sensors": [{"name": "a.x", "unit": "m", "description": ""}]}
 
 
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
-def test_fmpy_finds_nothing(build: Callable[[str], Path], scene: str) -> None:
-    assert validate_fmu(str(build(scene))) == []
+def test_fmpy_finds_nothing(build: Callable[..., Path], scene: str, kind: str) -> None:
+    assert validate_fmu(str(build(scene, kind))) == []
 
 
+@pytest.mark.parametrize("kind", ["native", "python"])
 @pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
-def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[[str], Path], scene: str) -> None:
+def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[..., Path], scene: str, kind: str) -> None:
     pytest.importorskip("fmu_manipulation_toolbox")
     code = "from fmu_manipulation_toolbox.cli.fmutool import fmutool; fmutool()"
     done = subprocess.run(
-        [sys.executable, "-c", code, "-input", str(build(scene)), "-check"], capture_output=True, text=True, check=True
+        [sys.executable, "-c", code, "-input", str(build(scene, kind)), "-check"], capture_output=True, text=True, check=True
     )
     said = done.stdout + done.stderr
     assert "compliant with FMI-2.0" in said
@@ -39,11 +41,12 @@ def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[[str], Path], sc
     assert "WARNING" not in said
 
 
-def test_two_builds_give_the_same_bytes(tmp_path: Path) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_two_builds_give_the_same_bytes(tmp_path: Path, kind: str) -> None:
     files = []
     for k in range(2):
         name, system = load_scene(f"{SCENES}:crane")
-        files.append(build_fmu(system, name, tmp_path / str(k), ["linux64"]))
+        files.append(build_fmu(system, name, tmp_path / str(k), ["linux64"], kind=kind))
     assert files[0].read_bytes() == files[1].read_bytes()
 
 
@@ -52,14 +55,14 @@ def test_another_system_gives_another_guid(build: Callable[[str], Path]) -> None
     assert first.guid != second.guid
 
 
-def test_flags_and_experiment(crane: Path) -> None:
+def test_flags_and_experiment(crane: Path, kind: str) -> None:
     description = fmpy.read_model_description(str(crane))
     face = description.coSimulation
     assert face.canGetAndSetFMUstate
     assert face.canSerializeFMUstate
     assert face.canHandleVariableCommunicationStepSize
-    assert not face.canInterpolateInputs
-    assert face.needsExecutionTool
+    assert face.canInterpolateInputs == face.providesDirectionalDerivative == (kind == "native")
+    assert face.needsExecutionTool == (kind == "python")
     assert description.variableNamingConvention == "structured"
     assert float(description.defaultExperiment.stepSize) == 0.01
 

@@ -74,9 +74,12 @@ def test_reset_starts_anew(crane: Path, host: HostMaker) -> None:
     driven.set("spring.stiffness", 30.0)
     driven.run(10, 0.01, 0.1)
     driven.slave.reset()
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
     assert driven.get("torque") == 0.0
     assert driven.get("spring.stiffness") == 5.0
-    assert driven.start().run(10, 0.01) == expected
+    driven.slave.exitInitializationMode()
+    assert driven.run(10, 0.01) == expected
 
 
 @pytest.mark.parametrize("name", ["with space", "ü", "a#b", "a+b&c", "(x),y", "100%"])

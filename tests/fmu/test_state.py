@@ -79,7 +79,7 @@ def test_state_of_another_fmu_is_refused(crane: Path, reach: Path, host: HostMak
     driven = host(crane).start()
     driven.run(3, 0.01)
     before = driven.outputs()
-    assert driven.call("setFMUstate", driven.slave.deSerializeFMUstate(data)) == ERROR
+    assert driven.restore(data) == ERROR
     assert "same build" in driven.messages[-1]
     assert driven.outputs() == before
 
@@ -92,7 +92,7 @@ def test_damaged_states_are_refused(crane: Path, host: HostMaker) -> None:
     changed = bytearray(data)
     changed[-9] ^= 1
     for bad in (data[:20], data[:-8], bytes(changed), bytes(len(data)), b"x"):
-        assert driven.call("setFMUstate", driven.slave.deSerializeFMUstate(bad)) == ERROR
+        assert driven.restore(bad) == ERROR
         assert driven.outputs() == before
     assert driven.run(3, 0.01, 0.03) == host(crane).start().run(6, 0.01)[3:]
 

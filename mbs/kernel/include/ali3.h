@@ -8,7 +8,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(_WIN32)
+#if defined(ALI3_INSIDE) /* part of another library, which exports its own functions only */
+#define ALI3_API
+#elif defined(_WIN32)
 #define ALI3_API __declspec(dllexport)
 #else
 #define ALI3_API __attribute__((visibility("default")))

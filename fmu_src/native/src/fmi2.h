@@ -3,10 +3,18 @@
 #define ALI3_FMI2_H
 #include <stddef.h>
 
-#if defined(_WIN32)
+/* A host that links several FMUs statically gives FMI2_FUNCTION_PREFIX; a library exports the plain names. */
+#if defined(FMI2_FUNCTION_PREFIX)
+#define FMI2_EXPORT
+#define FMI2_PASTE(a, b) a##b
+#define FMI2_JOIN(a, b) FMI2_PASTE(a, b)
+#define FMI2_NAME(name) FMI2_JOIN(FMI2_FUNCTION_PREFIX, name)
+#elif defined(_WIN32)
 #define FMI2_EXPORT __declspec(dllexport)
+#define FMI2_NAME(name) name
 #else
 #define FMI2_EXPORT __attribute__((visibility("default")))
+#define FMI2_NAME(name) name
 #endif
 
 typedef void *fmi2Component;

@@ -1,0 +1,46 @@
+"""The C files of the shell: which face needs which, and where they lie in an FMU."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mbs.kernel import build
+
+HERE = Path(__file__).parent / "src"
+KERNEL_INCLUDE = build.HERE / "include"
+
+
+def shell_files(face: str) -> list[Path]:
+    """C files of the shell for a face, sorted by name.
+
+    Parameters
+    ----------
+    face : str
+        ``fmi2`` or ``fmi3``.
+    """
+    other = {"fmi2": "fmi3", "fmi3": "fmi2"}[face]
+    return sorted(f for f in HERE.glob("*.c") if not f.name.startswith(other))
+
+
+def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
+    """All sources as they lie in the FMU's folder ``sources``, headers too.
+
+    Parameters
+    ----------
+    face : str
+    table_c : str
+        The generated table.
+
+    Returns
+    -------
+    dict of str to bytes
+        By path with forward slashes.
+    """
+    other = {"fmi2": "fmi3", "fmi3": "fmi2"}[face]
+    files = {f.name: f.read_bytes() for f in shell_files(face)}
+    files |= {f.name: f.read_bytes() for f in HERE.glob("*.h") if not f.name.startswith(other)}
+    files |= {f"kernel/src/{f.name}": f.read_bytes() for f in (build.HERE / "src").glob("*.[ch]")}
+    # once for the kernel's own files and once where every compiler of source FMUs looks
+    header = (KERNEL_INCLUDE / "ali3.h").read_bytes()
+    files |= {"kernel/include/ali3.h": header, "ali3.h": header, "table.c": table_c.encode()}
+    return dict(sorted(files.items()))

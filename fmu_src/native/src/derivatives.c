@@ -1,0 +1,117 @@
+/* Derivatives: of the inputs by time (set), of the outputs by time, of the outputs by the inputs. */
+#include <math.h>
+#include <string.h>
+
+#include "slave.h"
+
+static const double PART = 1e-6; /* of a value's range or size: difference of initial states */
+
+slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order,
+                              const double *value) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i < n; i++) {
+    if (reference[i] >= t->n_variables || t->variable[reference[i]].source != SLAVE_INPUT)
+      return slave_say(s, SLAVE_ERROR, "Value reference %u is no input; only inputs have derivatives to set.",
+                       (unsigned)reference[i]);
+    if (order[i] < 1 || order[i] > SLAVE_MOST_ORDERS)
+      return slave_say(s, SLAVE_ERROR, "A derivative of order %d of '%s' was set; orders 1 to %d can be.",
+                       (int)order[i], t->variable[reference[i]].name, SLAVE_MOST_ORDERS);
+    if (!(fabs(value[i]) < HUGE_VAL))
+      return slave_say(s, SLAVE_ERROR, "The derivative of '%s' was set to %g; a finite number is needed.",
+                       t->variable[reference[i]].name, value[i]);
+  }
+  for (size_t i = 0; i < n; i++) s->slope[reference[i] * SLAVE_MOST_ORDERS + (uint32_t)order[i] - 1] = value[i];
+  return SLAVE_OK;
+}
+
+slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, const int32_t *order, double *value) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i < n; i++) {
+    if (reference[i] < t->n_known || reference[i] >= t->n_variables)
+      return slave_say(s, SLAVE_ERROR, "Value reference %u is no output.", (unsigned)reference[i]);
+    if (order[i] != 1)
+      return slave_say(s, SLAVE_ERROR, "A derivative of order %d was asked for; outputs have the first only.",
+                       (int)order[i]);
+  }
+  if (!s->calls.initialised && !slave_initialise(s)) return SLAVE_ERROR;
+  const ali3_status status = ali3_sensor_rates(s->kernel, s->sensors, s->known);
+  if (status != ALI3_OK) return slave_say(s, SLAVE_ERROR, "No output rates: %s.", ali3_status_text(status));
+  for (size_t i = 0; i < n; i++)
+    if (!s->known[t->variable[reference[i]].index])
+      return slave_say(s, SLAVE_ERROR,
+                       "The rate of '%s' is not known: it depends on forces or accelerations. Positions, angles and "
+                       "velocities have rates.",
+                       t->variable[reference[i]].name);
+  for (size_t i = 0; i < n; i++) value[i] = s->sensors[t->variable[reference[i]].index];
+  return SLAVE_OK;
+}
+
+/* Before the first step the outputs are those of the initial state, which is found anew on both sides. */
+static bool initial_change(slave *s, uint32_t reference, double seed, double *out) {
+  const slave_table *t = &slave_the_table;
+  const slave_variable *v = &t->variable[reference];
+  const double range = v->max - v->min, value = s->value[reference];
+  const double size = range > 0.0 && range < 1e6 ? range : fmax(1.0, fabs(value));
+  const double up = fmin(value + PART * size, v->max), down = fmax(value - PART * size, v->min);
+  if (seed == 0.0 || !(up > down)) return true;
+  bool good = true;
+  for (int side = 0; side < 2 && good; side++) {
+    s->value[reference] = side == 0 ? up : down;
+    good = slave_initialise(s) && ali3_sensors(s->kernel, s->sensors) == ALI3_OK;
+    const double weight = (side == 0 ? seed : -seed) / (up - down);
+    for (size_t i = t->n_known; i < t->n_variables && good; i++) out[i] += weight * s->sensors[t->variable[i].index];
+  }
+  s->value[reference] = value;
+  return good;
+}
+
+static slave_status initial_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, double *out) {
+  bool good = true;
+  for (size_t i = 0; i < n && good; i++) good = initial_change(s, known[i], seed[i], out);
+  /* the sensors of the state itself come back with the next initial state */
+  return slave_initialise(s) && good ? SLAVE_OK : SLAVE_ERROR;
+}
+
+static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, double *out) {
+  const slave_table *t = &slave_the_table;
+  const ali3_sizes z = ali3_system_sizes(s->system);
+  memset(s->direction, 0, (size_t)z.nu * sizeof(double));
+  for (size_t i = 0; i < n; i++) {
+    const slave_variable *v = &t->variable[known[i]];
+    if (v->source != SLAVE_INPUT)
+      return slave_say(s, SLAVE_ERROR, "'%s' is no input; after initialisation outputs are derived by inputs only.",
+                       v->name);
+    s->direction[v->index] += seed[i];
+  }
+  const ali3_status status = ali3_input_derivative(s->kernel, s->direction, s->sensors);
+  if (status != ALI3_OK)
+    return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s%s.", ali3_status_text(status),
+                     status == ALI3_NOT_INITIALISED ? "; after initialisation it takes one step" : "");
+  for (size_t i = t->n_known; i < t->n_variables; i++) out[i] = s->sensors[t->variable[i].index];
+  return SLAVE_OK;
+}
+
+slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unknown, const uint32_t *known,
+                               size_t n_known, const double *seed, double *out) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i < n_unknown; i++)
+    if (unknown[i] < t->n_known || unknown[i] >= t->n_variables)
+      return slave_say(s, SLAVE_ERROR, "Value reference %u is no output; derivatives are those of outputs.",
+                       (unsigned)unknown[i]);
+  for (size_t i = 0; i < n_known; i++) {
+    if (known[i] >= t->n_known || t->variable[known[i]].source == SLAVE_STEP_SIZE)
+      return slave_say(s, SLAVE_ERROR, "Value reference %u cannot be derived by.", (unsigned)known[i]);
+    if (!(fabs(seed[i]) < HUGE_VAL))
+      return slave_say(s, SLAVE_ERROR, "The seed of '%s' is %g; a finite number is needed.",
+                       t->variable[known[i]].name, seed[i]);
+  }
+  double *all = s->memory.allocate(t->n_variables, sizeof *all);
+  if (all == NULL) return slave_say(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
+  memset(all, 0, t->n_variables * sizeof *all);
+  const bool initial = (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) != 0;
+  const slave_status status = initial ? initial_derivative(s, known, n_known, seed, all)
+                                      : step_derivative(s, known, n_known, seed, all);
+  for (size_t i = 0; i < n_unknown && status == SLAVE_OK; i++) out[i] = all[unknown[i]];
+  s->memory.release(all);
+  return status;
+}

@@ -1,0 +1,108 @@
+/* FMI 2.0: inquiry, instances, initialisation, end, logging. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "fmi2_face.h"
+
+enum { PATH_SIZE = 4096 };
+
+slave *fmi2_slave(fmi2Component c, const char *function, unsigned mask) {
+  fmi2_face *face = c;
+  return face != NULL && slave_allowed(face->s, function, mask) ? face->s : NULL;
+}
+
+bool fmi2_given(slave *s, const char *function, bool given) {
+  if (!given) slave_say(s, SLAVE_ERROR, "%s was called with a null pointer.", function);
+  return given;
+}
+
+/* The text goes out as the format itself, with % and # doubled: hosts that do not format show it all the same. */
+static void log_to_host(slave *s, slave_status status, const char *category, const char *text) {
+  const fmi2_face *face = s->host;
+  char format[2 * SLAVE_TEXT];
+  size_t n = 0;
+  if (face->host.logger == NULL) return;
+  for (; *text != 0 && n + 2 < sizeof format; text++) {
+    if (*text == '%' || *text == '#') format[n++] = *text;
+    format[n++] = *text;
+  }
+  format[n] = 0;
+  face->host.logger(face->host.componentEnvironment, s->name != NULL ? s->name : "", (fmi2Status)status, category,
+                    format);
+}
+
+FMI2_EXPORT const char *FMI2_NAME(fmi2GetTypesPlatform)(void) { return "default"; }
+
+FMI2_EXPORT const char *FMI2_NAME(fmi2GetVersion)(void) { return "2.0"; }
+
+/* Says why there is no instance; there is no slave yet that could. */
+static fmi2Component refuse(const fmi2CallbackFunctions *functions, fmi2String name, fmi2String text) {
+  if (functions->logger != NULL)
+    functions->logger(functions->componentEnvironment, name != NULL ? name : "", fmi2Error, "logStatusError", text);
+  return NULL;
+}
+
+FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
+                                                     fmi2String resources, const fmi2CallbackFunctions *functions,
+                                                     fmi2Boolean visible, fmi2Boolean logging) {
+  char path[PATH_SIZE];
+  ali3_memory memory = {calloc, free};
+  (void)visible;
+  if (functions == NULL) return NULL;
+  if (functions->allocateMemory != NULL && functions->freeMemory != NULL) {
+    memory.allocate = functions->allocateMemory;
+    memory.release = functions->freeMemory;
+  }
+  if (type != fmi2CoSimulation) return refuse(functions, name, "This FMU is for co-simulation only.");
+  if (resources != NULL && !slave_path_of_uri(resources, path, sizeof path))
+    return refuse(functions, name, "The location of the resources is too long.");
+  fmi2_face *face = memory.allocate(1, sizeof *face);
+  if (face == NULL) return refuse(functions, name, "There is not enough memory for an instance.");
+  face->host = *functions;
+  face->s = slave_new(&memory, face, log_to_host, logging != 0, name, guid, resources != NULL ? path : NULL);
+  if (face->s != NULL) return face;
+  memory.release(face);
+  return NULL;
+}
+
+FMI2_EXPORT void FMI2_NAME(fmi2FreeInstance)(fmi2Component c) {
+  fmi2_face *face = c;
+  if (face == NULL) return;
+  void (*const release)(void *) = face->s->memory.release;
+  slave_free(face->s);
+  release(face);
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component c, fmi2Boolean on, size_t n,
+                                                      const fmi2String categories[]) {
+  slave *s = fmi2_slave(c, "fmi2SetDebugLogging", FMI2_ANY);
+  return s != NULL ? (fmi2Status)slave_set_logging(s, on != 0, n, categories) : fmi2Error;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetupExperiment)(fmi2Component c, fmi2Boolean tolerance_defined,
+                                                      fmi2Real tolerance, fmi2Real start, fmi2Boolean stop_defined,
+                                                      fmi2Real stop) {
+  slave *s = fmi2_slave(c, "fmi2SetupExperiment", SLAVE_INSTANTIATED);
+  (void)tolerance_defined, (void)tolerance; /* the inner step is fixed */
+  return s != NULL ? (fmi2Status)slave_setup(s, start, stop_defined != 0, stop) : fmi2Error;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2EnterInitializationMode)(fmi2Component c) {
+  slave *s = fmi2_slave(c, "fmi2EnterInitializationMode", SLAVE_INSTANTIATED);
+  return s != NULL ? (fmi2Status)slave_enter(s) : fmi2Error;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2ExitInitializationMode)(fmi2Component c) {
+  slave *s = fmi2_slave(c, "fmi2ExitInitializationMode", SLAVE_INITIALISING);
+  return s != NULL ? (fmi2Status)slave_exit(s) : fmi2Error;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Terminate)(fmi2Component c) {
+  slave *s = fmi2_slave(c, "fmi2Terminate", FMI2_RUN);
+  return s != NULL ? (fmi2Status)slave_terminate(s) : fmi2Error;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Reset)(fmi2Component c) {
+  slave *s = fmi2_slave(c, "fmi2Reset", FMI2_ANY);
+  return s != NULL ? (fmi2Status)slave_reset(s) : fmi2Error;
+}

@@ -1,0 +1,123 @@
+/* The slave behind both faces of FMI: life cycle, values, steps, states, derivatives of one instance. Knows the System
+ * file and the table of variables; nothing of the FMI version and nothing of the model. */
+#ifndef ALI3_SLAVE_H
+#define ALI3_SLAVE_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "ali3.h"
+
+/* The table, generated with the FMU (table.c); the place of a variable is its number. */
+typedef enum { SLAVE_INPUT, SLAVE_PARAMETER, SLAVE_POSE, SLAVE_STEP_SIZE, SLAVE_SENSOR } slave_source;
+
+typedef struct {
+  const char *name, *unit;
+  slave_source source;
+  int32_t index;          /* of that input, parameter or sensor; place in x, y, z, yaw, speed */
+  double start, min, max; /* infinite where open */
+} slave_variable;
+
+typedef struct {
+  const char *token;           /* GUID or instantiation token */
+  unsigned char identity[16];  /* the same as bytes */
+  const slave_variable *variable;
+  size_t n_variables, n_known; /* known: all but the outputs, which come last */
+  const char *const *row;      /* names of the constraint rows */
+  size_t n_rows;
+} slave_table;
+
+extern const slave_table slave_the_table;
+
+/* Numbers as in both versions of FMI. */
+typedef enum { SLAVE_OK, SLAVE_WARNING, SLAVE_DISCARD, SLAVE_ERROR, SLAVE_FATAL } slave_status;
+
+typedef enum { /* bits, for masks of allowed calls */
+               SLAVE_INSTANTIATED = 1,
+               SLAVE_INITIALISING = 2,
+               SLAVE_STEPPING = 4,
+               SLAVE_STEP_FAILED = 8, /* the last good state is kept; the host may go on from it */
+               SLAVE_TERMINATED = 16
+} slave_phase;
+
+enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024 };
+
+typedef struct slave slave;
+typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
+
+typedef struct { /* what a state is beside the kernel's bytes; numbers only */
+  slave_phase phase;
+  int32_t initialised, step_warned;
+  double start_time, stop_time; /* infinite where not given */
+} slave_memory_of_calls;
+
+struct slave {
+  void *host; /* what the face needs for its logger */
+  slave_logger *logger;
+  ali3_memory memory;
+  char *name;
+  bool logging, all_categories;
+  unsigned categories; /* bits, see slave_category */
+  ali3_system *system;
+  ali3_instance *kernel;
+  slave_memory_of_calls calls;
+  double *value;          /* per variable; the outputs are filled when they are asked for */
+  double *slope;          /* per variable and order: derivatives of the inputs from the communication point on */
+  unsigned char *pending; /* per known variable: set and not yet with the kernel */
+  unsigned char *clamped; /* per known variable: said once */
+  bool outputs_fresh;
+  unsigned char *saved;   /* one state of the kernel, for steps that are taken back */
+  double *sensors, *direction, *input; /* work: ns, nu, nu */
+  unsigned char *known;
+  size_t step_reference;
+};
+
+/* log.c */
+enum { SLAVE_LOG_WARNING = 1, SLAVE_LOG_DISCARD = 2, SLAVE_LOG_ERROR = 4, SLAVE_LOG_FATAL = 8, SLAVE_LOG_ALL = 16 };
+slave_status slave_say(slave *s, slave_status status, const char *format, ...);
+slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *categories);
+const char *slave_phase_name(slave_phase phase);
+bool slave_allowed(slave *s, const char *function, unsigned mask);
+
+/* resource.c */
+bool slave_path_of_uri(const char *uri, char *path, size_t size);
+unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size);
+
+/* life.c */
+slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bool logging, const char *name,
+                 const char *token, const char *resources);
+void slave_free(slave *s);
+slave_status slave_setup(slave *s, double start_time, bool stop_defined, double stop_time);
+slave_status slave_enter(slave *s);
+slave_status slave_exit(slave *s);
+slave_status slave_terminate(slave *s);
+slave_status slave_reset(slave *s);
+
+/* initial.c */
+bool slave_initialise(slave *s);
+void slave_stale(slave *s);
+const char *slave_worst_row(slave *s, char *text, size_t size);
+
+/* values.c: n numbers of variables and as many values */
+slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value);
+slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value);
+bool slave_outputs(slave *s);
+
+/* step.c */
+slave_status slave_step(slave *s, double time, double step);
+
+/* derivatives.c */
+slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);
+slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, const int32_t *order, double *value);
+slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unknown, const uint32_t *known,
+                               size_t n_known, const double *seed, double *out);
+
+/* state.c */
+typedef struct slave_state slave_state;
+slave_status slave_state_get(slave *s, slave_state **state);
+slave_status slave_state_set(slave *s, const slave_state *state);
+slave_status slave_state_free(slave *s, slave_state **state);
+slave_status slave_state_size(slave *s, const slave_state *state, size_t *size);
+slave_status slave_state_write(slave *s, const slave_state *state, unsigned char *bytes, size_t size);
+slave_status slave_state_read(slave *s, const unsigned char *bytes, size_t size, slave_state **state);
+#endif

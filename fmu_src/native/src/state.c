@@ -1,0 +1,168 @@
+/* A state as bytes: header with magic, version, the FMU's identity, size and checksum; the slave's own numbers, then the
+ * kernel's bytes. Flat, without pointers, so that it continues bit for bit anywhere. */
+#include <math.h>
+#include <string.h>
+
+#include "slave.h"
+
+typedef struct { /* 72 bytes without holes */
+  char magic[8];
+  uint32_t version, crc;
+  uint64_t size;
+  unsigned char identity[16];
+  uint32_t phase, initialised, step_warned, n_known;
+  double start_time, stop_time;
+} header;
+
+struct slave_state {
+  size_t size;
+  unsigned char bytes[];
+};
+
+static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
+enum { STATE_VERSION = 1, CHECKED_FROM = 16 }; /* the checksum covers what follows it */
+
+uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
+
+static size_t own_size(void) {
+  const size_t n = slave_the_table.n_known;
+  return sizeof(header) + n * (1 + SLAVE_MOST_ORDERS) * sizeof(double) + 2 * n;
+}
+
+static size_t whole_size(const slave *s) { return own_size() + ali3_state_size(s->system); }
+
+static void put(unsigned char **to, const void *from, size_t size) {
+  memcpy(*to, from, size);
+  *to += size;
+}
+
+static void save(const slave *s, unsigned char *bytes) {
+  const size_t n = slave_the_table.n_known, size = whole_size(s);
+  const slave_memory_of_calls *c = &s->calls;
+  header head = {{0},      STATE_VERSION, 0,  size, {0}, (uint32_t)c->phase, (uint32_t)c->initialised,
+                 (uint32_t)c->step_warned, (uint32_t)n, c->start_time, c->stop_time};
+  unsigned char *p = bytes;
+  memcpy(head.magic, MAGIC, sizeof MAGIC);
+  memcpy(head.identity, slave_the_table.identity, sizeof head.identity);
+  put(&p, &head, sizeof head);
+  put(&p, s->value, n * sizeof(double));
+  put(&p, s->slope, n * SLAVE_MOST_ORDERS * sizeof(double));
+  put(&p, s->pending, n);
+  put(&p, s->clamped, n);
+  ali3_state_save(s->kernel, p, ali3_state_size(s->system));
+  head.crc = ali3_crc32(bytes + CHECKED_FROM, size - CHECKED_FROM);
+  memcpy(bytes, &head, sizeof head);
+}
+
+/* One sentence on what is wrong with the bytes, or NULL. */
+static const char *problem(const slave *s, const unsigned char *bytes, size_t size) {
+  header head;
+  if (size < sizeof head) return "they are too short";
+  memcpy(&head, bytes, sizeof head);
+  if (memcmp(head.magic, MAGIC, sizeof MAGIC) != 0) return "they begin with other bytes";
+  if (head.version != STATE_VERSION) return "they have another version";
+  if (memcmp(head.identity, slave_the_table.identity, sizeof head.identity) != 0)
+    return "only states of the same build can be set";
+  if (head.size != size || size != whole_size(s) || head.n_known != slave_the_table.n_known)
+    return "they have another size";
+  if (head.crc != ali3_crc32(bytes + CHECKED_FROM, size - CHECKED_FROM)) return "they were altered";
+  if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
+      head.initialised > 1 || head.step_warned > 1 || !(fabs(head.start_time) < HUGE_VAL) ||
+      !(head.stop_time > head.start_time))
+    return "their header makes no sense";
+  if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header makes no sense";
+  return NULL;
+}
+
+/* The numbers of the table must be ones that could have been set. */
+static const char *bad_value(const unsigned char *p) {
+  const slave_table *t = &slave_the_table;
+  double v;
+  for (size_t i = 0; i < t->n_known * (1 + SLAVE_MOST_ORDERS); i++) {
+    memcpy(&v, p + i * sizeof v, sizeof v);
+    if (!(fabs(v) < HUGE_VAL)) return "a number in them is not finite";
+    if (i < t->n_known && !(v >= t->variable[i].min && v <= t->variable[i].max))
+      return "a number in them is out of its range";
+  }
+  const unsigned char *flag = p + t->n_known * (1 + SLAVE_MOST_ORDERS) * sizeof v;
+  for (size_t i = 0; i < 2 * t->n_known; i++)
+    if (flag[i] > 1) return "a flag in them is none";
+  for (size_t i = 0; i < t->n_known; i++)
+    if (flag[i] && t->variable[i].source != SLAVE_INPUT && t->variable[i].source != SLAVE_PARAMETER)
+      return "a flag in them is none";
+  return NULL;
+}
+
+static void get(void *to, const unsigned char **from, size_t size) {
+  memcpy(to, *from, size);
+  *from += size;
+}
+
+static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
+  const size_t n = slave_the_table.n_known;
+  const unsigned char *p = bytes + sizeof(header);
+  const char *why = problem(s, bytes, size);
+  header head;
+  if (why == NULL) why = bad_value(p);
+  if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
+  const ali3_status status = ali3_state_restore(s->kernel, bytes + own_size(), ali3_state_size(s->system));
+  if (status != ALI3_OK)
+    return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", ali3_status_text(status));
+  memcpy(&head, bytes, sizeof head);
+  s->calls.phase = (slave_phase)head.phase;
+  s->calls.initialised = (int32_t)head.initialised;
+  s->calls.step_warned = (int32_t)head.step_warned;
+  s->calls.start_time = head.start_time;
+  s->calls.stop_time = head.stop_time;
+  get(s->value, &p, n * sizeof(double));
+  get(s->slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
+  get(s->pending, &p, n);
+  get(s->clamped, &p, n);
+  s->outputs_fresh = false;
+  return SLAVE_OK;
+}
+
+static slave_status room(slave *s, size_t size, slave_state **state) {
+  if (*state != NULL && (*state)->size == size) return SLAVE_OK; /* a state that is there is written over */
+  slave_state *fresh = s->memory.allocate(1, sizeof **state + size);
+  if (fresh == NULL) return slave_say(s, SLAVE_ERROR, "There is not enough memory for a state.");
+  if (*state != NULL) s->memory.release(*state);
+  fresh->size = size;
+  *state = fresh;
+  return SLAVE_OK;
+}
+
+slave_status slave_state_get(slave *s, slave_state **state) {
+  if (room(s, whole_size(s), state) != SLAVE_OK) return SLAVE_ERROR;
+  save(s, (*state)->bytes);
+  return SLAVE_OK;
+}
+
+slave_status slave_state_set(slave *s, const slave_state *state) { return restore(s, state->bytes, state->size); }
+
+slave_status slave_state_free(slave *s, slave_state **state) {
+  if (*state != NULL) s->memory.release(*state);
+  *state = NULL;
+  return SLAVE_OK;
+}
+
+slave_status slave_state_size(slave *s, const slave_state *state, size_t *size) {
+  (void)s;
+  *size = state->size;
+  return SLAVE_OK;
+}
+
+slave_status slave_state_write(slave *s, const slave_state *state, unsigned char *bytes, size_t size) {
+  if (size < state->size)
+    return slave_say(s, SLAVE_ERROR, "The state needs %zu bytes, there is room for %zu.", state->size, size);
+  memcpy(bytes, state->bytes, state->size);
+  return SLAVE_OK;
+}
+
+slave_status slave_state_read(slave *s, const unsigned char *bytes, size_t size, slave_state **state) {
+  const char *why = problem(s, bytes, size);
+  if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
+  if (room(s, size, state) != SLAVE_OK) return SLAVE_ERROR;
+  memcpy((*state)->bytes, bytes, size);
+  return SLAVE_OK;
+}

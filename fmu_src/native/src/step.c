@@ -1,0 +1,138 @@
+/* A communication step: equal inner steps, inputs along their derivatives, all or nothing. */
+#include <math.h>
+#include <string.h>
+
+#include "slave.h"
+
+static const double TIME_TOLERANCE = 1e-6; /* s: a host adds up its time in floating point */
+static const double STEP_TOLERANCE = 1e-6; /* end points this near, in steps, are reached with the tuned step itself */
+static const double STEP_DEVIATION = 0.05;
+static const double MOST_STEPS = 1e9;
+
+/* Number and size of the equal inner steps from time to end. */
+static int64_t division(slave *s, double time, double end, double *h) {
+  const double step = s->value[s->step_reference], ratio = nearbyint((end - time) / step);
+  const double n = ratio > 1.0 ? ratio : 1.0;
+  *h = step;
+  if (fabs(time + n * step - end) <= STEP_TOLERANCE * step) return (int64_t)n;
+  *h = (end - time) / n;
+  if (fabs(*h - step) > STEP_DEVIATION * step && !s->calls.step_warned) {
+    s->calls.step_warned = 1;
+    slave_say(s, SLAVE_WARNING,
+              "The communication step %.6g s gives inner steps of %.6g s, while step_size is %.6g s; results will "
+              "differ a little. This is said once.",
+              end - time, *h, step);
+  }
+  return (int64_t)n;
+}
+
+static bool any_pending(const slave *s, slave_source source) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i < t->n_known; i++)
+    if (s->pending[i] && t->variable[i].source == source) return true;
+  return false;
+}
+
+static bool any_slope(const slave *s) {
+  for (size_t i = 0; i < slave_the_table.n_known * SLAVE_MOST_ORDERS; i++)
+    if (s->slope[i] != 0.0) return true;
+  return false;
+}
+
+static ali3_status apply_pending(slave *s) {
+  const slave_table *t = &slave_the_table;
+  ali3_status status = ALI3_OK;
+  for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
+    const slave_variable *v = &t->variable[i];
+    if (!s->pending[i]) continue;
+    if (v->source == SLAVE_INPUT)
+      status = ali3_set_input(s->kernel, v->index, s->value[i]);
+    else
+      status = ali3_set_parameter(s->kernel, v->index, s->value[i]);
+  }
+  return status;
+}
+
+/* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
+static ali3_status follow_slopes(slave *s, double elapsed) {
+  const slave_table *t = &slave_the_table;
+  ali3_status status = ALI3_OK;
+  for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
+    if (t->variable[i].source != SLAVE_INPUT) continue;
+    const double *slope = s->slope + i * SLAVE_MOST_ORDERS;
+    double u = s->value[i], power = 1.0;
+    for (int k = 0; k < SLAVE_MOST_ORDERS; k++) {
+      power *= elapsed / (k + 1);
+      u += slope[k] * power;
+    }
+    status = ali3_set_input(s->kernel, t->variable[i].index, u);
+  }
+  return status;
+}
+
+static ali3_status advance(slave *s, int64_t n, double h) {
+  ali3_status status = apply_pending(s);
+  if (status != ALI3_OK) return status;
+  if (!any_slope(s)) return n == 1 ? ali3_step(s->kernel, h) : ali3_run(s->kernel, h, n, NULL, 1, NULL, NULL);
+  for (int64_t k = 0; k < n && status == ALI3_OK; k++) {
+    status = follow_slopes(s, (double)(k + 1) * h);
+    if (status == ALI3_OK) status = ali3_step(s->kernel, h);
+  }
+  return status;
+}
+
+/* After a step with slopes the inputs are again what the host set them to. */
+static void forget_slopes(slave *s) {
+  const slave_table *t = &slave_the_table;
+  if (!any_slope(s)) return;
+  memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
+  for (size_t i = 0; i < t->n_known; i++)
+    if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->kernel, t->variable[i].index, s->value[i]);
+}
+
+static void take_back(slave *s, bool whole) {
+  const int32_t nu = ali3_system_sizes(s->system).nu;
+  if (whole) ali3_state_restore(s->kernel, s->saved, ali3_state_size(s->system));
+  for (int32_t i = 0; i < nu; i++) ali3_set_input(s->kernel, i, s->input[i]);
+}
+
+static slave_status refused(slave *s, ali3_status status, double time, double step, const char *worst) {
+  s->calls.phase = SLAVE_STEP_FAILED;
+  return slave_say(s, SLAVE_DISCARD,
+                   "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s", time, step,
+                   time, ali3_status_text(status), worst);
+}
+
+slave_status slave_step(slave *s, double time, double step) {
+  char worst[SLAVE_TEXT / 2];
+  const double now = ali3_time(s->kernel);
+  double h;
+  if (!(fabs(time) < HUGE_VAL && step > 0.0 && step < HUGE_VAL))
+    return slave_say(s, SLAVE_ERROR, "A step from %g s over %g s: a finite time and a positive step are needed.", time,
+                     step);
+  if (fabs(time - now) > TIME_TOLERANCE)
+    return slave_say(s, SLAVE_ERROR, "The step starts at %.10g s, but this instance stands at %.10g s.", time, now);
+  if (time + step > s->calls.stop_time + TIME_TOLERANCE)
+    return slave_say(s, SLAVE_ERROR, "The step from %g s over %g s goes beyond the stop time %g s.", time, step,
+                     s->calls.stop_time);
+  if (step / s->value[s->step_reference] > MOST_STEPS)
+    return slave_say(s, SLAVE_ERROR, "The step of %g s has more than %g inner steps.", step, MOST_STEPS);
+  const int32_t warned = s->calls.step_warned;
+  const int64_t n = division(s, now, time + step, &h);
+  /* one step keeps the last state when it fails; several, or a changed parameter, must be taken back together */
+  const bool whole = n > 1 || any_pending(s, SLAVE_PARAMETER);
+  if (whole) ali3_state_save(s->kernel, s->saved, ali3_state_size(s->system));
+  const int32_t nu = ali3_system_sizes(s->system).nu;
+  for (int32_t i = 0; i < nu; i++) ali3_get_input(s->kernel, i, &s->input[i]);
+  const ali3_status status = advance(s, n, h);
+  if (status != ALI3_OK) {
+    slave_worst_row(s, worst, sizeof worst);
+    take_back(s, whole);
+    return refused(s, status, now, step, worst);
+  }
+  forget_slopes(s);
+  memset(s->pending, 0, slave_the_table.n_known);
+  s->outputs_fresh = false;
+  s->calls.phase = SLAVE_STEPPING;
+  return s->calls.step_warned != warned ? SLAVE_WARNING : SLAVE_OK;
+}

@@ -1,0 +1,99 @@
+/* Getting and setting variables: ranges, phases, NaN; a call with one bad value changes nothing. */
+#include <math.h>
+#include <string.h>
+
+#include "slave.h"
+
+static const unsigned SETTABLE = SLAVE_INSTANTIATED | SLAVE_INITIALISING | SLAVE_STEPPING | SLAVE_STEP_FAILED;
+
+bool slave_outputs(slave *s) {
+  const slave_table *t = &slave_the_table;
+  if (s->outputs_fresh) return true;
+  if (!s->calls.initialised && !slave_initialise(s)) return false;
+  if (ali3_sensors(s->kernel, s->sensors) != ALI3_OK) return false;
+  for (size_t i = t->n_known; i < t->n_variables; i++) s->value[i] = s->sensors[t->variable[i].index];
+  s->outputs_fresh = true;
+  return true;
+}
+
+slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value) {
+  const slave_table *t = &slave_the_table;
+  bool outputs = false;
+  for (size_t i = 0; i < n; i++) {
+    if (reference[i] >= t->n_variables)
+      return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference[i]);
+    outputs = outputs || reference[i] >= t->n_known;
+  }
+  if (outputs && !slave_outputs(s)) return SLAVE_ERROR;
+  for (size_t i = 0; i < n; i++) value[i] = s->value[reference[i]];
+  return SLAVE_OK;
+}
+
+/* Whether a value is taken; *clamped where an input is held at an end of its range. */
+static slave_status check(slave *s, uint32_t reference, double value, double *clamped) {
+  const slave_table *t = &slave_the_table;
+  if (reference >= t->n_variables)
+    return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference);
+  const slave_variable *v = &t->variable[reference];
+  const bool fixed = v->source == SLAVE_POSE || v->source == SLAVE_STEP_SIZE;
+  if (v->source == SLAVE_SENSOR) return slave_say(s, SLAVE_ERROR, "'%s' is an output and cannot be set.", v->name);
+  if (!(s->calls.phase & SETTABLE) || (fixed && (s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))))
+    return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s%s.", v->name, slave_phase_name(s->calls.phase),
+                     fixed ? "; it is a fixed parameter" : "");
+  if (!(fabs(value) < HUGE_VAL))
+    return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g %s is kept.",
+                     v->name, value, s->value[reference], v->unit);
+  *clamped = value;
+  if (value >= v->min && value <= v->max) return SLAVE_OK;
+  if (v->source != SLAVE_INPUT)
+    return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g %s, outside its range %g to %g; it keeps %g.", v->name,
+                     value, v->unit, v->min, v->max, s->value[reference]);
+  *clamped = value < v->min ? v->min : v->max;
+  return SLAVE_WARNING;
+}
+
+/* Only the kernel knows whether a parameter in its range makes sense with the others; it is asked before the value is
+ * taken, and left as it was. */
+static slave_status try_parameter(slave *s, uint32_t reference, double value) {
+  const slave_variable *v = &slave_the_table.variable[reference];
+  double before;
+  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->kernel, v->index, &before) != ALI3_OK) return SLAVE_OK;
+  const ali3_status status = ali3_set_parameter(s->kernel, v->index, value);
+  if (status != ALI3_OK)
+    return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g %s, which the model cannot take; it keeps %g.", v->name,
+                     value, v->unit, s->value[reference]);
+  ali3_set_parameter(s->kernel, v->index, before);
+  return SLAVE_OK;
+}
+
+static void take(slave *s, uint32_t reference, double value) {
+  const slave_variable *v = &slave_the_table.variable[reference];
+  if (value == s->value[reference]) return;
+  s->value[reference] = value;
+  if (v->source == SLAVE_INPUT || v->source == SLAVE_PARAMETER) s->pending[reference] = 1;
+  if (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) slave_stale(s);
+}
+
+slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value) {
+  slave_status worst = SLAVE_OK;
+  double clamped;
+  for (size_t i = 0; i < n; i++) {
+    slave_status status = check(s, reference[i], value[i], &clamped);
+    if (status <= SLAVE_WARNING && clamped != s->value[reference[i]] &&
+        try_parameter(s, reference[i], clamped) != SLAVE_OK)
+      status = SLAVE_ERROR;
+    if (status > SLAVE_WARNING) return status;
+  }
+  for (size_t i = 0; i < n; i++) {
+    const slave_variable *v = &slave_the_table.variable[reference[i]];
+    const bool held = check(s, reference[i], value[i], &clamped) == SLAVE_WARNING;
+    if (held && !s->clamped[reference[i]]) {
+      s->clamped[reference[i]] = 1;
+      worst = slave_say(s, SLAVE_WARNING,
+                        "'%s' was set to %.10g %s and is held at %g, the end of its range %g to %g. This is said once.",
+                        v->name, value[i], v->unit, clamped, v->min, v->max);
+    }
+    take(s, reference[i], clamped);
+  }
+  return worst;
+}

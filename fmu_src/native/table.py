@@ -1,0 +1,61 @@
+"""The C table of an FMU, made from the table of variables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from fmu_src.variables import Variable
+
+_SOURCES = {
+    "input": "SLAVE_INPUT",
+    "parameter": "SLAVE_PARAMETER",
+    "pose": "SLAVE_POSE",
+    "step_size": "SLAVE_STEP_SIZE",
+    "sensor": "SLAVE_SENSOR",
+}
+
+
+def c_table(table: Sequence[Variable], rows: Sequence[str], identity: str, token: str) -> str:
+    """`table.c` of the shell.
+
+    Parameters
+    ----------
+    table : sequence of Variable
+        Outputs last.
+    rows : sequence of str
+        Names of the constraint rows, for messages.
+    identity : str
+        32 hexadecimal digits.
+    token : str
+        GUID or instantiation token.
+
+    Returns
+    -------
+    str
+        C.
+    """
+    variables = "\n".join(
+        f"    {{{c_string(v.name)}, {c_string(v.unit)}, {_SOURCES[v.source]}, {v.index}, "
+        f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}}},"
+        for v in table
+    )
+    names = "\n".join(f"    {c_string(name)}," for name in rows) or "    NULL,"
+    code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
+    known = sum(v.causality != "output" for v in table)
+    return (
+        "/* Generated with the FMU from its table of variables. */\n"
+        '#include <math.h>\n\n#include "slave.h"\n\n'
+        f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
+        f"static const char *const rows[] = {{\n{names}\n}};\n\n"
+        f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, {len(table)}, "
+        f"{known},\n    rows, {len(rows)},\n}};\n"
+    )
+
+
+def c_string(text: str) -> str:
+    """A C string literal; bytes beyond ASCII as octal escapes."""
+    return '"' + "".join(chr(b) if 32 <= b < 127 and b not in b'"\\?' else f"\\{b:03o}" for b in text.encode()) + '"'
+
+
+def _number(value: float | None, otherwise: str) -> str:
+    return otherwise if value is None else repr(float(value))
