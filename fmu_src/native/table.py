@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from fmu_src.arrays import Array
 from fmu_src.variables import Variable
 
 _SOURCES = {
@@ -59,3 +60,27 @@ def c_string(text: str) -> str:
 
 def _number(value: float | None, otherwise: str) -> str:
     return otherwise if value is None else repr(float(value))
+
+
+def c_arrays(groups: Sequence[Array]) -> str:
+    """The part of `table.c` that FMI 3.0 adds.
+
+    Parameters
+    ----------
+    groups : sequence of Array
+
+    Returns
+    -------
+    str
+        C.
+    """
+    items = [k for group in groups for k in group.items]
+    first = [0]
+    for group in groups:
+        first.append(first[-1] + len(group.items))
+    return (
+        '\n#include "fmi3_face.h"\n\n'
+        f"static const uint32_t items[] = {{{', '.join(map(str, items))}}};\n\n"
+        f"static const size_t first[] = {{{', '.join(map(str, first))}}};\n\n"
+        f"const fmi3_table fmi3_the_table = {{items, first, {len(groups)}}};\n"
+    )

@@ -102,15 +102,15 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
     if (known[i] >= t->n_known || t->variable[known[i]].source == SLAVE_STEP_SIZE)
       return slave_say(s, SLAVE_ERROR, "Value reference %u cannot be derived by.", (unsigned)known[i]);
     if (!(fabs(seed[i]) < HUGE_VAL))
-      return slave_say(s, SLAVE_ERROR, "The seed of '%s' is %g; a finite number is needed.",
-                       t->variable[known[i]].name, seed[i]);
+      return slave_say(s, SLAVE_ERROR, "The seed of '%s' is %g; a finite number is needed.", t->variable[known[i]].name,
+                       seed[i]);
   }
   double *all = s->memory.allocate(t->n_variables, sizeof *all);
   if (all == NULL) return slave_say(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
   memset(all, 0, t->n_variables * sizeof *all);
   const bool initial = (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) != 0;
-  const slave_status status = initial ? initial_derivative(s, known, n_known, seed, all)
-                                      : step_derivative(s, known, n_known, seed, all);
+  const slave_status status =
+      initial ? initial_derivative(s, known, n_known, seed, all) : step_derivative(s, known, n_known, seed, all);
   for (size_t i = 0; i < n_unknown && status == SLAVE_OK; i++) out[i] = all[unknown[i]];
   s->memory.release(all);
   return status;

@@ -37,14 +37,12 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealStatus)(fmi2Component c, const fmi2S
   return fmi2OK;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetIntegerStatus)(fmi2Component c, const fmi2StatusKind kind,
-                                                       fmi2Integer *value) {
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetIntegerStatus)(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value) {
   (void)kind, (void)value;
   return no_status(c, "fmi2GetIntegerStatus");
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBooleanStatus)(fmi2Component c, const fmi2StatusKind kind,
-                                                       fmi2Boolean *value) {
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBooleanStatus)(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value) {
   slave *s = fmi2_slave(c, "fmi2GetBooleanStatus", FMI2_DONE);
   if (s == NULL || !fmi2_given(s, "fmi2GetBooleanStatus", value != NULL)) return fmi2Error;
   if (kind != fmi2Terminated) return no_status(c, "fmi2GetBooleanStatus");

@@ -10,8 +10,7 @@ static const char SYSTEM_FILE[] = "system.ali3";
 static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->system);
-  const size_t numbers =
-      t->n_variables + t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + 2 * (size_t)z.nu;
+  const size_t numbers = t->n_variables + t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + 2 * (size_t)z.nu;
   const size_t saved = ali3_state_size(s->system);
   double *pool = s->memory.allocate(1, numbers * sizeof(double) + saved + 2 * t->n_known + (size_t)z.ns + 1);
   if (pool == NULL) return false;

@@ -39,8 +39,17 @@ static void put(unsigned char **to, const void *from, size_t size) {
 static void save(const slave *s, unsigned char *bytes) {
   const size_t n = slave_the_table.n_known, size = whole_size(s);
   const slave_memory_of_calls *c = &s->calls;
-  header head = {{0},      STATE_VERSION, 0,  size, {0}, (uint32_t)c->phase, (uint32_t)c->initialised,
-                 (uint32_t)c->step_warned, (uint32_t)n, c->start_time, c->stop_time};
+  header head = {{0},
+                 STATE_VERSION,
+                 0,
+                 size,
+                 {0},
+                 (uint32_t)c->phase,
+                 (uint32_t)c->initialised,
+                 (uint32_t)c->step_warned,
+                 (uint32_t)n,
+                 c->start_time,
+                 c->stop_time};
   unsigned char *p = bytes;
   memcpy(head.magic, MAGIC, sizeof MAGIC);
   memcpy(head.identity, slave_the_table.identity, sizeof head.identity);

@@ -98,9 +98,8 @@ static void take_back(slave *s, bool whole) {
 
 static slave_status refused(slave *s, ali3_status status, double time, double step, const char *worst) {
   s->calls.phase = SLAVE_STEP_FAILED;
-  return slave_say(s, SLAVE_DISCARD,
-                   "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s", time, step,
-                   time, ali3_status_text(status), worst);
+  return slave_say(s, SLAVE_DISCARD, "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s",
+                   time, step, time, ali3_status_text(status), worst);
 }
 
 slave_status slave_step(slave *s, double time, double step) {

@@ -1,0 +1,136 @@
+/* FMI 3.0: inquiry, instances, initialisation, end, logging. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "fmi3_face.h"
+
+fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned mask) {
+  fmi3_face *face = instance;
+  return face != NULL && slave_allowed(face->s, function, mask) ? face : NULL;
+}
+
+bool fmi3_given(fmi3_face *face, const char *function, bool given) {
+  if (!given) slave_say(face->s, SLAVE_ERROR, "%s was called with a null pointer.", function);
+  return given;
+}
+
+bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference, size_t n, size_t n_values) {
+  const fmi3_table *t = &fmi3_the_table;
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (reference[i] >= t->n_arrays) {
+      slave_say(face->s, SLAVE_ERROR, "There is no variable with value reference %u for this call.",
+                (unsigned)reference[i]);
+      return false;
+    }
+    const size_t size = t->first[reference[i] + 1] - t->first[reference[i]];
+    if (count + size > face->room) {
+      slave_say(face->s, SLAVE_ERROR, "One call asks for more values than this FMU has variables (%zu).", face->room);
+      return false;
+    }
+    memcpy(face->items[which] + count, t->item + t->first[reference[i]], size * sizeof(uint32_t));
+    count += size;
+  }
+  if (count == n_values) return true;
+  slave_say(face->s, SLAVE_ERROR, "The variables have %zu values, the call gives room for %zu.", count, n_values);
+  return false;
+}
+
+static void log_to_host(slave *s, slave_status status, const char *category, const char *text) {
+  const fmi3_face *face = s->host;
+  if (face->log != NULL) face->log(face->environment, (fmi3Status)status, category, text);
+}
+
+FMI3_EXPORT const char *FMI3_NAME(fmi3GetVersion)(void) { return "3.0"; }
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetDebugLogging)(fmi3Instance instance, fmi3Boolean on, size_t n,
+                                                      const fmi3String categories[]) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3SetDebugLogging", FMI3_ANY);
+  return face != NULL ? (fmi3Status)slave_set_logging(face->s, on, n, categories) : fmi3Error;
+}
+
+static void say_no(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, const char *text) {
+  if (log != NULL) log(environment, fmi3Error, "logStatusError", text);
+}
+
+FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateModelExchange)(fmi3String name, fmi3String token,
+                                                                 fmi3String resources, fmi3Boolean visible,
+                                                                 fmi3Boolean logging, fmi3InstanceEnvironment env,
+                                                                 fmi3LogMessageCallback log) {
+  (void)name, (void)token, (void)resources, (void)visible, (void)logging;
+  say_no(env, log, "This FMU is for co-simulation only.");
+  return NULL;
+}
+
+FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateScheduledExecution)(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+    fmi3InstanceEnvironment env, fmi3LogMessageCallback log, fmi3ClockUpdateCallback clock,
+    fmi3LockPreemptionCallback lock, fmi3UnlockPreemptionCallback unlock) {
+  (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)clock, (void)lock, (void)unlock;
+  say_no(env, log, "This FMU is for co-simulation only.");
+  return NULL;
+}
+
+static void free_face(fmi3_face *face) {
+  slave_free(face->s);
+  free(face->items[0]);
+  free(face->one);
+  free(face);
+}
+
+FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+    fmi3Boolean event_mode, fmi3Boolean early_return, const fmi3ValueReference intermediate[], size_t n_intermediate,
+    fmi3InstanceEnvironment env, fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update) {
+  const ali3_memory memory = {calloc, free};
+  const size_t room = slave_the_table.n_variables;
+  (void)visible, (void)early_return, (void)intermediate, (void)n_intermediate, (void)update;
+  if (event_mode) {
+    say_no(env, log, "This FMU has no event mode.");
+    return NULL;
+  }
+  fmi3_face *face = calloc(1, sizeof *face);
+  if (face == NULL) return NULL;
+  face->environment = env;
+  face->log = log;
+  face->room = room;
+  face->items[0] = calloc(2 * room, sizeof(uint32_t));
+  face->one = calloc(2 * room, sizeof(double));
+  if (face->items[0] != NULL && face->one != NULL)
+    face->s = slave_new(&memory, face, log_to_host, logging, name, token, resources);
+  if (face->s == NULL) {
+    free_face(face);
+    return NULL;
+  }
+  face->items[1] = face->items[0] + room;
+  face->all = face->one + room;
+  return face;
+}
+
+FMI3_EXPORT void FMI3_NAME(fmi3FreeInstance)(fmi3Instance instance) {
+  if (instance != NULL) free_face(instance);
+}
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3EnterInitializationMode)(fmi3Instance instance, fmi3Boolean tolerance_defined,
+                                                              fmi3Float64 tolerance, fmi3Float64 start,
+                                                              fmi3Boolean stop_defined, fmi3Float64 stop) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3EnterInitializationMode", SLAVE_INSTANTIATED);
+  (void)tolerance_defined, (void)tolerance; /* the inner step is fixed */
+  if (face == NULL || slave_setup(face->s, start, stop_defined, stop) != SLAVE_OK) return fmi3Error;
+  return (fmi3Status)slave_enter(face->s);
+}
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3ExitInitializationMode)(fmi3Instance instance) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3ExitInitializationMode", SLAVE_INITIALISING);
+  return face != NULL ? (fmi3Status)slave_exit(face->s) : fmi3Error;
+}
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3Terminate)(fmi3Instance instance) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3Terminate", FMI3_RUN);
+  return face != NULL ? (fmi3Status)slave_terminate(face->s) : fmi3Error;
+}
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3Reset)(fmi3Instance instance) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3Reset", FMI3_ANY);
+  return face != NULL ? (fmi3Status)slave_reset(face->s) : fmi3Error;
+}
