@@ -70,7 +70,9 @@ def _need_pythonfmu() -> None:
     try:
         import pythonfmu  # noqa: F401
     except ImportError:
-        raise ValueError('PythonFMU is not installed; run: pip install "ali3[fmu]", or leave out --kind python') from None
+        raise ValueError(
+            'PythonFMU is not installed; run: pip install "ali3[fmu]", or leave out --kind python'
+        ) from None
 
 
 if __name__ == "__main__":

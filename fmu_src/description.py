@@ -185,9 +185,7 @@ def _types(root: ElementTree.Element, table: Sequence[Variable]) -> None:
         ElementTree.SubElement(ElementTree.SubElement(definitions, "SimpleType", name=name), "Real", attributes)
 
 
-def _variable(
-    parent: ElementTree.Element, reference: int, v: Variable, types: dict[str, dict[str, str]]
-) -> None:
+def _variable(parent: ElementTree.Element, reference: int, v: Variable, types: dict[str, dict[str, str]]) -> None:
     attributes = {"name": v.name, "valueReference": str(reference)}
     if v.description:
         attributes["description"] = v.description

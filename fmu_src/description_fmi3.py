@@ -124,9 +124,7 @@ def to_bytes(root: ElementTree.Element) -> bytes:
     return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
 
 
-def _variable(
-    parent: ElementTree.Element, reference: int, array: Array, types: dict[str, dict[str, str]]
-) -> None:
+def _variable(parent: ElementTree.Element, reference: int, array: Array, types: dict[str, dict[str, str]]) -> None:
     v = array.of
     attributes = {"name": array.name, "valueReference": str(reference)}
     if array.description:

@@ -14,7 +14,9 @@ _STYLE = (
 )
 # Vehicle axes of ISO 8855, seen from behind, above and the right.
 _AXES = """<svg viewBox="0 0 220 150" role="img" aria-label="axes: x forward, y left, z up">
-<defs><marker id="a" markerWidth="8" markerHeight="8" refX="6" refY="3" orient="auto"><path d="M0,0L7,3L0,6z"/></marker></defs>
+<defs>
+<marker id="a" markerWidth="8" markerHeight="8" refX="6" refY="3" orient="auto">
+<path d="M0,0L7,3L0,6z"/></marker></defs>
 <g stroke="#222" stroke-width="2" fill="none" marker-end="url(#a)">
 <path d="M110,100L180,62" marker-end="url(#a)"/><path d="M110,100L36,76" marker-end="url(#a)"/>
 <path d="M110,100L110,22" marker-end="url(#a)"/></g>
@@ -44,9 +46,7 @@ def documentation(
     """
     columns = ("name", "causality", "variability", "unit", "start", "min", "max", "description")
     head = "".join(f"<th>{c}</th>" for c in columns)
-    rows = "\n".join(
-        "<tr>" + "".join(f"<td>{_cell(getattr(v, c))}</td>" for c in columns) + "</tr>" for v in table
-    )
+    rows = "\n".join("<tr>" + "".join(f"<td>{_cell(getattr(v, c))}</td>" for c in columns) + "</tr>" for v in table)
     words = "\n".join(f"<p>{html.escape(p)}</p>" for p in paragraphs)
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{html.escape(name)}</title>'

@@ -19,7 +19,7 @@ from hosts.plot_page import plot_page
 from hosts.run import Result, run
 from hosts.summary import summary
 
-DEFAULT_FMU = Path("dist", "PrototypeCarPython.fmu")
+DEFAULT_FMU = Path("dist", "PrototypeCar.fmu")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -1,4 +1,4 @@
-"""Reference results in the layered standard fmi-ls-ref: the default experiment, so that an importer can check itself."""
+"""Reference results of the default experiment in the layered standard fmi-ls-ref: an importer can check itself."""
 
 from __future__ import annotations
 

@@ -48,8 +48,8 @@ def c_table(table: Sequence[Variable], rows: Sequence[str], identity: str, token
         '#include <math.h>\n\n#include "slave.h"\n\n'
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
         f"static const char *const rows[] = {{\n{names}\n}};\n\n"
-        f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, {len(table)}, "
-        f"{known},\n    rows, {len(rows)},\n}};\n"
+        f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
+        f"{len(table)}, {known},\n    rows, {len(rows)},\n}};\n"
     )
 
 

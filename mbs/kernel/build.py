@@ -87,7 +87,13 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
 
 
 def compile_c(
-    files: Sequence[Path], target: str, path: Path, *, include: Sequence[Path] = (), defines: Sequence[str] = (), what: str,
+    files: Sequence[Path],
+    target: str,
+    path: Path,
+    *,
+    include: Sequence[Path] = (),
+    defines: Sequence[str] = (),
+    what: str,
     shared: bool = True,
 ) -> None:
     """Compile C files into one library or program.

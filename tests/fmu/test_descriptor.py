@@ -32,7 +32,10 @@ def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[..., Path], scen
     pytest.importorskip("fmu_manipulation_toolbox")
     code = "from fmu_manipulation_toolbox.cli.fmutool import fmutool; fmutool()"
     done = subprocess.run(
-        [sys.executable, "-c", code, "-input", str(build(scene, kind)), "-check"], capture_output=True, text=True, check=True
+        [sys.executable, "-c", code, "-input", str(build(scene, kind)), "-check"],
+        capture_output=True,
+        text=True,
+        check=True,
     )
     said = done.stdout + done.stderr
     assert "compliant with FMI-2.0" in said
@@ -50,7 +53,7 @@ def test_two_builds_give_the_same_bytes(tmp_path: Path, kind: str) -> None:
     assert files[0].read_bytes() == files[1].read_bytes()
 
 
-def test_another_system_gives_another_guid(build: Callable[[str], Path]) -> None:
+def test_another_system_gives_another_guid(build: Callable[..., Path]) -> None:
     first, second = (fmpy.read_model_description(str(build(s))) for s in ("crane", "heavy_crane"))
     assert first.guid != second.guid
 

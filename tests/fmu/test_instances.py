@@ -53,7 +53,7 @@ def test_many_lives_of_one_instance(crane: Path, host: HostMaker) -> None:
         assert driven.start().run(5, 0.01) == expected
 
 
-def test_two_builds_of_a_scene_in_one_process(build: Callable[[str], Path], host: HostMaker) -> None:
+def test_two_builds_of_a_scene_in_one_process(build: Callable[..., Path], host: HostMaker) -> None:
     light, heavy = (host(build(s)).start({"torque": 3.0}) for s in ("crane", "heavy_crane"))
     first, second = light.run(50, 0.01), heavy.run(50, 0.01)
     assert not np.allclose(first, second)

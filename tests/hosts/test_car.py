@@ -43,7 +43,7 @@ def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: floa
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "FMU:" not in done.stdout
-    return read_csv(folder / f"prototype_car_python_{manoeuvre}.csv"), done.stdout
+    return read_csv(folder / f"prototype_car_{manoeuvre}.csv"), done.stdout
 
 
 def test_launch_and_brake(car: tuple[mbs.System, Path], tmp_path: Path) -> None:

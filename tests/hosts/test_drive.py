@@ -67,13 +67,13 @@ def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path:
         assert row in done.stdout
     assert "0 of 150" in done.stdout
     assert "3.00 s simulated in" in done.stdout
-    table = read_csv(tmp_path / "out" / "sledge_python_turn.csv")
+    table = read_csv(tmp_path / "out" / "sledge_turn.csv")
     assert table["time"] == pytest.approx(0.02 * np.arange(151))
     assert table["chassis.x"][0] == 0.0
     assert table["speed"][0] == pytest.approx(10.0)
     # The inputs of a row are those of the step that ends there.
     assert (table["steering"][50], table["steering"][51]) == (0.0, 0.5)
-    picture = tmp_path / "out" / "sledge_python_turn.png"
+    picture = tmp_path / "out" / "sledge_turn.png"
     height, width = image.imread(picture).shape[:2]
     assert width == 1760
     assert height > 900
@@ -84,10 +84,10 @@ def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "swing.csv").write_text('"time","torque"\n0,0\n1,0\n1,4\n4,4\n')
     done = drive(fmus["motor_pendulum"], "-m", tmp_path / "swing.csv", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
-    table = read_csv(tmp_path / "motor_pendulum_python_swing.csv")
+    table = read_csv(tmp_path / "motor_pendulum_swing.csv")
     assert np.ptp(table["rod.angle"]) > 0.5
     assert np.ptp(table["rod.angle"][:100]) < 1e-9
-    assert colours(tmp_path / "motor_pendulum_python_swing.png") > 100
+    assert colours(tmp_path / "motor_pendulum_swing.png") > 100
 
 
 def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) -> None:
@@ -98,7 +98,7 @@ def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) ->
 
 
 def test_no_fmu_tells_how_to_build_it(turn: Path, tmp_path: Path) -> None:
-    done = drive(tmp_path / "dist" / "PrototypeCarPython.fmu", "-m", turn)
+    done = drive(tmp_path / "dist" / "PrototypeCar.fmu", "-m", turn)
     assert done.returncode == 2
     assert "There is no file" in done.stderr
     assert "python build_fmu.py" in done.stderr

@@ -5,6 +5,7 @@
 
 #include "../include/ali3.h"
 #include "element.h"
+#include "elementary.h"
 #include "road.h"
 
 /* The arrays of a System file: C type, item type number, name. */

@@ -60,7 +60,7 @@ void ali3_constraints(ali3_instance *in, const double *q, const double *s, doubl
     if (g->term.b >= 0) J[g->term.jb] += w * qa;
   }
   for (int64_t i = 0; i < S->n_angle_row; i++) {
-    const double theta = q[S->angle_theta_col[i]], cosine = cos(theta), sine = sin(theta);
+    const double theta = q[S->angle_theta_col[i]], cosine = ali3_cos(theta), sine = ali3_sin(theta);
     double along = 0.0, across = 0.0; /* C and S */
     for (int32_t t = S->angle_ptr[i]; t < S->angle_ptr[i + 1]; t++) {
       const ali3_angle_term *x = &S->angle[t];
@@ -111,8 +111,8 @@ void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd,
     gamma[g->row] += wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
   }
   for (int64_t i = 0; i < S->n_angle_row; i++) {
-    const double theta = q[S->angle_theta_col[i]], rate = qd[S->angle_theta_col[i]], cosine = cos(theta),
-                 sine = sin(theta);
+    const double theta = q[S->angle_theta_col[i]], rate = qd[S->angle_theta_col[i]], cosine = ali3_cos(theta),
+                 sine = ali3_sin(theta);
     double value = 0.0, first = 0.0, second = 0.0; /* of cos S - sin C: with theta's rates, mixed, own */
     for (int32_t t = S->angle_ptr[i]; t < S->angle_ptr[i + 1]; t++) {
       const ali3_angle_term *x = &S->angle[t];
@@ -146,7 +146,7 @@ void ali3_geometric(ali3_instance *in, const double *q, const double *s, const d
   }
   for (int64_t i = 0; i < S->n_angle_row; i++) {
     const double theta = q[S->angle_theta_col[i]], factor = weight * lam[S->angle_row[i]];
-    const double cosine = factor * cos(theta), sine = factor * sin(theta);
+    const double cosine = factor * ali3_cos(theta), sine = factor * ali3_sin(theta);
     double value = 0.0;
     for (int32_t t = S->angle_ptr[i]; t < S->angle_ptr[i + 1]; t++) {
       const ali3_angle_term *x = &S->angle[t];

@@ -75,7 +75,7 @@ static void guides(ali3_instance *in, double h) {
     if (S->guide_type[g] == 0) continue;
     const double *real = in->guide_real + S->guide_real_ptr[g];
     const double w = real[0], target = real[1] * d->used[S->guide_input[g]], slope = target / h, lag = 2.0 * slope / w;
-    const double rate = w * lag - slope, decay = exp(-w * h);
+    const double rate = w * lag - slope, decay = ali3_exp(-w * h);
     d->s[g] = target - lag + (lag + rate * h) * decay;
     d->sd[g] = slope - (slope + w * rate * h) * decay;
     d->sdd[g] = w * w * (target - d->s[g]) - 2.0 * w * d->sd[g];

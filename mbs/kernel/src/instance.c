@@ -235,7 +235,7 @@ ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, doubl
   const double given[5] = {x, y, z, yaw, speed};
   if (in == NULL || !in->system->size.has_pose || !ali3_finite(given, 5)) return ALI3_BAD_ARGUMENT;
   const ali3_system *S = in->system;
-  const double c = cos(yaw), s = sin(yaw);
+  const double c = ali3_cos(yaw), s = ali3_sin(yaw);
   for (int32_t i = 0; i < S->size.nq; i++) {
     in->now.q[i] =
         S->pose_0[i] + c * S->pose_cos[i] + s * S->pose_sin[i] + x * S->pose_x[i] + y * S->pose_y[i] + z * S->pose_z[i];

@@ -107,7 +107,7 @@ static double norm(const ali3_instance *in, const int32_t *v) {
 static double direction(const ali3_instance *in, const int32_t *v) {
   static const double SLOWEST = 0.1; /* m/s */
   const double along = component(in, v + 1, v + 4, v[0]), across = component(in, v + 1, v + 7, v[0]);
-  return v[0] == 1 && along * along + across * across < SLOWEST * SLOWEST ? 0.0 : atan2(across, along);
+  return v[0] == 1 && along * along + across * across < SLOWEST * SLOWEST ? 0.0 : ali3_atan2(across, along);
 }
 
 static double angle_about(const ali3_instance *in, const int32_t *v) {
@@ -116,7 +116,7 @@ static double angle_about(const ali3_instance *in, const int32_t *v) {
   vector(in, v + 3, 0, b);
   vector(in, v + 6, 0, c);
   const double cross[3] = {b[1] * a[2] - b[2] * a[1], b[2] * a[0] - b[0] * a[2], b[0] * a[1] - b[1] * a[0]};
-  return atan2(dot(cross, c), dot(a, b));
+  return ali3_atan2(dot(cross, c), dot(a, b));
 }
 
 static double value(const ali3_instance *in, int32_t type, const int32_t *v, const double *real) {
@@ -130,9 +130,9 @@ static double value(const ali3_instance *in, int32_t type, const int32_t *v, con
   case 3:
     return component(in, v + 1, v + 4, v[0]);
   case 4:
-    return atan2(signal(in, v[0], 0), signal(in, v[1], 0));
+    return ali3_atan2(signal(in, v[0], 0), signal(in, v[1], 0));
   case 5:
-    return -asin(fmax(-1.0, fmin(1.0, signal(in, v[0], 0))));
+    return -ali3_asin(fmax(-1.0, fmin(1.0, signal(in, v[0], 0))));
   case 6:
     return real[0] * axial_rate(in, v);
   case 7:

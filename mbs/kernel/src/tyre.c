@@ -17,6 +17,7 @@
  * The tangent leaves out the coupling of load and horizontal force and the turning of the frames. */
 #include "element.h"
 #include "element_math.h"
+#include "elementary.h"
 #include "road.h"
 #include "tmeasy.h"
 
@@ -198,7 +199,8 @@ static void evaluate(ali3_element_args *a) {
   const double trail = moving * 2.0 * sqrt(p[RADIUS] * deflection) *
                        ali3_tmeasy_trail(p + TRAIL, ali3_clamp(contact.load / p[NOMINAL_LOAD], 0.0, p[MAX_LOAD_FACTOR]),
                                          fabs(v[1]) / reference);
-  const double moment = -trail * F[1], resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = tanh(omega);
+  const double moment = -trail * F[1], resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS],
+               roll = ali3_tanh(omega);
   double twist[3];
   ali3_cross(n, e, twist);
   for (int i = 0; i < 3; i++) a->f[3 + i] += moment * twist[i];
@@ -219,7 +221,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[FZ] = contact.load;
   a->out[MZ] = moment;
   a->out[SLIP] = -v[0] / fastest;
-  a->out[SLIP_ANGLE] = atan2(v[1], ali3_hypot(travel[0], 0.01));
+  a->out[SLIP_ANGLE] = ali3_atan2(v[1], ali3_hypot(travel[0], 0.01));
   a->out[DEFLECTION] = deflection;
   a->out[LOADED_RADIUS] = p[RADIUS] - deflection;
   for (int i = 0; i < 3; i++) a->out[CONTACT_X + i] = a->u[i] + rho[i];

@@ -1,0 +1,110 @@
+/* Sine, cosine, exponential, hyperbolic and inverse tangent from sums, products, quotients and square roots, which are
+ * the same bits everywhere: reduction of the argument, then a Taylor polynomial that ends below round-off. */
+#include "elementary.h"
+
+#include <math.h>
+#include <stdint.h>
+
+#define COUNT(c) ((int)(sizeof(c) / sizeof *(c)))
+
+/* pi/2 and ln 2 in parts whose products with whole numbers below 2^20 are exact. */
+static const double HALF_PI_1 = 1.5707963267341256, HALF_PI_2 = 6.077100506303966e-11,
+                    HALF_PI_3 = 2.0222662487959506e-21, TWO_OVER_PI = 0.6366197723675814;
+static const double LN2_1 = 0.6931471804855391, LN2_2 = 7.440617110012397e-11, ONE_OVER_LN2 = 1.4426950408889634;
+static const double PI = 3.141592653589793, PI_REST = 1.2246467991473532e-16;
+static const double HALF_PI = 1.5707963267948966, HALF_PI_REST = 6.123233995736766e-17;
+static const double QUARTER_PI = 0.7853981633974483, QUARTER_PI_REST = 3.061616997868383e-17;
+static const double MOST_TURNS = 1048576.0;
+
+static double polynomial(const double *c, int n, double x) {
+  double sum = c[n - 1];
+  for (int i = n - 2; i >= 0; i--) sum = sum * x + c[i];
+  return sum;
+}
+
+/* For |r| <= pi/4 and the rest of r. */
+static double sine_near(double r, double rest) {
+  static const double c[] = {-1.0 / 6.0,        1.0 / 120.0,        -1.0 / 5040.0,          1.0 / 362880.0,
+                             -1.0 / 39916800.0, 1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
+  const double z = r * r;
+  return r + (r * z * polynomial(c, COUNT(c), z) + rest * (1.0 - 0.5 * z));
+}
+
+static double cosine_near(double r, double rest) {
+  static const double c[] = {1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,         -1.0 / 3628800.0,
+                             1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0};
+  const double z = r * r, half = 0.5 * z, near = 1.0 - half;
+  return near + (((1.0 - near) - half) + (z * z * polynomial(c, COUNT(c), z) - r * rest));
+}
+
+/* x = quarter * pi/2 + r + rest; larger arguments lose digits, as they have lost them by being stored. */
+static int reduce(double x, double *r, double *rest) {
+  if (fabs(x) > MOST_TURNS) x = fmod(x, 4.0 * HALF_PI);
+  const double k = floor(x * TWO_OVER_PI + 0.5), a = x - k * HALF_PI_1, b = k * HALF_PI_2;
+  const double near = a - b, lost = ((a - near) - b) - k * HALF_PI_3;
+  *r = near + lost;
+  *rest = (near - *r) + lost;
+  return (int)((int64_t)k & 3);
+}
+
+static double turned(double x, int ahead) {
+  double r, rest;
+  if (!(x - x == 0.0)) return x - x; /* NaN */
+  const int quarter = (reduce(x, &r, &rest) + ahead) & 3;
+  const double value = quarter & 1 ? cosine_near(r, rest) : sine_near(r, rest);
+  return quarter & 2 ? -value : value;
+}
+
+double ali3_sin(double x) { return x == 0.0 ? x : turned(x, 0); }
+
+double ali3_cos(double x) { return turned(x, 1); }
+
+/* exp(r) - 1 for |r| <= 0.35 */
+static double exp_near(double r) {
+  static const double c[] = {1.0 / 2.0,       1.0 / 6.0,        1.0 / 24.0,        1.0 / 120.0,
+                             1.0 / 720.0,     1.0 / 5040.0,     1.0 / 40320.0,     1.0 / 362880.0,
+                             1.0 / 3628800.0, 1.0 / 39916800.0, 1.0 / 479001600.0, 1.0 / 6227020800.0};
+  return r + r * r * polynomial(c, COUNT(c), r);
+}
+
+double ali3_exp(double x) {
+  if (x != x) return x;
+  if (x > 710.0) return HUGE_VAL;
+  if (x < -746.0) return 0.0;
+  const double k = floor(x * ONE_OVER_LN2 + 0.5), high = x - k * LN2_1, low = k * LN2_2, r = high - low;
+  const double rest = (high - r) - low;
+  return ldexp(1.0 + (exp_near(r) + rest), (int)k);
+}
+
+double ali3_tanh(double x) {
+  const double a = fabs(x);
+  if (x != x || x == 0.0) return x;
+  if (a > 22.0) return x > 0.0 ? 1.0 : -1.0;
+  const double e = a < 0.17 ? exp_near(2.0 * a) : ali3_exp(2.0 * a) - 1.0, value = e / (e + 2.0);
+  return x > 0.0 ? value : -value;
+}
+
+/* For 0 <= t <= 1: about pi/4 or 0, the half angle once, then the series. */
+static double arc(double t) {
+  static const double c[] = {-1.0 / 3.0,  1.0 / 5.0,  -1.0 / 7.0,  1.0 / 9.0,  -1.0 / 11.0, 1.0 / 13.0,
+                             -1.0 / 15.0, 1.0 / 17.0, -1.0 / 19.0, 1.0 / 21.0, -1.0 / 23.0};
+  const int far = t > 0.41421356237309503;
+  const double u = far ? (t - 1.0) / (t + 1.0) : t;
+  if (fabs(u) < 1e-9) return far ? QUARTER_PI + u : u;
+  const double half = u / (1.0 + sqrt(1.0 + u * u)), z = half * half;
+  const double value = 2.0 * (half + half * z * polynomial(c, COUNT(c), z));
+  return far ? QUARTER_PI + (value + QUARTER_PI_REST) : value;
+}
+
+double ali3_atan2(double y, double x) {
+  const double ay = fabs(y), ax = fabs(x), largest = ay > ax ? ay : ax;
+  if (y != y || x != x) return x + y;
+  double angle = largest > 0.0 ? arc(ay == ax ? 1.0 : (ay > ax ? ax / ay : ay / ax)) : 0.0;
+  if (ay > ax)
+    angle = signbit(x) ? HALF_PI + (angle + HALF_PI_REST) : HALF_PI - (angle - HALF_PI_REST);
+  else if (signbit(x))
+    angle = PI - (angle - PI_REST);
+  return signbit(y) ? -angle : angle;
+}
+
+double ali3_asin(double x) { return ali3_atan2(x, sqrt((1.0 - x) * (1.0 + x))); }

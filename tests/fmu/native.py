@@ -1,0 +1,118 @@
+"""Compiling C hosts for tests, and what binaries say about themselves."""
+
+from __future__ import annotations
+
+import shutil
+import struct
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+
+from fmu_src.native.sources import HERE as FMI_HEADERS
+from mbs.kernel import build
+
+ROOT = Path(__file__).parents[2]
+C_FOLDER = Path(__file__).parent / "c"
+HOST_SOURCE = ROOT / "hosts" / "c" / "host.c"
+
+
+def unpack(fmu: Path, folder: Path) -> Path:
+    """Unpack an FMU."""
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder)
+    return folder
+
+
+def compile_host(folder: Path, target: str | None = None) -> Path:
+    """Compile the C host of the project for a target of zig."""
+    target = target or build.host_target()
+    program = folder / ("host.exe" if "windows" in target else "host")
+    build.compile_c([HOST_SOURCE], target, program, include=(FMI_HEADERS,), what="the C host", shared=False)
+    return program
+
+
+def compile_stress(fmu_folder: Path, program: Path) -> tuple[Path, bool]:
+    """Link `stress.c` with the FMU's own sources; with sanitizers where the system's gcc has them.
+
+    Returns
+    -------
+    Path
+        The program.
+    bool
+        Whether it is sanitized.
+    """
+    sources = [C_FOLDER / "stress.c", *sorted((fmu_folder / "sources").rglob("*.c"))]
+    include = [f"-I{fmu_folder / 'sources'}"]
+    flags = ["-std=gnu11", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
+    tail = ["-o", str(program), *map(str, sources), "-lm", "-lpthread"]
+    gcc = shutil.which("gcc") if sys.platform == "linux" else None
+    if gcc is not None:
+        sanitize = ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]
+        if subprocess.run([gcc, *flags, *sanitize, *include, *tail], capture_output=True, check=False).returncode == 0:
+            return program, True
+    trapped = ["-fsanitize=undefined", "-fsanitize-trap=undefined"]
+    command = [sys.executable, "-m", "ziglang", "cc", "-target", build.host_target(), *flags, *trapped]
+    subprocess.run([*command, *include, *tail], check=True)
+    return program, False
+
+
+def guid_of(folder: Path) -> str:
+    """GUID of an unpacked FMU."""
+    return str(fmpy.read_model_description(str(folder)).guid)
+
+
+def elf_dynamic(data: bytes) -> tuple[list[str], set[str]]:
+    """Needed libraries and exported names of a 64-bit little-endian ELF library."""
+    (section_offset,) = struct.unpack_from("<Q", data, 40)
+    size, count = struct.unpack_from("<2H", data, 58)
+    sections = [struct.unpack_from("<2I4Q2I2Q", data, section_offset + k * size) for k in range(count)]
+
+    def text(table: int, at: int) -> str:
+        start = sections[table][4] + at
+        return data[start : data.index(b"\0", start)].decode()
+
+    needed: list[str] = []
+    exported: set[str] = set()
+    for _, kind, _, _, offset, length, link, _, _, entry in sections:
+        if kind == 6:  # dynamic
+            for k in range(length // entry):
+                tag, value = struct.unpack_from("<2Q", data, offset + k * entry)
+                if tag == 1:
+                    needed.append(text(link, value))
+        if kind == 11:  # dynamic symbols
+            for k in range(1, length // entry):
+                name, info, _, section, _, _ = struct.unpack_from("<I2BH2Q", data, offset + k * entry)
+                if section != 0 and info >> 4 in (1, 2):
+                    exported.add(text(link, name))
+    return needed, exported
+
+
+def pe_tables(data: bytes) -> tuple[list[str], set[str]]:
+    """Imported libraries and exported names of a 64-bit Windows library."""
+    (pe,) = struct.unpack_from("<I", data, 60)
+    (count,) = struct.unpack_from("<H", data, pe + 6)
+    (optional,) = struct.unpack_from("<H", data, pe + 20)
+    sections = [struct.unpack_from("<8s4I", data, pe + 24 + optional + 40 * k) for k in range(count)]
+
+    def at(address: int) -> int:
+        for _, size, start, raw_size, raw in sections:
+            if start <= address < start + max(size, raw_size):
+                return int(raw + address - start)
+        raise ValueError(f"address {address:#x} is in no section")
+
+    def text(address: int) -> str:
+        start = at(address)
+        return data[start : data.index(b"\0", start)].decode()
+
+    export, _, imports, _ = struct.unpack_from("<4I", data, pe + 24 + 112)
+    libraries = []
+    place = at(imports)
+    while (entry := struct.unpack_from("<5I", data, place))[3]:
+        libraries.append(text(entry[3]).lower())
+        place += 20
+    n_names, _, names = struct.unpack_from("<3I", data, at(export) + 24)
+    exported = {text(struct.unpack_from("<I", data, at(names) + 4 * k)[0]) for k in range(n_names)}
+    return libraries, exported

@@ -1,0 +1,161 @@
+"""The binaries: what they need, what they show, the same numbers without Python and on Windows, and from sources."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.native.universal import universal
+from fmu_src.scene_registry import load_scene
+
+# pytest imports this folder's files by path
+sys.path.insert(0, str(Path(__file__).parent))
+import native
+
+SCENES = Path(__file__).parent / "scenes.py"
+HostMaker = Callable[..., Any]
+STEPS, STEP = 40, 0.01
+FUNCTIONS = 34
+
+
+@pytest.fixture(scope="session")
+def all_platforms(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The crane for all platforms; the compiler's first run for Windows takes minutes."""
+    name, system = load_scene(f"{SCENES}:crane")
+    return build_fmu(system, name, tmp_path_factory.mktemp("platforms"))
+
+
+def binary(fmu: Path, name: str) -> bytes:
+    with zipfile.ZipFile(fmu) as archive:
+        return archive.read(f"binaries/{name}")
+
+
+def is_fmi2_only(names: set[str]) -> bool:
+    return len(names) == FUNCTIONS and all(n.startswith("fmi2") for n in names)
+
+
+@pytest.mark.slow
+def test_linux_needs_the_c_library_only(all_platforms: Path) -> None:
+    needed, exported = native.elf_dynamic(binary(all_platforms, "linux64/Crane.so"))
+    assert set(needed) <= {"libc.so.6", "libm.so.6"}
+    assert is_fmi2_only(exported)
+
+
+@pytest.mark.slow
+def test_windows_needs_its_own_libraries_only(all_platforms: Path) -> None:
+    libraries, exported = native.pe_tables(binary(all_platforms, "win64/Crane.dll"))
+    assert all(name == "kernel32.dll" or name.startswith("api-ms-win-crt-") for name in libraries)
+    assert is_fmi2_only(exported)
+
+
+@pytest.mark.slow
+def test_mac_has_both_processors(all_platforms: Path) -> None:
+    data = binary(all_platforms, "darwin64/Crane.dylib")
+    magic, count = struct.unpack_from(">2I", data)
+    assert (magic, count) == (0xCAFEBABE, 2)
+    cpus = []
+    for k in range(count):
+        cpu, _, offset, size, align = struct.unpack_from(">5I", data, 8 + 20 * k)
+        assert offset % (1 << align) == 0
+        assert struct.unpack_from("<2I", data, offset) == (0xFEEDFACF, cpu)
+        assert offset + size <= len(data)
+        assert b"_fmi2DoStep\0" in data[offset : offset + size]
+        cpus.append(cpu)
+    assert cpus == [0x01000007, 0x0100000C]
+
+
+def test_universal_refuses_what_is_none() -> None:
+    thin = struct.pack("<3I", 0xFEEDFACF, 7, 3) + bytes(100)
+    with pytest.raises(ValueError, match="Mach-O"):
+        universal([bytes(100)])
+    with pytest.raises(ValueError, match="same processor"):
+        universal([thin, thin])
+
+
+@pytest.mark.slow
+def test_the_file_is_small(all_platforms: Path) -> None:
+    assert all_platforms.stat().st_size < 2e6
+
+
+def host_rows(program: list[str], folder: Path, library: str) -> np.ndarray:
+    resources = folder.joinpath("resources").as_uri() if len(program) == 1 else f"file:///Z:{folder}/resources"
+    command = [*program, str(folder / "binaries" / library), resources, native.guid_of(folder)]
+    command += [str(STEPS), str(STEP), "3", "7", "0=2.5", "1=9.0"]
+    environment = {k: v for k, v in os.environ.items() if k != "PATH"} if len(program) == 1 else dict(os.environ)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment | {"WINEDEBUG": "-all"})
+    assert done.returncode == 0, done.stderr
+    return np.array([[float.fromhex(v) for v in line.split()] for line in done.stdout.splitlines()])
+
+
+def expected_rows(fmu: Path, host: HostMaker) -> np.ndarray:
+    return np.array(host(fmu).start({"torque": 2.5, "spring.stiffness": 9.0}).run(STEPS, STEP))
+
+
+def test_a_c_host_gets_the_same_bits(build: Callable[..., Path], host: HostMaker, tmp_path: Path) -> None:
+    fmu = build("crane", "native")
+    folder = native.unpack(fmu, tmp_path / "fmu")
+    suffix = fmpy.sharedLibraryExtension
+    rows = host_rows([str(native.compile_host(tmp_path))], folder, f"{fmpy.platform}/Crane{suffix}")
+    assert rows.shape == (STEPS, 6)
+    assert np.array_equal(rows[:, 1:], expected_rows(fmu, host))
+    assert np.ptp(rows[:, 1]) > 1e-3
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("wine") is None or sys.platform == "win32", reason="runs the Windows library by wine")
+def test_windows_gets_the_same_bits(all_platforms: Path, host: HostMaker, tmp_path: Path) -> None:
+    folder = native.unpack(all_platforms, tmp_path / "fmu")
+    program = native.compile_host(tmp_path, "x86_64-windows-gnu")
+    rows = host_rows(["wine", str(program)], folder, "win64/Crane.dll")
+    assert np.array_equal(rows[:, 1:], expected_rows(all_platforms, host))
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("cmake") is None, reason="FMPy compiles by CMake")
+@pytest.mark.parametrize("kind", ["native", "fmi3"])
+def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, kind: str) -> None:
+    fmu = build("crane", kind)
+    folder = native.unpack(fmu, tmp_path / "fmu")
+    shutil.rmtree(folder / "binaries")
+    code = f"from fmpy.build import build_platform_binary as b; b({str(folder)!r})"
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+    compiled = fmpy.simulate_fmu(str(folder), stop_time=0.5, start_values={"torque": 2.5}, output=["rod.angle"])
+    packed = fmpy.simulate_fmu(str(fmu), stop_time=0.5, start_values={"torque": 2.5}, output=["rod.angle"])
+    assert np.allclose(compiled["rod.angle"], packed["rod.angle"], rtol=0.0, atol=1e-9)
+    assert np.ptp(packed["rod.angle"]) > 0.1
+
+
+STRESS = [("leak", 1000), ("memory", 0), ("states", 4000), ("systems", 4000), ("crowd", 300), ("threads", 0)]
+
+
+@pytest.fixture(scope="session")
+def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, int], str]:
+    """Runs `stress.c`, linked with the FMU's sources under sanitizers."""
+    folder = native.unpack(build("crane", "native"), tmp_path_factory.mktemp("stress"))
+    program, _ = native.compile_stress(folder, folder / "stress")
+
+    def run(what: str, count: int) -> str:
+        command = [str(program), folder.joinpath("resources").as_uri(), native.guid_of(folder)]
+        command += [str(folder / "resources" / "system.ali3"), what, str(count)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr[-4000:]
+        return done.stdout
+
+    return run
+
+
+@pytest.mark.parametrize(("what", "count"), STRESS, ids=[w for w, _ in STRESS])
+def test_stress(stress: Callable[[str, int], str], what: str, count: int) -> None:
+    assert stress(what, count)

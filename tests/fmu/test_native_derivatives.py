@@ -1,0 +1,193 @@
+"""Derivatives: inputs followed inside a step, rates of outputs, outputs by inputs against differences of whole steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from ctypes import c_double
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+HostMaker = Callable[..., Any]
+OK, WARNING, DISCARD, ERROR = range(4)
+STEP, INNER = 0.1, 0.01
+
+# Differences of steps that end at a tolerance of 1e-10 m, over a part of the input's range.
+PART, DERIVATIVE_ERROR = 1e-3, 2e-5
+RATE_STEP, RATE_ERROR = 1e-4, 1e-3
+
+
+@pytest.fixture(params=["crane", "reach", "sled"])
+def scene(request: pytest.FixtureRequest, build: Callable[..., Path]) -> tuple[Path, str, float, float]:
+    """FMU, input, its value, its range."""
+    values = {"crane": ("torque", 3.0, 60.0), "reach": ("pull", 0.05, 1.0), "sled": ("thrust", 2.0, 10.0)}
+    return (build(request.param, "native"), *values[request.param])
+
+
+def slope(driven: Any, name: str, order: int, value: float) -> int:
+    return int(driven.call("setRealInputDerivatives", [driven.references[name]], [order], [value]))
+
+
+def derivative(driven: Any, unknown: list[int], known: list[int], seed: list[float]) -> list[float]:
+    return list(driven.slave.getDirectionalDerivative(unknown, known, seed))
+
+
+def outputs(driven: Any) -> list[int]:
+    return [v.valueReference for v in driven.description.modelVariables if v.causality == "output"]
+
+
+def test_a_ramp_is_followed_inside_the_step(build: Callable[..., Path], host: HostMaker) -> None:
+    fine, ramp, held = (host(build("crane", "native")).start({"torque": 1.0}) for _ in range(3))
+    for k in range(10):
+        fine.set("torque", 1.0 + 40.0 * ((k + 1) * INNER) - 200.0 * ((k + 1) * INNER / 2.0 * ((k + 1) * INNER)))
+        assert fine.step(k * INNER, INNER) == OK
+    assert slope(ramp, "torque", 1, 40.0) == slope(ramp, "torque", 2, -200.0) == OK
+    assert ramp.step(0.0, STEP) == held.step(0.0, STEP) == OK
+    assert np.allclose(ramp.outputs(), fine.outputs(), rtol=1e-12, atol=1e-12)
+    assert abs(ramp.get("rod.x") - held.get("rod.x")) > 1e-4
+    # What the host set stays set, and the derivatives are spent.
+    assert ramp.get("torque") == 1.0
+    state = ramp.slave.getFMUstate()
+    assert ramp.step(STEP, STEP) == OK
+    spent = ramp.outputs()
+    ramp.slave.setFMUstate(state)
+    assert slope(ramp, "torque", 1, 0.0) == OK
+    assert ramp.step(STEP, STEP) == OK
+    assert ramp.outputs() == spent
+
+
+def test_derivatives_set_are_part_of_the_state(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("crane", "native")).start()
+    assert slope(driven, "torque", 1, 50.0) == OK
+    data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    assert driven.step(0.0, STEP) == OK
+    expected = driven.outputs()
+    other = host(build("crane", "native"))
+    assert other.restore(data) == OK
+    assert other.step(0.0, STEP) == OK
+    assert other.outputs() == expected
+
+
+def test_a_ramp_of_a_host_does_not_depend_on_its_step(build: Callable[..., Path], host: HostMaker) -> None:
+    ends = {}
+    for name, step, follow in (("held", 0.1, False), ("ramp", 0.1, True), ("fine", INNER, True)):
+        driven = host(build("crane", "native")).start()
+        for k in range(round(1.0 / step)):
+            driven.set("torque", 20.0 * k * step)
+            assert not follow or slope(driven, "torque", 1, 20.0) == OK
+            assert driven.step(k * step, step) == OK
+        ends[name] = driven.get("rod.x")
+    assert abs(ends["ramp"] - ends["fine"]) < 1e-9
+    assert abs(ends["held"] - ends["fine"]) > 1e-3
+
+
+def test_bad_input_derivatives_change_nothing(build: Callable[..., Path], host: HostMaker) -> None:
+    driven, clean = (host(build("crane", "native")).start() for _ in range(2))
+    assert slope(driven, "rod.x", 1, 1.0) == ERROR
+    assert slope(driven, "torque", 0, 1.0) == ERROR
+    assert slope(driven, "torque", 4, 1.0) == ERROR
+    assert slope(driven, "torque", 1, float("nan")) == ERROR
+    assert len(driven.messages) == 4
+    assert driven.run(3, INNER) == clean.run(3, INNER)
+
+
+def test_rates_of_positions_angles_and_velocities(build: Callable[..., Path], host: HostMaker) -> None:
+    for name, known in (
+        ("crane", {"rod.x", "rod.angle"}),
+        ("sled", {"chassis.x", "chassis.y", "chassis.yaw", "speed"}),
+        ("reach", {"bob.x", "bob.vx", "pulled"}),
+    ):
+        driven = host(build(name, "native")).start()
+        driven.slave.setReal([0], [1.0 if name != "reach" else 0.02])
+        driven.run(20, INNER)
+        rates = {}
+        for output in outputs(driven):
+            try:
+                rates[output] = driven.slave.getRealOutputDerivatives([output], [1])[0]
+            except fmpy.fmi1.FMICallException:
+                assert "rate" in driven.messages[-1]
+        names = {v.valueReference: v.name for v in driven.description.modelVariables}
+        assert {names[r] for r in rates} == known
+        before = driven.slave.getReal(list(rates))
+        driven.slave.doStep(20 * INNER, RATE_STEP)
+        after = driven.slave.getReal(list(rates))
+        slopes = (np.array(after) - np.array(before)) / RATE_STEP
+        assert np.allclose(list(rates.values()), slopes, rtol=RATE_ERROR, atol=2e-2)
+        assert np.max(np.abs(slopes)) > 0.01
+
+
+def test_rates_of_higher_order_are_refused(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("crane", "native")).start()
+    assert driven.call("getRealOutputDerivatives", [driven.references["rod.x"]], [2]) == ERROR
+    assert driven.call("getRealOutputDerivatives", [driven.references["torque"]], [1]) == ERROR
+
+
+def test_outputs_by_inputs_of_a_step(scene: tuple[Path, str, float, float], host: HostMaker) -> None:
+    fmu, name, value, size = scene
+    driven = host(fmu).start()
+    driven.slave.setReal([driven.references[name]], [value])
+    driven.run(20, INNER)
+    state, unknown, ends = driven.slave.getFMUstate(), outputs(driven), []
+    for sign in (1.0, -1.0, 0.0):
+        driven.slave.setFMUstate(state)
+        driven.slave.setReal([driven.references[name]], [value + sign * PART * size])
+        assert driven.step(0.2, INNER) == OK
+        ends.append(np.array(driven.outputs()))
+    expected = (ends[0] - ends[1]) / (2.0 * PART * size)
+    before = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    found = derivative(driven, unknown, [driven.references[name]], [1.0])
+    counts = np.array([n.name.startswith("solver") for n in driven.description.modelVariables if n.causality == "output"])
+    scale = np.abs(expected) + np.max(np.abs(expected[~counts])) * 1e-2
+    assert np.all((np.abs(found - expected) < DERIVATIVE_ERROR * scale)[~counts])
+    assert np.max(np.abs(found)) > 0.0
+    # Looking changes nothing, and the derivative is linear in its seed.
+    assert driven.slave.serializeFMUstate(driven.slave.getFMUstate()) == before
+    assert np.allclose(derivative(driven, unknown, [driven.references[name]], [-3.0]), -3.0 * np.array(found), rtol=1e-6)
+
+
+def test_outputs_by_what_is_set_in_initialisation(build: Callable[..., Path], host: HostMaker) -> None:
+    ends = []
+    for torque in (2.0 + 1e-3, 2.0 - 1e-3):
+        driven = host(build("crane", "native")).start({"torque": torque})
+        ends.append(driven.get("rod.ay"))
+    driven = host(build("crane", "native"))
+    driven.slave.setupExperiment()
+    driven.set("torque", 2.0)
+    driven.slave.enterInitializationMode()
+    unknown, known = driven.references["rod.ay"], driven.references["torque"]
+    before = driven.outputs()
+    (found,) = derivative(driven, [unknown], [known], [1.0])
+    assert found == pytest.approx((ends[0] - ends[1]) / 2e-3, rel=1e-6)
+    assert abs(found) > 0.1
+    assert driven.outputs() == before
+    assert driven.call("getDirectionalDerivative", [known], [unknown], [1.0]) == ERROR
+
+
+def test_a_derivative_before_the_first_step_says_what_is_missing(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("crane", "native")).start()
+    assert driven.call("getDirectionalDerivative", [3], [0], [1.0]) == ERROR
+    assert "one step" in driven.messages[-1]
+    assert driven.run(1, INNER)
+    assert driven.call("getDirectionalDerivative", [3], [1], [1.0]) == ERROR
+    assert "no input" in driven.messages[-1]
+
+
+def test_null_pointers_are_errors(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("crane", "native")).start()
+    raw, c = driven.slave.dll, driven.slave.component
+    for call in (
+        lambda: raw.fmi2GetReal(c, None, 1, None),
+        lambda: raw.fmi2SetReal(c, None, 1, None),
+        lambda: raw.fmi2GetFMUstate(c, None),
+        lambda: raw.fmi2SetFMUstate(c, None),
+        lambda: raw.fmi2SerializedFMUstateSize(c, None, None),
+        lambda: raw.fmi2GetDirectionalDerivative(c, None, 1, None, 1, None, (c_double * 1)()),
+        lambda: raw.fmi2GetRealStatus(c, 2, None),
+    ):
+        assert call() == ERROR
+    assert raw.fmi2GetReal(c, None, 0, None) == OK
+    assert raw.fmi2GetReal(None, None, 0, None) == ERROR
+    assert all("null pointer" in m for m in driven.messages)

@@ -1,0 +1,89 @@
+"""The kernel's own elementary functions against the platform's."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import random
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mbs.kernel import build
+
+# Units in the last place; the platform's own have up to one.
+ERROR, INVERSE_ERROR = 2.5, 5.0
+SAMPLES = 20000
+_ONE = ("sin", "cos", "exp", "tanh", "asin")
+
+
+@pytest.fixture(scope="module")
+def functions(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Callable[..., float]]:
+    folder = tmp_path_factory.mktemp("elementary")
+    shown = '#include "elementary.c"\n#if defined(_WIN32)\n#define SHOW __declspec(dllexport)\n#else\n'
+    shown += '#define SHOW __attribute__((visibility("default")))\n#endif\n'
+    shown += "".join(f"SHOW double show_{f}(double x) {{ return ali3_{f}(x); }}\n" for f in _ONE)
+    shown += "SHOW double show_atan2(double y, double x) { return ali3_atan2(y, x); }\n"
+    source = folder / "shown.c"
+    source.write_text(shown, encoding="utf-8")
+    library = folder / build.library_name(build.host_target())
+    build.compile_c([source], build.host_target(), library, include=(build.HERE / "src",), what="the test")
+    loaded = ctypes.CDLL(str(library))
+    made: dict[str, Callable[..., float]] = {}
+    for name in (*_ONE, "atan2"):
+        function = getattr(loaded, f"show_{name}")
+        function.restype = ctypes.c_double
+        function.argtypes = [ctypes.c_double] * (2 if name == "atan2" else 1)
+        made[name] = function
+    return made
+
+
+def distance(value: float, expected: float) -> float:
+    return abs(value - expected) / math.ulp(expected)
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high", "error"),
+    [
+        ("sin", -1000.0, 1000.0, ERROR),
+        ("cos", -1000.0, 1000.0, ERROR),
+        ("sin", -1e6, 1e6, ERROR),
+        ("exp", -700.0, 700.0, ERROR),
+        ("exp", -1.0, 1.0, ERROR),
+        ("tanh", -25.0, 25.0, INVERSE_ERROR),
+        ("tanh", -0.5, 0.5, INVERSE_ERROR),
+        ("asin", -1.0, 1.0, INVERSE_ERROR),
+    ],
+)
+def test_of_one_argument(
+    functions: dict[str, Callable[..., float]], name: str, low: float, high: float, error: float
+) -> None:
+    rng = random.Random(7)
+    worst = 0.0
+    for _ in range(SAMPLES):
+        x = rng.uniform(low, high)
+        worst = max(worst, distance(functions[name](x), getattr(math, name)(x)))
+    assert worst <= error
+
+
+def test_atan2_in_all_quadrants(functions: dict[str, Callable[..., float]]) -> None:
+    rng = random.Random(8)
+    worst = 0.0
+    for _ in range(SAMPLES):
+        y, x = (rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-12.0, 12.0) for _ in range(2))
+        worst = max(worst, distance(functions["atan2"](y, x), math.atan2(y, x)))
+    assert worst <= INVERSE_ERROR
+
+
+def test_exact_values_and_signs(functions: dict[str, Callable[..., float]]) -> None:
+    for y, x in ((0.0, 1.0), (-0.0, 1.0), (0.0, -1.0), (-0.0, -1.0), (1.0, 0.0), (-1.0, -0.0), (0.0, 0.0), (1.0, 1.0)):
+        value = functions["atan2"](y, x)
+        assert value == math.atan2(y, x)
+        assert math.copysign(1.0, value) == math.copysign(1.0, math.atan2(y, x))
+    assert [functions[f](0.0) for f in ("sin", "cos", "exp", "tanh", "asin")] == [0.0, 1.0, 1.0, 0.0, 0.0]
+    assert functions["asin"](1.0) == math.pi / 2.0
+    assert math.isnan(functions["sin"](math.nan))
+    assert math.isnan(functions["cos"](math.inf))
+    assert functions["exp"](1000.0) == math.inf
+    assert functions["exp"](-1000.0) == 0.0
