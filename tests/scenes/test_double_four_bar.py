@@ -43,6 +43,14 @@ def position_error(windows, t_end, h, settings=None):
     return float(np.linalg.norm(tip(trajectory) - exact(windows, trajectory.t), axis=1).max())
 
 
+def recorded(system, h, settings):
+    """A run to the end or to the step that is refused."""
+    try:
+        return simulate(system, END, h, settings=settings)
+    except SimulationError as error:
+        return error.trajectory
+
+
 def energy_deviation(trajectory):
     energy = trajectory["energy.total"]
     return float(np.abs(energy - energy[0]).max())
@@ -111,7 +119,7 @@ def test_a_tight_tolerance_is_what_singular_passages_need_at_small_steps():
 def test_without_projections_the_velocities_run_away(windows):
     system, h = compile(double_four_bar.build(windows)), 0.01
     projected = simulate(system, END, h)
-    bare = simulate(system, END, h, settings=Settings(project=False))
+    bare = recorded(system, h, Settings(project=False))
     assert energy_deviation(projected) < 0.1
     assert energy_deviation(bare) > 1e3
     assert projected.report.velocity_violation < 1e-10
