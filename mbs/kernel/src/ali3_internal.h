@@ -187,7 +187,8 @@ void ali3_solve(ali3_instance *in, const double *F, double *b);
 void ali3_mass_times(const ali3_system *S, const double *x, double *out);
 double ali3_penalty(const ali3_settings *s, double h);
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
-double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double tolerance, int32_t sweeps);
+double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
+                    int32_t sweeps);
 bool ali3_finite(const double *v, int64_t n);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
 
