@@ -89,13 +89,13 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int) -> float:
 
     def once() -> float:
         with Fmu(file) as fmu:
-            inputs, outputs = fmu.references(manoeuvre.inputs), fmu.references(OUTPUTS)
+            set_inputs, get_outputs = fmu.setter(list(manoeuvre.inputs)), fmu.getter(OUTPUTS)
             fmu.initialise(manoeuvre.start | manoeuvre.at(0.0) | {"step_size": h})
             begin = time.perf_counter()
             for k, row in enumerate(rows):
-                fmu.set(inputs, row)
+                set_inputs(row)
                 fmu.step(k * h, h)
-                fmu.get(outputs)
+                get_outputs()
             return time.perf_counter() - begin
 
     return median_wall(once, repeats)

@@ -21,7 +21,6 @@ def error(name, h):
     return car_references.path_error(found, values), car_references.load_error(found, values), length
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", car_manoeuvres.NAMES)
 def test_manoeuvre_follows_its_reference(name):
     path, load, length = error(name, 0.005)
@@ -29,7 +28,6 @@ def test_manoeuvre_follows_its_reference(name):
     assert load < BOUNDS[name][1]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", SMOOTH)
 def test_smooth_manoeuvres_converge_with_the_square_of_the_step(name):
     coarse, fine = error(name, 0.01), error(name, 0.0025)
