@@ -183,7 +183,7 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
         ax.set_xlabel("wall time per simulated second, ms (steps 10, 5, 2, 1 ms from the left)")
         ax.set_ylabel(label)
         ax.grid(True, which="major", alpha=0.3)
-    axes[1].legend(fontsize="small")
+    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside right center", fontsize="small")
     figure.suptitle("Prototype car: error against cost")
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=120)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks import car_manoeuvres
-from mbs import Pose
+from mbs import Pose, Simulation
 from mbs.scenes.prototype_car import car_data
 from mbs.scenes.prototype_car.tyre_data import LATERAL, RADIUS, tyre
 from tests.scenes.car import WHEELS, H, car, drive, place
@@ -45,6 +45,11 @@ def test_steady_cornering_is_that_of_the_bicycle_model(speed, steering):
     assert yaw_rate == pytest.approx(expected, rel=0.01)
     measured = (v * angle / yaw_rate - WHEELBASE) / v**2
     assert measured == pytest.approx(gradient, abs=0.0003)  # rad/(m/s2): 0.17 deg/g
+
+
+@pytest.mark.parametrize(("speed", "gear"), [(0.0, 1), (6.0, 1), (22.0, 3)])
+def test_a_start_finds_the_gear_that_fits(speed, gear):
+    assert Simulation(car(), pose=Pose(speed=speed)).sensors["gear"] == gear
 
 
 def test_full_lock_at_15_m_s():
