@@ -70,6 +70,7 @@ struct ali3_system {
   void *derived;
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q */
   double *hess_val;
+  double *row_round; /* round-off of the violation at the reference position, m */
   unsigned char *row_wide; /* 1: the row fills most of its front */
   ali3_term *quad;             /* as quad_* */
   ali3_angle_term *angle;      /* as angle_a */
@@ -191,6 +192,7 @@ double ali3_project(ali3_instance *in, double factor, const double *b, double *v
                     int32_t sweeps);
 bool ali3_finite(const double *v, int64_t n);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
+bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
 
 /* accelerate.c */
 void ali3_accelerate(ali3_instance *in, int32_t iteration);

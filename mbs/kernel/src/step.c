@@ -39,6 +39,12 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   return largest;
 }
 
+bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance) {
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (!(fabs(Phi[k]) * S->row_measure[k] <= tolerance + S->row_round[k])) return false;
+  return true;
+}
+
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'
  * that spreads the correction is that of the tangent: the penalty would amplify what a later one has outside its
  * range. The violation is judged at the converged position. Returns it. With accelerations in v, lam (or NULL) takes the
@@ -145,7 +151,8 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *it
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
     if (!judge(in, h)) return ALI3_NOT_FINITE;
-    if (in->report.residual <= settings->tolerance_r && in->report.violation <= settings->tolerance_phi) return ALI3_OK;
+    if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
+      return ALI3_OK;
   }
   return ALI3_NOT_CONVERGED;
 }
