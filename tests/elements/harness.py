@@ -33,6 +33,7 @@ SOURCES = (
     "brake",
     "automatic_drive",
     "road",
+    "elementary",
 )
 
 

@@ -131,7 +131,7 @@ void ali3_instance_free(ali3_instance *in) {
 }
 
 ali3_settings ali3_default_settings(void) {
-  const ali3_settings settings = {0.0, 1e-9, 1e-10, 1e-10, 20, 4, 1, ALI3_UPDATE_LINEARISED, 1, 0};
+  const ali3_settings settings = {0.0, 1e-7, 1e-10, 1e-11, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1, 0};
   return settings;
 }
 
