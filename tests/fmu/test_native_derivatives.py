@@ -1,4 +1,4 @@
-"""Derivatives: inputs followed inside a step, rates of outputs, outputs by inputs against differences of whole steps."""
+"""Derivatives: inputs followed inside a step, rates of outputs, outputs by inputs against differences of steps."""
 
 from __future__ import annotations
 
@@ -139,13 +139,17 @@ def test_outputs_by_inputs_of_a_step(scene: tuple[Path, str, float, float], host
     expected = (ends[0] - ends[1]) / (2.0 * PART * size)
     before = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
     found = derivative(driven, unknown, [driven.references[name]], [1.0])
-    counts = np.array([n.name.startswith("solver") for n in driven.description.modelVariables if n.causality == "output"])
+    counts = np.array(
+        [n.name.startswith("solver") for n in driven.description.modelVariables if n.causality == "output"]
+    )
     scale = np.abs(expected) + np.max(np.abs(expected[~counts])) * 1e-2
     assert np.all((np.abs(found - expected) < DERIVATIVE_ERROR * scale)[~counts])
     assert np.max(np.abs(found)) > 0.0
     # Looking changes nothing, and the derivative is linear in its seed.
     assert driven.slave.serializeFMUstate(driven.slave.getFMUstate()) == before
-    assert np.allclose(derivative(driven, unknown, [driven.references[name]], [-3.0]), -3.0 * np.array(found), rtol=1e-6)
+    assert np.allclose(
+        derivative(driven, unknown, [driven.references[name]], [-3.0]), -3.0 * np.array(found), rtol=1e-6
+    )
 
 
 def test_outputs_by_what_is_set_in_initialisation(build: Callable[..., Path], host: HostMaker) -> None:

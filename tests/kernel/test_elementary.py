@@ -6,7 +6,6 @@ import ctypes
 import math
 import random
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 

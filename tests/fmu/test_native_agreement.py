@@ -1,0 +1,135 @@
+"""Both kinds of FMU of FMI 2.0, the one of FMI 3.0 and the engine give the same bits on every manoeuvre."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+import mbs
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from mbs.simulation import Pose
+
+HostMaker = Callable[..., Any]
+STEP, SPEED = 0.01, 12.0
+# Time, steering, throttle, brake: a launch, a lane change, a stop.
+MANOEUVRE = [(0.0, 0.0, 0.5, 0.0), (0.5, 0.3, 0.2, 0.0), (1.0, -0.3, 0.2, 0.0), (1.5, 0.0, 0.0, 0.6)]
+END = 2.0
+
+
+@pytest.fixture(scope="session")
+def cars(tmp_path_factory: pytest.TempPathFactory) -> tuple[mbs.System, dict[str, Path]]:
+    name, system = load_scene("prototype_car")
+    folder = tmp_path_factory.mktemp("cars")
+    kinds = ("native", "python", "fmi3")
+    return system, {kind: build_fmu(system, name, folder, [fmpy.platform], kind=kind) for kind in kinds}
+
+
+def controls(time: float) -> tuple[float, float, float]:
+    return [row for row in MANOEUVRE if row[0] <= time + 1e-9][-1][1:]
+
+
+def drive(driven: Any) -> np.ndarray:
+    driven.start({"initial.speed": SPEED})
+    rows = []
+    for k in range(round(END / STEP)):
+        driven.slave.setReal([driven.references[n] for n in ("steering", "throttle", "brake")], controls(k * STEP))
+        assert driven.step(k * STEP, STEP) == 0
+        rows.append(driven.outputs())
+    return np.array(rows)
+
+
+def test_a_manoeuvre_of_the_car(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
+    system, files = cars
+    native, python = (drive(host(files[kind])) for kind in ("native", "python"))
+    simulation = mbs.Simulation(system, pose=Pose(speed=SPEED))
+    inner = system.meta["experiment"]["step_s"]
+    expected = []
+    for k in range(round(END / STEP)):
+        for name, value in zip(("steering", "throttle", "brake"), controls(k * STEP), strict=True):
+            simulation.set_input(name, value)
+        for _ in range(round(STEP / inner)):
+            simulation.step(inner)
+        expected.append(list(simulation.sensors.values()))
+    assert np.array_equal(native, python)
+    assert np.array_equal(native, np.array(expected))
+    names = list(simulation.sensors)
+    assert np.ptp(native[:, names.index("chassis.yaw")]) > 0.02
+    assert native[-1, names.index("speed")] < 0.8 * native[:, names.index("speed")].max()
+
+
+def test_fmi_3_gives_the_same_bits(cars: tuple[mbs.System, dict[str, Path]]) -> None:
+    start = {"throttle": 0.4, "steering": 0.1, "initial.speed": SPEED}
+    scalars = ["chassis.x", "chassis.y", "chassis.z", "chassis.qw", "wheel_FL.Fz", "wheel_RR.omega"]
+    arrays = ["chassis.position", "chassis.orientation", "wheel_FL.force", "wheel_RR.omega"]
+    two = fmpy.simulate_fmu(str(cars[1]["native"]), stop_time=1.0, start_values=start, output=scalars)
+    three = fmpy.simulate_fmu(str(cars[1]["fmi3"]), stop_time=1.0, start_values=start, output=arrays)
+    assert len(two) == len(three) > 100
+    for k, name in enumerate(("chassis.x", "chassis.y", "chassis.z")):
+        assert np.array_equal(two[name], three["chassis.position"][:, k])
+    assert np.array_equal(two["chassis.qw"], three["chassis.orientation"][:, 0])
+    assert np.array_equal(two["wheel_FL.Fz"], three["wheel_FL.force"][:, 2])
+    assert np.array_equal(two["wheel_RR.omega"], three["wheel_RR.omega"])
+    assert np.ptp(two["chassis.y"]) > 0.01
+
+
+def test_random_communication_steps(build: Callable[..., Path], host: HostMaker) -> None:
+    rng = random.Random(11)
+    plan = [(rng.choice([0.003, 0.01, 0.03, rng.uniform(0.002, 0.08)]), rng.uniform(-30.0, 30.0)) for _ in range(60)]
+    ends = []
+    for kind in ("native", "python"):
+        driven, time, rows = host(build("crane", kind)).start(), 0.0, []
+        for step, torque in plan:
+            driven.set("torque", torque)
+            assert driven.step(time, step) == 0
+            time += step
+            rows.append(driven.outputs())
+        ends.append(rows)
+    assert ends[0] == ends[1]
+
+
+def test_a_tunable_parameter_takes_effect_at_the_next_step(
+    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker
+) -> None:
+    ice, dry = (host(cars[1]["native"]).start({"initial.speed": SPEED}) for _ in range(2))
+    for driven in (ice, dry):
+        driven.set("brake", 1.0)
+        driven.run(20, STEP)
+    before = ice.get("wheel_FL.Fx")
+    assert before == dry.get("wheel_FL.Fx") < -100.0
+    assert ice.set("road.friction", 0.1) == 0
+    assert ice.get("wheel_FL.Fx") == before
+    ice.run(1, STEP, 0.2)
+    dry.run(1, STEP, 0.2)
+    assert abs(ice.get("wheel_FL.Fx")) < 0.5 * abs(dry.get("wheel_FL.Fx"))
+
+
+def test_outputs_by_inputs_of_the_moving_car(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
+    part, step = 1e-3, cars[0].meta["experiment"]["step_s"]
+    driven = host(cars[1]["native"]).start({"initial.speed": SPEED})
+    names = ("steering", "throttle", "brake")
+    base = {"steering": 0.2, "throttle": 0.3, "brake": 0.1}
+    driven.slave.setReal([driven.references[n] for n in names], list(base.values()))
+    for k in range(100):
+        driven.step(k * step, step)
+    state = driven.slave.getFMUstate()
+    watched = ["chassis.ax", "chassis.ay", "wheel_FL.slip_angle", "wheel_RL.Fx", "wheel_FR.Fy", "drive_torque"]
+    references = [driven.references[n] for n in watched]
+    for name in names:
+        ends = []
+        for sign in (1.0, -1.0, 0.0):
+            driven.slave.setFMUstate(state)
+            driven.slave.setReal([driven.references[name]], [base[name] + sign * part])
+            assert driven.step(100 * step, step) == 0
+            ends.append(np.array(driven.slave.getReal(references)))
+        expected = (ends[0] - ends[1]) / (2.0 * part)
+        found = driven.slave.getDirectionalDerivative(references, [driven.references[name]], [1.0])
+        assert np.allclose(found, expected, rtol=2e-3, atol=1e-3 * np.max(np.abs(expected)))
+        assert np.all(np.isfinite(found))
+        assert np.max(np.abs(expected)) > 1.0

@@ -1,0 +1,111 @@
+"""What a native FMU carries: documents by the standard's schemas, reference results that repeat, documentation."""
+
+from __future__ import annotations
+
+import io
+import struct
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from fmu_src.description import declared_types
+from fmu_src.variables import Variable
+
+SCHEMAS = Path(fmpy.__file__).parent / "schema"
+LS_REF = "extra/org.fmi-standard.fmi-ls-ref"
+
+
+def read(fmu: Path, name: str) -> bytes:
+    with zipfile.ZipFile(fmu) as archive:
+        return archive.read(name)
+
+
+def names(fmu: Path) -> set[str]:
+    with zipfile.ZipFile(fmu) as archive:
+        return set(archive.namelist())
+
+
+@pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
+@pytest.mark.parametrize(
+    ("kind", "schema", "document"),
+    [
+        ("native", "fmi2/fmi2ModelDescription.xsd", "modelDescription.xml"),
+        ("python", "fmi2/fmi2ModelDescription.xsd", "modelDescription.xml"),
+        ("fmi3", "fmi3/fmi3ModelDescription.xsd", "modelDescription.xml"),
+        ("fmi3", "fmi3/fmi3BuildDescription.xsd", "sources/buildDescription.xml"),
+        ("fmi3", "fmi3/fmi3TerminalsAndIcons.xsd", "terminalsAndIcons/terminalsAndIcons.xml"),
+    ],
+)
+def test_documents_obey_the_schemas(
+    build: Callable[..., Path], scene: str, kind: str, schema: str, document: str
+) -> None:
+    etree = pytest.importorskip("lxml.etree")
+    fmu = build(scene, kind)
+    if document not in names(fmu):
+        assert "terminals" in document
+        pytest.skip("this scene has no part with several outputs")
+    checker = etree.XMLSchema(etree.parse(str(SCHEMAS / schema)))
+    assert checker.validate(etree.parse(io.BytesIO(read(fmu, document)))), checker.error_log
+
+
+@pytest.mark.parametrize("kind", ["native", "fmi3"])
+def test_the_reference_results_repeat(build: Callable[..., Path], kind: str) -> None:
+    fmu = build("crane", kind)
+    manifest = ElementTree.fromstring(read(fmu, f"{LS_REF}/fmi-ls-manifest.xml"))
+    sources = {item.attrib["role"]: item.attrib["source"] for item in manifest}
+    experiment = ElementTree.fromstring(read(fmu, f"{LS_REF}/{sources['experiment/smoke-test']}"))[0]
+    assert experiment[0].attrib["source"] == sources["result"]
+    table = np.genfromtxt(
+        io.BytesIO(read(fmu, f"{LS_REF}/{sources['result']}")), delimiter=",", names=True, deletechars="", dtype=float
+    )
+    interval = float(experiment.attrib["stepSize"])
+    run = fmpy.simulate_fmu(
+        str(fmu), stop_time=float(experiment.attrib["stopTime"]), output_interval=interval, output=["rod.ay"]
+    )
+    every = round((table["time"][1] - table["time"][0]) / interval)
+    assert len(table) > 50
+    assert np.array_equal(table["rod.ay"], run["rod.ay"][::every])
+    assert np.ptp(table["rod.ay"]) > 1.0
+
+
+def test_documentation_and_picture(build: Callable[..., Path]) -> None:
+    fmu = build("crane", "native")
+    page = read(fmu, "documentation/index.html").decode()
+    assert all(v.name in page for v in fmpy.read_model_description(str(fmu)).modelVariables)
+    assert "x forward" in page
+    picture = read(fmu, "model.png")
+    assert picture.startswith(b"\x89PNG")
+    assert struct.unpack_from(">2I", picture, 16) == (200, 150)
+    assert b"Redistribution" in read(fmu, "documentation/licenses/ALi3.txt")
+
+
+def test_types_are_declared_with_their_ranges(build: Callable[..., Path]) -> None:
+    description = fmpy.read_model_description(str(build("crane", "native")))
+    by_name = {v.name: v for v in description.modelVariables}
+    torque = by_name["torque"].declaredType
+    assert (torque.quantity, torque.unit, torque.min, torque.max) == ("Torque", "N.m", "-30.0", "30.0")
+    assert by_name["rod.angle"].declaredType.displayUnit == "deg"
+    assert all(v.declaredType is not None and v.declaredType.unit == v.unit for v in description.modelVariables)
+
+
+def test_types_of_one_name_and_two_meanings_get_two_names() -> None:
+    def speed(display: str | None) -> Variable:
+        return Variable("v", "input", "continuous", "m/s", "", "input", 0, 0.0, 0.0, 1.0, display)
+
+    types = declared_types([speed(None), speed("km/h"), speed(None)])
+    assert len(types) == 2
+    assert {t.get("displayUnit") for t in types.values()} == {None, "km/h"}
+
+
+def test_sources_are_listed_and_there(build: Callable[..., Path]) -> None:
+    fmu = build("crane", "native")
+    root = ElementTree.fromstring(read(fmu, "modelDescription.xml"))
+    listed = [f.attrib["name"] for f in root.iter("File")]
+    assert {f"sources/{name}" for name in listed} <= names(fmu)
+    assert "table.c" in listed
+    assert not any("fmi3" in name for name in listed)
