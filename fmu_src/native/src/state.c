@@ -20,7 +20,8 @@ struct slave_state {
 };
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
-enum { STATE_VERSION = 1, CHECKED_FROM = 16 }; /* the checksum covers what follows it */
+/* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
+enum { STATE_VERSION = 1, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
@@ -59,8 +60,6 @@ static void save(const slave *s, unsigned char *bytes) {
   put(&p, s->pending, n);
   put(&p, s->clamped, n);
   ali3_state_save(s->kernel, p, ali3_state_size(s->system));
-  head.crc = ali3_crc32(bytes + CHECKED_FROM, size - CHECKED_FROM);
-  memcpy(bytes, &head, sizeof head);
 }
 
 /* One sentence on what is wrong with the bytes, or NULL. */
@@ -74,7 +73,6 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
     return "only states of the same build can be set";
   if (head.size != size || size != whole_size(s) || head.n_known != slave_the_table.n_known)
     return "they have another size";
-  if (head.crc != ali3_crc32(bytes + CHECKED_FROM, size - CHECKED_FROM)) return "they were altered";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
       head.initialised > 1 || head.step_warned > 1 || !(fabs(head.start_time) < HUGE_VAL) ||
       !(head.stop_time > head.start_time))
@@ -165,11 +163,16 @@ slave_status slave_state_write(slave *s, const slave_state *state, unsigned char
   if (size < state->size)
     return slave_say(s, SLAVE_ERROR, "The state needs %zu bytes, there is room for %zu.", state->size, size);
   memcpy(bytes, state->bytes, state->size);
+  const uint32_t crc = ali3_crc32(bytes + CHECKED_FROM, state->size - CHECKED_FROM);
+  memcpy(bytes + CRC_AT, &crc, sizeof crc);
   return SLAVE_OK;
 }
 
 slave_status slave_state_read(slave *s, const unsigned char *bytes, size_t size, slave_state **state) {
   const char *why = problem(s, bytes, size);
+  uint32_t crc = 0;
+  if (size >= CHECKED_FROM) memcpy(&crc, bytes + CRC_AT, sizeof crc);
+  if (why == NULL && crc != ali3_crc32(bytes + CHECKED_FROM, size - CHECKED_FROM)) why = "they were altered";
   if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
   if (room(s, size, state) != SLAVE_OK) return SLAVE_ERROR;
   memcpy((*state)->bytes, bytes, size);
