@@ -23,6 +23,6 @@ def motor_pendulum() -> mbs.Model:
 
 
 if __name__ == "__main__":
-    fmu = build_fmu(mbs.compile(motor_pendulum()), "motor_pendulum", Path("dist"))
+    fmu = build_fmu(mbs.compile(motor_pendulum()), "motor_pendulum", Path("dist"), [fmpy.platform])
     result = fmpy.simulate_fmu(str(fmu), stop_time=5.0, start_values={"torque": 4.0})
     print(f"{fmu}: the rod swings out to {max(result['rod.angle']):.3f} rad")

@@ -36,7 +36,7 @@ def c_table(table: Sequence[Variable], rows: Sequence[str], identity: str, token
         C.
     """
     variables = "\n".join(
-        f"    {{{c_string(v.name)}, {c_string(v.unit)}, {_SOURCES[v.source]}, {v.index}, "
+        f"    {{{c_string(v.name)}, {c_string('' if v.unit == '1' else ' ' + v.unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}}},"
         for v in table
     )

@@ -16,6 +16,7 @@ from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
 from mbs.compile.metadata import metadata
 from mbs.compile.natural import natural_coordinates
+from mbs.compile.open_joints import joint_gaps, joints_of_bodies
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
 from mbs.compile.polynomial import RowTerms, row_terms
 from mbs.compile.pose import pose_arrays
@@ -49,7 +50,7 @@ def compile(model: Model) -> System:
     kept, full, of_z, redundant = reduce_coordinates(natural, linear, model.grounded)
     candidates = [row_terms(e, j, k, full) for j, k, e in others]
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
-    rows, dependent = independent_rows(candidates)
+    rows, dependent = independent_rows(candidates, joints_of_bodies(model))
     if not kept:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
@@ -64,7 +65,8 @@ def compile(model: Model) -> System:
     arrays = RowArrays(rows, new)
 
     guides, guide_rates = guide_start(model)
-    q = close_position(rows, arrays, mass, reference_position(model, natural, kept, T, z0, M_full)[order], guides)
+    drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
+    q = close_position(rows, arrays, mass, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
     qd = velocity(model, full, T, q[new], mass, order, arrays, guides, guide_rates)
     _, Phiq, _ = arrays.evaluate(q, guides)
     scale, measure = row_scale(rows, Phiq, mass.diagonal())

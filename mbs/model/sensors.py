@@ -27,7 +27,7 @@ class Sensor:
     """One output.
 
     Parameters
-    ---
+    ----------
     type : int
         Sensor type of the System file.
     signals : sequence of Affine
@@ -173,9 +173,7 @@ class SensorVocabulary(ModelCore):
         """A coordinate (relative angle, spin) or any affine expression, its rate (order 1) or second rate (order 2)."""
         if order not in (0, 1, 2):
             raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0, 1 or 2.")
-        expression = coordinate.affine if isinstance(coordinate, Coordinate) else coordinate
-        if not isinstance(expression, Affine):
-            raise ModelError(f"The sensor '{name}' needs a coordinate or an expression, got {coordinate!r}.")
+        expression = self.expression(coordinate, f"The sensor '{name}'")
         if not unit:
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
         return self._sense(name, unit, description, order, [expression], reals=[scale])

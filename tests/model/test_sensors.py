@@ -149,6 +149,25 @@ def test_impossible_sensors_are_refused(act, sentence):
     assert sentence in str(error.value)
 
 
+def test_coordinates_of_another_model_are_refused():
+    other, m = Model("other"), Model("mine")
+    bodies = [x.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1)) for x in (other, m)]
+    foreign = other.relative_angle("turn", other.ground, bodies[0], axis=(0, 0, 1))
+    for act in (
+        lambda: m.armature("rotor", foreign, inertia=1.0),
+        lambda: m.initial_rate(foreign, 1.0),
+        lambda: m.torsional_spring_damper("spring", foreign, stiffness=1.0),
+        lambda: m.sense_coordinate("angle", foreign),
+        lambda: m.drive("drive", foreign, m.guide_time("g", ([0.0, 1.0], [0.0, 1.0]))),
+    ):
+        with pytest.raises(ModelError, match="'turn' is not one of model 'mine'"):
+            act()
+    with pytest.raises(ModelError, match="does not have"):
+        m.sense_coordinate("angle", foreign.affine)
+    with pytest.raises(ModelError, match="needs a relative angle or a spin, got 'turn'"):
+        m.initial_rate("turn", 1.0)
+
+
 def test_a_joint_without_multipliers_of_a_force_is_refused():
     m = Model("refusal")
     body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))

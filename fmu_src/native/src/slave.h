@@ -12,7 +12,7 @@
 typedef enum { SLAVE_INPUT, SLAVE_PARAMETER, SLAVE_POSE, SLAVE_STEP_SIZE, SLAVE_SENSOR } slave_source;
 
 typedef struct {
-  const char *name, *unit;
+  const char *name, *unit; /* the unit as it stands behind a number */
   slave_source source;
   int32_t index;          /* of that input, parameter or sensor; place in x, y, z, yaw, speed */
   double start, min, max; /* infinite where open */

@@ -41,12 +41,12 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
     return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s%s.", v->name, slave_phase_name(s->calls.phase),
                      fixed ? "; it is a fixed parameter" : "");
   if (!(fabs(value) < HUGE_VAL))
-    return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g %s is kept.",
+    return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g%s is kept.",
                      v->name, value, s->value[reference], v->unit);
   *clamped = value;
   if (value >= v->min && value <= v->max) return SLAVE_OK;
   if (v->source != SLAVE_INPUT)
-    return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g %s, outside its range %g to %g; it keeps %g.", v->name,
+    return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, outside its range %g to %g; it keeps %g.", v->name,
                      value, v->unit, v->min, v->max, s->value[reference]);
   *clamped = value < v->min ? v->min : v->max;
   return SLAVE_WARNING;
@@ -60,7 +60,7 @@ static slave_status try_parameter(slave *s, uint32_t reference, double value) {
   if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->kernel, v->index, &before) != ALI3_OK) return SLAVE_OK;
   const ali3_status status = ali3_set_parameter(s->kernel, v->index, value);
   if (status != ALI3_OK)
-    return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g %s, which the model cannot take; it keeps %g.", v->name,
+    return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, which the model cannot take; it keeps %g.", v->name,
                      value, v->unit, s->value[reference]);
   ali3_set_parameter(s->kernel, v->index, before);
   return SLAVE_OK;
@@ -90,7 +90,7 @@ slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const doub
     if (held && !s->clamped[reference[i]]) {
       s->clamped[reference[i]] = 1;
       worst = slave_say(s, SLAVE_WARNING,
-                        "'%s' was set to %.10g %s and is held at %g, the end of its range %g to %g. This is said once.",
+                        "'%s' was set to %.10g%s and is held at %g, the end of its range %g to %g. This is said once.",
                         v->name, value[i], v->unit, clamped, v->min, v->max);
     }
     take(s, reference[i], clamped);

@@ -1,0 +1,66 @@
+"""`python -m hosts.check`: good FMUs pass, spoilt ones are named, other files are errors."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+
+ROOT = Path(__file__).parents[2]
+CHECKS = 13
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    name, system = load_scene(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
+    folder = tmp_path_factory.mktemp("fmus")
+    return {kind: build_fmu(system, name, folder, [fmpy.platform], kind=kind) for kind in ("native", "fmi3")}
+
+
+def check(fmu: Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "hosts.check", str(fmu), "--steps", "10"]
+    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+
+
+def spoil(fmu: Path, copy: Path, old: str, new: str) -> Path:
+    """A copy with the description changed."""
+    with zipfile.ZipFile(fmu) as source, zipfile.ZipFile(copy, "w") as target:
+        for name in source.namelist():
+            data = source.read(name)
+            if name == "modelDescription.xml":
+                assert old.encode() in data
+                data = data.replace(old.encode(), new.encode())
+            target.writestr(name, data)
+    return copy
+
+
+@pytest.mark.parametrize("kind", ["native", "fmi3"])
+def test_ours_pass(fmus: dict[str, Path], kind: str) -> None:
+    done = check(fmus[kind])
+    assert done.returncode == 0, done.stdout + done.stderr
+    lines = done.stdout.splitlines()
+    assert sum(line.startswith("  ok  ") for line in lines) == CHECKS
+    assert lines[-1].endswith("nothing bad found")
+
+
+def test_a_description_that_does_not_fit_is_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
+    guid = fmpy.read_model_description(str(fmus["native"])).guid
+    done = check(spoil(fmus["native"], tmp_path / "a.fmu", guid, "{another}"))
+    assert done.returncode == 1
+    assert " BAD  runs" in done.stdout
+    done = check(spoil(fmus["native"], tmp_path / "b.fmu", 'causality="output"', 'causality="outptu"'))
+    assert done.returncode in (1, 2)
+
+
+def test_other_files_are_errors(tmp_path: Path) -> None:
+    other = tmp_path / "other.fmu"
+    other.write_text("no archive")
+    assert "not an FMU" in check(other).stderr
+    assert check(other).returncode == check(tmp_path / "none.fmu").returncode == 2
