@@ -35,10 +35,11 @@ def c_table(table: Sequence[Variable], rows: Sequence[str], identity: str, token
     str
         C.
     """
+    units = ["" if v.unit == "1" else f" {v.unit}" for v in table]
     variables = "\n".join(
-        f"    {{{c_string(v.name)}, {c_string('' if v.unit == '1' else ' ' + v.unit)}, {_SOURCES[v.source]}, {v.index}, "
+        f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}}},"
-        for v in table
+        for v, unit in zip(table, units, strict=True)
     )
     names = "\n".join(f"    {c_string(name)}," for name in rows) or "    NULL,"
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))

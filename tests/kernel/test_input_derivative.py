@@ -1,4 +1,4 @@
-"""Derivatives of a step with respect to its inputs, and rates of sensors, against differences; looking changes nothing."""
+"""Derivatives of a step by its inputs, and rates of sensors, against differences; looking changes nothing."""
 
 from __future__ import annotations
 
