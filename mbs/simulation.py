@@ -169,7 +169,9 @@ class Simulation:
     def step(self, h: float, n: int = 1) -> None:
         """Make `n` steps of `h` seconds with the inputs as they are."""
         _check_step(h)
-        for _ in range(n):
+        if n != int(n) or n < 0:
+            raise ValueError(f"n = {n}; it must be a whole number of steps.")
+        for _ in range(int(n)):
             self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
 
     def run(

@@ -101,6 +101,14 @@ def test_a_model_that_cannot_move_or_has_no_bodies_is_refused():
         compile(m)
 
 
+def test_a_start_that_has_no_equilibrium_is_refused_by_name():
+    m = Model("falling", dimension=2)
+    m.body("stone", mass=2.0, com=(0, 0), inertia=1.0)
+    m.start_in_equilibrium = True
+    with pytest.raises(ModelError, match=r"'falling' has no static equilibrium .*'stone\.ry' .* by 19\.6 N"):
+        compile(m)
+
+
 def test_the_kernel_finds_nothing_to_correct():
     """Initialising moves the compiled start by no more than round-off."""
     for model in (bricard.build(), double_four_bar.build(), four_bar(2.1, 0.1)):

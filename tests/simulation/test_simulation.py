@@ -227,6 +227,11 @@ class TestErrors:
         assert part.t[-1] == pytest.approx(0.2, abs=ROUND_OFF)
         assert part["bob.x"].tolist() == reference["bob.x"][::2].tolist()
 
+    @pytest.mark.parametrize("n", [-1, 2.5])
+    def test_a_number_of_steps_that_is_none_is_refused(self, system, n):
+        with pytest.raises(ValueError, match="whole number of steps"):
+            Simulation(system).step(H, n)
+
     @pytest.mark.parametrize("h", [0.0, -0.01, float("nan"), float("inf")])
     def test_the_step_must_be_positive(self, system, h):
         with pytest.raises(ValueError, match="The step h is .* s; it must be positive and finite"):
