@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import subprocess
 import sys
 import tempfile
 import zipfile
@@ -14,7 +15,8 @@ from hosts.check_text import TEXT_CHECKS
 from hosts.checking import Finding, Subject, open_subject
 from hosts.errors import HostError
 
-_MARKS = {"good": "ok", "note": "note", "bad": "BAD", "left out": "-"}
+_MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
+_WIDTH = 22
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -22,19 +24,34 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m hosts.check", description="Check an FMU and print a verdict.")
     parser.add_argument("fmu", type=Path, metavar="FMU")
     parser.add_argument("--steps", type=int, default=50, metavar="N", help="communication steps per run; default: 50")
+    parser.add_argument("--inside", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
+    if options.steps < 1:
+        parser.error("the number of steps is positive")
+    if not options.inside:
+        return _outside(options.fmu, options.steps)
     try:
-        findings = check(options.fmu, options.steps, lambda name: print(f"{name} ...", file=sys.stderr, flush=True))
+        findings = check(options.fmu, options.steps, print_finding)
     except HostError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    print_findings(findings)
     bad = sum(f.verdict == "bad" for f in findings)
     print(f"\n{options.fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
     return 1 if bad else 0
 
 
-def check(fmu: Path, steps: int = 50, say: Callable[[str], None] = lambda name: None) -> list[Finding]:
+def _outside(fmu: Path, steps: int) -> int:
+    """The checks in a process of their own, which a broken FMU may take down."""
+    command = [sys.executable, "-m", "hosts.check", str(fmu), "--steps", str(steps), "--inside"]
+    status = subprocess.run(command, check=False).returncode
+    if status in (0, 1, 2):
+        return status
+    print_finding(Finding("stays alive", "bad", f"the process that ran the next check ended with {status}"))
+    print(f"\n{fmu}: bad")
+    return 1
+
+
+def check(fmu: Path, steps: int = 50, say: Callable[[Finding], None] = lambda finding: None) -> list[Finding]:
     """All checks.
 
     Parameters
@@ -43,7 +60,7 @@ def check(fmu: Path, steps: int = 50, say: Callable[[str], None] = lambda name: 
     steps : int
         Communication steps per run.
     say : callable
-        Is told which check begins.
+        Is told each finding at once.
 
     Returns
     -------
@@ -58,16 +75,14 @@ def check(fmu: Path, steps: int = 50, say: Callable[[str], None] = lambda name: 
     with tempfile.TemporaryDirectory(prefix="fmu_", ignore_cleanup_errors=True) as folder:
         subject = open_subject(fmu, Path(folder), steps)
         for name, function in (*TEXT_CHECKS, *RUNNING_CHECKS):
-            say(name)
             findings.append(_one(name, function, subject))
+            say(findings[-1])
     return findings
 
 
-def print_findings(findings: Sequence[Finding]) -> None:
-    """The verdict as a table."""
-    width = max(len(f.check) for f in findings)
-    for f in findings:
-        print(f"{_MARKS[f.verdict]:>4}  {f.check:<{width}}  {f.words}")
+def print_finding(finding: Finding) -> None:
+    """One line of the verdict."""
+    print(f"{_MARKS[finding.verdict]:>4}  {finding.check:<{_WIDTH}}  {finding.words}", flush=True)
 
 
 def _one(name: str, function: Callable[[Subject], Finding], subject: Subject) -> Finding:

@@ -24,7 +24,7 @@ class Finding:
     check : str
         Name of the check.
     verdict : str
-        ``good``, ``note``, ``bad`` or ``left out``.
+        ``good``, ``note`` or ``bad``.
     words : str
         What was found.
     """

@@ -44,8 +44,9 @@ def file(tmp_path: Path) -> Path:
 
 
 def test_names_of_scenes_become_names_of_fmus() -> None:
-    assert fmu_name("prototype_car") == "PrototypeCarPython"
-    assert fmu_name("double four-bar") == "DoubleFourBarPython"
+    assert fmu_name("prototype_car") == "PrototypeCar"
+    assert fmu_name("prototype_car", "python") == "PrototypeCarPython"
+    assert fmu_name("double four-bar", "fmi3") == "DoubleFourBarFMI3"
     with pytest.raises(ValueError, match="gives no name"):
         fmu_name("2nd")
 
@@ -64,10 +65,19 @@ def test_scene_of_a_file(file: Path, function: str, name: str) -> None:
 def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "a" / "b"
     assert build_fmu.main(["--scene", f"{file}:swing", "--out", str(out), "--platforms", PLATFORM]) == 0
-    assert "SwingPython.fmu" in capsys.readouterr().out
-    description = fmpy.read_model_description(str(out / "SwingPython.fmu"))
-    assert description.modelName == "SwingPython"
-    assert [p.name for p in out.iterdir()] == ["SwingPython.fmu"]
+    printed = capsys.readouterr().out
+    names = ["Swing", "SwingFMI3", "SwingPython"]
+    assert sorted(p.stem for p in out.iterdir()) == names
+    assert all(f"{name}.fmu" in printed for name in names)
+    assert [fmpy.read_model_description(str(out / f"{name}.fmu")).modelName for name in names] == names
+
+
+def test_one_kind_only(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    command = ["--scene", f"{file}:swing", "--out", str(tmp_path / "out"), "--platforms", PLATFORM]
+    assert build_fmu.main([*command, "--only", "native"]) == 0
+    assert [p.name for p in (tmp_path / "out").iterdir()] == ["Swing.fmu"]
+    assert build_fmu.main([*command, "--kind", "wooden"]) == 2
+    assert "no kind of FMU 'wooden'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

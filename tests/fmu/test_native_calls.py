@@ -185,7 +185,7 @@ def test_log_categories(build: Callable[..., Path], host: HostMaker) -> None:
     driven = host(build("crane", "native"))
 
     def logging(on: bool, *names: str) -> int:
-        return int(driven.call("setDebugLogging", on, [n.encode() for n in names]))
+        return int(driven.call("setDebugLogging", on, list(names)))
 
     assert driven.messages == []
     assert logging(True) == OK

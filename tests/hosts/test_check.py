@@ -64,3 +64,23 @@ def test_other_files_are_errors(tmp_path: Path) -> None:
     other.write_text("no archive")
     assert "not an FMU" in check(other).stderr
     assert check(other).returncode == check(tmp_path / "none.fmu").returncode == 2
+
+
+def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
+    source = tmp_path / "crash.c"
+    source.write_text(
+        "int unused;\n#if defined(_WIN32)\n__declspec(dllexport)\n#endif\n"
+        "void *fmi2Instantiate(void) { *(volatile int *)0 = 1; return 0; }\n"
+    )
+    library = tmp_path / f"crash{fmpy.sharedLibraryExtension}"
+    flags = ["-shared", "-fPIC", "-O0", "-fno-sanitize=all", "-fvisibility=default"]
+    subprocess.run([sys.executable, "-m", "ziglang", "cc", *flags, "-o", str(library), str(source)], check=True)
+    name = fmpy.read_model_description(str(fmus["native"])).modelName
+    copy = tmp_path / "crash.fmu"
+    with zipfile.ZipFile(fmus["native"]) as whole, zipfile.ZipFile(copy, "w") as target:
+        for entry in whole.namelist():
+            inside = entry == f"binaries/{fmpy.platform}/{name}{fmpy.sharedLibraryExtension}"
+            target.writestr(entry, library.read_bytes() if inside else whole.read(entry))
+    done = check(copy)
+    assert done.returncode == 1
+    assert "BAD" in done.stdout
