@@ -26,11 +26,11 @@ def unpack(fmu: Path, folder: Path) -> Path:
     return folder
 
 
-def compile_host(folder: Path, target: str | None = None) -> Path:
-    """Compile the C host of the project for a target of zig."""
+def compile_host(folder: Path, target: str | None = None, source: Path = HOST_SOURCE) -> Path:
+    """Compile the C host of the project, or another one, for a target of zig."""
     target = target or build.host_target()
-    program = folder / ("host.exe" if "windows" in target else "host")
-    build.compile_c([HOST_SOURCE], target, program, include=(FMI_HEADERS,), what="the C host", shared=False)
+    program = folder / (source.stem + (".exe" if "windows" in target else ""))
+    build.compile_c([source], target, program, include=(FMI_HEADERS,), what="the C host", shared=False)
     return program
 
 

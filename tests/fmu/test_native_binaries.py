@@ -123,6 +123,34 @@ def test_windows_gets_the_same_bits(all_platforms: Path, host: HostMaker, tmp_pa
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(shutil.which("wine") is None or sys.platform == "win32", reason="runs the Windows library by wine")
+def test_a_state_goes_on_under_another_system(all_platforms: Path, tmp_path: Path) -> None:
+    folder, source = native.unpack(all_platforms, tmp_path / "fmu"), native.C_FOLDER / "relay.c"
+    linux = [str(native.compile_host(tmp_path, source=source)), str(folder / "binaries/linux64/Crane.so")]
+    windows = ["wine", str(native.compile_host(tmp_path, "x86_64-windows-gnu", source))]
+    windows += [str(folder / "binaries/win64/Crane.dll")]
+
+    def rows(command: list[str], what: str, state: str) -> list[list[float]]:
+        root = "file:///Z:" if command[0] == "wine" else "file://"
+        arguments = [f"{root}{folder}/resources", native.guid_of(folder), what, state]
+        done = subprocess.run(
+            [*command, *arguments],
+            capture_output=True,
+            text=True,
+            check=True,
+            env=os.environ | {"WINEDEBUG": "-all"},
+            cwd=tmp_path,
+        )
+        return [[float.fromhex(v) for v in line.split()] for line in done.stdout.splitlines()]
+
+    expected = rows(linux, "save", "linux.state")
+    assert len(expected) == 30
+    assert rows(windows, "load", "linux.state") == expected
+    assert rows(windows, "save", "windows.state") == expected
+    assert rows(linux, "load", "windows.state") == expected
+
+
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="FMPy compiles by CMake")
 @pytest.mark.parametrize("kind", ["native", "fmi3"])
 def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, kind: str) -> None:
