@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -281,6 +281,7 @@ def simulate(
     progress: bool | Callable[[float], None] | None = None,
     t0: float = 0.0,
     pose: Pose | None = None,
+    method: str | None = None,
 ) -> Trajectory:
     """Step a System from `t0` to `t_end` in equal steps.
 
@@ -308,6 +309,8 @@ def simulate(
         First time, s.
     pose : Pose, optional
         Start of a scene that is not tied to the ground.
+    method : str, optional
+        Name of the method, see `Settings`; in place of the one that `settings` names.
 
     Returns
     -------
@@ -320,6 +323,8 @@ def simulate(
         When a step fails; its `trajectory` holds what was recorded.
     """
     _check_step(h)
+    if method is not None:
+        settings = replace(settings or Settings(), method=method)
     signals = InputSignals(inputs or {}, system.meta["inputs"])
     start = signals.at(np.array([t0]), 1e-6 * h, after_jump=True)[0]
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]

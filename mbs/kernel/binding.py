@@ -14,8 +14,8 @@ from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int
 from pathlib import Path
 from typing import Any
 
-BAD_ARGUMENT, BAD_FILE, BAD_STATE, NO_MEMORY, NOT_INITIALISED, NOT_ASSEMBLED, NOT_CONVERGED, SINGULAR, NOT_FINITE = (
-    range(1, 10)
+BAD_ARGUMENT, BAD_FILE, BAD_STATE, NO_MEMORY, NOT_INITIALISED, NOT_ASSEMBLED, NOT_CONVERGED, SINGULAR, NOT_FINITE, WRONG_METHOD = (
+    range(1, 11)
 )
 """Codes of `ali3_status` beside 0."""
 
@@ -45,12 +45,13 @@ class SettingsFields(Structure):
         ("eps_rel", c_double),
         ("tolerance_r", c_double),
         ("tolerance_phi", c_double),
+        ("rho_infinity", c_double),
         ("max_iterations", c_int32),
         ("max_halvings", c_int32),
         ("project", c_int32),
         ("update", c_int32),
         ("geometric", c_int32),
-        ("reserved", c_int32),
+        ("method", c_int32),
     )
 
 
@@ -255,7 +256,7 @@ class Instance:
         """Present settings by field name."""
         fields = SettingsFields()
         self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
-        return {name: getattr(fields, name) for name, _ in SettingsFields._fields_ if name != "reserved"}
+        return {name: getattr(fields, name) for name, _ in SettingsFields._fields_}
 
     def set_settings(self, **values: float) -> None:
         """Change the settings named; the others stay."""
@@ -263,7 +264,7 @@ class Instance:
         self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
         known = dict(SettingsFields._fields_)
         for name, value in values.items():
-            if name not in known or name == "reserved":
+            if name not in known:
                 raise TypeError(f"{name!r} is not a setting of the kernel.")
             setattr(fields, name, int(value) if known[name] is c_int32 else float(value))
         self._check(self._library.ali3_set_settings(self._handle, byref(fields)))

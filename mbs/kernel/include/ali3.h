@@ -28,6 +28,7 @@ typedef enum {
   ALI3_NOT_CONVERGED,     /* Newton iterations exhausted, also after halving the step */
   ALI3_SINGULAR,          /* the tangent could not be factorised */
   ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
+  ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -36,17 +37,26 @@ typedef struct ali3_instance ali3_instance;
 
 enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
 
+enum {                    /* ali3_settings.method */
+  ALI3_METHOD_ALI3P = 0,              /* trapezoidal rule with projections */
+  ALI3_METHOD_GENERALISED_ALPHA,      /* the same with generalised-alpha, rho_infinity */
+  ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
+  ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
+  ALI3_METHOD_COUNT
+};
+
 typedef struct {
   double alpha;             /* penalty, 1/s^2; 0: rule alpha = 1/(eps_rel h^2) */
   double eps_rel;           /* used by the rule */
   double tolerance_r;       /* on max_i |r_i| / m_i, coordinate units (m) */
   double tolerance_phi;     /* on the constraint violation, m */
+  double rho_infinity;      /* generalised-alpha: share of an infinite frequency that a step leaves, 0 to 1 */
   int32_t max_iterations;
   int32_t max_halvings;     /* depth of step bisection; 0: never */
   int32_t project;          /* 1: velocity and acceleration projections (24), (25) */
   int32_t update;           /* ALI3_UPDATE_* */
   int32_t geometric;        /* 1: exact geometric term sum lam_k H_k in the tangent */
-  int32_t reserved;
+  int32_t method;           /* ALI3_METHOD_* */
 } ali3_settings;
 
 typedef struct {

@@ -98,7 +98,18 @@ typedef struct {
   double *s, *sd, *sdd;      /* guides */
   double *out, *potential;   /* of the last evaluation of the elements */
   double *used;              /* inputs as used in the last step */
+  /* of the methods that carry more than q, qd, qdd */
+  double *memory;            /* whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
+  double *own;               /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
+  double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
 } ali3_vectors;
+
+enum { ALI3_PAST = 5, ALI3_MEMORY_OWNER = 0, ALI3_MEMORY_COUNT, ALI3_MEMORY_TIME, ALI3_MEMORY = 2 + ALI3_PAST };
+
+/* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
+typedef struct {
+  double c, rate, wC;
+} ali3_rule;
 
 struct ali3_instance {
   const ali3_system *system;
@@ -107,13 +118,17 @@ struct ali3_instance {
   double t_base, h_last; /* time = t_base + count * h_last */
   int64_t count;
   int32_t initialised;
-  ali3_vectors now, next, start;
+  ali3_vectors now, next, start, whole; /* start: of a step that may be halved; whole: of a composed one */
+  ali3_rule rule;
+  bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
   size_t n_vector;
   double *input, *parameter;
   double *el_real, *guide_real, *road_real; /* copies that parameters write to */
   ali3_road *road;
   /* work space */
-  double *D, *d0, *r, *x, *w;              /* nq */
+  double *D, *d0, *r, *x, *w, *hat;        /* nq */
+  double *middle, *rate;                   /* nq: position and velocity in the middle of the step */
+  double *J0, *A, *A_tangent;              /* row pattern: Phi_q at the start, discrete derivative, where F was made */
   double *Phi, *Phit, *gamma, *mu, *lam;   /* nc */
   double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
   double *F;                               /* front storage */
@@ -165,6 +180,7 @@ void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd,
                            double *gamma);
 void ali3_geometric(ali3_instance *in, const double *q, const double *s, const double *lam, double weight, double *F);
 void ali3_rows_square(ali3_instance *in, const double *J, double weight, double *F);
+void ali3_rows_product(ali3_instance *in, const double *A, const double *J, double weight, double *F);
 void ali3_rows_times(const ali3_system *S, const double *J, const double *x, double *out);
 void ali3_rows_transposed(const ali3_system *S, const double *J, const double *w, double *out); /* out = J' w */
 
@@ -179,9 +195,21 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call);
 void ali3_forces_tangent(ali3_instance *in, double *F);
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call);
 
+/* discrete_gradient.c */
+ali3_element_function *ali3_discrete_gradient(int32_t type); /* NULL: the middle of the step is exact or as good */
+
+/* discrete_rows.c */
+void ali3_discrete_rows(ali3_instance *in, const double *D, const double *q1, const ali3_vectors *from,
+                        const ali3_vectors *to);
+
 /* fronts.c */
 ali3_status ali3_factorise(ali3_instance *in, double *F);
 void ali3_solve(ali3_instance *in, const double *F, double *b);
+
+/* fronts_lu.c */
+void ali3_mirror(const ali3_instance *in, double *F);
+ali3_status ali3_factorise_lu(ali3_instance *in, double *F);
+void ali3_solve_lu(ali3_instance *in, const double *F, double *b);
 
 /* step.c */
 void ali3_mass_times(const ali3_system *S, const double *x, double *out);
@@ -193,6 +221,19 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
 
 /* accelerate.c */
 void ali3_accelerate(ali3_instance *in, int32_t iteration);
+
+/* energy_momentum.c */
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, bool report);
+void ali3_energy_momentum_report(ali3_instance *in);
+
+/* history.c */
+void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
+void ali3_history_predict(ali3_instance *in, double h, double *a, double *lam);
+void ali3_history_append(ali3_instance *in, double h, const double *a);
+
+/* composition.c */
+ali3_status ali3_composition(ali3_instance *in, double t, double h);
+ali3_status ali3_check_method(ali3_instance *in);
 
 /* initialise.c */
 ali3_status ali3_solve_initial(ali3_instance *in, double t);
@@ -207,5 +248,6 @@ void ali3_sensors_evaluate(const ali3_instance *in, double *out);
 /* instance.c */
 ali3_status ali3_parameters_apply(ali3_instance *in);
 bool ali3_settings_valid(const ali3_settings *s);
+size_t ali3_vector_count(const ali3_sizes *z);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 #endif

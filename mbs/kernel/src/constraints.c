@@ -189,6 +189,20 @@ void ali3_rows_square(ali3_instance *in, const double *J, double weight, double 
   }
 }
 
+/* F += weight * A' J, whole blocks. */
+void ali3_rows_product(ali3_instance *in, const double *A, const double *J, double weight, double *F) {
+  const ali3_system *S = in->system;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = S->row_ptr[k + 1];
+    double *block = F + S->front_off[f];
+    for (int32_t j = S->row_ptr[k]; j < end; j++) {
+      double *column = block + (int64_t)S->row_loc[j] * n;
+      const double factor = weight * J[j];
+      for (int32_t i = S->row_ptr[k]; i < end; i++) column[S->row_loc[i]] += factor * A[i];
+    }
+  }
+}
+
 void ali3_rows_times(const ali3_system *S, const double *J, const double *x, double *out) {
   for (int32_t k = 0; k < S->size.nc; k++) {
     double sum = 0.0;

@@ -62,7 +62,8 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
       a.S = in->S + S->el_S_off[e];
       memset(a.S, 0, (size_t)(a.nsig * a.nsig) * sizeof(double));
     }
-    S->el_kind[e]->evaluate(&a);
+    ali3_element_function *discrete = in->discrete ? ali3_discrete_gradient(S->el_type[e]) : NULL;
+    (discrete != NULL ? discrete : S->el_kind[e]->evaluate)(&a);
     call->potential[e] = a.potential;
     for (int32_t i = 0; i < a.nsig; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];

@@ -17,6 +17,7 @@ const char *ali3_status_text(ali3_status s) {
       "the iteration did not converge, also not in smaller steps",
       "the tangent is singular",
       "a number that is not finite appeared",
+      "this method steps backwards in time too: not for damping, friction, element states or filtered guides",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -41,6 +42,15 @@ static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
   v->out = take(pool, (size_t)z->nout);
   v->potential = take(pool, (size_t)z->ne);
   v->used = take(pool, (size_t)z->nu);
+  v->memory = take(pool, ALI3_MEMORY);
+  v->own = take(pool, (size_t)z->nq);
+  v->past_a = take(pool, ALI3_PAST * (size_t)z->nq);
+  v->past_lam = take(pool, ALI3_PAST * (size_t)z->nc);
+}
+
+size_t ali3_vector_count(const ali3_sizes *z) {
+  return (4 + ALI3_PAST) * (size_t)z->nq + (1 + ALI3_PAST) * (size_t)z->nc + (size_t)z->ny + 3 * (size_t)z->ng +
+         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + ALI3_MEMORY;
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
@@ -61,10 +71,10 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   if (s == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &s->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ny = (size_t)z->ny, nout = (size_t)z->nout, ne = (size_t)z->ne;
-  const size_t n_vector = 3 * nq + nc + ny + 3 * (size_t)z->ng + nout + ne + (size_t)z->nu;
+  const size_t n_vector = ali3_vector_count(z);
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
-  const size_t total = 3 * n_vector + nu + 2 * np + data + 8 * nq + 7 * nc + 2 * (size_t)z->nnz_rows +
+  const size_t total = 4 * n_vector + nu + 2 * np + data + 11 * nq + 7 * nc + 5 * (size_t)z->nnz_rows +
                        (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
                        nout + ne;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
@@ -80,6 +90,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   place_vectors(z, &in->now, &pool);
   place_vectors(z, &in->next, &pool);
   place_vectors(z, &in->start, &pool);
+  place_vectors(z, &in->whole, &pool);
   in->input = take(&pool, nu);
   in->parameter = take(&pool, np);
   in->parameter_work = take(&pool, np);
@@ -92,6 +103,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->x = take(&pool, nq);
   in->w = take(&pool, nq);
   in->shifted = take(&pool, nq);
+  in->hat = take(&pool, nq);
+  in->middle = take(&pool, nq);
+  in->rate = take(&pool, nq);
   in->Q = take(&pool, nq);
   in->Phi = take(&pool, nc);
   in->Phit = take(&pool, nc);
@@ -104,6 +118,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->step_lam = take(&pool, nc);
   in->J = take(&pool, (size_t)z->nnz_rows);
   in->J_tangent = take(&pool, (size_t)z->nnz_rows);
+  in->J0 = take(&pool, (size_t)z->nnz_rows);
+  in->A = take(&pool, (size_t)z->nnz_rows);
+  in->A_tangent = take(&pool, (size_t)z->nnz_rows);
   in->F = take(&pool, (size_t)z->front_size);
   in->u = take(&pool, (size_t)z->nsig);
   in->ud = take(&pool, (size_t)z->nsig);
@@ -125,7 +142,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
 void ali3_instance_free(ali3_instance *in) { free(in); }
 
 ali3_settings ali3_default_settings(void) {
-  const ali3_settings settings = {0.0, 1e-9, 1e-10, 1e-10, 20, 4, 1, ALI3_UPDATE_LINEARISED, 1, 0};
+  const ali3_settings settings = {0.0, 1e-9, 1e-10, 1e-10, 0.8, 20, 4, 1, ALI3_UPDATE_LINEARISED, 1,
+                                  ALI3_METHOD_ALI3P};
   return settings;
 }
 
@@ -135,7 +153,8 @@ bool ali3_settings_valid(const ali3_settings *s) {
          s->max_iterations <= 1000 && s->max_halvings >= 0 && s->max_halvings <= 16 &&
          (s->project == 0 || s->project == 1) &&
          (s->update == ALI3_UPDATE_LINEARISED || s->update == ALI3_UPDATE_PAPER) &&
-         (s->geometric == 0 || s->geometric == 1);
+         (s->geometric == 0 || s->geometric == 1) && s->rho_infinity >= 0.0 && s->rho_infinity <= 1.0 &&
+         s->method >= 0 && s->method < ALI3_METHOD_COUNT;
 }
 
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
