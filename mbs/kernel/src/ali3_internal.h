@@ -104,7 +104,7 @@ typedef struct {
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
 } ali3_vectors;
 
-enum { ALI3_PAST = 5, ALI3_MEMORY_OWNER = 0, ALI3_MEMORY_COUNT, ALI3_MEMORY_TIME, ALI3_MEMORY = 2 + ALI3_PAST };
+enum { ALI3_PAST = 4, ALI3_MEMORY_OWNER = 0, ALI3_MEMORY_COUNT, ALI3_MEMORY_TIME, ALI3_MEMORY = 2 + ALI3_PAST };
 
 /* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
 typedef struct {
@@ -228,7 +228,7 @@ void ali3_energy_momentum_report(ali3_instance *in);
 
 /* history.c */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
-void ali3_history_predict(ali3_instance *in, double h, double *a, double *lam);
+void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam);
 void ali3_history_append(ali3_instance *in, double h, const double *a);
 
 /* composition.c */

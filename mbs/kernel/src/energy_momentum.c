@@ -8,12 +8,20 @@
 
 #include "ali3_internal.h"
 
-enum { MAX_SWEEPS = 3, REFINEMENTS = 2 };
-static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
+enum { MAX_SWEEPS = 3, REFINEMENTS = 2, COMPOSED_PAST = 3 };
+static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
 static const double REFINE_R = 1e-2; /* s^-1: the work of a residual r in a step is 2 r v / h */
 static const double REFINE_PHI = 1e-3;
+static const double SINGLE_EPS = 0.1, COMPOSED_EPS = 10.0; /* times eps_rel */
 static const double LEAST_SCALE = 0.5, MOST_SCALE = 2.0; /* of kinetic energies that may be made equal */
+
+/* c alpha, a pure number since rows are mass-normalised. Steps that turn a row far multiply the round-off of Phi more,
+ * small ones must still close a row that a singular position nearly loses. */
+static double penalty_weight(const ali3_instance *in, double h) {
+  const double share = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? SINGLE_EPS : COMPOSED_EPS;
+  return 0.5 * h * h * ali3_penalty(&in->settings, h) / share;
+}
 
 static void evaluate(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
@@ -88,9 +96,10 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
 }
 
 /* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. */
-static ali3_status newton(ali3_instance *in, double h, int32_t *iterations) {
+static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *iterations) {
   const ali3_settings *settings = &in->settings;
-  const double alpha = ali3_penalty(settings, h), weight = 0.5 * h * h * alpha, refine_r = REFINE_R * fabs(h);
+  const bool refine = settings->method == ALI3_METHOD_ENERGY_MOMENTUM;
+  const double alpha = 2.0 * weight / (h * h), least_r = refine ? REFINE_R * fabs(h) : 1.0, least_v = refine ? REFINE_PHI : 1.0;
   double last = 0.0;
   int32_t refinements = 0;
   bool fresh = true;
@@ -104,7 +113,7 @@ static ali3_status newton(ali3_instance *in, double h, int32_t *iterations) {
     if (!judge(in)) return ALI3_NOT_FINITE;
     const double r = in->report.residual / settings->tolerance_r, v = in->report.violation / settings->tolerance_phi;
     const double size = fmax(r, v);
-    if (r <= refine_r && v <= REFINE_PHI) return ALI3_OK;
+    if (r <= least_r && v <= least_v) return ALI3_OK;
     fresh = *iterations > 1 && size > SLOW * last;
     if (size <= 1.0 && (refinements++ == REFINEMENTS || fresh)) return ALI3_OK;
     last = size;
@@ -176,7 +185,7 @@ static void report(ali3_instance *in, ali3_vectors *v, double weight) {
 
 void ali3_energy_momentum_report(ali3_instance *in) {
   const ali3_system *S = in->system;
-  const double weight = 0.5 / in->settings.eps_rel;
+  const double weight = penalty_weight(in, in->h_last > 0.0 ? in->h_last : 1.0);
   ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
   memcpy(in->A_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
@@ -189,16 +198,17 @@ void ali3_energy_momentum_report(ali3_instance *in) {
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double weight = 0.5 * h * h * ali3_penalty(&in->settings, h);
+  const double weight = penalty_weight(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
-  ali3_history_predict(in, h, in->d0, to->lam);
+  ali3_history_predict(in, h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST, in->d0,
+                       to->lam);
   for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
-  const ali3_status status = newton(in, h, &iterations);
+  const ali3_status status = newton(in, h, weight, &iterations);
   in->report.iterations += iterations;
   in->report.last_iterations = iterations;
   if (iterations > in->report.max_iterations) in->report.max_iterations = iterations;

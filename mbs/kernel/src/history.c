@@ -13,10 +13,12 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
 }
 
-/* Mean acceleration a (nq) and multipliers (nc) of the step h that begins now; without a past those of the state. */
-void ali3_history_predict(ali3_instance *in, double h, double *a, double *lam) {
+/* Mean acceleration a (nq) and multipliers (nc) of the step h that begins now from at most `most` past steps; without
+ * a past those of the state. */
+void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
-  const int32_t nq = in->system->size.nq, nc = in->system->size.nc, n = (int32_t)v->memory[ALI3_MEMORY_COUNT];
+  const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
+  const int32_t count = (int32_t)v->memory[ALI3_MEMORY_COUNT], n = count < most ? count : most;
   const double *time = v->memory + ALI3_MEMORY_TIME;
   if (n == 0) {
     memcpy(a, v->qdd, (size_t)nq * sizeof *a);
