@@ -18,6 +18,7 @@ from mbs.settings import Settings
 from mbs.system import System
 from mbs.trajectory import Trajectory
 
+SINGULAR = {"switches": "switch"}
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -151,6 +152,29 @@ class Simulation:
             )
         self.instance.set_parameter(index, value)
 
+    def set_switch(self, name: str, on: bool) -> float:
+        """Turn the rows of a switch on or off.
+
+        Rows that go on hold the values they have at this moment; velocities go to the nearest ones that satisfy them,
+        as in an impact without rebound.
+
+        Returns
+        -------
+        float
+            Change of the kinetic energy, J.
+        """
+        index = self._index("switches", name)
+        before = self.instance.get_switch(index)
+        self._call(
+            f"Switch {name!r} could not be turned {'on' if on else 'off'} at t = {self.time:g} s",
+            lambda: self.instance.set_switch(index, on),
+        )
+        return self.report.energy_jump if before != bool(on) else 0.0
+
+    def switch(self, name: str) -> bool:
+        """Whether the rows of a switch are on."""
+        return self.instance.get_switch(self._index("switches", name))
+
     def static_equilibrium(self, tolerance: float = 1e-6, max_iterations: int = 1000) -> None:
         """Move to the static equilibrium near the present position, all velocities zero, time unchanged.
 
@@ -250,7 +274,7 @@ class Simulation:
     def _index(self, kind: str, name: str) -> int:
         names = [entry["name"] for entry in self._meta[kind]]
         if name not in names:
-            raise ValueError(f"There is no {kind[:-1]} {name!r}; the System has: {', '.join(names) or 'none'}.")
+            raise ValueError(f"There is no {SINGULAR.get(kind, kind[:-1])} {name!r}; the System has: {', '.join(names) or 'none'}.")
         return names.index(name)
 
     def _call(self, what: str, action: Callable[[], object]) -> None:

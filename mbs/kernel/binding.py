@@ -74,6 +74,7 @@ class ReportFields(Structure):
         ("velocity_violation", c_double),
         ("worst_row", c_int32),
         ("worst_coordinate", c_int32),
+        ("energy_jump", c_double),
     )
 
 
@@ -84,7 +85,7 @@ class Sizes(Structure):
         (name, c_int32)
         for name in (
             *("nq", "nc", "nu", "ng", "ne", "ny", "ns", "np", "nout", "nf", "front_size", "nnz_mass", "nnz_rows"),
-            *("nsig", "has_pose", "reserved"),
+            *("nsig", "has_pose", "n_switch"),
         )
     )
 
@@ -108,6 +109,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),
     "ali3_set_pose": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double]),
     "ali3_set_q": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
+    "ali3_set_switch": (c_int32, [c_void_p, c_int32, c_int32]),
+    "ali3_get_switch": (c_int32, [c_void_p, c_int32, POINTER(c_int32)]),
     "ali3_initialise": (c_int32, [c_void_p, c_double]),
     "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
     "ali3_step": (c_int32, [c_void_p, c_double]),
@@ -297,6 +300,16 @@ class Instance:
         """Coordinates (nq,) and rates (nq,) to start from; before `initialise`."""
         nq = self.system.sizes.nq
         self._check(self._library.ali3_set_q(self._handle, _numbers(q, nq, "q"), _numbers(qd, nq, "qd")))
+
+    def set_switch(self, index: int, on: bool) -> None:
+        """Rows of a switch on or off; those that go on hold the values they have now."""
+        self._check(self._library.ali3_set_switch(self._handle, index, int(on)))
+
+    def get_switch(self, index: int) -> bool:
+        """Whether the rows of a switch are on."""
+        on = c_int32()
+        self._check(self._library.ali3_get_switch(self._handle, index, byref(on)))
+        return bool(on.value)
 
     def initialise(self, t0: float = 0.0) -> None:
         """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""

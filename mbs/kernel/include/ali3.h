@@ -66,10 +66,11 @@ typedef struct {
   double residual, violation;       /* of the last step: max |r_i|/m_i, max |Phi| in m */
   double velocity_violation;        /* max |Phi_q qd + Phi_t| * row_measure after projection */
   int32_t worst_row, worst_coordinate;
+  double energy_jump;               /* change of the kinetic energy by the last switching, J */
 } ali3_report;
 
 typedef struct {
-  int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, reserved;
+  int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, n_switch;
 } ali3_sizes;
 
 ALI3_API const char *ali3_status_text(ali3_status s); /* one sentence per code */
@@ -92,6 +93,10 @@ ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
+/* Rows of a switch on or off: before initialise as drawn; later they hold the values they have at that moment, the
+ * velocities are projected, accelerations and multipliers solved anew; report.energy_jump says what that took. */
+ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
+ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
 /* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
  * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);

@@ -20,7 +20,7 @@
   X(int32_t, 1, angle_row) X(int32_t, 1, angle_theta) X(int32_t, 1, angle_ptr) X(int32_t, 1, angle_a) \
   X(int32_t, 1, angle_b) X(double, 2, angle_hc) X(double, 2, angle_hs) \
   X(int32_t, 1, gterm_row) X(int32_t, 1, gterm_guide) X(int32_t, 1, gterm_power) X(int32_t, 1, gterm_a) \
-  X(int32_t, 1, gterm_b) X(double, 2, gterm_h) \
+  X(int32_t, 1, gterm_b) X(double, 2, gterm_h) X(int32_t, 1, row_switch) X(int32_t, 1, switch_start) \
   X(int32_t, 1, front_col) X(int32_t, 1, front_ptr) X(int32_t, 1, front_idx) X(int32_t, 1, front_parent) \
   X(int32_t, 1, front_map) X(int32_t, 1, front_off) \
   X(int32_t, 1, sig_ptr) X(int32_t, 1, sig_col) X(double, 2, sig_val) X(double, 2, sig_const) \
@@ -98,6 +98,7 @@ typedef struct {
   double *s, *sd, *sdd;      /* guides */
   double *out, *potential;   /* of the last evaluation of the elements */
   double *used;              /* inputs as used in the last step */
+  double *on, *anchor;       /* switches: 0 or 1; nc where there are any: what a switched row holds */
   /* of the methods that carry more than q, qd, qdd */
   double *memory;            /* whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
   double *own;               /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
@@ -237,7 +238,12 @@ ali3_status ali3_check_method(ali3_instance *in);
 
 /* initialise.c */
 ali3_status ali3_solve_initial(ali3_instance *in, double t);
-ali3_status ali3_solve_rates(ali3_instance *in);
+ali3_status ali3_solve_rates(ali3_instance *in, bool start);
+
+/* switches.c */
+void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J);
+void ali3_switch_carry(ali3_instance *in);
+void ali3_switch_values(const ali3_instance *in, double *v);
 
 /* statics.c */
 ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations);

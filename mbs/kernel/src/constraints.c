@@ -74,6 +74,7 @@ void ali3_constraints(ali3_instance *in, const double *q, const double *s, doubl
     Phi[S->angle_row[i]] += cosine * across - sine * along;
     J[S->angle_theta_j[i]] -= sine * across + cosine * along;
   }
+  ali3_switch_rows(in, Phi, J);
 }
 
 /* Phit = d Phi / dt */
@@ -125,6 +126,7 @@ void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd,
     }
     gamma[S->angle_row[i]] += second + 2.0 * rate * first - rate * rate * value;
   }
+  ali3_switch_values(in, gamma);
 }
 
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */

@@ -203,6 +203,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, bool rep
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
+  ali3_switch_carry(in);
   ali3_history_predict(in, h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST, in->d0,
                        to->lam);
   for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];

@@ -42,6 +42,8 @@ static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
   v->out = take(pool, (size_t)z->nout);
   v->potential = take(pool, (size_t)z->ne);
   v->used = take(pool, (size_t)z->nu);
+  v->on = take(pool, (size_t)z->n_switch);
+  v->anchor = take(pool, z->n_switch > 0 ? (size_t)z->nc : 0);
   v->memory = take(pool, ALI3_MEMORY);
   v->own = take(pool, (size_t)z->nq);
   v->past_a = take(pool, ALI3_PAST * (size_t)z->nq);
@@ -50,7 +52,8 @@ static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
 
 size_t ali3_vector_count(const ali3_sizes *z) {
   return (4 + ALI3_PAST) * (size_t)z->nq + (1 + ALI3_PAST) * (size_t)z->nc + (size_t)z->ny + 3 * (size_t)z->ng +
-         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + ALI3_MEMORY;
+         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + (size_t)z->n_switch +
+         (z->n_switch > 0 ? (size_t)z->nc : 0) + ALI3_MEMORY;
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
@@ -197,6 +200,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);
   copy(in->now.y, S->y0, S->size.ny);
+  for (int32_t k = 0; k < S->size.n_switch; k++) in->now.on[k] = (double)S->switch_start[k];
   copy(in->input, S->input_start, S->size.nu);
   copy(in->now.used, S->input_start, S->size.nu);
   copy(in->parameter, S->par_value, S->size.np);

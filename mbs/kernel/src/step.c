@@ -198,6 +198,7 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA;
   int32_t iterations = 0;
   ali3_guides_step(in, from, to, t, h);
+  ali3_switch_carry(in);
   if (is_alpha)
     generalised_alpha(in, h);
   else
