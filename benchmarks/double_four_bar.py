@@ -213,9 +213,8 @@ def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
     )
     for ax, n in zip(axes[0], windows, strict=True):
         for method, (colour, marker) in look.items():
-            part = [
-                r for r in rows if r["N"] == n and r["method"] == method and r["wall_s"] and METHODS[method].project
-            ]
+            part = [r for r in rows if r["N"] == n and r["method"] == method and METHODS[method].project]
+            part = [r for r in part if r["wall_s"] and r["position_error_m"] < LOST]
             if not part:
                 continue
             x, y = ([r[key] for r in part] for key in ("wall_s", "position_error_m"))

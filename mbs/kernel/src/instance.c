@@ -145,7 +145,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
 void ali3_instance_free(ali3_instance *in) { free(in); }
 
 ali3_settings ali3_default_settings(void) {
-  const ali3_settings settings = {0.0, 1e-9, 1e-10, 1e-10, 0.8, 20, 4, 1, ALI3_UPDATE_LINEARISED, 1,
+  const ali3_settings settings = {0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1,
                                   ALI3_METHOD_ALI3P};
   return settings;
 }

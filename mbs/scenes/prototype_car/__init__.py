@@ -20,7 +20,8 @@ KERB_HEIGHT = 0.08  # m, of the paper's test
 def build(road: Road | None = None) -> Model:
     """The car at rest in static equilibrium, its front axle over the origin.
 
-    On a plane with a grade nothing but the brakes could hold it: there it starts as drawn and settles.
+    On a plane with a grade nothing but the brakes could hold it: there it starts as drawn, level, and settles; a pose
+    must lift it above the plane.
 
     Parameters
     ----------
