@@ -78,7 +78,7 @@ def test_the_flyball_slider_reaches_its_published_heights(h, tolerance):
     assert t["shaft.rate"][0] == pytest.approx(2.0 * np.pi)
     assert t["shaft.rate"].min() == pytest.approx(5.10, abs=0.01)  # rad/s, at full opening
     energy = t["energy.total"]
-    assert (energy - energy[0]).max() < 3e-5 * energy[0]  # the dampers only take, up to the error of the rule
+    assert (energy - energy[0]).max() < 2e-4 * energy[0]  # the dampers only take, up to the error of the rule
 
 
 def test_the_equal_arms_stay_on_their_branch_through_every_singular_position():
