@@ -124,7 +124,8 @@ struct ali3_instance {
   ali3_rule rule;
   bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
   size_t n_vector;
-  double *input, *parameter;
+  double *input, *parameter, *input_middle;
+  const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */
   double *el_real, *guide_real, *road_real; /* copies that parameters write to */
   ali3_road *road;
   /* work space */
@@ -227,7 +228,7 @@ bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
 void ali3_accelerate(ali3_instance *in, int32_t iteration);
 
 /* energy_momentum.c */
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, bool report);
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool report);
 void ali3_energy_momentum_report(ali3_instance *in);
 
 /* history.c */

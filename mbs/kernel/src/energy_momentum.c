@@ -40,8 +40,10 @@ static void evaluate(ali3_instance *in, double h) {
   const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h, 0.25 * h * h, true, in->Q,
                                 to->y,      to->out,  to->potential};
   in->discrete = true;
+  in->force_input = in->input_middle;
   ali3_forces(in, &call);
   in->discrete = false;
+  in->force_input = in->input;
   ali3_mass_times(S, in->w, in->r);
   ali3_rows_transposed(S, in->A, to->lam, in->x);
   for (int32_t i = 0; i < nq; i++) in->r[i] += c * (in->x[i] - in->Q[i]);
@@ -204,8 +206,9 @@ void ali3_energy_momentum_report(ali3_instance *in) {
   if (ali3_factorise_lu(in, in->F) == ALI3_OK) report(in, &in->now, weight);
 }
 
-/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative. */
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, bool reported) {
+/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
+ * Inputs go straight from u0 to the present ones; the middle of this step has the given share of the latter. */
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const double weight = penalty_weight(in, h);
@@ -217,6 +220,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, bool rep
   ali3_history_predict(in, h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST, in->d0,
                        to->lam);
   for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];
+  for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
   const ali3_status status = newton(in, h, weight, &iterations);

@@ -42,7 +42,7 @@ static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, d
   a->wK = call->wK;
   a->real = in->el_real + S->el_real_ptr[e];
   a->integer = S->el_int + S->el_int_ptr[e];
-  a->input = in->input;
+  a->input = in->force_input;
   a->roads = in->road;
   a->f = f;
   a->S = NULL;

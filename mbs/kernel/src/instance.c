@@ -77,7 +77,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_vector = ali3_vector_count(z);
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
-  const size_t total = 4 * n_vector + nu + 2 * np + data + 11 * nq + 7 * nc + 5 * (size_t)z->nnz_rows +
+  const size_t total = 4 * n_vector + 2 * nu + 2 * np + data + 11 * nq + 7 * nc + 5 * (size_t)z->nnz_rows +
                        (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
                        nout + ne;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
@@ -95,6 +95,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   place_vectors(z, &in->start, &pool);
   place_vectors(z, &in->whole, &pool);
   in->input = take(&pool, nu);
+  in->input_middle = take(&pool, nu);
+  in->force_input = in->input;
   in->parameter = take(&pool, np);
   in->parameter_work = take(&pool, np);
   in->el_real = take(&pool, (size_t)s->n_el_real);

@@ -248,7 +248,7 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
 
 /* A step to time t, in halves where it does not converge. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
-  const ali3_status status = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM     ? ali3_energy_momentum(in, t, h, !in->quiet)
+  const ali3_status status = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM     ? ali3_energy_momentum(in, t, h, in->now.used, 0.5, !in->quiet)
                              : in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM_4 ? ali3_composition(in, t, h)
                                                                                     : attempt(in, t, h);
   if (status == ALI3_OK || depth <= 0) return status;
