@@ -12,6 +12,7 @@ METHODS = {
     "ali3p_generalised_alpha": {"method": 1},
     "energy_momentum": {"method": 2},
     "energy_momentum_4": {"method": 3},
+    "runge_kutta_8": {"method": 4},
 }
 """Names of the methods and what each sets in the kernel."""
 
@@ -47,7 +48,9 @@ class Settings:
         One of `METHODS`: "ali3p" the paper's, trapezoidal rule with projections; "ali3p_no_projection" without them;
         "ali3p_generalised_alpha" with the dissipative rule of Chung and Hulbert; "energy_momentum" keeps the energy of
         a conservative model and takes out of any other what its dampers take; "energy_momentum_4" composes five such
-        steps to order four, for conservative models without element states only.
+        steps to order four, for conservative models without element states only;
+        "runge_kutta_8" is explicit, of order eight, for smooth motion without stiff forces, element states or singular
+        positions.
     rho_infinity : float
         Of generalised-alpha: what a step leaves of an infinitely fast oscillation, 0 to 1.
     """

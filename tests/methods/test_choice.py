@@ -10,7 +10,7 @@ from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import double_four_bar
 from mbs.settings import METHODS
 
-REFUSED = "steps backwards in time too"
+REFUSED = "takes no element states"
 
 
 @pytest.mark.parametrize("method", METHODS)

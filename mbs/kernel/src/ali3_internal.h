@@ -106,6 +106,7 @@ typedef struct {
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
 } ali3_vectors;
 
+enum { ALI3_STAGES = 12 }; /* of runge_kutta.c */
 enum { ALI3_PAST = 4, ALI3_MEMORY_OWNER = 0, ALI3_MEMORY_COUNT, ALI3_MEMORY_TIME, ALI3_MEMORY = 2 + ALI3_PAST };
 
 /* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
@@ -130,6 +131,7 @@ struct ali3_instance {
   ali3_road *road;
   /* work space */
   double *D, *d0, *r, *x, *w, *hat;        /* nq */
+  double *stage;                           /* ALI3_STAGES x nq: accelerations */
   double *middle, *rate;                   /* nq: position and velocity in the middle of the step */
   double *J0, *A, *A_tangent;              /* row pattern: Phi_q at the start, discrete derivative, where F was made */
   double *Phi, *Phit, *gamma, *mu, *lam;   /* nc */
@@ -235,6 +237,9 @@ void ali3_energy_momentum_report(ali3_instance *in);
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
 void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam);
 void ali3_history_append(ali3_instance *in, double h, const double *a);
+
+/* runge_kutta.c */
+ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h);
 
 /* composition.c */
 ali3_status ali3_composition(ali3_instance *in, double t, double h);

@@ -19,15 +19,16 @@ static bool conservative(const ali3_instance *in, int32_t e) {
   }
 }
 
-/* ALI3_WRONG_METHOD where the method of the settings goes backwards and the System does not; the element is named in
- * the report. */
+/* ALI3_WRONG_METHOD where the method of the settings cannot take what the System has. */
 ali3_status ali3_check_method(ali3_instance *in) {
   const ali3_system *S = in->system;
-  if (in->settings.method != ALI3_METHOD_ENERGY_MOMENTUM_4) return ALI3_OK;
-  for (int32_t e = 0; e < S->size.ne; e++)
-    if (!conservative(in, e)) return ALI3_WRONG_METHOD;
+  const int32_t method = in->settings.method;
+  if (method != ALI3_METHOD_ENERGY_MOMENTUM_4 && method != ALI3_METHOD_RUNGE_KUTTA_8) return ALI3_OK;
+  if (S->size.ny > 0) return ALI3_WRONG_METHOD;
   for (int32_t g = 0; g < S->size.ng; g++)
     if (S->guide_type[g] == 1) return ALI3_WRONG_METHOD;
+  for (int32_t e = 0; e < S->size.ne && method == ALI3_METHOD_ENERGY_MOMENTUM_4; e++)
+    if (!conservative(in, e)) return ALI3_WRONG_METHOD;
   return ALI3_OK;
 }
 

@@ -17,7 +17,7 @@ const char *ali3_status_text(ali3_status s) {
       "the iteration did not converge, also not in smaller steps",
       "the tangent is singular",
       "a number that is not finite appeared",
-      "this method steps backwards in time too: not for damping, friction, element states or filtered guides",
+      "this method takes no element states or filtered guides and, if it also steps backwards in time, no damping",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -77,7 +77,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_vector = ali3_vector_count(z);
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
-  const size_t total = 4 * n_vector + 2 * nu + 2 * np + data + 11 * nq + 7 * nc + 5 * (size_t)z->nnz_rows +
+  const size_t total = 4 * n_vector + 2 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc + 5 * (size_t)z->nnz_rows +
                        (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
                        nout + ne;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
@@ -111,6 +111,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->hat = take(&pool, nq);
   in->middle = take(&pool, nq);
   in->rate = take(&pool, nq);
+  in->stage = take(&pool, ALI3_STAGES * nq);
   in->Q = take(&pool, nq);
   in->Phi = take(&pool, nc);
   in->Phit = take(&pool, nc);
