@@ -17,6 +17,7 @@ from mbs.scenes import cart_pole, double_four_bar, slider_crank, spatial_slider_
 
 Array = NDArray[np.float64]
 DIGITS = {"rtol": 1e-12, "atol": 1e-13}
+STIFF_DIGITS = {"rtol": 1e-9, "atol": 1e-11}
 
 
 def pendulum(t: Array, length: float = 1.0, gravity: float = 9.81) -> Array:
@@ -93,17 +94,17 @@ def one_degree(
     )[0]
 
 
-def minimum_norm(system: mbs.System, sensors: tuple[str, ...], t: Array) -> Array:
-    """Sensors (n, k) of a smooth scene by minimum-norm accelerations under DOP853."""
+def minimum_norm(system: mbs.System, sensors: tuple[str, ...], t: Array, stiff: bool = False) -> Array:
+    """Sensors (n, k) by minimum-norm accelerations under DOP853, or Radau (tolerance 1e-9) when stiff."""
     mechanism = Mechanism(system)
     method = Lagrange(mechanism, minimum_norm=True)
     solution = solve_ivp(
         lambda time, x: method.rates(float(time), x),
         (0.0, t[-1]),
         mechanism.start,
-        method="DOP853",
+        method="Radau" if stiff else "DOP853",
         t_eval=t,
-        **DIGITS,
+        **(STIFF_DIGITS if stiff else DIGITS),
     )
     return mechanism.positions(solution.y[: mechanism.nq].T, sensors)
 
