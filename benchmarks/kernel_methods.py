@@ -12,6 +12,7 @@ TITLES = {
     "ali3p_hht": "ALi3-P, HHT",
     "energy_momentum": "energy-momentum",
     "energy_momentum_4": "energy-momentum, order 4",
+    "runge_kutta_8": "Runge-Kutta, order 8",
 }
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13}
 CONSERVATIVE_ONLY = ("energy_momentum_4",)

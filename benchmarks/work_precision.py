@@ -140,7 +140,7 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
     return todo
 
 
-def measure(scene: str, quick: bool, engines: dict[str, Any]) -> list[dict[str, Any]]:
+def measure(scene: str, quick: bool, engines: dict[str, Any], rounds: int) -> list[dict[str, Any]]:
     """All rows of a scene; times are medians over rounds through all of them, so that a disturbance is shared."""
     todo = plan(scene, quick, engines)
     for row, action in todo:
@@ -148,7 +148,7 @@ def measure(scene: str, quick: bool, engines: dict[str, Any]) -> list[dict[str, 
         row |= found
         row["wall_s"] = wall if found["ended"] == "finished" else None
     walls: list[list[float]] = [[] for _ in todo]
-    for turn in range(1 if quick else ROUNDS):
+    for turn in range(rounds):
         for k, (row, action) in enumerate(todo):
             wall = row["wall_s"]
             if wall is not None and (wall < LONG or (turn < FEW_ROUNDS and wall < VERY_LONG)):
@@ -212,7 +212,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
     parser.add_argument("--charts", type=Path, metavar="DIR", help="draw a PNG per scene")
     parser.add_argument("--quick", action="store_true", help="two scenes, two steps, one round")
+    parser.add_argument("--rounds", type=int, default=ROUNDS, help=f"timed runs of each row; default {ROUNDS}")
     options = parser.parse_args(arguments)
+    if options.quick:
+        options.rounds = 1
     scenes = options.scene or (QUICK_SCENES if options.quick else tuple(CASES))
     engines, missing = peers.available()
     for name in missing:
@@ -220,7 +223,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     rows: list[dict[str, Any]] = []
     ratios: list[dict[str, Any]] = []
     for scene in scenes:
-        part = measure(scene, options.quick, engines)
+        part = measure(scene, options.quick, engines, options.rounds)
         rows += part
         print(f"\n{CASES[scene].title}; extent of the motion {size_of(scene):.3g} m", flush=True)
         print_table(part, {k: v for k, v in TABLE.items() if k != "scene"})
@@ -235,7 +238,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     meta = describe(
         "work_precision",
         mbs.Settings(),
-        rounds=1 if options.quick else ROUNDS,
+        rounds=options.rounds,
         wall="median over rounds through all rows of a scene, time of the steps alone, after one warm-up",
         languages={"kernel": "C", "classical": LANGUAGE} | dict.fromkeys(engines, "C++"),
         peers={name: engine.VERSION for name, engine in engines.items()},
