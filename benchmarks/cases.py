@@ -84,7 +84,13 @@ def _four_bar(windows: int, divisions: tuple[int, ...]) -> Case:
 
 CASES: dict[str, Case] = {
     "pendulum": Case(
-        "pendulum: never singular", pendulum.build, _xy("bob"), 10.0, (1, 2, 5, 10, 20, 50, 100), references.pendulum, 5.0
+        "pendulum: never singular",
+        pendulum.build,
+        _xy("bob"),
+        10.0,
+        (1, 2, 5, 10, 20, 50, 100),
+        references.pendulum,
+        5.0,
     ),
     "pendulum_1000s": Case(
         "pendulum over 1000 s: drift",

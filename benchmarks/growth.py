@@ -206,7 +206,8 @@ def exponents(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         if len(part) > 1:
             x = np.log([r["N"] for r in part])
             lines.append(
-                {"method": method} | {key: float(np.polyfit(x, np.log([r[key] for r in part]), 1)[0]) for key in EXPONENTS}
+                {"method": method}
+                | {key: float(np.polyfit(x, np.log([r[key] for r in part]), 1)[0]) for key in EXPONENTS}
             )
     return lines
 
@@ -250,7 +251,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     first = rows[0]
     print(
         f"\nThis machine in one thread: {first['dgemm_gflops']:.1f} Gflop/s in NumPy's matrix product"
-        + (f", {first['compiled_loop_gflops']:.1f} in a loop with the kernel's flags" if first["of_compiled_loop"] else "")
+        + (
+            f", {first['compiled_loop_gflops']:.1f} in a loop with the kernel's flags"
+            if first["of_compiled_loop"]
+            else ""
+        )
     )
     if options.json is not None:
         meta = describe("growth", mbs.Settings(), rounds=ROUNDS, step_s=STEP, end_s=END, exponents=fitted)

@@ -114,7 +114,10 @@ def _mass(system: mbs.System) -> np.ndarray:
 
 def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[str, Any]:
     """One run of the kernel; eps None takes the default settings."""
-    case, window = CASES[scene], Window.of(scene, h, max(1000, min(MOST_STEPS, COORDINATE_STEPS // system_of(scene).nq)))
+    case, window = (
+        CASES[scene],
+        Window.of(scene, h, max(1000, min(MOST_STEPS, COORDINATE_STEPS // system_of(scene).nq))),
+    )
     settings = mbs.Settings(method=method) if eps is None else mbs.Settings(method=method, alpha=1.0 / (eps * h * h))
     row = _row(scene, TITLES.get(method, method), h, "eps = 1/(alpha h^2)", eps, window)
     try:
@@ -128,7 +131,10 @@ def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[s
 
 def classical_point(scene: str, method: str, h: float, penalty: float | None) -> dict[str, Any]:
     """One run of a classical method."""
-    case, window = CASES[scene], Window.of(scene, h, MOST_CLASSICAL if h > 9e-4 * SQUEEZED.get(scene, 1.0) else FEW_CLASSICAL)
+    case, window = (
+        CASES[scene],
+        Window.of(scene, h, MOST_CLASSICAL if h > 9e-4 * SQUEEZED.get(scene, 1.0) else FEW_CLASSICAL),
+    )
     row = _row(scene, method, h, PARAMETER.get(method, "penalty, 1/s2"), penalty, window)
     r = run(system_of(scene), window.end, h, method, case.sensors, penalty=penalty, every=window.every)
     if r.status != "finished":
@@ -161,7 +167,13 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
     eps, classical = EPS, np.array(CLASSICAL_STEPS) * factor
     penalties, factors = PENALTIES, BAUMGARTE
     if quick:
-        steps, eps, classical, penalties, factors = steps[-6:-1:2], EPS[2::4], classical[4:6], PENALTIES[2:3], BAUMGARTE[1:2]
+        steps, eps, classical, penalties, factors = (
+            steps[-6:-1:2],
+            EPS[2::4],
+            classical[4:6],
+            PENALTIES[2:3],
+            BAUMGARTE[1:2],
+        )
     rows = []
     for method in KERNEL:
         if method == "energy_momentum_4" and not case.conservative:
@@ -241,7 +253,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--charts", type=Path, metavar="DIR", help="draw a PNG per scene")
     parser.add_argument("--quick", action="store_true", help="one scene, few points")
     options = parser.parse_args(arguments)
-    scenes = options.scene or (QUICK if options.quick else [s for s in CASES if s not in ("pendulum_1000s", "four_bar_200")])
+    scenes = options.scene or (
+        QUICK if options.quick else [s for s in CASES if s not in ("pendulum_1000s", "four_bar_200")]
+    )
     rows: list[dict[str, Any]] = []
     for scene in scenes:
         begin = time.perf_counter()
@@ -250,7 +264,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{scene}: {len(part)} runs in {time.perf_counter() - begin:.0f} s", flush=True)
         if options.charts is not None:
             draw(part, CASES[scene].title, options.charts / f"stability_{scene}.png")
-    print("\nDefault settings: the steps over which they are fine, and the decades of eps around the default that are too")
+    print(
+        "\nDefault settings: the steps over which they are fine, and the decades of eps around the default that are too"
+    )
     lines = margins(rows)
     form = {"scene": "", "method": "", "smallest_fine_h_s": ".1e", "largest_fine_h_s": ".1e", "first_break": ""}
     print_table(lines, form | {"decades_below": ".1f", "decades_above": ".1f"})
@@ -264,9 +280,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         meta = describe(
             "stability",
             mbs.Settings(),
-            fine=f"position within {WRONG:g} of the motion's extent, energy within {ENERGY:g} of the largest kinetic energy",
-            window=f"until the scene's time, or {MOST_STEPS} steps ({MOST_CLASSICAL} or {FEW_CLASSICAL} in Python), fewer for "
-            "large scenes",
+            fine=f"position within {WRONG:g} of the extent, energy within {ENERGY:g} of the largest kinetic energy",
+            window=f"until the scene's time, or {MOST_STEPS} steps ({MOST_CLASSICAL} or {FEW_CLASSICAL} in Python), "
+            "fewer for large scenes",
             margins=lines,
             why=WHY,
             classical=why,

@@ -1,4 +1,4 @@
-"""Error against time: ``python -m benchmarks.work_precision [--scene NAME ...] [--json FILE] [--charts DIR] [--quick]``.
+"""Error against time: ``python -m benchmarks.work_precision [--scene NAME ...] [--json FILE] [--charts DIR]``.
 
 Every method over a range of steps against the exact motion, one chart a scene; Exudyn and MuJoCo in the same run when
 they are installed, and the ratio of our time to the best of theirs at equal error.
@@ -10,6 +10,7 @@ import argparse
 import statistics
 import sys
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -168,7 +169,7 @@ def time_at_error(rows: Sequence[dict[str, Any]], method: str, level: float) -> 
         (r["wall_s"], r["position_error_m"]) for r in rows if r["method"] == method and r["wall_s"] is not None
     )
     best = min((w for w, e in points if e <= level), default=None)
-    for (w0, e0), (w1, e1) in zip(points, points[1:], strict=False):
+    for (w0, e0), (w1, e1) in pairwise(points):
         if e0 > level >= e1 > 0.0:
             share = np.log(e0 / level) / np.log(e0 / e1)
             crossing = float(np.exp(np.log(w0) + share * np.log(w1 / w0)))
@@ -231,7 +232,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
             lines = compare(rows, scene)
             ratios += lines
             print("\nours / best peer at equal error, interpolated along the curves")
-            form = {"error_m": ".0e", "ours": "", "ours_ms": ".3g", "peer": "", "peer_ms": ".3g", "ratio": ".3g", "ahead": ""}
+            form = {
+                "error_m": ".0e",
+                "ours": "",
+                "ours_ms": ".3g",
+                "peer": "",
+                "peer_ms": ".3g",
+                "ratio": ".3g",
+                "ahead": "",
+            }
             print_table(lines, form)
         if options.charts is not None:
             draw(part, scene, CASES[scene].title, LOST * size_of(scene), options.charts / f"work_{scene}.png")

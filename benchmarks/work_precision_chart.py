@@ -53,7 +53,9 @@ def draw(rows: Sequence[dict[str, Any]], scene: str, title: str, lost: float, fi
                         *zip(*points, strict=True),
                         LINES.get(family, PEERS),
                         marker=MARKERS[k % len(MARKERS)],
-                        color=COLOURS[k % len(COLOURS)] if family in LINES else ("#000000", "#999999")[family == "mujoco"],
+                        color=COLOURS[k % len(COLOURS)]
+                        if family in LINES
+                        else ("#000000", "#999999")[family == "mujoco"],
                         fillstyle="full" if family == "kernel" else "none",
                         linewidth=2.0 if family == "kernel" else 1.2,
                         markersize=5.5,

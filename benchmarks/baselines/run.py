@@ -98,7 +98,13 @@ def run(
             else:
                 wanted = h * every * np.arange(1, steps // every + 1)
                 found = solve_ivp(
-                    chosen.rates, (0.0, t_end), mechanism.start, method=solver, t_eval=wanted, rtol=rtol, atol=0.01 * rtol
+                    chosen.rates,
+                    (0.0, t_end),
+                    mechanism.start,
+                    method=solver,
+                    t_eval=wanted,
+                    rtol=rtol,
+                    atol=0.01 * rtol,
                 )
                 times += found.t.tolist()
                 states += list(found.y.T)
@@ -112,7 +118,9 @@ def run(
     x = np.array(states)
     n = mechanism.nq
     energy = np.array([mechanism.energy(s[:n], s[n:]) for s in states])
-    return Run(np.array(times), mechanism.positions(x[:, :n], sensors), energy, status, reason, stopped, *counts, steps, wall)
+    return Run(
+        np.array(times), mechanism.positions(x[:, :n], sensors), energy, status, reason, stopped, *counts, steps, wall
+    )
 
 
 def _runge_kutta(method: Any, x: Array, h: float, steps: int) -> Any:

@@ -62,7 +62,9 @@ class VelocityTransformation:
                 break
             q[d] -= scipy.linalg.lu_solve(factor, phi[self.rows])
         if np.abs(phi[self.rows]).max(initial=0.0) > OPEN:
-            raise Refusal("no position belongs to the independent coordinates: the chosen set is past its dead point", t)
+            raise Refusal(
+                "no position belongs to the independent coordinates: the chosen set is past its dead point", t
+            )
         qd[d] = -scipy.linalg.lu_solve(factor, J[np.ix_(self.rows, i)] @ qd[i])
         return q, qd
 

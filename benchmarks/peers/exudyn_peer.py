@@ -79,7 +79,11 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
     planar = "four_bar" in scene
     count = min(len(table), samples + 1)
     return PeerRun(
-        samples_times(end, samples)[:count], table[:count, 1 : 3 if planar else 4], None, wall, finished and count > samples
+        samples_times(end, samples)[:count],
+        table[:count, 1 : 3 if planar else 4],
+        None,
+        wall,
+        finished and count > samples,
     )
 
 
@@ -130,9 +134,7 @@ def _four_bar_tree(mbs: Any, windows: int) -> int:
 
 
 def _planar(mbs: Any, place: tuple[float, float], velocity: tuple[float, float], rate: float) -> int:
-    node = mbs.AddNode(
-        item.NodeRigidBody2D(referenceCoordinates=[*place, 0.0], initialVelocities=[*velocity, rate])
-    )
+    node = mbs.AddNode(item.NodeRigidBody2D(referenceCoordinates=[*place, 0.0], initialVelocities=[*velocity, rate]))
     body = mbs.AddObject(item.ObjectRigidBody2D(physicsMass=1.0, physicsInertia=1.0 / 12.0, nodeNumber=node))
     centre = mbs.AddMarker(item.MarkerBodyMass(bodyNumber=body))
     mbs.AddLoad(item.LoadMassProportional(markerNumber=centre, loadVector=[0, -9.81, 0]))
@@ -166,7 +168,12 @@ def _tree(
         )
     )
     axial, transverse = mass * side**2 / 6.0, mass * (length**2 + side**2) / 12.0
-    inertias, coms, transformations, places = exu.Matrix3DList(), exu.Vector3DList(), exu.Matrix3DList(), exu.Vector3DList()
+    inertias, coms, transformations, places = (
+        exu.Matrix3DList(),
+        exu.Vector3DList(),
+        exu.Matrix3DList(),
+        exu.Vector3DList(),
+    )
     for k in range(n):
         R = frames[k]
         local = R.T @ alongs[k]
@@ -246,4 +253,3 @@ def _chain(mbs: Any) -> int:
     return _tree(
         mbs, offsets, axes, s.MASS, s.LENGTH, s.SECTION, [along] * n, [0, 0, -9.81], rates, (n - 1, s.LENGTH * along)
     )[1]
-

@@ -43,7 +43,13 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
         places.append(look.site_xpos[0].copy())
         energies.append(look.energy.sum())
     whole = len(states) == samples + 1
-    return PeerRun(samples_times(end, samples)[: len(states)], np.array(places)[:, _components(scene)], np.array(energies), wall, whole)
+    return PeerRun(
+        samples_times(end, samples)[: len(states)],
+        np.array(places)[:, _components(scene)],
+        np.array(energies),
+        wall,
+        whole,
+    )
 
 
 def scenes() -> tuple[str, ...]:

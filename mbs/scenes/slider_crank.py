@@ -29,7 +29,11 @@ def build() -> Model:
     m.initial_velocity(crank, linear=(-0.5 * s * START_SPEED, 0.5 * c * START_SPEED), angular=START_SPEED)
     for component in "xy":
         m.sense_position(
-            f"A.position.{component}", crank, (c, s), component, description=f"position of the crank pin along {component}"
+            f"A.position.{component}",
+            crank,
+            (c, s),
+            component,
+            description=f"position of the crank pin along {component}",
         )
     m.sense_position("slider.position.x", slider, None, "x", description="position of the slider")
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")

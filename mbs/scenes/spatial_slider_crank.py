@@ -22,9 +22,7 @@ def build() -> Model:
     pin = (PIVOT[0], PIVOT[1], PIVOT[2] + CRANK)
     start = (SLIDER_X, 0.0, 0.0)
     along = (np.array(pin) - np.array(start)) / ROD
-    crank = m.body(
-        "crank", mass=MASSES[0], com=(PIVOT[0], PIVOT[1], PIVOT[2] + 0.5 * CRANK), inertia=CRANK_INERTIA
-    )
+    crank = m.body("crank", mass=MASSES[0], com=(PIVOT[0], PIVOT[1], PIVOT[2] + 0.5 * CRANK), inertia=CRANK_INERTIA)
     rod = m.body(
         "rod",
         mass=MASSES[1],

@@ -62,7 +62,11 @@ def build() -> Model:
     m.torque("motor", body["OF"], inputs=torque)
     for component in "xy":
         m.sense_position(
-            f"F.position.{component}", body["OF"], points["F"], component, description=f"position of F along {component}"
+            f"F.position.{component}",
+            body["OF"],
+            points["F"],
+            component,
+            description=f"position of F along {component}",
         )
     m.sense_yaw("OF.angle", body["OF"], description="turn of OF since the start, wrapped")
     m.sense_energy("energy.total", "total", description="kinetic and elastic energy")

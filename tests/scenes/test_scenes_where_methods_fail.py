@@ -1,4 +1,4 @@
-"""The scenes of the charts against closed forms, published values and a method without penalty or multipliers update."""
+"""The scenes of the charts against closed forms, published values and minimum-norm accelerations."""
 
 from __future__ import annotations
 
@@ -96,9 +96,7 @@ def test_the_equal_arms_stay_on_their_branch_through_every_singular_position():
 def test_the_spatial_slider_crank_follows_its_reduction_to_one_angle():
     names = ("slider.position.x",)
     steps = np.array([0.002, 0.001, 0.0005])
-    errors = [
-        largest_error(spatial_slider_crank.build(), names, references.spatial_crank, 0.5, h, 0.01) for h in steps
-    ]
+    errors = [largest_error(spatial_slider_crank.build(), names, references.spatial_crank, 0.5, h, 0.01) for h in steps]
     assert errors[-1] < 1e-5
     assert 1.8 < np.polyfit(np.log(steps), np.log(errors), 1)[0] < 2.5
     start = simulate(compile(spatial_slider_crank.build()), 0.001, 0.001)
@@ -109,9 +107,7 @@ def test_the_spatial_slider_crank_follows_its_reduction_to_one_angle():
 def test_the_light_cart_swings_round_as_momentum_and_energy_ask():
     heavy, end = 0.5, 3.0  # kg: a cart that a step of a millisecond can follow
     names = ("bob.position.x", "bob.position.y")
-    error = largest_error(
-        cart_pole.build(heavy), names, lambda t: references.light_cart(t, heavy), end, 0.001, 0.01
-    )
+    error = largest_error(cart_pole.build(heavy), names, lambda t: references.light_cart(t, heavy), end, 0.001, 0.01)
     assert error < 1e-4
     # the benchmark's cart of a millionth, up to the first spike
     error = largest_error(cart_pole.build(), names, references.light_cart, 0.45, 1e-4, 0.01)
@@ -148,10 +144,7 @@ def test_the_pendulum_keeps_its_energy_and_rod_over_a_thousand_seconds(h):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_classical_methods_follow_the_pendulum_which_is_never_singular(method):
-    if method == "velocity transformation":  # its coordinate has a dead point on the way
-        end = 0.3
-    else:
-        end = 2.0
+    end = 0.3 if method == "velocity transformation" else 2.0  # its coordinate has a dead point on the way
     names = ("bob.position.x", "bob.position.y")
     found = run(compile(pendulum.build()), end, 0.001, method, names)
     assert (found.status, found.reason) == ("finished", "")
