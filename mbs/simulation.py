@@ -274,7 +274,9 @@ class Simulation:
     def _index(self, kind: str, name: str) -> int:
         names = [entry["name"] for entry in self._meta[kind]]
         if name not in names:
-            raise ValueError(f"There is no {SINGULAR.get(kind, kind[:-1])} {name!r}; the System has: {', '.join(names) or 'none'}.")
+            raise ValueError(
+                f"There is no {SINGULAR.get(kind, kind[:-1])} {name!r}; the System has: {', '.join(names) or 'none'}."
+            )
         return names.index(name)
 
     def _call(self, what: str, action: Callable[[], object]) -> None:

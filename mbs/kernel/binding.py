@@ -14,9 +14,18 @@ from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int
 from pathlib import Path
 from typing import Any
 
-BAD_ARGUMENT, BAD_FILE, BAD_STATE, NO_MEMORY, NOT_INITIALISED, NOT_ASSEMBLED, NOT_CONVERGED, SINGULAR, NOT_FINITE, WRONG_METHOD = (
-    range(1, 11)
-)
+(
+    BAD_ARGUMENT,
+    BAD_FILE,
+    BAD_STATE,
+    NO_MEMORY,
+    NOT_INITIALISED,
+    NOT_ASSEMBLED,
+    NOT_CONVERGED,
+    SINGULAR,
+    NOT_FINITE,
+    WRONG_METHOD,
+) = range(1, 11)
 """Codes of `ali3_status` beside 0."""
 
 

@@ -9,13 +9,17 @@ enum { STAGES = 5 };
 static bool conservative(const ali3_instance *in, int32_t e) {
   const double *real = in->el_real + in->system->el_real_ptr[e];
   switch (in->system->el_type[e]) {
-  case ALI3_SPRING_DAMPER: return real[1] == 0.0;        /* damping */
-  case ALI3_SCALAR_SPRING_DAMPER: return real[1] == 0.0; /* damping */
+  case ALI3_SPRING_DAMPER:
+    return real[1] == 0.0;        /* damping */
+  case ALI3_SCALAR_SPRING_DAMPER:
+    return real[1] == 0.0; /* damping */
   case ALI3_INPUT_FORCE:
   case ALI3_BODY_FORCE:
   case ALI3_BODY_TORQUE:
-  case ALI3_GYROSCOPIC_SPIN: return true;
-  default: return false;
+  case ALI3_GYROSCOPIC_SPIN:
+    return true;
+  default:
+    return false;
   }
 }
 
@@ -39,9 +43,8 @@ ali3_status ali3_composition(ali3_instance *in, double t, double h) {
   ali3_vectors_copy(in, &in->whole, &in->now);
   for (int stage = 0; stage < STAGES; stage++) {
     done = stage == STAGES - 1 ? 0.0 : done + share[stage];
-    const ali3_status status =
-        ali3_energy_momentum(in, t + done * h, share[stage] * h, in->whole.used, 1.0 + done - 0.5 * share[stage],
-                             stage == STAGES - 1 && !in->quiet);
+    const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, in->whole.used,
+                                                    1.0 + done - 0.5 * share[stage], stage == STAGES - 1 && !in->quiet);
     if (status != ALI3_OK) {
       ali3_vectors_copy(in, &in->now, &in->whole);
       return status;

@@ -34,11 +34,11 @@ static void spring_damper(ali3_element_args *a) {
   if (mean <= SHORTEST) return;
   const double rate = along / mean, change = 2.0 * a->h * rate; /* l1 - l0 */
   double bump = 0.0, rebound = 0.0;
-  const double quotient = p[STIFFNESS] * (mean - p[FREE_LENGTH]) +
-                          stop(p[BUMP_STIFFNESS], fmin(l0 - p[BUMP_LENGTH], 0.0), fmin(l1 - p[BUMP_LENGTH], 0.0),
-                               change, &bump) +
-                          stop(p[REBOUND_STIFFNESS], fmax(l0 - p[REBOUND_LENGTH], 0.0),
-                               fmax(l1 - p[REBOUND_LENGTH], 0.0), change, &rebound);
+  const double quotient =
+      p[STIFFNESS] * (mean - p[FREE_LENGTH]) +
+      stop(p[BUMP_STIFFNESS], fmin(l0 - p[BUMP_LENGTH], 0.0), fmin(l1 - p[BUMP_LENGTH], 0.0), change, &bump) +
+      stop(p[REBOUND_STIFFNESS], fmax(l0 - p[REBOUND_LENGTH], 0.0), fmax(l1 - p[REBOUND_LENGTH], 0.0), change,
+           &rebound);
   const double tension = quotient + p[DAMPING] * rate;
   double dir[3] = {0}, turn[3] = {0};
   for (int32_t i = 0; i < n; i++) {

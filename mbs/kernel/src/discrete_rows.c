@@ -24,7 +24,8 @@ static void correct_angle(const ali3_instance *in, const double *D, const double
   const ali3_system *S = in->system;
   const int32_t theta = S->angle_theta_col[i];
   const double half = 0.5 * D[theta], middle = q1[theta] - half, sm = sin(middle), cm = cos(middle);
-  const double quotient = half * half < 1e-8 ? 1.0 - half * half / 6.0 : sin(half) / half, excess = cos(half) - quotient;
+  const double quotient = half * half < 1e-8 ? 1.0 - half * half / 6.0 : sin(half) / half,
+               excess = cos(half) - quotient;
   const double change_c = -2.0 * sm * sin(half), change_s = 2.0 * cm * sin(half);
   double sum_s = 0.0, sum_c = 0.0, difference_s = 0.0, difference_c = 0.0; /* of S and C at both ends */
   for (int32_t t = S->angle_ptr[i]; t < S->angle_ptr[i + 1]; t++) {
@@ -40,8 +41,8 @@ static void correct_angle(const ali3_instance *in, const double *D, const double
     if (x->a >= 0) in->A[x->ja] -= quarter * db;
     if (x->b >= 0) in->A[x->jb] -= quarter * da;
   }
-  in->A[S->angle_theta_j[i]] += 0.25 * (change_s * difference_s + change_c * difference_c) +
-                                0.5 * excess * (sm * sum_s + cm * sum_c);
+  in->A[S->angle_theta_j[i]] +=
+      0.25 * (change_s * difference_s + change_c * difference_c) + 0.5 * excess * (sm * sum_s + cm * sum_c);
 }
 
 /* in->A from in->J0 and in->J, Phi_q at the start and at the end q1 of the step. */

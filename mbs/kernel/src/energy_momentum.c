@@ -11,8 +11,8 @@
 enum { MAX_SWEEPS = 3, REFINEMENTS = 2, COMPOSED_PAST = 3 };
 static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
-static const double REFINE_R = 1e-2; /* s^-1: the work of a residual r in a step is 2 r v / h */
-static const double REFINE_PHI = 1e-3;
+static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
+static const double REFINE_PHI = 1e-2;
 static const double SINGLE_EPS = 1e-3, COMPOSED_EPS = 0.1; /* times eps_rel */
 static const double LEAST_SCALE = 0.5, MOST_SCALE = 2.0; /* of kinetic energies that may be made equal */
 
@@ -37,8 +37,8 @@ static void evaluate(ali3_instance *in, double h) {
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_discrete_rows(in, in->D, to->q, &in->now, to);
-  const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h, 0.25 * h * h, true, in->Q,
-                                to->y,      to->out,  to->potential};
+  const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h,      0.25 * h * h,
+                                true,       in->Q,    to->y,     to->out, to->potential};
   in->discrete = true;
   in->force_input = in->input_middle;
   ali3_forces(in, &call);
@@ -111,7 +111,8 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
 static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *iterations) {
   const ali3_settings *settings = &in->settings;
   const bool refine = settings->method == ALI3_METHOD_ENERGY_MOMENTUM;
-  const double alpha = 2.0 * weight / (h * h), least_r = refine ? REFINE_R * fabs(h) : 1.0, least_v = refine ? REFINE_PHI : 1.0;
+  const double alpha = 2.0 * weight / (h * h), least_r = refine ? REFINE_R * fabs(h) : 1.0,
+               least_v = refine ? REFINE_PHI : 1.0;
   double last = 0.0;
   int32_t refinements = 0;
   bool fresh = true;
@@ -123,7 +124,8 @@ static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *i
     ++*iterations;
     evaluate(in, h);
     if (!judge(in)) return ALI3_NOT_FINITE;
-    const double r = in->report.residual / settings->tolerance_r, v = opening(in->system, in->Phi) / settings->tolerance_phi;
+    const double r = in->report.residual / settings->tolerance_r,
+                 v = opening(in->system, in->Phi) / settings->tolerance_phi;
     const double size = fmax(r, v);
     if (r <= least_r && v <= least_v) return ALI3_OK;
     fresh = *iterations > 1 && size > SLOW * last;
@@ -235,8 +237,8 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   clean(in, weight, to->lam);
   ali3_history_append(in, h, in->d0);
   if (S->size.ny > 0) {
-    const ali3_force_call call = {to->q, to->own, from->y, h, 0.5 * h, 0.25 * h * h, false, in->Q,
-                                  to->y, to->out, to->potential};
+    const ali3_force_call call = {to->q, to->own, from->y, h,       0.5 * h,      0.25 * h * h,
+                                  false, in->Q,   to->y,   to->out, to->potential};
     ali3_forces(in, &call);
     ali3_forces_accept(in, &call);
   }

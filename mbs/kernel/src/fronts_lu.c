@@ -36,7 +36,7 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
       double *restrict column = block + (int64_t)j * n;
       if (end - start == PANEL) {
         const double *restrict a = block + (int64_t)start * n, *restrict b = a + n, *restrict c = b + n,
-                     *restrict d = c + n;
+                               *restrict d = c + n;
         const double u0 = column[start], u1 = column[start + 1] - a[start + 1] * u0,
                      u2 = column[start + 2] - (a[start + 2] * u0 + b[start + 2] * u1),
                      u3 = column[start + 3] - (a[start + 3] * u0 + b[start + 3] * u1 + c[start + 3] * u2);

@@ -45,8 +45,7 @@ void ali3_history_append(ali3_instance *in, double h, const double *a) {
   to->memory[ALI3_MEMORY_OWNER] = from->memory[ALI3_MEMORY_OWNER];
   to->memory[ALI3_MEMORY_COUNT] = n < ALI3_PAST ? n + 1 : n;
   to->memory[ALI3_MEMORY_TIME] = -0.5 * h;
-  for (int32_t k = 1; k < ALI3_PAST; k++)
-    to->memory[ALI3_MEMORY_TIME + k] = from->memory[ALI3_MEMORY_TIME + k - 1] - h;
+  for (int32_t k = 1; k < ALI3_PAST; k++) to->memory[ALI3_MEMORY_TIME + k] = from->memory[ALI3_MEMORY_TIME + k - 1] - h;
   memcpy(to->past_a, a, nq * sizeof *a);
   memcpy(to->past_lam, to->lam, nc * sizeof *a);
   memcpy(to->past_a + nq, from->past_a, (ALI3_PAST - 1) * nq * sizeof *a);

@@ -7,15 +7,33 @@
 #include "ali3_internal.h"
 
 enum { STAGES = ALI3_STAGES, SOLVES = 2, SWEEPS = 3 };
-static const double ALPHA = 1e6; /* of mass-normalised rows, with unit weight of M */
+static const double ALPHA = 1e8; /* of mass-normalised rows, with unit weight of M */
 static const double VELOCITY_TOLERANCE = 1e-12;
 
-static const double node[STAGES] = {
-    0.0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274, 0.2816496580927726, 0.3333333333333333, 0.25,
-    0.3076923076923077, 0.6512820512820513, 0.6, 0.8571428571428571, 1.0};
-static const double weight[STAGES] = {
-    0.054293734116568765, 0.0, 0.0, 0.0, 0.0, 4.450312892752409, 1.8915178993145003, -5.801203960010585,
-    0.3111643669578199, -0.1521609496625161, 0.20136540080403034, 0.04471061572777259};
+static const double node[STAGES] = {0.0,
+                                    0.05260015195876773,
+                                    0.0789002279381516,
+                                    0.1183503419072274,
+                                    0.2816496580927726,
+                                    0.3333333333333333,
+                                    0.25,
+                                    0.3076923076923077,
+                                    0.6512820512820513,
+                                    0.6,
+                                    0.8571428571428571,
+                                    1.0};
+static const double weight[STAGES] = {0.054293734116568765,
+                                      0.0,
+                                      0.0,
+                                      0.0,
+                                      0.0,
+                                      4.450312892752409,
+                                      1.8915178993145003,
+                                      -5.801203960010585,
+                                      0.3111643669578199,
+                                      -0.1521609496625161,
+                                      0.20136540080403034,
+                                      0.04471061572777259};
 static const double stage_weight[STAGES][STAGES] = {
     {0.0},
     {0.05260015195876773},
@@ -35,7 +53,6 @@ static const double stage_weight[STAGES][STAGES] = {
     {2.273310147516538, 0.0, 0.0, -10.53449546673725, -2.0008720582248625, -17.9589318631188, 27.94888452941996,
      -2.8589982771350235, -8.87285693353063, 12.360567175794303, 0.6433927460157636},
 };
-
 
 /* Accelerations and multipliers at q, qd and the guides of v: v->qdd and v->lam are improved from what they hold. */
 static ali3_status accelerate(ali3_instance *in, ali3_vectors *v) {

@@ -34,7 +34,9 @@ def build() -> Model:
         m.revolute(f"joint {k + 1}", before, body, point=origin, axis=axis)
         angle = m.relative_angle(f"angle.{k + 1}", before, body, axis=axis, zero=float(np.deg2rad(START_DEG[k])))
         m.armature(f"motor {k + 1}", angle, inertia=link.armature)
-        torque = m.input(TORQUES[k], start=float(_table()[0, 2 + k]), unit="N m", description=f"torque at joint {k + 1}")
+        torque = m.input(
+            TORQUES[k], start=float(_table()[0, 2 + k]), unit="N m", description=f"torque at joint {k + 1}"
+        )
         m.torque_on(f"torque {k + 1}", angle, input=torque)
         m.sense_coordinate(f"angle.{k + 1}", angle, description=f"angle of joint {k + 1}")
         before = body
