@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.methods.models import hinge, swing
 
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import double_four_bar
 from mbs.settings import METHODS
+from tests.methods.models import hinge, swing
 
 REFUSED = "takes no element states"
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.methods.models import MOVED_S, TRIANGLE_MASSES, driven, hinge, swing, triangle
 
 from mbs import Settings, Simulation, compile, simulate
 from mbs.scenes import bricard, double_four_bar
+from tests.methods.models import MOVED_S, TRIANGLE_MASSES, driven, hinge, swing, triangle
 
 END = 10.0  # s
 EXACT_J = 1e-8

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.methods.models import driven, hinge, swing
 from scipy.integrate import solve_ivp
 
 from mbs import Settings, compile, simulate
 from mbs.scenes import bricard, double_four_bar
 from mbs.scenes.double_four_bar import GRAVITY
+from tests.methods.models import driven, hinge, swing
 
 TIGHT = {"tolerance_r": 1e-12, "tolerance_phi": 1e-13}
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.methods.models import driven, swing
 
 from mbs import Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import bricard, prototype_car, spatial_chain
+from tests.methods.models import driven, swing
 
 TIGHT = Settings(method="runge_kutta_8", tolerance_phi=1e-14)
 TWELVE = 12  # evaluations a step
