@@ -45,8 +45,8 @@ WHY = {  # one line a classical method; the table adds rank and time as found
     "redundant, and wherever a step lands on a singular position",
     "index-1 minimum norm, Baumgarte": "the cut between kept and dropped singular values is a guess; near a singular "
     "position a kept small one makes accelerations explode, a dropped real one lets the rows drift",
-    "velocity transformation": "the fixed independent coordinates stop being independent at their dead point: the block "
-    "of Phi_q for the dependent ones loses its rank",
+    "velocity transformation": "the fixed independent coordinates stop being independent at their dead point: the "
+    "block of Phi_q for the dependent ones loses its rank",
     "penalty": "rows are springs: soft ones let the mechanism leave its branch at singular positions, stiff ones are "
     "beyond the stability limit of the explicit rule",
 }

@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 import scipy.linalg
 
-from benchmarks.baselines.mechanism import Array, Mechanism, Refusal
+from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
 SINGULAR = 1e-14
 """Reciprocal condition below which the bordered matrix counts as singular."""
@@ -53,10 +53,10 @@ class Lagrange:
                 warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
                 lu, pivots = scipy.linalg.lu_factor(bordered, check_finite=False)
         except np.linalg.LinAlgError:
-            raise Refusal(f"bordered matrix exactly singular; {m.rank(t, q)}", t) from None
+            raise RefusedError(f"bordered matrix exactly singular; {m.rank(t, q)}", t) from None
         reciprocal = scipy.linalg.lapack.dgecon(lu, np.linalg.norm(bordered, 1))[0]
         if not reciprocal > SINGULAR:
-            raise Refusal(f"bordered matrix singular (1/condition {reciprocal:.0e}); {m.rank(t, q)}", t)
+            raise RefusedError(f"bordered matrix singular (1/condition {reciprocal:.0e}); {m.rank(t, q)}", t)
         return np.concatenate([qd, scipy.linalg.lu_solve((lu, pivots), np.concatenate([Q, right]))[: m.nq]])
 
 

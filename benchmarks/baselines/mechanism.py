@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 SPRING = 1  # element type whose energy is counted
 
 
-class Refusal(Exception):
+class RefusedError(Exception):
     """A method that cannot go on; the message says why, `time` when."""
 
     def __init__(self, reason: str, time: float) -> None:
@@ -46,7 +46,7 @@ class Mechanism:
         """Phi (nc,), Phi_q (nc, nq), d(Phi_q)/dt qd (nc,) and Q (nq,)."""
         self.evaluations += 1
         if not (np.isfinite(q).all() and np.isfinite(qd).all()):
-            raise Refusal("the motion became infinite", t)
+            raise RefusedError("the motion became infinite", t)
         v = self.instance.evaluate(q, qd, None, t)
         jacobian = self._dense("row_ptr", "row_col", np.array(v["jacobian"]), self.nc)
         return np.array(v["phi"]), jacobian, np.array(v["gamma"]), np.array(v["force"])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.linalg
 
-from benchmarks.baselines.mechanism import Array, Mechanism, Refusal
+from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
 DAMPING, FREQUENCY = 1.0, 10.0  # of the constraint oscillators, -, 1/s
 ITERATIONS, SETTLED = 30, 1e-10
@@ -70,4 +70,6 @@ class Penalty:
         try:
             return scipy.linalg.cho_factor(m.M + self.a * J.T @ J, lower=True)  # type: ignore[no-any-return]
         except np.linalg.LinAlgError:
-            raise Refusal(f"M + a Phi_q' Phi_q lost its definiteness to round-off at a = {self.a:.0e}", t) from None
+            raise RefusedError(
+                f"M + a Phi_q' Phi_q lost its definiteness to round-off at a = {self.a:.0e}", t
+            ) from None

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import mbs
 from benchmarks.baselines.lagrange import Lagrange
-from benchmarks.baselines.mechanism import Array, Mechanism, Refusal
+from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 from benchmarks.baselines.penalty import Penalty
 from benchmarks.baselines.velocity_transformation import VelocityTransformation
 
@@ -109,8 +109,8 @@ def run(
                 times += found.t.tolist()
                 states += list(found.y.T)
                 if not found.success:
-                    raise Refusal(f"scipy's {solver} gave up: {found.message}", float(times[-1]))
-    except Refusal as refusal:
+                    raise RefusedError(f"scipy's {solver} gave up: {found.message}", float(times[-1]))
+    except RefusedError as refusal:
         status = "diverged" if "infinite" in str(refusal) else "refused"
         reason, stopped = str(refusal), refusal.time
     wall = time.perf_counter() - begin
@@ -134,7 +134,7 @@ def _runge_kutta(method: Any, x: Array, h: float, steps: int) -> Any:
         k4 = method.rates(t + h, x + h * k3)
         x = x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         if not np.abs(x).max() < FAR:
-            raise Refusal("the motion became infinite (or faster than 1e6 m/s)", t + h)
+            raise RefusedError("the motion became infinite (or faster than 1e6 m/s)", t + h)
         if settle is not None:
             x = settle(t + h, x)
         yield k + 1, x

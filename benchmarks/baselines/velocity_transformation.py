@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 import scipy.linalg
 
-from benchmarks.baselines.mechanism import Array, Mechanism, Refusal
+from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
 RANK = 1e-9
 """Share of the largest pivot below which a row counts as redundant at the start."""
@@ -62,7 +62,7 @@ class VelocityTransformation:
                 break
             q[d] -= scipy.linalg.lu_solve(factor, phi[self.rows])
         if np.abs(phi[self.rows]).max(initial=0.0) > OPEN:
-            raise Refusal(
+            raise RefusedError(
                 "no position belongs to the independent coordinates: the chosen set is past its dead point", t
             )
         qd[d] = -scipy.linalg.lu_solve(factor, J[np.ix_(self.rows, i)] @ qd[i])
@@ -79,5 +79,5 @@ class VelocityTransformation:
         if not reciprocal > SINGULAR:
             names = m.system.meta["coordinates"]
             chosen = ", ".join(names[k] for k in self.independent[:3])
-            raise Refusal(f"the dependent block lost its rank for the fixed choice ({chosen}); {m.rank(t, q)}", t)
+            raise RefusedError(f"the dependent block lost its rank for the fixed choice ({chosen}); {m.rank(t, q)}", t)
         return lu, pivots

@@ -182,6 +182,8 @@ static void report(ali3_instance *in, ali3_vectors *v, double weight) {
   ali3_constraint_rate(in, v->q, v, in->Phit);
   memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
   in->report.velocity_violation = project(in, weight, in->Phit, v->qd, VELOCITY_TOLERANCE);
+  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
+  ali3_forces(in, &call);
   const double own = kinetic_energy(in, v->own), projected = kinetic_energy(in, v->qd);
   bool driven = false;
   for (int32_t k = 0; k < nc; k++) driven = driven || in->Phit[k] != 0.0;
@@ -193,8 +195,6 @@ static void report(ali3_instance *in, ali3_vectors *v, double weight) {
   for (int32_t k = 0; k < nc; k++) v->lam[k] = first * v->past_lam[k] + (two ? second * v->past_lam[nc + k] : 0.0);
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
   project(in, weight, in->gamma, v->qdd, ACCELERATION_TOLERANCE);
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
-  ali3_forces(in, &call);
 }
 
 void ali3_energy_momentum_report(ali3_instance *in) {
