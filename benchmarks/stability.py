@@ -42,7 +42,8 @@ WHY = {  # one line a classical method; the table adds rank and time as found
     "index-1 augmented Lagrangian, projected": "explicit Runge-Kutta on accelerations: the penalised rows are met only "
     "in the limit, and stiff constraint oscillators bound the step; passes singular and redundant positions",
     "index-1 Lagrange, Baumgarte": "the bordered matrix needs Phi_q of full row rank: exactly singular where rows are "
-    "redundant, and wherever a step lands on a singular position",
+    "redundant, and wherever a step lands on a singular position; a factor beyond about 2/h makes the rows themselves "
+    "diverge",
     "index-1 minimum norm, Baumgarte": "the cut between kept and dropped singular values is a guess; near a singular "
     "position a kept small one makes accelerations explode, a dropped real one lets the rows drift",
     "velocity transformation": "the fixed independent coordinates stop being independent at their dead point: the "
@@ -237,10 +238,15 @@ def explain(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     lines = []
     for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["method"] in CLASSICAL):
         part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
-        stopped = [r for r in part if r["reason"]]
-        first = min(stopped, key=lambda r: r["stopped_at_s"], default=None)
         counts = {o: sum(r["outcome"] == o for r in part) for o in OUTCOMES}
-        said = f"{first['stopped_at_s']:.4g} s, h = {first['h_s']:g}: {first['reason']}" if first else "-"
+        first = []
+        for outcome in ("refused", "diverged"):
+            stopped = [r for r in part if r["outcome"] == outcome and r["reason"]]
+            if stopped:
+                r = min(stopped, key=lambda row: row["stopped_at_s"])
+                value = "" if r["value"] is None else f", {r['value']:g}"
+                first.append(f"{outcome} at {r['stopped_at_s']:.4g} s (h = {r['h_s']:g}{value}): {r['reason']}")
+        said = "; ".join(first) or "-"
         lines.append({"scene": scene, "method": method} | counts | {"first stop": said})
     return lines
 

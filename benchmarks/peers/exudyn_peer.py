@@ -9,8 +9,8 @@ import time
 from typing import Any
 
 import exudyn as exu
-import exudyn.itemInterface as ei
 import numpy as np
+from exudyn import itemInterface
 
 from benchmarks.peers.common import PeerRun, samples_times
 from mbs.scenes import bricard, spatial_chain
@@ -88,18 +88,18 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
 
 
 def _four_bar(mbs: Any, windows: int) -> int:
-    ground = mbs.AddObject(ei.ObjectGround())
+    ground = mbs.AddObject(itemInterface.ObjectGround())
     tips: list[int] = []
     first = None
     for i in range(windows + 1):
         body = _planar(mbs, (i, 0.5), (0.5, 0.0), -1.0)
-        base = mbs.AddMarker(ei.MarkerBodyPosition(bodyNumber=body, localPosition=[0, -0.5, 0]))
-        foot = mbs.AddMarker(ei.MarkerBodyPosition(bodyNumber=ground, localPosition=[i, 0, 0]))
-        mbs.AddObject(ei.ObjectJointRevolute2D(markerNumbers=[base, foot]))
-        tips.append(mbs.AddMarker(ei.MarkerBodyPosition(bodyNumber=body, localPosition=[0, 0.5, 0])))
+        base = mbs.AddMarker(itemInterface.MarkerBodyPosition(bodyNumber=body, localPosition=[0, -0.5, 0]))
+        foot = mbs.AddMarker(itemInterface.MarkerBodyPosition(bodyNumber=ground, localPosition=[i, 0, 0]))
+        mbs.AddObject(itemInterface.ObjectJointRevolute2D(markerNumbers=[base, foot]))
+        tips.append(mbs.AddMarker(itemInterface.MarkerBodyPosition(bodyNumber=body, localPosition=[0, 0.5, 0])))
         if first is None:
             first = mbs.AddSensor(
-                ei.SensorBody(
+                itemInterface.SensorBody(
                     bodyNumber=body,
                     localPosition=[0, 0.5, 0],
                     storeInternal=True,
@@ -109,8 +109,8 @@ def _four_bar(mbs: Any, windows: int) -> int:
     for i in range(windows):
         body = _planar(mbs, (i + 0.5, 1.0), (1.0, 0.0), 0.0)
         for side, tip in ((-0.5, tips[i]), (0.5, tips[i + 1])):
-            end = mbs.AddMarker(ei.MarkerBodyPosition(bodyNumber=body, localPosition=[side, 0, 0]))
-            mbs.AddObject(ei.ObjectJointRevolute2D(markerNumbers=[end, tip]))
+            end = mbs.AddMarker(itemInterface.MarkerBodyPosition(bodyNumber=body, localPosition=[side, 0, 0]))
+            mbs.AddObject(itemInterface.ObjectJointRevolute2D(markerNumbers=[end, tip]))
     return int(first)
 
 
@@ -126,18 +126,22 @@ def _four_bar_tree(mbs: Any, windows: int) -> int:
     R = _frame(z)
     for i in range(windows):
         far, tip = (
-            mbs.AddMarker(ei.MarkerKinematicTreeRigid(objectNumber=tree, linkNumber=link, localPosition=R.T @ place))
+            mbs.AddMarker(
+                itemInterface.MarkerKinematicTreeRigid(objectNumber=tree, linkNumber=link, localPosition=R.T @ place)
+            )
             for link, place in ((windows + 1 + i, right), (i + 1, up))
         )
-        mbs.AddObject(ei.GenericJoint(markerNumbers=[far, tip], constrainedAxes=[1, 1, 0, 0, 0, 0]))
+        mbs.AddObject(itemInterface.GenericJoint(markerNumbers=[far, tip], constrainedAxes=[1, 1, 0, 0, 0, 0]))
     return sensor
 
 
 def _planar(mbs: Any, place: tuple[float, float], velocity: tuple[float, float], rate: float) -> int:
-    node = mbs.AddNode(ei.NodeRigidBody2D(referenceCoordinates=[*place, 0.0], initialVelocities=[*velocity, rate]))
-    body = mbs.AddObject(ei.ObjectRigidBody2D(physicsMass=1.0, physicsInertia=1.0 / 12.0, nodeNumber=node))
-    centre = mbs.AddMarker(ei.MarkerBodyMass(bodyNumber=body))
-    mbs.AddLoad(ei.LoadMassProportional(markerNumber=centre, loadVector=[0, -9.81, 0]))
+    node = mbs.AddNode(
+        itemInterface.NodeRigidBody2D(referenceCoordinates=[*place, 0.0], initialVelocities=[*velocity, rate])
+    )
+    body = mbs.AddObject(itemInterface.ObjectRigidBody2D(physicsMass=1.0, physicsInertia=1.0 / 12.0, nodeNumber=node))
+    centre = mbs.AddMarker(itemInterface.MarkerBodyMass(bodyNumber=body))
+    mbs.AddLoad(itemInterface.LoadMassProportional(markerNumber=centre, loadVector=[0, -9.81, 0]))
     return int(body)
 
 
@@ -160,7 +164,7 @@ def _tree(
     frames = [_frame(a) for a in axes]  # columns: link axes in the reference configuration, z along the hinge
     before = [np.eye(3) if p < 0 else frames[p] for p in parents]
     node = mbs.AddNode(
-        ei.NodeGenericODE2(
+        itemInterface.NodeGenericODE2(
             referenceCoordinates=[0.0] * n,
             initialCoordinates=[0.0] * n,
             initialCoordinates_t=rates,
@@ -182,7 +186,7 @@ def _tree(
         transformations.Append(before[k].T @ R)
         places.Append(before[k].T @ offsets[k])
     tree = mbs.AddObject(
-        ei.ObjectKinematicTree(
+        itemInterface.ObjectKinematicTree(
             nodeNumber=node,
             jointTypes=[exu.JointType.RevoluteZ] * n,
             linkParents=parents,
@@ -197,7 +201,7 @@ def _tree(
     )
     link, place = output
     sensor = mbs.AddSensor(
-        ei.SensorKinematicTree(
+        itemInterface.SensorKinematicTree(
             objectNumber=tree,
             linkNumber=link,
             localPosition=frames[link].T @ place,
@@ -225,15 +229,17 @@ def _bricard(mbs: Any) -> int:
     tree, sensor = _tree(
         mbs, offsets, axes, b.MASS, b.LENGTH, b.SECTION, alongs, [0, -9.81, 0], [0.0] * 5, (1, points[2] - points[1])
     )
-    ground = mbs.AddObject(ei.ObjectGround())
+    ground = mbs.AddObject(itemInterface.ObjectGround())
     R = _frame(axes[4])
     end = mbs.AddMarker(
-        ei.MarkerKinematicTreeRigid(objectNumber=tree, linkNumber=4, localPosition=R.T @ (points[5] - points[4]))
+        itemInterface.MarkerKinematicTreeRigid(
+            objectNumber=tree, linkNumber=4, localPosition=R.T @ (points[5] - points[4])
+        )
     )
-    foot = mbs.AddMarker(ei.MarkerBodyRigid(bodyNumber=ground, localPosition=points[5]))
+    foot = mbs.AddMarker(itemInterface.MarkerBodyRigid(bodyNumber=ground, localPosition=points[5]))
     hinge = _frame(np.array(b.AXES[5], float))
     mbs.AddObject(
-        ei.GenericJoint(
+        itemInterface.GenericJoint(
             markerNumbers=[end, foot],
             constrainedAxes=[1, 1, 1, 1, 1, 0],
             rotationMarker0=R.T @ hinge,
