@@ -85,8 +85,10 @@ def stability_blocks(files: Sequence[Row]) -> dict[str, str]:
     classical = [line for f in files for line in f["meta"]["classical"]]
     why = files[0]["meta"]["why"]
     columns = {"scene": "", "method": "", "smallest_fine_h_s": ".1e", "largest_fine_h_s": ".1e", "first_break": ""}
+    decades = dict.fromkeys(("decades_below", "decades_above"), ".0f") | {"usual_h_s": ".0e"}
+    decades |= dict.fromkeys(("usual_below", "usual_above"), ".0f")
     return {
-        "margins": table(margins, columns | {"decades_below": ".0f", "decades_above": ".0f"}),
+        "margins": table(margins, columns | decades),
         "classical": table(classical, {"scene": "", "method": ""} | dict.fromkeys(OUTCOMES, "d") | {"first stop": ""}),
         "why": table([{"method": k, "why": v} for k, v in why.items()], {"method": "", "why": ""}),
         "stability charts": "\n".join(

@@ -36,6 +36,7 @@ MOST_CLASSICAL, FEW_CLASSICAL = 1000, 200  # in Python; the second below a milli
 SQUEEZED = {"squeezer": 0.01}  # scenes whose steps are this share of the others'
 WRONG = 0.05  # of the extent of the motion over the window (at least a hundredth of the whole)
 ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
+USUAL_STEP = 0.01  # s
 QUICK = ("double_four_bar",)
 OUTCOMES = ("fine", "wrong", "refused", "diverged")
 WHY = {  # one line a classical method; the table adds rank and time as found
@@ -191,36 +192,42 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
 
 
 def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """How far the default settings lie inside the fine region: decades of eps to either side that are fine too, and
-    the span of steps over which the defaults are fine without a gap.
+    """How far the default settings lie inside the fine region: the span of steps over which they are fine without a
+    gap, and the decades of eps to either side up to the first that is not fine, over that span and at its middle.
     """
     lines = []
     for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["parameter"].startswith("eps")):
         part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
         defaults = sorted((r["h_s"], r["outcome"]) for r in part if r["value"] is None)
         good = _longest([h for h, _ in defaults], [o == "fine" for _, o in defaults])
-        centre = np.log10(mbs.Settings().eps_rel)
-        below = above = None
-        for h in good:
-            values = sorted((r["value"], r["outcome"]) for r in part if r["h_s"] == h and r["value"] is not None)
-            lower = [v for v, o in values if o != "fine" and np.log10(v) < centre]
-            upper = [v for v, o in values if o != "fine" and np.log10(v) > centre]
-            low = centre - np.log10(lower[-1]) if lower else centre - np.log10(values[0][0]) + 1.0
-            high = np.log10(upper[0]) - centre if upper else np.log10(values[-1][0]) - centre + 1.0
-            below = low if below is None else min(below, low)
-            above = high if above is None else min(above, high)
+        found = {h: _decades(part, h) for h in good}
+        usual = min(good, key=lambda h: abs(np.log(h / (USUAL_STEP * SQUEEZED.get(scene, 1.0)))), default=None)
         lines.append(
             {
                 "scene": scene,
                 "method": method,
                 "smallest_fine_h_s": good[0] if good else None,
                 "largest_fine_h_s": good[-1] if good else None,
-                "first_break": next((f"{o} at {h:g} s" for h, o in defaults if good and h > good[-1]), "-"),
-                "decades_below": below,
-                "decades_above": above,
+                "first_break": next((f"{o} at {h:.3g} s" for h, o in defaults if good and h > good[-1]), "-"),
+                "decades_below": min((d[0] for d in found.values()), default=None),
+                "decades_above": min((d[1] for d in found.values()), default=None),
+                "usual_h_s": usual,
+                "usual_below": found[usual][0] if usual is not None else None,
+                "usual_above": found[usual][1] if usual is not None else None,
             }
         )
     return lines
+
+
+def _decades(rows: Sequence[dict[str, Any]], h: float) -> tuple[float, float]:
+    """Decades of eps below and above the default up to the first that is not fine (or one beyond those tried)."""
+    centre = np.log10(mbs.Settings().eps_rel)
+    values = sorted((np.log10(r["value"]), r["outcome"]) for r in rows if r["h_s"] == h and r["value"] is not None)
+    lower = [v for v, o in values if o != "fine" and v < centre - 1e-9]
+    upper = [v for v, o in values if o != "fine" and v > centre + 1e-9]
+    below = centre - (lower[-1] if lower else values[0][0] - 1.0)
+    above = (upper[0] if upper else values[-1][0] + 1.0) - centre
+    return float(below), float(above)
 
 
 def _longest(steps: list[float], fine: list[bool]) -> list[float]:
@@ -275,7 +282,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     lines = margins(rows)
     form = {"scene": "", "method": "", "smallest_fine_h_s": ".1e", "largest_fine_h_s": ".1e", "first_break": ""}
-    print_table(lines, form | {"decades_below": ".1f", "decades_above": ".1f"})
+    decades = dict.fromkeys(("decades_below", "decades_above"), ".1f")
+    print_table(lines, form | decades | {"usual_h_s": ".1e", "usual_below": ".1f", "usual_above": ".1f"})
     why = explain(rows)
     print("\nClassical methods: outcomes, and where they first stop")
     if why:
