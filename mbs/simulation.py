@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.input_signals import InputSignals, Signal
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import WRONG_METHOD, Instance, KernelError, LoadedSystem
 from mbs.progress import progress_for
 from mbs.report import Report
 from mbs.settings import Settings
@@ -288,6 +288,10 @@ class Simulation:
     def _error(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
         report = self.instance.report()
         message = f"{what}: {error.message}"
+        if error.status == WRONG_METHOD:
+            return SimulationError(
+                f"{message} The method is {self.settings.method!r}.", self.time, error.status, trajectory
+            )
         row, coordinate = int(report["worst_row"]), int(report["worst_coordinate"])
         if row < len(self._meta["rows"]):
             message += f" Worst constraint: {self._meta['rows'][row]['name']!r}, open by {report['violation']:.3g} m."

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs import Settings, Simulation, compile, simulate
+from mbs import Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import bricard, double_four_bar
 from tests.methods.models import MOVED_S, TRIANGLE_MASSES, driven, hinge, swing, triangle
 
@@ -137,6 +137,21 @@ def test_a_step_that_does_not_converge_is_made_in_halves_and_keeps_the_energy(fo
     assert run.report.halvings > 0
     assert run.report.failures == 0
     assert spread(run) < 10.0 * EXACT_J
+
+
+def test_a_run_that_fails_unseen_leaves_the_last_good_state_complete(four_bar):
+    """Steps that nobody looks at leave out what only a reader needs; it is there when a later one fails."""
+    few = Settings(method="energy_momentum", max_iterations=6, max_halvings=0)
+    unseen, seen = Simulation(four_bar, settings=few), Simulation(four_bar, settings=few)
+    with pytest.raises(SimulationError, match="did not converge"):
+        unseen.run(END, 0.1, every=100)
+    with pytest.raises(SimulationError, match="did not converge"):
+        seen.run(END, 0.1)
+    assert unseen.time == seen.time > 0.3
+    a, b = unseen.state, seen.state
+    assert np.array_equal(a.q, b.q)
+    np.testing.assert_allclose(a.qd, b.qd, atol=1e-8)
+    np.testing.assert_allclose(a.qdd, b.qdd, atol=1e-4)
 
 
 def test_the_method_may_change_on_the_way(four_bar):

@@ -13,14 +13,14 @@ static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
 static const double REFINE_PHI = 1e-2;
-static const double SINGLE_EPS = 1e-3, COMPOSED_EPS = 0.1; /* times eps_rel */
+static const double EPS_SHARE = 1e-3; /* of eps_rel */
 static const double LEAST_SCALE = 0.5, MOST_SCALE = 2.0; /* of kinetic energies that may be made equal */
 
-/* c alpha, a pure number since rows are mass-normalised. Steps that turn a row far multiply the round-off of Phi more,
- * small ones must still close a row that a singular position nearly loses. */
+/* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
+ * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones feed the round-off
+ * of rows that turn far in a step back as forces. */
 static double penalty_weight(const ali3_instance *in, double h) {
-  const double share = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? SINGLE_EPS : COMPOSED_EPS;
-  return 0.5 * h * h * ali3_penalty(&in->settings, h) / share;
+  return 0.5 * h * h * ali3_penalty(&in->settings, h) / EPS_SHARE;
 }
 
 static void evaluate(ali3_instance *in, double h) {

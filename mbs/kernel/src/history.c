@@ -4,6 +4,12 @@
 
 #include "ali3_internal.h"
 
+/* Number of past steps, at most `most`; a restored state may hold any number there. */
+static int32_t past(const ali3_vectors *v, int32_t most) {
+  const double count = v->memory[ALI3_MEMORY_COUNT];
+  return count < (double)most ? (count > 0.0 ? (int32_t)count : 0) : most;
+}
+
 /* The memory belongs to `method`; a new owner starts from `own` (nq) and without a past. */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   double *memory = in->now.memory;
@@ -18,7 +24,7 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
 void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
-  const int32_t count = (int32_t)v->memory[ALI3_MEMORY_COUNT], n = count < most ? count : most;
+  const int32_t n = past(v, most);
   const double *time = v->memory + ALI3_MEMORY_TIME;
   if (n == 0) {
     memcpy(a, v->qdd, (size_t)nq * sizeof *a);
@@ -41,7 +47,7 @@ void ali3_history_predict(const ali3_instance *in, double h, int32_t most, doubl
 void ali3_history_append(ali3_instance *in, double h, const double *a) {
   const ali3_vectors *from = &in->now, *to = &in->next;
   const size_t nq = (size_t)in->system->size.nq, nc = (size_t)in->system->size.nc;
-  const int32_t n = (int32_t)from->memory[ALI3_MEMORY_COUNT];
+  const int32_t n = past(from, ALI3_PAST);
   to->memory[ALI3_MEMORY_OWNER] = from->memory[ALI3_MEMORY_OWNER];
   to->memory[ALI3_MEMORY_COUNT] = n < ALI3_PAST ? n + 1 : n;
   to->memory[ALI3_MEMORY_TIME] = -0.5 * h;
