@@ -38,12 +38,12 @@ typedef struct ali3_instance ali3_instance;
 enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
 
 enum {                    /* ali3_settings.method */
-  ALI3_METHOD_ALI3P = 0,              /* trapezoidal rule with projections */
-  ALI3_METHOD_GENERALISED_ALPHA,      /* the same with generalised-alpha, rho_infinity */
-  ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
-  ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
-  ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
-  ALI3_METHOD_COUNT
+       ALI3_METHOD_ALI3P = 0,              /* trapezoidal rule with projections */
+       ALI3_METHOD_GENERALISED_ALPHA,      /* the same with generalised-alpha, rho_infinity */
+       ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
+       ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
+       ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
+       ALI3_METHOD_COUNT
 };
 
 typedef struct {

@@ -130,20 +130,20 @@ struct ali3_instance {
   double *el_real, *guide_real, *road_real; /* copies that parameters write to */
   ali3_road *road;
   /* work space */
-  double *D, *d0, *r, *x, *w, *hat;        /* nq */
-  double *stage;                           /* ALI3_STAGES x nq: accelerations */
-  double *middle, *rate;                   /* nq: position and velocity in the middle of the step */
-  double *J0, *A, *A_tangent;              /* row pattern: Phi_q at the start, discrete derivative, where F was made */
-  double *Phi, *Phit, *gamma, *mu, *lam;   /* nc */
+  double *D, *d0, *r, *x, *w, *hat; /* nq */
+  double *stage; /* ALI3_STAGES x nq: accelerations */
+  double *middle, *rate; /* nq: position and velocity in the middle of the step */
+  double *J0, *A, *A_tangent; /* row pattern: Phi_q at the start, discrete derivative, where F was made */
+  double *Phi, *Phit, *gamma, *mu, *lam; /* nc */
   double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
-  double *F;                               /* front storage */
-  double *Q;                               /* nq */
-  double *u, *ud;                          /* signals */
-  double *S;                               /* signal tangents of all elements */
+  double *F; /* front storage */
+  double *Q; /* nq */
+  double *u, *ud; /* signals */
+  double *S; /* signal tangents of all elements */
   double *SB; /* one element: signals x coordinates */
   double *correction_q, *step_q, *correction_lam, *step_lam; /* of the last iteration */
-  double *local;                           /* one front */
-  double *shifted;                         /* nq */
+  double *local; /* one front */
+  double *shifted; /* nq */
   double *y_work, *out_work, *potential_work, *parameter_work;
 };
 

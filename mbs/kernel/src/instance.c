@@ -52,8 +52,8 @@ static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
 
 size_t ali3_vector_count(const ali3_sizes *z) {
   return (4 + ALI3_PAST) * (size_t)z->nq + (1 + ALI3_PAST) * (size_t)z->nc + (size_t)z->ny + 3 * (size_t)z->ng +
-         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + (size_t)z->n_switch +
-         (z->n_switch > 0 ? (size_t)z->nc : 0) + ALI3_MEMORY;
+         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + (size_t)z->n_switch + (z->n_switch > 0 ? (size_t)z->nc : 0) +
+         ALI3_MEMORY;
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
@@ -77,9 +77,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_vector = ali3_vector_count(z);
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
-  const size_t total = 4 * n_vector + 2 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc + 5 * (size_t)z->nnz_rows +
-                       (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
-                       nout + ne;
+  const size_t total = 4 * n_vector + 2 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
+                       5 * (size_t)z->nnz_rows + (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work +
+                       (size_t)s->max_front + ny + nout + ne;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u;
   *out = NULL;
@@ -148,8 +148,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
 void ali3_instance_free(ali3_instance *in) { free(in); }
 
 ali3_settings ali3_default_settings(void) {
-  const ali3_settings settings = {0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1,
-                                  ALI3_METHOD_ALI3P};
+  const ali3_settings settings = {0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1, ALI3_METHOD_ALI3P};
   return settings;
 }
 

@@ -86,7 +86,8 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
     in->w[i] = in->D[i] - in->d0[i];
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
-  const ali3_force_call call = {to->q, to->qd, in->now.y, h, in->rule.wC, c, tangent, in->Q, to->y, to->out, to->potential};
+  const ali3_force_call call = {to->q,   to->qd, in->now.y, h,       in->rule.wC,  c,
+                                tangent, in->Q,  to->y,     to->out, to->potential};
   ali3_forces(in, &call);
   ali3_mass_times(S, in->w, in->r);
   for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
@@ -248,10 +249,14 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
 
 static ali3_status by_method(ali3_instance *in, double t, double h) {
   switch (in->settings.method) {
-  case ALI3_METHOD_ENERGY_MOMENTUM: return ali3_energy_momentum(in, t, h, in->now.used, 0.5, !in->quiet);
-  case ALI3_METHOD_ENERGY_MOMENTUM_4: return ali3_composition(in, t, h);
-  case ALI3_METHOD_RUNGE_KUTTA_8: return ali3_runge_kutta(in, t, h);
-  default: return attempt(in, t, h);
+  case ALI3_METHOD_ENERGY_MOMENTUM:
+    return ali3_energy_momentum(in, t, h, in->now.used, 0.5, !in->quiet);
+  case ALI3_METHOD_ENERGY_MOMENTUM_4:
+    return ali3_composition(in, t, h);
+  case ALI3_METHOD_RUNGE_KUTTA_8:
+    return ali3_runge_kutta(in, t, h);
+  default:
+    return attempt(in, t, h);
   }
 }
 
