@@ -293,6 +293,8 @@ class Simulation:
                 f"{message} The method is {self.settings.method!r}.", self.time, error.status, trajectory
             )
         row, coordinate = int(report["worst_row"]), int(report["worst_coordinate"])
+        if not report["factorizations"]:  # refused before anything was solved
+            return SimulationError(message, self.time, error.status, trajectory)
         if row < len(self._meta["rows"]):
             message += f" Worst constraint: {self._meta['rows'][row]['name']!r}, open by {report['violation']:.3g} m."
         message += f" Worst balance: {self._meta['coordinates'][coordinate]!r}, residual {report['residual']:.3g}."

@@ -16,6 +16,7 @@ from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
 from mbs.compile.metadata import metadata
 from mbs.compile.natural import natural_coordinates
+from mbs.compile.open_joints import joint_gaps, joints_of_bodies
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
 from mbs.compile.polynomial import RowTerms, row_terms
 from mbs.compile.pose import pose_arrays
@@ -52,7 +53,7 @@ def compile(model: Model) -> System:
         switch = model.joints[row.joint].switch
         row.switch = -1 if switch is None else switch.index
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
-    rows, dependent = independent_rows(candidates)
+    rows, dependent = independent_rows(candidates, joints_of_bodies(model))
     if not kept:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
@@ -69,7 +70,8 @@ def compile(model: Model) -> System:
     guides, guide_rates = guide_start(model)
     holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
     start = RowArrays(holding, new)
-    q = close_position(holding, start, mass, reference_position(model, natural, kept, T, z0, M_full)[order], guides)
+    drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
+    q = close_position(holding, start, mass, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
     qd = velocity(model, full, T, q[new], mass, order, start, guides, guide_rates)
     _, Phiq, _ = arrays.evaluate(q, guides)
     scale, measure = row_scale(rows, Phiq, mass.diagonal())

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from mbs import Settings, Simulation, SimulationError, System, simulate
+from mbs import Pose, Settings, Simulation, SimulationError, System, simulate
 from tests.simulation.scenes import GRAVITY, LENGTH, MASS, free_mass, pendulum
 
 H = 0.01
@@ -209,6 +209,11 @@ class TestErrors:
         assert caught.value.status > 0
         assert simulation.state.q.tolist() == before.q.tolist()
         assert simulation.report.failures == 1
+
+    def test_what_is_refused_before_solving_names_no_constraint(self, system):
+        with pytest.raises(SimulationError, match="starting pose was refused") as caught:
+            Simulation(system, pose=Pose(speed=1.0))  # tied to the ground
+        assert "Worst" not in str(caught.value)
 
     def test_a_failing_run_hands_over_what_it_recorded(self, system):
         def jolt(t):
