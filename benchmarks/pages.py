@@ -139,6 +139,23 @@ def four_bar_blocks(data: Row) -> dict[str, str]:
     return {"table 1": table(lines, dict.fromkeys(lines[0], ".3g"))}
 
 
+def puma_blocks(data: Row) -> dict[str, str]:
+    """The paper's Table 2 beside ours."""
+    columns = {
+        "method": "",
+        "h_s": "g",
+        "paper_error_mm": ".3g",
+        "error_mm": ".3g",
+        "path_error_mm": ".3g",
+        "paper_wall_s": ".3g",
+        "wall_s": ".2g",
+        "jump_close_J": ".1e",
+        "jump_open_J": ".1e",
+        "ended": "",
+    }
+    return {"table 2": table(data["rows"], columns)}
+
+
 def replace(text: str, blocks: Mapping[str, str]) -> str:
     """The page with its tables exchanged; what was not measured stays."""
     for name, content in blocks.items():
@@ -154,11 +171,12 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in ("work", "stability", "growth", "four-bar"):
+    for name in ("work", "stability", "growth", "four-bar", "puma"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
-    work, stability, growth, four_bar = (_read(files) for files in (o.work, o.stability, o.growth, o.four_bar))
+    files = (o.work, o.stability, o.growth, o.four_bar, o.puma)
+    work, stability, growth, four_bar, puma = (_read(f) for f in files)
     blocks: dict[str, str] = {}
     if work:
         blocks |= work_blocks([r for f in work for r in f["rows"]]) | {"machine work": machine(work[0]["meta"])}
@@ -168,6 +186,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= growth_blocks(growth[0]) | {"machine growth": machine(growth[0]["meta"])}
     if four_bar:
         blocks |= four_bar_blocks(four_bar[0])
+    if puma:
+        blocks |= puma_blocks(puma[0])
     for page in PAGES:
         file = o.docs / page
         file.write_text(replace(file.read_text(encoding="utf-8"), blocks), encoding="utf-8")

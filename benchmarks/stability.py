@@ -84,7 +84,7 @@ def judge(scene: str, window: Window, positions: np.ndarray, energy: np.ndarray)
     if not np.isfinite(error):
         return "diverged", figures
     good = error < WRONG * extent
-    if case.conservative:
+    if case.energy_stays:
         good = good and figures["energy_deviation_J"] < ENERGY * _energy_scale(scene)
     return ("fine" if good else "wrong"), figures
 
@@ -118,7 +118,11 @@ def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[s
     """One run of the kernel; eps None takes the default settings."""
     case, window = (
         CASES[scene],
-        Window.of(scene, h, max(1000, min(MOST_STEPS, COORDINATE_STEPS // system_of(scene).nq))),
+        Window.of(
+            scene,
+            h,
+            max(1000, min(case.most_steps, COORDINATE_STEPS * case.most_steps // (MOST_STEPS * system_of(scene).nq))),
+        ),
     )
     settings = mbs.Settings(method=method) if eps is None else mbs.Settings(method=method, alpha=1.0 / (eps * h * h))
     row = _row(scene, TITLES.get(method, method), h, "eps = 1/(alpha h^2)", eps, window)

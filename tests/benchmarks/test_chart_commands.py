@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from benchmarks import growth, stability, work_precision
+from benchmarks import growth, pages, puma, stability, work_precision
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from mbs import compile
 from mbs.scenes import double_four_bar
@@ -27,7 +27,7 @@ def test_work_precision_runs_every_method_and_the_default_gets_better_with_the_s
     arguments = [
         "--quick",
         "--scene",
-        "spatial_slider_crank",
+        "double_four_bar",
         "--json",
         str(tmp_path / "w.json"),
         "--charts",
@@ -103,3 +103,18 @@ def test_margins_count_decades_around_the_default_and_stop_at_the_first_gap():
     assert line["first_break"] == "wrong at 0.1 s"
     assert line["decades_below"] == pytest.approx(3.0)
     assert line["decades_above"] == pytest.approx(2.0)
+
+
+def test_the_puma_table_has_the_paper_beside_it(tmp_path):
+    assert puma.main(["--quick", "--json", str(tmp_path / "p.json")]) == 0
+    _, rows = read(tmp_path / "p.json")
+    found = {r["h_s"]: r for r in rows}
+    assert found[0.01]["paper_error_mm"] == pytest.approx(0.53)
+    assert found[0.005]["error_mm"] < 0.3 * found[0.01]["error_mm"] < 0.3  # mm
+    assert found[0.1]["ended"] == "finished" or "refused" in found[0.1]["ended"]
+
+
+def test_tables_go_between_their_marks_and_nothing_else_changes():
+    page = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n<!-- begin y -->\nkept\n<!-- end y -->\n"
+    new = pages.replace(page, {"x": pages.table([{"h_s": 0.01, "e": None}], {"h_s": "g", "e": ".1f"}), "z": "nowhere"})
+    assert new == page.replace("old", "| h s | e |\n| --- | --- |\n| 0.01 | – |")
