@@ -116,14 +116,9 @@ def _mass(system: mbs.System) -> np.ndarray:
 
 def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[str, Any]:
     """One run of the kernel; eps None takes the default settings."""
-    case, window = (
-        CASES[scene],
-        Window.of(
-            scene,
-            h,
-            max(1000, min(case.most_steps, COORDINATE_STEPS * case.most_steps // (MOST_STEPS * system_of(scene).nq))),
-        ),
-    )
+    case = CASES[scene]
+    affordable = case.most_steps * COORDINATE_STEPS // (MOST_STEPS * system_of(scene).nq)
+    window = Window.of(scene, h, max(1000, min(case.most_steps, affordable)))
     settings = mbs.Settings(method=method) if eps is None else mbs.Settings(method=method, alpha=1.0 / (eps * h * h))
     row = _row(scene, TITLES.get(method, method), h, "eps = 1/(alpha h^2)", eps, window)
     try:
