@@ -192,12 +192,17 @@ def system_of(name: str) -> mbs.System:
 
 
 @cache
-def _exact(name: str, end: float, samples: int) -> Array:
-    case, t = CASES[name], np.linspace(0.0, end, samples + 1)
+def _motion(name: str) -> Callable[[Array], Array]:
+    case = CASES[name]
     if case.exact is not None:
-        return case.exact(t)
-    stiff = not case.conservative
-    return references.minimum_norm(system_of(name), case.sensors, t, stiff=stiff)
+        return case.exact
+    longest = max(case.end, case.map_end)
+    return references.minimum_norm_motion(system_of(name), case.sensors, longest, stiff=not case.conservative)
+
+
+@cache
+def _exact(name: str, end: float, samples: int) -> Array:
+    return _motion(name)(np.linspace(0.0, end, samples + 1))
 
 
 def exact_of(name: str, end: float | None = None, samples: int = SAMPLES) -> Array:
