@@ -72,7 +72,9 @@ def work_blocks(rows: Sequence[Row]) -> dict[str, str]:
             line["finished"] = f"{sum(r['ended'] == 'finished' for r in runs)} of {len(runs)}"
             times.append(line)
     columns_2 = {"scene": "", "method": ""} | {f"{level:.0e} m": ".3g" for level in LEVELS} | {"finished": ""}
-    return {"ratios": table(ratios, columns | {"ahead": ""}) + "\n\n" + said, "times": table(times, columns_2)}
+    charts = "\n".join(f"![{CASES[s].title}](images/work_{s}.png)\n" for s in scenes)
+    ratio_table = table(ratios, columns | {"ahead": ""}) + "\n\n" + said
+    return {"ratios": ratio_table, "times": table(times, columns_2), "work charts": charts}
 
 
 def _ms(wall: float | None) -> float | None:

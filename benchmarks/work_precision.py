@@ -165,9 +165,8 @@ def time_at_error(rows: Sequence[dict[str, Any]], method: str, level: float) -> 
 
     A run that is better than asked for counts at its own time: no curve is extended.
     """
-    points = sorted(
-        (r["wall_s"], r["position_error_m"]) for r in rows if r["method"] == method and r["wall_s"] is not None
-    )
+    found = [(r["wall_s"], r["position_error_m"]) for r in rows if r["method"] == method]
+    points = sorted((wall, error) for wall, error in found if wall is not None and error is not None)
     best = min((w for w, e in points if e <= level), default=None)
     for (w0, e0), (w1, e1) in pairwise(points):
         if e0 > level >= e1 > 0.0:
