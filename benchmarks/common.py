@@ -16,7 +16,7 @@ import numpy as np
 
 from mbs.settings import Settings
 
-PACKAGES = ("ali3", "numpy", "scipy", "fmpy", "pythonfmu", "ziglang")
+PACKAGES = ("ali3", "numpy", "scipy", "fmpy", "pythonfmu", "ziglang", "exudyn", "mujoco")
 
 
 def machine() -> dict[str, Any]:

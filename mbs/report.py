@@ -24,6 +24,8 @@ class Report:
         ``max |Phi|`` of the last step, m.
     velocity_violation : float
         ``max |Phi_q qd + Phi_t|`` of the last step after projection, m/s.
+    energy_jump : float
+        Change of the kinetic energy by the last switching of rows, J.
     """
 
     steps: int
@@ -38,6 +40,7 @@ class Report:
     residual: float
     violation: float
     velocity_violation: float
+    energy_jump: float = 0.0
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:

@@ -6,6 +6,15 @@ import math
 from dataclasses import asdict, dataclass
 
 UPDATES = ("linearised", "paper")
+METHODS = {
+    "ali3p": {"method": 0},
+    "ali3p_no_projection": {"method": 0, "project": 0},
+    "ali3p_generalised_alpha": {"method": 1},
+    "energy_momentum": {"method": 2},
+    "energy_momentum_4": {"method": 3},
+    "runge_kutta_8": {"method": 4},
+}
+"""Names of the methods and what each sets in the kernel."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +44,15 @@ class Settings:
         the round-off of Phi to the multipliers: `tolerance_r` must then be well above ``1e-16 / eps_rel``.
     geometric : bool
         Exact geometric term of the quadratic constraints in the tangent (23).
+    method : str
+        One of `METHODS`: "ali3p" the paper's, trapezoidal rule with projections; "ali3p_no_projection" without them;
+        "ali3p_generalised_alpha" with the dissipative rule of Chung and Hulbert; "energy_momentum" keeps the energy of
+        a conservative model and takes out of any other what its dampers take; "energy_momentum_4" composes five such
+        steps to order four, for conservative models without element states only;
+        "runge_kutta_8" is explicit, of order eight, for smooth motion without stiff forces, element states or singular
+        positions.
+    rho_infinity : float
+        Of generalised-alpha: what a step leaves of an infinitely fast oscillation, 0 to 1.
     """
 
     alpha: float = 0.0
@@ -46,6 +64,8 @@ class Settings:
     project: bool = True
     update: str = "linearised"
     geometric: bool = True
+    method: str = "ali3p"
+    rho_infinity: float = 0.8
 
     def __post_init__(self) -> None:
         for name, value in asdict(self).items():
@@ -65,10 +85,15 @@ class Settings:
         if self.update not in UPDATES:
             raise ValueError(f"Setting 'update' is {self.update!r}; it must be one of {', '.join(map(repr, UPDATES))}.")
 
+        if self.method not in METHODS:
+            raise ValueError(f"Setting 'method' is {self.method!r}; it must be one of {', '.join(map(repr, METHODS))}.")
+        if not 0.0 <= self.rho_infinity <= 1.0:
+            raise ValueError(f"Setting 'rho_infinity' is {self.rho_infinity}; it must lie between 0 and 1.")
+
     def kernel_fields(self) -> dict[str, float | int]:
         """Values by the field names of `ali3_settings`."""
         fields: dict[str, float | int] = asdict(self)
         fields["project"] = int(self.project)
         fields["geometric"] = int(self.geometric)
         fields["update"] = UPDATES.index(self.update)
-        return fields
+        return fields | METHODS[self.method]

@@ -5,19 +5,20 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mbs.input_signals import InputSignals, Signal
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import WRONG_METHOD, Instance, KernelError, LoadedSystem
 from mbs.progress import progress_for
 from mbs.report import Report
 from mbs.settings import Settings
 from mbs.system import System
 from mbs.trajectory import Trajectory
 
+SINGULAR = {"switches": "switch"}
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -151,6 +152,29 @@ class Simulation:
             )
         self.instance.set_parameter(index, value)
 
+    def set_switch(self, name: str, on: bool) -> float:
+        """Turn the rows of a switch on or off.
+
+        Rows that go on hold the values they have at this moment; velocities go to the nearest ones that satisfy them,
+        as in an impact without rebound.
+
+        Returns
+        -------
+        float
+            Change of the kinetic energy, J.
+        """
+        index = self._index("switches", name)
+        before = self.instance.get_switch(index)
+        self._call(
+            f"Switch {name!r} could not be turned {'on' if on else 'off'} at t = {self.time:g} s",
+            lambda: self.instance.set_switch(index, on),
+        )
+        return self.report.energy_jump if before != bool(on) else 0.0
+
+    def switch(self, name: str) -> bool:
+        """Whether the rows of a switch are on."""
+        return self.instance.get_switch(self._index("switches", name))
+
     def static_equilibrium(self, tolerance: float = 1e-6, max_iterations: int = 1000) -> None:
         """Move to the static equilibrium near the present position, all velocities zero, time unchanged.
 
@@ -252,7 +276,9 @@ class Simulation:
     def _index(self, kind: str, name: str) -> int:
         names = [entry["name"] for entry in self._meta[kind]]
         if name not in names:
-            raise ValueError(f"There is no {kind[:-1]} {name!r}; the System has: {', '.join(names) or 'none'}.")
+            raise ValueError(
+                f"There is no {SINGULAR.get(kind, kind[:-1])} {name!r}; the System has: {', '.join(names) or 'none'}."
+            )
         return names.index(name)
 
     def _call(self, what: str, action: Callable[[], object]) -> None:
@@ -264,6 +290,10 @@ class Simulation:
     def _error(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
         report = self.instance.report()
         message = f"{what}: {error.message}"
+        if error.status == WRONG_METHOD:
+            return SimulationError(
+                f"{message} The method is {self.settings.method!r}.", self.time, error.status, trajectory
+            )
         row, coordinate = int(report["worst_row"]), int(report["worst_coordinate"])
         if not report["factorizations"]:  # refused before anything was solved
             return SimulationError(message, self.time, error.status, trajectory)
@@ -285,6 +315,7 @@ def simulate(
     progress: bool | Callable[[float], None] | None = None,
     t0: float = 0.0,
     pose: Pose | None = None,
+    method: str | None = None,
 ) -> Trajectory:
     """Step a System from `t0` to `t_end` in equal steps.
 
@@ -312,6 +343,8 @@ def simulate(
         First time, s.
     pose : Pose, optional
         Start of a scene that is not tied to the ground.
+    method : str, optional
+        Name of the method, see `Settings`; in place of the one that `settings` names.
 
     Returns
     -------
@@ -324,6 +357,8 @@ def simulate(
         When a step fails; its `trajectory` holds what was recorded.
     """
     _check_step(h)
+    if method is not None:
+        settings = replace(settings or Settings(), method=method)
     signals = InputSignals(inputs or {}, system.meta["inputs"])
     start = signals.at(np.array([t0]), 1e-6 * h, after_jump=True)[0]
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]

@@ -49,6 +49,9 @@ def compile(model: Model) -> System:
     natural = natural_coordinates(model)
     kept, full, of_z, redundant = reduce_coordinates(natural, linear, model.grounded)
     candidates = [row_terms(e, j, k, full) for j, k, e in others]
+    for row in candidates:
+        switch = model.joints[row.joint].switch
+        row.switch = -1 if switch is None else switch.index
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
     rows, dependent = independent_rows(candidates, joints_of_bodies(model))
     if not kept:
@@ -65,9 +68,11 @@ def compile(model: Model) -> System:
     arrays = RowArrays(rows, new)
 
     guides, guide_rates = guide_start(model)
+    holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
+    start = RowArrays(holding, new)
     drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
-    q = close_position(rows, arrays, mass, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
-    qd = velocity(model, full, T, q[new], mass, order, arrays, guides, guide_rates)
+    q = close_position(holding, start, mass, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
+    qd = velocity(model, full, T, q[new], mass, order, start, guides, guide_rates)
     _, Phiq, _ = arrays.evaluate(q, guides)
     scale, measure = row_scale(rows, Phiq, mass.diagonal())
     arrays.scale(scale)
@@ -88,6 +93,8 @@ def compile(model: Model) -> System:
         **arrays.arrays,
         "row_scale": scale,
         "row_measure": measure,
+        "row_switch": [row.switch for row in rows],
+        "switch_start": [int(s.on) for s in model.switches],
         **row_fronts(arrays, locate),
         **front_arrays(fronts),
         **element_arrays(model, signals, locate),
@@ -97,7 +104,7 @@ def compile(model: Model) -> System:
         **signals.arrays(),
     }
     report = {
-        **structure_report(model, fronts, rank_at(Phiq, mass.diagonal()), len(rows)),
+        **structure_report(model, fronts, rank_at(start.evaluate(q, guides)[1], mass.diagonal()), len(rows)),
         "linear_equations": len(linear),
         "redundant_equations": redundant,
         "dependent_rows": dependent,

@@ -31,7 +31,7 @@ def independent_rows(rows: list[RowTerms], joints: Mapping[str, Sequence[str]]) 
     normal: dict[int, dict[Monomial, float]] = {}
     for i, row in enumerate(rows):
         if not row.plain:
-            keep.add(i)  # angle and guide rows bring a variable of their own
+            keep.add(i)  # angle and guide rows bring a variable of their own, switched rows come and go
             continue
         size = max((abs(v) for m, v in row.main.items() if m != CONSTANT), default=0.0)
         if size == 0.0:

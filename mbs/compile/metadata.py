@@ -40,6 +40,7 @@ def metadata(model: Model, coordinates: list[str], rows: list[RowTerms], report:
             }
             for e in model.elements
         ],
+        "switches": [{"name": s.name} for s in model.switches],
         "guides": [g.name for g in model.guides],
         "report": report,
         "experiment": {"stop_time_s": model.stop_time, "step_s": model.step},

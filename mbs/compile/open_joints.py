@@ -24,6 +24,8 @@ def joint_gaps(model: Model, q_full: Array) -> dict[str, float]:
             rigid[part] = _rigid_axes(body, rigid[part])
     gaps = {}
     for joint in model.joints:
+        if joint.switch is not None and not joint.switch.on:
+            continue
         values = [e.linear_form().value(rigid) for e in joint.equations if e.is_linear]
         gaps[joint.name] = float(np.linalg.norm(values)) if values else 0.0
     return gaps

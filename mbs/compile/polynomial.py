@@ -33,6 +33,8 @@ class RowTerms:
     cosine, sine : Polynomial
         C and S of the angle part.
     guides : list of (guide, power, Polynomial)
+    switch : int
+        Number of the switch that turns it on and off, or -1.
     """
 
     name: str
@@ -44,11 +46,12 @@ class RowTerms:
     cosine: Polynomial = field(default_factory=dict)
     sine: Polynomial = field(default_factory=dict)
     guides: list[tuple[int, int, Polynomial]] = field(default_factory=list)
+    switch: int = -1
 
     @property
     def plain(self) -> bool:
-        """Whether it is a quadratic alone."""
-        return self.theta < 0 and not self.guides
+        """Whether it is a quadratic alone that always holds."""
+        return self.theta < 0 and not self.guides and self.switch < 0
 
     def columns(self) -> list[int]:
         """Coordinates it depends on, ascending."""

@@ -14,9 +14,18 @@ from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int
 from pathlib import Path
 from typing import Any
 
-BAD_ARGUMENT, BAD_FILE, BAD_STATE, NO_MEMORY, NOT_INITIALISED, NOT_ASSEMBLED, NOT_CONVERGED, SINGULAR, NOT_FINITE = (
-    range(1, 10)
-)
+(
+    BAD_ARGUMENT,
+    BAD_FILE,
+    BAD_STATE,
+    NO_MEMORY,
+    NOT_INITIALISED,
+    NOT_ASSEMBLED,
+    NOT_CONVERGED,
+    SINGULAR,
+    NOT_FINITE,
+    WRONG_METHOD,
+) = range(1, 11)
 """Codes of `ali3_status` beside 0."""
 
 
@@ -45,12 +54,13 @@ class SettingsFields(Structure):
         ("eps_rel", c_double),
         ("tolerance_r", c_double),
         ("tolerance_phi", c_double),
+        ("rho_infinity", c_double),
         ("max_iterations", c_int32),
         ("max_halvings", c_int32),
         ("project", c_int32),
         ("update", c_int32),
         ("geometric", c_int32),
-        ("reserved", c_int32),
+        ("method", c_int32),
     )
 
 
@@ -73,6 +83,7 @@ class ReportFields(Structure):
         ("velocity_violation", c_double),
         ("worst_row", c_int32),
         ("worst_coordinate", c_int32),
+        ("energy_jump", c_double),
     )
 
 
@@ -83,7 +94,7 @@ class Sizes(Structure):
         (name, c_int32)
         for name in (
             *("nq", "nc", "nu", "ng", "ne", "ny", "ns", "np", "nout", "nf", "front_size", "nnz_mass", "nnz_rows"),
-            *("nsig", "has_pose", "reserved"),
+            *("nsig", "has_pose", "n_switch"),
         )
     )
 
@@ -107,6 +118,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),
     "ali3_set_pose": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double]),
     "ali3_set_q": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
+    "ali3_set_switch": (c_int32, [c_void_p, c_int32, c_int32]),
+    "ali3_get_switch": (c_int32, [c_void_p, c_int32, POINTER(c_int32)]),
     "ali3_initialise": (c_int32, [c_void_p, c_double]),
     "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
     "ali3_step": (c_int32, [c_void_p, c_double]),
@@ -257,7 +270,7 @@ class Instance:
         """Present settings by field name."""
         fields = SettingsFields()
         self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
-        return {name: getattr(fields, name) for name, _ in SettingsFields._fields_ if name != "reserved"}
+        return {name: getattr(fields, name) for name, _ in SettingsFields._fields_}
 
     def set_settings(self, **values: float) -> None:
         """Change the settings named; the others stay."""
@@ -265,7 +278,7 @@ class Instance:
         self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
         known = dict(SettingsFields._fields_)
         for name, value in values.items():
-            if name not in known or name == "reserved":
+            if name not in known:
                 raise TypeError(f"{name!r} is not a setting of the kernel.")
             setattr(fields, name, int(value) if known[name] is c_int32 else float(value))
         self._check(self._library.ali3_set_settings(self._handle, byref(fields)))
@@ -298,6 +311,16 @@ class Instance:
         """Coordinates (nq,) and rates (nq,) to start from; before `initialise`."""
         nq = self.system.sizes.nq
         self._check(self._library.ali3_set_q(self._handle, _numbers(q, nq, "q"), _numbers(qd, nq, "qd")))
+
+    def set_switch(self, index: int, on: bool) -> None:
+        """Rows of a switch on or off; those that go on hold the values they have now."""
+        self._check(self._library.ali3_set_switch(self._handle, index, int(on)))
+
+    def get_switch(self, index: int) -> bool:
+        """Whether the rows of a switch are on."""
+        on = c_int32()
+        self._check(self._library.ali3_get_switch(self._handle, index, byref(on)))
+        return bool(on.value)
 
     def initialise(self, t0: float = 0.0) -> None:
         """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from mbs.model.parameters import Parameter
     from mbs.model.sensors import Sensor
     from mbs.model.spin import Spin
+    from mbs.model.switches import Switch
 
 
 @dataclass(frozen=True)
@@ -82,6 +83,7 @@ class ModelCore:
         self.spins: list[Spin] = []
         self.inputs: list[Input] = []
         self.guides: list[Guide] = []
+        self.switches: list[Switch] = []
         self.roads: list[Any] = []
         self.sensors: list[Sensor] = []
         self.parameters: list[Parameter] = []

@@ -18,6 +18,7 @@ from mbs.model.inputs import Input, new_input
 from mbs.model.joints.distance import distance
 from mbs.model.joints.drive import drive
 from mbs.model.joints.joint import Joint
+from mbs.model.joints.pin import pin
 from mbs.model.joints.points import revolute, spherical, universal
 from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
 from mbs.model.parameters import Parameter, new_parameter
@@ -93,6 +94,12 @@ class Model(ForceVocabulary, SensorVocabulary):
     def drive(self, name: str, driven: Any, guide: Guide) -> Joint:
         """A coordinate, a component of a point, or the distance of a pair of ends follows a guide."""
         return self._join(drive(self, name, driven, guide))
+
+    def pin(self, name: str, body: Body, point: ArrayLike | None = None, *, on: bool = False) -> Joint:
+        """Hold a point of a body (default: its centre of mass) by a switch of the same name, which a running
+        `Simulation` turns on and off: it stays where it is at that moment. `on`: from the start, where it is drawn.
+        """
+        return self._join(pin(self, name, body, point, on))
 
     # --- coordinates ---
     def relative_angle(

@@ -17,7 +17,7 @@ REALS = {
 }  # fmt: skip
 INTS = {
     "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
-    "angle_row", "angle_theta", "angle_ptr", "angle_a", "angle_b", "gterm_row", "gterm_guide", "gterm_power",
+    "row_switch", "switch_start", "angle_row", "angle_theta", "angle_ptr", "angle_a", "angle_b", "gterm_row", "gterm_guide", "gterm_power",
     "gterm_a", "gterm_b", "front_col", "front_ptr", "front_idx", "front_parent", "front_map", "front_off", "sig_ptr",
     "sig_col", "el_type", "el_sig_ptr", "el_sig", "el_real_ptr", "el_int_ptr", "el_int", "el_state_ptr", "el_out_ptr",
     "el_front", "el_loc_ptr", "el_loc", "guide_type", "guide_input", "guide_real_ptr", "road_type", "road_real_ptr",
@@ -207,6 +207,7 @@ class SystemBuilder:
             size = np.linalg.norm(scale * self.gradient(row, self.q0))
             out["row_measure"].append(1.0 / size if size > 0 else 1.0)
             out["row_front"].append(f)
+            out["row_switch"].append(-1)
             for (i, j), h in row.quad.items():
                 out["quad_a"].append(where[max(i, j)])
                 out["quad_b"].append(where[min(i, j)])
@@ -227,6 +228,7 @@ class SystemBuilder:
                 out["angle_hs"].append(scale * hs)
             out["angle_ptr"].append(len(out["angle_a"]))
         a.update(out)
+        a["switch_start"] = []
 
     def _table_arrays(self, a: dict[str, object], fronts: list[list[int]], of: np.ndarray) -> None:
         def pointers(lengths: list[int]) -> np.ndarray:

@@ -30,6 +30,7 @@ typedef enum {
   ALI3_NOT_CONVERGED,     /* Newton iterations exhausted, also after halving the step */
   ALI3_SINGULAR,          /* the tangent could not be factorised */
   ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
+  ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -38,17 +39,27 @@ typedef struct ali3_instance ali3_instance;
 
 enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
 
+enum {                    /* ali3_settings.method */
+       ALI3_METHOD_ALI3P = 0,              /* trapezoidal rule with projections */
+       ALI3_METHOD_GENERALISED_ALPHA,      /* the same with generalised-alpha, rho_infinity */
+       ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
+       ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
+       ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
+       ALI3_METHOD_COUNT
+};
+
 typedef struct {
   double alpha;             /* penalty, 1/s^2; 0: rule alpha = 1/(eps_rel h^2) */
   double eps_rel;           /* used by the rule */
   double tolerance_r;       /* on max_i |r_i| / m_i, coordinate units (m) */
   double tolerance_phi;     /* on the constraint violation, m */
+  double rho_infinity;      /* generalised-alpha: share of an infinite frequency that a step leaves, 0 to 1 */
   int32_t max_iterations;
   int32_t max_halvings;     /* depth of step bisection; 0: never */
   int32_t project;          /* 1: velocity and acceleration projections (24), (25) */
   int32_t update;           /* ALI3_UPDATE_* */
   int32_t geometric;        /* 1: exact geometric term sum lam_k H_k in the tangent */
-  int32_t reserved;
+  int32_t method;           /* ALI3_METHOD_* */
 } ali3_settings;
 
 typedef struct {
@@ -58,10 +69,11 @@ typedef struct {
   double residual, violation;       /* of the last step: max |r_i|/m_i, max |Phi| in m */
   double velocity_violation;        /* max |Phi_q qd + Phi_t| * row_measure after projection */
   int32_t worst_row, worst_coordinate;
+  double energy_jump;               /* change of the kinetic energy by the last switching, J */
 } ali3_report;
 
 typedef struct {
-  int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, reserved;
+  int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, n_switch;
 } ali3_sizes;
 
 ALI3_API const char *ali3_status_text(ali3_status s); /* one sentence per code */
@@ -91,6 +103,10 @@ ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
+/* Rows of a switch on or off: before initialise as drawn; later they hold the values they have at that moment, the
+ * velocities are projected, accelerations and multipliers solved anew; report.energy_jump says what that took. */
+ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
+ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
 /* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
  * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);

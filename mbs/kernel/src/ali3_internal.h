@@ -21,7 +21,7 @@
   X(int32_t, 1, angle_row) X(int32_t, 1, angle_theta) X(int32_t, 1, angle_ptr) X(int32_t, 1, angle_a) \
   X(int32_t, 1, angle_b) X(double, 2, angle_hc) X(double, 2, angle_hs) \
   X(int32_t, 1, gterm_row) X(int32_t, 1, gterm_guide) X(int32_t, 1, gterm_power) X(int32_t, 1, gterm_a) \
-  X(int32_t, 1, gterm_b) X(double, 2, gterm_h) \
+  X(int32_t, 1, gterm_b) X(double, 2, gterm_h) X(int32_t, 1, row_switch) X(int32_t, 1, switch_start) \
   X(int32_t, 1, front_col) X(int32_t, 1, front_ptr) X(int32_t, 1, front_idx) X(int32_t, 1, front_parent) \
   X(int32_t, 1, front_map) X(int32_t, 1, front_off) \
   X(int32_t, 1, sig_ptr) X(int32_t, 1, sig_col) X(double, 2, sig_val) X(double, 2, sig_const) \
@@ -102,7 +102,20 @@ typedef struct {
   double *out, *potential;   /* of the last evaluation of the elements */
   double *used;              /* inputs as used in the last step */
   double *y_last, *h_last;   /* of the last step: slots at its start (ny), its size; 0 at a start */
+  double *on, *anchor;       /* switches: 0 or 1; nc where there are any: what a switched row holds */
+  /* of the methods that carry more than q, qd, qdd */
+  double *memory;            /* whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
+  double *own;               /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
+  double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
 } ali3_vectors;
+
+enum { ALI3_STAGES = 12 }; /* of runge_kutta.c */
+enum { ALI3_PAST = 4, ALI3_MEMORY_OWNER = 0, ALI3_MEMORY_COUNT, ALI3_MEMORY_TIME, ALI3_MEMORY = 2 + ALI3_PAST };
+
+/* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
+typedef struct {
+  double c, rate, wC;
+} ali3_rule;
 
 struct ali3_instance {
   const ali3_system *system;
@@ -112,23 +125,30 @@ struct ali3_instance {
   double t_base, h_last; /* time = t_base + count * h_last */
   int64_t count;
   int32_t initialised;
-  ali3_vectors now, next, start, tangent; /* tangent: a direction in the space of states */
+  /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
+  ali3_vectors now, next, start, whole, tangent;
+  ali3_rule rule;
+  bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
   size_t n_vector;
-  double *input, *input_work, *parameter;
+  double *input, *input_work, *parameter, *input_middle;
+  const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */
   double *el_real, *guide_real, *road_real; /* copies that parameters write to */
   ali3_road *road;
   /* work space */
-  double *D, *d0, *r, *x, *w;              /* nq */
-  double *Phi, *Phit, *gamma, *mu, *lam;   /* nc */
+  double *D, *d0, *r, *x, *w, *hat; /* nq */
+  double *stage; /* ALI3_STAGES x nq: accelerations */
+  double *middle, *rate; /* nq: position and velocity in the middle of the step */
+  double *J0, *A, *A_tangent; /* row pattern: Phi_q at the start, discrete derivative, where F was made */
+  double *Phi, *Phit, *gamma, *mu, *lam; /* nc */
   double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
-  double *F;                               /* front storage */
-  double *Q;                               /* nq */
-  double *u, *ud;                          /* signals */
-  double *S;                               /* signal tangents of all elements */
+  double *F; /* front storage */
+  double *Q; /* nq */
+  double *u, *ud; /* signals */
+  double *S; /* signal tangents of all elements */
   double *SB; /* one element: signals x coordinates */
   double *correction_q, *step_q, *correction_lam, *step_lam; /* of the last iteration */
-  double *local;                           /* one front */
-  double *shifted;                         /* nq */
+  double *local; /* one front */
+  double *shifted; /* nq */
   double *y_work, *out_work, *potential_work, *parameter_work;
 };
 
@@ -170,6 +190,7 @@ void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd,
                            double *gamma);
 void ali3_geometric(ali3_instance *in, const double *q, const double *s, const double *lam, double weight, double *F);
 void ali3_rows_square(ali3_instance *in, const double *J, double weight, double *F);
+void ali3_rows_product(ali3_instance *in, const double *A, const double *J, double weight, double *F);
 void ali3_rows_times(const ali3_system *S, const double *J, const double *x, double *out);
 void ali3_rows_transposed(const ali3_system *S, const double *J, const double *w, double *out); /* out = J' w */
 
@@ -184,9 +205,21 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call);
 void ali3_forces_tangent(ali3_instance *in, double *F);
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call);
 
+/* discrete_gradient.c */
+ali3_element_function *ali3_discrete_gradient(int32_t type); /* NULL: the middle of the step is exact or as good */
+
+/* discrete_rows.c */
+void ali3_discrete_rows(ali3_instance *in, const double *D, const double *q1, const ali3_vectors *from,
+                        const ali3_vectors *to);
+
 /* fronts.c */
 ali3_status ali3_factorise(ali3_instance *in, double *F);
 void ali3_solve(ali3_instance *in, const double *F, double *b);
+
+/* fronts_lu.c */
+void ali3_mirror(const ali3_instance *in, double *F);
+ali3_status ali3_factorise_lu(ali3_instance *in, double *F);
+void ali3_solve_lu(ali3_instance *in, const double *F, double *b);
 
 /* step.c */
 void ali3_mass_times(const ali3_system *S, const double *x, double *out);
@@ -201,9 +234,30 @@ bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
 /* accelerate.c */
 void ali3_accelerate(ali3_instance *in, int32_t iteration);
 
+/* energy_momentum.c */
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool report);
+void ali3_energy_momentum_report(ali3_instance *in);
+
+/* history.c */
+void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
+void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam);
+void ali3_history_append(ali3_instance *in, double h, const double *a);
+
+/* runge_kutta.c */
+ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h);
+
+/* composition.c */
+ali3_status ali3_composition(ali3_instance *in, double t, double h);
+ali3_status ali3_check_method(ali3_instance *in);
+
 /* initialise.c */
 ali3_status ali3_solve_initial(ali3_instance *in, double t);
-ali3_status ali3_solve_rates(ali3_instance *in);
+ali3_status ali3_solve_rates(ali3_instance *in, bool start);
+
+/* switches.c */
+void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J);
+void ali3_switch_carry(ali3_instance *in);
+void ali3_switch_values(const ali3_instance *in, double *v);
 
 /* statics.c */
 ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations);
@@ -218,5 +272,6 @@ void ali3_sensors_tangent(const ali3_instance *in, double *out);
 /* instance.c */
 ali3_status ali3_parameters_apply(ali3_instance *in);
 bool ali3_settings_valid(const ali3_settings *s);
+size_t ali3_vector_count(const ali3_sizes *z);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 #endif

@@ -110,6 +110,24 @@ static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
+/* A switched row is a quadratic alone. */
+static ali3_status check_switches(const ali3_system *s, ali3_message m) {
+  CHECK(check_length(m, "row_switch", s->n_row_switch, s->size.nc));
+  CHECK(ali3_check_indices(m, "row_switch", s->row_switch, s->size.nc, -1, s->n_switch_start));
+  CHECK(ali3_check_indices(m, "switch_start", s->switch_start, s->n_switch_start, 0, 2));
+  for (int32_t i = 0; i < s->n_switch_start; i++) {
+    int32_t k = 0;
+    while (k < s->size.nc && s->row_switch[k] != i) k++;
+    if (k == s->size.nc) return ali3_bad(m, "switch %d has no rows", (int)i);
+  }
+  for (int64_t i = 0; i < s->n_angle_row; i++)
+    if (s->row_switch[s->angle_row[i]] >= 0) return ali3_bad(m, "the angle row %d has a switch", (int)s->angle_row[i]);
+  for (int64_t t = 0; t < s->n_gterm_row; t++)
+    if (s->gterm_row[t] >= 0 && s->gterm_row[t] < s->size.nc && s->row_switch[s->gterm_row[t]] >= 0)
+      return ali3_bad(m, "the guided row %d has a switch", (int)s->gterm_row[t]);
+  return ALI3_OK;
+}
+
 ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
   const int32_t nc = s->size.nc;
   CHECK(check_length(m, "row_scale", s->n_row_scale, nc));
@@ -130,6 +148,7 @@ ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
       CHECK(check_term(m, "quad_a", s->quad_a[t], s->quad_b[t], s->row_ptr[k + 1] - s->row_ptr[k], 0));
   }
   CHECK(check_angles(s, m));
+  CHECK(check_switches(s, m));
   const int64_t nt = s->n_gterm_row;
   CHECK(check_length(m, "gterm_guide", s->n_gterm_guide, nt));
   CHECK(check_length(m, "gterm_power", s->n_gterm_power, nt));

@@ -74,6 +74,7 @@ void ali3_constraints(ali3_instance *in, const double *q, const double *s, doubl
     Phi[S->angle_row[i]] += cosine * across - sine * along;
     J[S->angle_theta_j[i]] -= sine * across + cosine * along;
   }
+  ali3_switch_rows(in, Phi, J);
 }
 
 /* Phit = d Phi / dt */
@@ -125,6 +126,7 @@ void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd,
     }
     gamma[S->angle_row[i]] += second + 2.0 * rate * first - rate * rate * value;
   }
+  ali3_switch_values(in, gamma);
 }
 
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */
@@ -185,6 +187,20 @@ void ali3_rows_square(ali3_instance *in, const double *J, double weight, double 
       double *column = block + (int64_t)S->row_loc[j] * n;
       const double factor = weight * J[j];
       for (int32_t i = j; i < end; i++) column[S->row_loc[i]] += factor * J[i];
+    }
+  }
+}
+
+/* F += weight * A' J, whole blocks. */
+void ali3_rows_product(ali3_instance *in, const double *A, const double *J, double weight, double *F) {
+  const ali3_system *S = in->system;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = S->row_ptr[k + 1];
+    double *block = F + S->front_off[f];
+    for (int32_t j = S->row_ptr[k]; j < end; j++) {
+      double *column = block + (int64_t)S->row_loc[j] * n;
+      const double factor = weight * J[j];
+      for (int32_t i = S->row_ptr[k]; i < end; i++) column[S->row_loc[i]] += factor * A[i];
     }
   }
 }

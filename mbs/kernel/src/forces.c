@@ -42,7 +42,7 @@ static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, d
   a->wK = call->wK;
   a->real = in->el_real + S->el_real_ptr[e];
   a->integer = S->el_int + S->el_int_ptr[e];
-  a->input = in->input;
+  a->input = in->force_input;
   a->roads = in->road;
   a->f = f;
   a->S = NULL;
@@ -62,7 +62,8 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
       a.S = in->S + S->el_S_off[e];
       memset(a.S, 0, (size_t)(a.nsig * a.nsig) * sizeof(double));
     }
-    S->el_kind[e]->evaluate(&a);
+    ali3_element_function *discrete = in->discrete ? ali3_discrete_gradient(S->el_type[e]) : NULL;
+    (discrete != NULL ? discrete : S->el_kind[e]->evaluate)(&a);
     call->potential[e] = a.potential;
     for (int32_t i = 0; i < a.nsig; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];

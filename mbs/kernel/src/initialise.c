@@ -110,8 +110,9 @@ static ali3_status close_velocity(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* Velocities of in->now made consistent, then forces, accelerations and multipliers. */
-ali3_status ali3_solve_rates(ali3_instance *in) {
+/* Velocities of in->now made consistent, then forces, accelerations and multipliers; at a start also discrete states,
+ * such as a gear, that fit it. */
+ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
@@ -124,9 +125,11 @@ ali3_status ali3_solve_rates(ali3_instance *in) {
   memcpy(v->y_last, v->y, (size_t)S->size.ny * sizeof(double));
   v->h_last[0] = 0.0;
   ali3_forces(in, &call);
-  ali3_forces_accept(in, &call); /* discrete states, such as a gear, that fit the start */
-  memcpy(v->y, in->y_work, (size_t)S->size.ny * sizeof(double));
-  ali3_forces(in, &call);
+  if (start) {
+    ali3_forces_accept(in, &call);
+    memcpy(v->y, in->y_work, (size_t)S->size.ny * sizeof(double));
+    ali3_forces(in, &call);
+  }
   if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
   status = solve_index_one(in, in->Q, in->gamma, v->qdd, v->lam);
   return status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector) ? ALI3_NOT_FINITE : status;
@@ -135,5 +138,5 @@ ali3_status ali3_solve_rates(ali3_instance *in) {
 ali3_status ali3_solve_initial(ali3_instance *in, double t) {
   ali3_guides_start(in, &in->now, t);
   const ali3_status status = close_position(in);
-  return status == ALI3_OK ? ali3_solve_rates(in) : status;
+  return status == ALI3_OK ? ali3_solve_rates(in, true) : status;
 }

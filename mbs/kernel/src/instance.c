@@ -16,6 +16,7 @@ const char *ali3_status_text(ali3_status s) {
       "the iteration did not converge, also not in smaller steps",
       "the tangent is singular",
       "a number that is not finite appeared",
+      "this method takes no element states or filtered guides and, if it also steps backwards in time, no damping",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -42,6 +43,18 @@ static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
   v->used = take(pool, (size_t)z->nu);
   v->y_last = take(pool, (size_t)z->ny);
   v->h_last = take(pool, 1);
+  v->on = take(pool, (size_t)z->n_switch);
+  v->anchor = take(pool, z->n_switch > 0 ? (size_t)z->nc : 0);
+  v->memory = take(pool, ALI3_MEMORY);
+  v->own = take(pool, (size_t)z->nq);
+  v->past_a = take(pool, ALI3_PAST * (size_t)z->nq);
+  v->past_lam = take(pool, ALI3_PAST * (size_t)z->nc);
+}
+
+size_t ali3_vector_count(const ali3_sizes *z) {
+  return (4 + ALI3_PAST) * (size_t)z->nq + (1 + ALI3_PAST) * (size_t)z->nc + 2 * (size_t)z->ny + 3 * (size_t)z->ng +
+         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + (size_t)z->n_switch + (z->n_switch > 0 ? (size_t)z->nc : 0) +
+         ALI3_MEMORY + 1;
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
@@ -62,12 +75,12 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   if (s == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &s->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ny = (size_t)z->ny, nout = (size_t)z->nout, ne = (size_t)z->ne;
-  const size_t n_vector = 3 * nq + nc + 2 * ny + 3 * (size_t)z->ng + nout + ne + (size_t)z->nu + 1;
+  const size_t n_vector = ali3_vector_count(z);
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
-  const size_t total = 4 * n_vector + 2 * nu + 2 * np + data + 8 * nq + 7 * nc + 2 * (size_t)z->nnz_rows +
-                       (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
-                       nout + ne;
+  const size_t total = 5 * n_vector + 3 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
+                       5 * (size_t)z->nnz_rows + (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work +
+                       (size_t)s->max_front + ny + nout + ne;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u;
   *out = NULL;
@@ -82,9 +95,12 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   place_vectors(z, &in->now, &pool);
   place_vectors(z, &in->next, &pool);
   place_vectors(z, &in->start, &pool);
+  place_vectors(z, &in->whole, &pool);
   place_vectors(z, &in->tangent, &pool);
   in->input = take(&pool, nu);
   in->input_work = take(&pool, nu);
+  in->input_middle = take(&pool, nu);
+  in->force_input = in->input;
   in->parameter = take(&pool, np);
   in->parameter_work = take(&pool, np);
   in->el_real = take(&pool, (size_t)s->n_el_real);
@@ -96,6 +112,10 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->x = take(&pool, nq);
   in->w = take(&pool, nq);
   in->shifted = take(&pool, nq);
+  in->hat = take(&pool, nq);
+  in->middle = take(&pool, nq);
+  in->rate = take(&pool, nq);
+  in->stage = take(&pool, ALI3_STAGES * nq);
   in->Q = take(&pool, nq);
   in->Phi = take(&pool, nc);
   in->Phit = take(&pool, nc);
@@ -108,6 +128,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->step_lam = take(&pool, nc);
   in->J = take(&pool, (size_t)z->nnz_rows);
   in->J_tangent = take(&pool, (size_t)z->nnz_rows);
+  in->J0 = take(&pool, (size_t)z->nnz_rows);
+  in->A = take(&pool, (size_t)z->nnz_rows);
+  in->A_tangent = take(&pool, (size_t)z->nnz_rows);
   in->F = take(&pool, (size_t)z->front_size);
   in->u = take(&pool, (size_t)z->nsig);
   in->ud = take(&pool, (size_t)z->nsig);
@@ -131,7 +154,7 @@ void ali3_instance_free(ali3_instance *in) {
 }
 
 ali3_settings ali3_default_settings(void) {
-  const ali3_settings settings = {0.0, 1e-7, 1e-10, 1e-11, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1, 0};
+  const ali3_settings settings = {0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1, ALI3_METHOD_ALI3P};
   return settings;
 }
 
@@ -141,7 +164,8 @@ bool ali3_settings_valid(const ali3_settings *s) {
          s->max_iterations <= 1000 && s->max_halvings >= 0 && s->max_halvings <= 16 &&
          (s->project == 0 || s->project == 1) &&
          (s->update == ALI3_UPDATE_LINEARISED || s->update == ALI3_UPDATE_PAPER) &&
-         (s->geometric == 0 || s->geometric == 1);
+         (s->geometric == 0 || s->geometric == 1) && s->rho_infinity >= 0.0 && s->rho_infinity <= 1.0 &&
+         s->method >= 0 && s->method < ALI3_METHOD_COUNT;
 }
 
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
@@ -184,6 +208,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);
   copy(in->now.y, S->y0, S->size.ny);
+  for (int32_t k = 0; k < S->size.n_switch; k++) in->now.on[k] = (double)S->switch_start[k];
   copy(in->input, S->input_start, S->size.nu);
   copy(in->now.used, S->input_start, S->size.nu);
   copy(in->parameter, S->par_value, S->size.np);

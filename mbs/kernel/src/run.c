@@ -1,4 +1,6 @@
 /* The calls of ali3.h around the algorithms: start, step, run; the clock; what a refused call leaves behind. */
+#include <string.h>
+
 #include "ali3_internal.h"
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
@@ -9,6 +11,7 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
     in->report.failures++;
     return status;
   }
+  memset(in->now.memory, 0, ALI3_MEMORY * sizeof(double));
   in->t_base = t0;
   in->h_last = 0.0;
   in->count = 0;
@@ -34,8 +37,7 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
 
 double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
 
-ali3_status ali3_step(ali3_instance *in, double h) {
-  if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+static ali3_status step(ali3_instance *in, double h) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
@@ -55,21 +57,38 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   return ALI3_OK;
 }
 
+ali3_status ali3_step(ali3_instance *in, double h) {
+  if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+  const ali3_status status = ali3_check_method(in);
+  in->quiet = false;
+  return status == ALI3_OK ? step(in, h) : status;
+}
+
+/* After quiet steps the last good state may lack what only a reader needs. */
+static ali3_status give_up(ali3_instance *in, ali3_status status) {
+  if (in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM) ali3_energy_momentum_report(in);
+  return status;
+}
+
 ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every, double *out,
                      int64_t *done) {
   if (done != NULL) *done = 0;
-  if (in == NULL || n_steps < 0 || every < 1) return ALI3_BAD_ARGUMENT;
+  if (in == NULL || n_steps < 0 || every < 1 || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const int32_t nu = in->system->size.nu, ns = in->system->size.ns;
+  const ali3_status method = ali3_check_method(in);
+  if (method != ALI3_OK) return method;
   for (int64_t n = 0; n < n_steps; n++) {
     if (inputs != NULL)
       for (int32_t i = 0; i < nu; i++) {
         const ali3_status status = ali3_set_input(in, i, inputs[n * nu + i]);
-        if (status != ALI3_OK) return status;
+        if (status != ALI3_OK) return give_up(in, status);
       }
-    const ali3_status status = ali3_step(in, h);
-    if (status != ALI3_OK) return status;
+    const bool recorded = out != NULL && (n + 1) % every == 0;
+    in->quiet = !recorded && n + 1 < n_steps;
+    const ali3_status status = step(in, h);
+    if (status != ALI3_OK) return give_up(in, status);
     if (done != NULL) *done = n + 1;
-    if (out != NULL && (n + 1) % every == 0) ali3_sensors_evaluate(in, out + ((n + 1) / every - 1) * ns);
+    if (recorded) ali3_sensors_evaluate(in, out + ((n + 1) / every - 1) * ns);
   }
   return ALI3_OK;
 }

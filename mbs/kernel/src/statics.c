@@ -115,5 +115,5 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   if (!(last <= tolerance && in->report.violation <= CLOSED)) return ALI3_NOT_CONVERGED;
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
-  return ali3_solve_rates(in);
+  return ali3_solve_rates(in, true);
 }

@@ -78,24 +78,25 @@ double ali3_project(ali3_instance *in, double factor, const double *b, double *v
 static void evaluate(ali3_instance *in, double h, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double c = 0.25 * h * h, rate = 2.0 / h;
+  const double c = in->rule.c, rate = in->rule.rate;
   ali3_vectors *to = &in->next;
   for (int32_t i = 0; i < nq; i++) {
     to->q[i] = in->now.q[i] + in->D[i];
-    to->qd[i] = rate * in->D[i] - in->now.qd[i];
+    to->qd[i] = rate * in->D[i] + in->hat[i];
     in->w[i] = in->D[i] - in->d0[i];
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
-  const ali3_force_call call = {to->q, to->qd, in->now.y, h, 0.5 * h, c, tangent, in->Q, to->y, to->out, to->potential};
+  const ali3_force_call call = {to->q,   to->qd, in->now.y, h,       in->rule.wC,  c,
+                                tangent, in->Q,  to->y,     to->out, to->potential};
   ali3_forces(in, &call);
   ali3_mass_times(S, in->w, in->r);
   for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
 }
 
 /* Residual with the multipliers; fills the report. Returns false when something is not finite. */
-static bool judge(ali3_instance *in, double h) {
+static bool judge(ali3_instance *in) {
   const ali3_system *S = in->system;
-  const double c = 0.25 * h * h;
+  const double c = in->rule.c;
   double largest = 0.0;
   ali3_rows_transposed(S, in->J, in->next.lam, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
@@ -111,10 +112,10 @@ static bool judge(ali3_instance *in, double h) {
 }
 
 /* One Newton correction (21) with the tangent (23) and the multiplier update. */
-static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration) {
+static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  const double c = 0.25 * h * h;
+  const double c = in->rule.c;
   double *lam = in->next.lam;
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J, c * alpha, in->F);
@@ -141,7 +142,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *it
   const ali3_settings *settings = &in->settings;
   evaluate(in, h, true);
   for (*iterations = 0; *iterations < settings->max_iterations;) {
-    const ali3_status status = correct(in, h, alpha, *iterations);
+    const ali3_status status = correct(in, alpha, *iterations);
     if (status != ALI3_OK) return status;
     ++*iterations;
     double *J = in->J;
@@ -150,36 +151,88 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *it
     evaluate(in, h, true);
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
-    if (!judge(in, h)) return ALI3_NOT_FINITE;
+    if (!judge(in)) return ALI3_NOT_FINITE;
     if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
       return ALI3_OK;
   }
   return ALI3_NOT_CONVERGED;
 }
 
+/* Trapezoidal rule (17), (18). */
+static void trapezoidal(ali3_instance *in, double h) {
+  const ali3_rule rule = {0.25 * h * h, 2.0 / h, 0.5 * h};
+  in->rule = rule;
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
+    in->d0[i] = h * in->now.qd[i] + rule.c * in->now.qdd[i];
+    in->hat[i] = -in->now.qd[i];
+  }
+}
+
+/* Generalised-alpha of Chung and Hulbert in the form of Arnold and Bruels: an algorithmic acceleration a (in->now.own)
+ * with (1 - am) a1 + am a0 = (1 - af) qdd1 + af qdd0; the balance of forces holds at the end of the step. */
+typedef struct {
+  double am, af, beta, gamma;
+} ali3_alpha;
+
+static ali3_alpha alpha_of(double rho) {
+  const double am = (2.0 * rho - 1.0) / (rho + 1.0), af = rho / (rho + 1.0), gamma = 0.5 + af - am;
+  const ali3_alpha x = {am, af, 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma};
+  return x;
+}
+
+static void generalised_alpha(ali3_instance *in, double h) {
+  const ali3_alpha x = alpha_of(in->settings.rho_infinity);
+  const double c = (1.0 - x.af) * x.beta * h * h / (1.0 - x.am), rate = x.gamma / (x.beta * h);
+  const ali3_rule rule = {c, rate, c * rate};
+  const ali3_vectors *from = &in->now;
+  in->rule = rule;
+  ali3_history_own(in, ALI3_METHOD_GENERALISED_ALPHA, from->qdd);
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
+    const double known = h * from->qd[i] + (0.5 - x.beta) * h * h * from->own[i];
+    in->d0[i] = known - c * (x.am * from->own[i] - x.af * from->qdd[i]) / (1.0 - x.af);
+    in->hat[i] = from->qd[i] + (1.0 - x.gamma) * h * from->own[i] -
+                 x.gamma / x.beta * (from->qd[i] + (0.5 - x.beta) * h * from->own[i]);
+  }
+}
+
+static void algorithmic_acceleration(ali3_instance *in, double h) {
+  const double beta = alpha_of(in->settings.rho_infinity).beta;
+  memcpy(in->next.memory, in->now.memory, ALI3_MEMORY * sizeof(double));
+  for (int32_t i = 0; i < in->system->size.nq; i++)
+    in->next.own[i] = (in->D[i] - h * in->now.qd[i] - (0.5 - beta) * h * h * in->now.own[i]) / (beta * h * h);
+}
+
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
 static ali3_status attempt(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double c = 0.25 * h * h, alpha = ali3_penalty(&in->settings, h);
+  const double alpha = ali3_penalty(&in->settings, h);
   ali3_vectors *from = &in->now, *to = &in->next;
+  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA;
   int32_t iterations = 0;
   ali3_guides_step(in, from, to, t, h);
-  for (int32_t i = 0; i < nq; i++) {
-    in->D[i] = h * from->qd[i] + 0.5 * h * h * from->qdd[i];
-    in->d0[i] = h * from->qd[i] + c * from->qdd[i];
-  }
+  ali3_switch_carry(in);
+  if (is_alpha)
+    generalised_alpha(in, h);
+  else
+    trapezoidal(in, h);
+  const double c = in->rule.c;
+  for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * from->qdd[i];
   memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
-  to->h_last[0] = h;
+  to->h_last[0] = is_alpha ? 0.0 : h; /* derivatives of a step are those of the trapezoidal rule */
   const ali3_status status = newton(in, h, alpha, &iterations);
   in->report.iterations += iterations;
   in->report.last_iterations = iterations;
   if (iterations > in->report.max_iterations) in->report.max_iterations = iterations;
   if (status != ALI3_OK) return status;
   for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;
-  const ali3_force_call call = {to->q, to->qd, from->y, h, 0.5 * h, c, false, in->Q, to->y, to->out, to->potential};
+  if (is_alpha)
+    algorithmic_acceleration(in, h);
+  else
+    to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_ALI3P;
+  const ali3_force_call call = {to->q, to->qd, from->y, h, in->rule.wC, c, false, in->Q, to->y, to->out, to->potential};
   ali3_forces_accept(in, &call);
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
@@ -196,9 +249,22 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   return ALI3_OK;
 }
 
+static ali3_status by_method(ali3_instance *in, double t, double h) {
+  switch (in->settings.method) {
+  case ALI3_METHOD_ENERGY_MOMENTUM:
+    return ali3_energy_momentum(in, t, h, in->now.used, 0.5, !in->quiet);
+  case ALI3_METHOD_ENERGY_MOMENTUM_4:
+    return ali3_composition(in, t, h);
+  case ALI3_METHOD_RUNGE_KUTTA_8:
+    return ali3_runge_kutta(in, t, h);
+  default:
+    return attempt(in, t, h);
+  }
+}
+
 /* A step to time t, in halves where it does not converge. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
-  const ali3_status status = attempt(in, t, h);
+  const ali3_status status = by_method(in, t, h);
   if (status == ALI3_OK || depth <= 0) return status;
   in->report.halvings++;
   const ali3_status first = ali3_advance(in, t - 0.5 * h, 0.5 * h, depth - 1);

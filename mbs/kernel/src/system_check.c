@@ -67,6 +67,7 @@ static ali3_status check_sizes(ali3_system *s, ali3_message m) {
   z->nnz_rows = (int32_t)s->n_row_col;
   z->nsig = (int32_t)s->n_sig_const;
   z->has_pose = s->n_pose_0 > 0;
+  z->n_switch = (int32_t)s->n_switch_start;
   s->nr = (int32_t)s->n_road_type;
   CHECK(check_length(m, "qd0", s->n_qd0, z->nq));
   CHECK(check_length(m, "gravity_force", s->n_gravity_force, z->nq));

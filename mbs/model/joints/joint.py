@@ -21,6 +21,8 @@ class Joint:
     equations : list of Equation
     keep : bool
         Its force equations stay rows so that the multipliers (the joint force) exist; a joint-force sensor sets it.
+    switch : Switch or None
+        What turns its rows on and off; None: they are always on.
     rows_weight : float
         Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
     normals : sequence of AffineVector
@@ -41,6 +43,7 @@ class Joint:
         self.rows_weight = rows_weight
         self.normals = tuple(normals)
         self.keep = False
+        self.switch: Any = None
 
     def __repr__(self) -> str:
         return f"<Joint {self.name!r} ({self.type})>"

@@ -1,0 +1,65 @@
+"""Index-1 Lagrange equations, stabilised after Baumgarte; by LU, or as a minimum-norm problem."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import scipy.linalg
+
+from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
+
+SINGULAR = 1e-14
+"""Reciprocal condition below which the bordered matrix counts as singular."""
+CUT = 1e-6
+"""Share of the largest singular value below which the minimum-norm solver drops a direction."""
+
+
+class Lagrange:
+    """``[M Phi_q'; Phi_q 0] [qdd; lam] = [Q; -gamma - 2 b Phi' - b^2 Phi]``.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+    penalty : float
+        b, 1/s: both Baumgarte factors; the counterpart of the penalty.
+    minimum_norm : bool
+        Solve for the least acceleration (in the metric of M) that the rows allow beside the free one, so that
+        redundant rows pass; LU otherwise.
+    """
+
+    def __init__(self, mechanism: Mechanism, penalty: float = 10.0, minimum_norm: bool = False) -> None:
+        self.mechanism = mechanism
+        self.b = penalty
+        self.minimum_norm = minimum_norm
+        self.root = np.linalg.cholesky(mechanism.M + np.diag(_missing(mechanism.M)))
+
+    def rates(self, t: float, x: Array) -> Array:
+        """x' of x = (q, qd)."""
+        m = self.mechanism
+        q, qd = x[: m.nq], x[m.nq :]
+        phi, J, gamma, Q = m.evaluate(t, q, qd)
+        right = -gamma - 2.0 * self.b * (J @ qd) - self.b**2 * phi
+        m.factorizations += 1
+        if self.minimum_norm:
+            # qdd = free + L^-T y with y the least one that J L^-T y = right - J free allows
+            free = scipy.linalg.cho_solve((self.root, True), Q)
+            scaled = scipy.linalg.solve_triangular(self.root, J.T, lower=True).T
+            y = np.linalg.lstsq(scaled, right - J @ free, rcond=CUT)[0]
+            return np.concatenate([qd, free + scipy.linalg.solve_triangular(self.root, y, lower=True, trans="T")])
+        bordered = np.block([[m.M, J.T], [J, np.zeros((m.nc, m.nc))]])
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
+                lu, pivots = scipy.linalg.lu_factor(bordered, check_finite=False)
+        except np.linalg.LinAlgError:
+            raise RefusedError(f"bordered matrix exactly singular; {m.rank(t, q)}", t) from None
+        reciprocal = scipy.linalg.lapack.dgecon(lu, np.linalg.norm(bordered, 1))[0]
+        if not reciprocal > SINGULAR:
+            raise RefusedError(f"bordered matrix singular (1/condition {reciprocal:.0e}); {m.rank(t, q)}", t)
+        return np.concatenate([qd, scipy.linalg.lu_solve((lu, pivots), np.concatenate([Q, right]))[: m.nq]])
+
+
+def _missing(M: Array) -> Array:
+    """A unit where a coordinate has no mass at all."""
+    return np.where(np.abs(M).sum(axis=1) > 0.0, 0.0, 1.0)

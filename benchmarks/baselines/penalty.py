@@ -1,0 +1,75 @@
+"""Penalty and index-1 augmented Lagrangian formulations (E. Bayo and co-workers): no multipliers as unknowns."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.linalg
+
+from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
+
+DAMPING, FREQUENCY = 1.0, 10.0  # of the constraint oscillators, -, 1/s
+ITERATIONS, SETTLED = 30, 1e-10
+PROJECTIONS, CLOSED = 5, 1e-12
+
+
+class Penalty:
+    """``(M + Phi_q' a Phi_q) qdd = Q - Phi_q' a (gamma + 2 z w Phi' + w^2 Phi)``.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+    penalty : float
+        a, of the mass-normalised rows.
+    augmented : bool
+        Iterate on the accelerations until the rows are met (index-1 augmented Lagrangian) and project positions and
+        velocities onto the constraints, in the metric of M, after each step.
+    """
+
+    def __init__(self, mechanism: Mechanism, penalty: float = 1e7, augmented: bool = False) -> None:
+        self.mechanism = mechanism
+        self.a = penalty
+        self.augmented = augmented
+
+    def rates(self, t: float, x: Array) -> Array:
+        """x' of x = (q, qd)."""
+        m = self.mechanism
+        q, qd = x[: m.nq], x[m.nq :]
+        phi, J, gamma, Q = m.evaluate(t, q, qd)
+        factor = self._factor(t, J)
+        right = J.T @ (self.a * (gamma + 2.0 * DAMPING * FREQUENCY * (J @ qd) + FREQUENCY**2 * phi))
+        qdd = scipy.linalg.cho_solve(factor, Q - right)
+        for _ in range(ITERATIONS if self.augmented else 0):
+            # M qdd_new = M qdd - Phi_q' a Phi'' in the limit: multipliers that take over what the penalty left
+            new = scipy.linalg.cho_solve(factor, m.M @ qdd - right)
+            change = np.abs(new - qdd).max()
+            qdd = new
+            if change <= SETTLED * (1.0 + np.abs(qdd).max()):
+                break
+        return np.concatenate([qd, qdd])
+
+    def settle(self, t: float, x: Array) -> Array:
+        """Mass-orthogonal projection of positions and velocities after a step."""
+        if not self.augmented:
+            return x
+        m = self.mechanism
+        q, qd = x[: m.nq].copy(), x[m.nq :].copy()
+        for _ in range(PROJECTIONS):
+            phi, J, _, _ = m.evaluate(t, q, qd)
+            if np.abs(phi).max() < CLOSED:
+                break
+            q -= scipy.linalg.cho_solve(self._factor(t, J), J.T @ (self.a * phi))
+        J = m.evaluate(t, q, qd)[1]
+        factor = self._factor(t, J)
+        for _ in range(2):
+            qd -= scipy.linalg.cho_solve(factor, J.T @ (self.a * (J @ qd)))
+        return np.concatenate([q, qd])
+
+    def _factor(self, t: float, J: Array) -> tuple[Array, bool]:
+        m = self.mechanism
+        m.factorizations += 1
+        try:
+            return scipy.linalg.cho_factor(m.M + self.a * J.T @ J, lower=True)  # type: ignore[no-any-return]
+        except np.linalg.LinAlgError:
+            raise RefusedError(
+                f"M + a Phi_q' Phi_q lost its definiteness to round-off at a = {self.a:.0e}", t
+            ) from None

@@ -1,0 +1,215 @@
+"""The scenes of the charts: how each is built, what is compared, against what, and over which steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mbs
+from benchmarks import references
+from mbs.model import Model
+from mbs.scenes import (
+    bricard,
+    cart_pole,
+    double_four_bar,
+    flyball,
+    pendulum,
+    slider_crank,
+    spatial_chain,
+    spatial_slider_crank,
+    squeezer,
+)
+
+Array = NDArray[np.float64]
+SAMPLES = 50  # instants of a run at which errors are measured; steps are end / (SAMPLES k)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene to measure on.
+
+    Parameters
+    ----------
+    title : str
+        What it is and why it is here.
+    build : callable
+        Of the model.
+    sensors : tuple of str
+        Components of the output point.
+    end : float
+        s.
+    divisions : tuple of int
+        Steps per sample interval: h = end / (SAMPLES division).
+    exact : callable, optional
+        Output point (n, k) at times (n,); by default minimum-norm accelerations under DOP853.
+    map_end : float
+        End of a run of the stability maps, s.
+    conservative : bool
+        Without dissipation.
+    energy_stays : bool
+        Whether the energy should stay: also no motor.
+    most_steps : int
+        Of a run of the stability maps.
+    classical : bool
+        Whether the dense methods in Python are run.
+    """
+
+    title: str
+    build: Callable[[], Model]
+    sensors: tuple[str, ...]
+    end: float
+    divisions: tuple[int, ...]
+    exact: Callable[[Array], Array] | None
+    map_end: float
+    conservative: bool = True
+    energy_stays: bool = True
+    most_steps: int = 10000
+    classical: bool = True
+
+
+def _xy(name: str) -> tuple[str, ...]:
+    return f"{name}.position.x", f"{name}.position.y"
+
+
+def _four_bar(windows: int, divisions: tuple[int, ...]) -> Case:
+    return Case(
+        f"{windows}-four-bar: ten singular positions",
+        lambda: double_four_bar.build(windows),
+        _xy("B0"),
+        10.0,
+        divisions,
+        lambda t: references.four_bar(windows, t),
+        2.0,
+        classical=windows <= 2,
+    )
+
+
+CASES: dict[str, Case] = {
+    "pendulum": Case(
+        "pendulum: never singular",
+        pendulum.build,
+        _xy("bob"),
+        10.0,
+        (1, 2, 4, 10, 20, 40, 100, 200),
+        references.pendulum,
+        5.0,
+    ),
+    "pendulum_1000s": Case(
+        "pendulum over 1000 s: drift",
+        pendulum.build,
+        _xy("bob"),
+        1000.0,
+        (200, 400, 1000, 2000, 4000, 10000),
+        references.pendulum,
+        100.0,
+        classical=False,
+    ),
+    "double_four_bar": _four_bar(2, (1, 2, 4, 8, 20, 40, 100, 200, 400)),
+    "four_bar_40": _four_bar(40, (1, 2, 4, 8, 20, 40, 100, 200)),
+    "four_bar_200": _four_bar(200, (1, 2, 4, 8, 20, 40, 100)),
+    "squeezer": Case(
+        "Andrews' squeezer: a time scale of milliseconds",
+        squeezer.build,
+        _xy("F"),
+        0.05,
+        (1, 2, 4, 10, 20, 40, 100, 200),
+        None,
+        0.02,
+        energy_stays=False,
+    ),
+    "bricard": Case(
+        "Bricard's loop: redundant everywhere",
+        bricard.build,
+        tuple(f"P3.position.{c}" for c in "xyz"),
+        10.0,
+        (1, 2, 4, 8, 20, 40, 100, 200),
+        None,
+        2.0,
+    ),
+    "flyball": Case(
+        "stiff flyball governor: 27000 1/s in the dampers",
+        flyball.build,
+        ("slider.position.z",),
+        10.0,
+        (1, 2, 4, 8, 20, 40, 100, 200),
+        None,
+        2.0,
+        conservative=False,
+        energy_stays=False,
+        classical=False,
+    ),
+    "slider_crank": Case(
+        "slider-crank with equal arms: branch points",
+        slider_crank.build,
+        _xy("A"),
+        5.0,
+        (1, 2, 4, 10, 20, 40, 100, 200),
+        references.equal_arms,
+        2.0,
+    ),
+    "spatial_slider_crank": Case(
+        "spatial slider-crank",
+        spatial_slider_crank.build,
+        ("slider.position.x",),
+        5.0,
+        (1, 2, 4, 10, 20, 40, 100, 200),
+        references.spatial_crank,
+        2.0,
+    ),
+    "cart_pole": Case(
+        "cart-pole with a light cart: spikes of 4429 rad/s",
+        cart_pole.build,
+        _xy("bob"),
+        1.0,
+        (2, 20, 200, 2000, 20000),
+        references.light_cart,
+        0.6,
+        most_steps=1000000,
+        classical=False,
+    ),
+    "spatial_chain": Case(
+        "chain of ten links: smooth, no loop",
+        spatial_chain.build,
+        tuple(f"tip.position.{c}" for c in "xyz"),
+        10.0,
+        (1, 2, 4, 10, 20, 40, 100, 200, 400),
+        None,
+        2.0,
+    ),
+}
+SHARED = ("double_four_bar", "bricard", "spatial_chain", "four_bar_40", "four_bar_200")
+"""Scenes that the peers run too."""
+
+
+@cache
+def system_of(name: str) -> mbs.System:
+    """The compiled scene."""
+    return mbs.compile(CASES[name].build())
+
+
+@cache
+def _motion(name: str) -> Callable[[Array], Array]:
+    case = CASES[name]
+    if case.exact is not None:
+        return case.exact
+    longest = max(case.end, case.map_end)
+    return references.minimum_norm_motion(system_of(name), case.sensors, longest, stiff=not case.conservative)
+
+
+@cache
+def _exact(name: str, end: float, samples: int) -> Array:
+    return _motion(name)(np.linspace(0.0, end, samples + 1))
+
+
+def exact_of(name: str, end: float | None = None, samples: int = SAMPLES) -> Array:
+    """Output point (samples + 1, k) at equal intervals up to `end`."""
+    return _exact(name, CASES[name].end if end is None else end, samples)
+
+
+def size_of(name: str) -> float:
+    """Extent of the motion of the output point, m: what errors are compared with."""
+    return float(np.linalg.norm(np.ptp(exact_of(name), axis=0)))

@@ -1,0 +1,92 @@
+"""The PUMA 560 whose hand is pinned and released: ``python -m benchmarks.puma [--json FILE] [--quick]``.
+
+The paper's Table 2 beside ours: distance between the first and the last position of the hand, after eight seconds.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import mbs
+from benchmarks.common import describe, median_wall, print_table, write_json
+from mbs.scenes import puma
+
+PAPER = {0.01: (0.53e-3, 6.25), 0.05: (3.4e-3, 1.92), 0.1: (None, None)}  # s: (m, s), Table 2; 0.1: no convergence
+STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
+METHODS = ("ali3p", "energy_momentum")
+ROUNDS = 5
+TABLE = {
+    "method": "",
+    "h_s": "g",
+    "error_mm": ".3g",
+    "path_error_mm": ".3g",
+    "jump_close_J": ".2e",
+    "jump_open_J": ".2e",
+    "wall_s": ".2e",
+    "paper_error_mm": ".3g",
+    "paper_wall_s": ".3g",
+    "ended": "",
+}
+
+
+def measure(system: mbs.System, method: str, h: float, rounds: int) -> dict[str, Any]:
+    """One row; the wall time is that of the whole replay, with what Python does around the steps."""
+    paper, paper_wall = PAPER.get(h, (None, None))
+    row: dict[str, Any] = {
+        "method": method,
+        "h_s": h,
+        "error_mm": None,
+        "path_error_mm": None,
+        "jump_close_J": None,
+        "jump_open_J": None,
+        "wall_s": None,
+        "paper_error_mm": None if paper is None else 1e3 * paper,
+        "paper_wall_s": paper_wall,
+        "ended": "finished",
+    }
+    settings = mbs.Settings(method=method)
+    try:
+        found = puma.replay(system, h, settings)
+    except mbs.SimulationError as error:
+        return row | {"ended": f"refused at {error.time:.3g} s: {error}"}
+
+    def act() -> float:
+        begin = time.perf_counter()
+        puma.replay(system, h, settings)
+        return time.perf_counter() - begin
+
+    return row | {
+        "error_mm": 1e3 * found.error,
+        "path_error_mm": 1e3 * found.path_error(),
+        "jump_close_J": found.jumps_J[0],
+        "jump_open_J": found.jumps_J[1],
+        "wall_s": median_wall(act, rounds, 0),
+    }
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.puma", description=__doc__)
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
+    parser.add_argument("--quick", action="store_true", help="one method, one round")
+    options = parser.parse_args(arguments)
+    system = mbs.compile(puma.build())
+    rows = [
+        measure(system, method, h, 1 if options.quick else ROUNDS)
+        for method in (METHODS[:1] if options.quick else METHODS)
+        for h in STEPS
+    ]
+    print_table(rows, TABLE)
+    if options.json is not None:
+        write_json(options.json, describe("puma", mbs.Settings(), rounds=ROUNDS), rows)
+        print(f"written: {options.json}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,309 @@
+"""Where methods break: ``python -m benchmarks.stability [--scene NAME ...] [--json FILE] [--charts DIR] [--quick]``.
+
+A map over step and penalty (or its counterpart) for each method and scene: fine, wrong, refused or diverged.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import mbs
+from benchmarks.baselines.run import METHODS as CLASSICAL
+from benchmarks.baselines.run import run
+from benchmarks.cases import CASES, exact_of, size_of, system_of
+from benchmarks.common import describe, print_table, write_json
+from benchmarks.kernel_methods import TITLES
+from benchmarks.stability_chart import draw
+from mbs.settings import METHODS as KERNEL
+
+SAMPLES = 10  # instants of a run at which it is compared
+KERNEL_STEPS = 10.0 ** np.arange(-6.0, -0.6, 0.5)
+LARGE_STEPS = (0.05, 0.1, 0.2)
+CLASSICAL_STEPS = (1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.2)
+EPS = 10.0 ** -np.arange(3.0, 13.0)  # alpha = 1/(eps h^2): what the kernel's penalty is given by
+PENALTIES = (1e3, 1e5, 1e7, 1e9)  # mass-normalised, 1/s2
+BAUMGARTE = (0.0, 10.0, 100.0, 1000.0)  # 1/s
+MOST_STEPS, COORDINATE_STEPS = 10000, 120000  # a run at a small step ends earlier: steps, steps times coordinates
+MOST_CLASSICAL, FEW_CLASSICAL = 1000, 200  # in Python; the second below a millisecond
+SQUEEZED = {"squeezer": 0.01}  # scenes whose steps are this share of the others'
+WRONG = 0.05  # of the extent of the motion over the window (at least a hundredth of the whole)
+ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
+USUAL_STEP = 0.01  # s
+QUICK = ("double_four_bar",)
+OUTCOMES = ("fine", "wrong", "refused", "diverged")
+WHY = {  # one line a classical method; the table adds rank and time as found
+    "index-1 augmented Lagrangian, projected": "explicit Runge-Kutta on accelerations: the penalised rows are met only "
+    "in the limit, and stiff constraint oscillators bound the step; passes singular and redundant positions",
+    "index-1 Lagrange, Baumgarte": "the bordered matrix needs Phi_q of full row rank: exactly singular where rows are "
+    "redundant, and wherever a step lands on a singular position; a factor beyond about 2/h makes the rows themselves "
+    "diverge",
+    "index-1 minimum norm, Baumgarte": "the cut between kept and dropped singular values is a guess; near a singular "
+    "position a kept small one makes accelerations explode, a dropped real one lets the rows drift",
+    "velocity transformation": "the fixed independent coordinates stop being independent at their dead point: the "
+    "block of Phi_q for the dependent ones loses its rank",
+    "penalty": "rows are springs: soft ones let the mechanism leave its branch at singular positions, stiff ones are "
+    "beyond the stability limit of the explicit rule",
+}
+PARAMETER = {
+    "index-1 Lagrange, Baumgarte": "Baumgarte factor, 1/s",
+    "index-1 minimum norm, Baumgarte": "Baumgarte factor, 1/s",
+    "velocity transformation": "none",
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Window:
+    """How far a run of a scene goes at a step: whole samples, at most so many steps."""
+
+    end: float
+    every: int
+
+    @classmethod
+    def of(cls, scene: str, h: float, most: int) -> Window:
+        """The window: `SAMPLES` intervals of `every` steps."""
+        full = CASES[scene].map_end
+        every = max(1, min(round(full / SAMPLES / h), most // SAMPLES))
+        return cls(SAMPLES * every * h, every)
+
+
+def judge(scene: str, window: Window, positions: np.ndarray, energy: np.ndarray) -> tuple[str, dict[str, Any]]:
+    """Fine or wrong, and the figures."""
+    case = CASES[scene]
+    exact = exact_of(scene, window.end, SAMPLES)
+    extent = max(float(np.linalg.norm(np.ptp(exact, axis=0))), 0.01 * size_of(scene))
+    error = float(np.linalg.norm(positions - exact, axis=1).max())
+    figures = {"error_share": error / extent, "energy_deviation_J": float(np.abs(energy - energy[0]).max())}
+    if not np.isfinite(error):
+        return "diverged", figures
+    good = error < WRONG * extent
+    if case.energy_stays:
+        good = good and figures["energy_deviation_J"] < ENERGY * _energy_scale(scene)
+    return ("fine" if good else "wrong"), figures
+
+
+_SCALES: dict[str, float] = {}
+
+
+def _energy_scale(scene: str) -> float:
+    """Largest kinetic energy of the motion, J: measured on a fine run."""
+    if scene not in _SCALES:
+        system = system_of(scene)
+        simulation, case = mbs.Simulation(system), CASES[scene]
+        mass = _mass(system)
+        found, h = 0.0, case.end / 5000.0
+        for _ in range(200):
+            qd = simulation.state.qd
+            found = max(found, 0.5 * float(qd @ mass @ qd))
+            simulation.step(h, n=25)
+        _SCALES[scene] = found
+    return _SCALES[scene]
+
+
+def _mass(system: mbs.System) -> np.ndarray:
+    dense = np.zeros((system.nq, system.nq))
+    a = system.arrays
+    dense[np.repeat(np.arange(system.nq), np.diff(a["mass_ptr"])), a["mass_col"]] = a["mass_val"]
+    return dense
+
+
+def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[str, Any]:
+    """One run of the kernel; eps None takes the default settings."""
+    case = CASES[scene]
+    affordable = case.most_steps * COORDINATE_STEPS // (MOST_STEPS * system_of(scene).nq)
+    window = Window.of(scene, h, max(1000, min(case.most_steps, affordable)))
+    settings = mbs.Settings(method=method) if eps is None else mbs.Settings(method=method, alpha=1.0 / (eps * h * h))
+    row = _row(scene, TITLES.get(method, method), h, "eps = 1/(alpha h^2)", eps, window)
+    try:
+        t = mbs.simulate(system_of(scene), window.end, h, settings=settings, every=window.every, progress=False)
+    except mbs.SimulationError as error:
+        return row | {"outcome": "refused", "reason": str(error), "stopped_at_s": error.time}
+    outcome, figures = judge(scene, window, np.column_stack([t[s] for s in case.sensors]), t["energy.total"])
+    assert t.report is not None
+    return row | figures | {"outcome": outcome, "halvings": t.report.halvings}
+
+
+def classical_point(scene: str, method: str, h: float, penalty: float | None) -> dict[str, Any]:
+    """One run of a classical method."""
+    case, window = (
+        CASES[scene],
+        Window.of(scene, h, MOST_CLASSICAL if h > 9e-4 * SQUEEZED.get(scene, 1.0) else FEW_CLASSICAL),
+    )
+    row = _row(scene, method, h, PARAMETER.get(method, "penalty, 1/s2"), penalty, window)
+    r = run(system_of(scene), window.end, h, method, case.sensors, penalty=penalty, every=window.every)
+    if r.status != "finished":
+        return row | {"outcome": r.status, "reason": r.reason, "stopped_at_s": r.stopped_at}
+    outcome, figures = judge(scene, window, r.positions, r.energy)
+    return row | figures | {"outcome": outcome}
+
+
+def _row(scene: str, method: str, h: float, name: str, value: float | None, window: Window) -> dict[str, Any]:
+    return {
+        "scene": scene,
+        "method": method,
+        "h_s": h,
+        "parameter": name,
+        "value": value,
+        "window_s": window.end,
+        "outcome": "",
+        "error_share": None,
+        "energy_deviation_J": None,
+        "stopped_at_s": None,
+        "halvings": 0,
+        "reason": "",
+    }
+
+
+def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
+    """All points of a scene."""
+    case, factor = CASES[scene], SQUEEZED.get(scene, 1.0)
+    steps = factor * np.unique(np.concatenate([KERNEL_STEPS, LARGE_STEPS]))
+    eps, classical = EPS, np.array(CLASSICAL_STEPS) * factor
+    penalties, factors = PENALTIES, BAUMGARTE
+    if quick:
+        steps, eps, classical, penalties, factors = (
+            steps[-6:-1:2],
+            EPS[2::4],
+            classical[4:6],
+            PENALTIES[2:3],
+            BAUMGARTE[1:2],
+        )
+    rows = []
+    for method in KERNEL:
+        if method == "energy_momentum_4" and not case.conservative:
+            continue
+        for h in steps:
+            rows += [kernel_point(scene, method, float(h), e) for e in [None, *map(float, eps)]]
+    for method in CLASSICAL if case.classical else ():
+        values: Sequence[float | None] = penalties
+        if method in PARAMETER:
+            values = (None,) if PARAMETER[method] == "none" else factors
+        for h in classical:
+            rows += [classical_point(scene, method, float(h), v) for v in values]
+    return rows
+
+
+def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """How far the default settings lie inside the fine region: the span of steps over which they are fine without a
+    gap, and the decades of eps to either side up to the first that is not fine, over that span and at its middle.
+    """
+    lines = []
+    for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["parameter"].startswith("eps")):
+        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
+        defaults = sorted((r["h_s"], r["outcome"]) for r in part if r["value"] is None)
+        good = _longest([h for h, _ in defaults], [o == "fine" for _, o in defaults])
+        found = {h: _decades(part, h) for h in good}
+        usual = min(good, key=lambda h: abs(np.log(h / (USUAL_STEP * SQUEEZED.get(scene, 1.0)))), default=None)
+        lines.append(
+            {
+                "scene": scene,
+                "method": method,
+                "smallest_fine_h_s": good[0] if good else None,
+                "largest_fine_h_s": good[-1] if good else None,
+                "first_break": next((f"{o} at {h:.3g} s" for h, o in defaults if good and h > good[-1]), "-"),
+                "decades_below": min((d[0] for d in found.values()), default=None),
+                "decades_above": min((d[1] for d in found.values()), default=None),
+                "usual_h_s": usual,
+                "usual_below": found[usual][0] if usual is not None else None,
+                "usual_above": found[usual][1] if usual is not None else None,
+            }
+        )
+    return lines
+
+
+def _decades(rows: Sequence[dict[str, Any]], h: float) -> tuple[float, float]:
+    """Decades of eps below and above the default up to the first that is not fine (or one beyond those tried)."""
+    centre = np.log10(mbs.Settings().eps_rel)
+    values = sorted((np.log10(r["value"]), r["outcome"]) for r in rows if r["h_s"] == h and r["value"] is not None)
+    lower = [v for v, o in values if o != "fine" and v < centre - 1e-9]
+    upper = [v for v, o in values if o != "fine" and v > centre + 1e-9]
+    below = centre - (lower[-1] if lower else values[0][0] - 1.0)
+    above = (upper[0] if upper else values[-1][0] + 1.0) - centre
+    return float(below), float(above)
+
+
+def _longest(steps: list[float], fine: list[bool]) -> list[float]:
+    """The longest run of neighbouring steps that are fine."""
+    best: list[float] = []
+    now: list[float] = []
+    for h, good in zip(steps, fine, strict=True):
+        now = [*now, h] if good else []
+        best = now if len(now) > len(best) else best
+    return best
+
+
+def explain(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """A line for each classical method and scene: how often it was fine, and the first reason of each kind."""
+    lines = []
+    for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["method"] in CLASSICAL):
+        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
+        counts = {o: sum(r["outcome"] == o for r in part) for o in OUTCOMES}
+        first = []
+        for outcome in ("refused", "diverged"):
+            stopped = [r for r in part if r["outcome"] == outcome and r["reason"]]
+            if stopped:
+                r = min(stopped, key=lambda row: row["stopped_at_s"])
+                value = "" if r["value"] is None else f", {r['value']:g}"
+                first.append(f"{outcome} at {r['stopped_at_s']:.4g} s (h = {r['h_s']:g}{value}): {r['reason']}")
+        said = "; ".join(first) or "-"
+        lines.append({"scene": scene, "method": method} | counts | {"first stop": said})
+    return lines
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.stability", description=__doc__)
+    parser.add_argument("--scene", action="append", choices=list(CASES), help="a scene; may be given again")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
+    parser.add_argument("--charts", type=Path, metavar="DIR", help="draw a PNG per scene")
+    parser.add_argument("--quick", action="store_true", help="one scene, few points")
+    options = parser.parse_args(arguments)
+    scenes = options.scene or (
+        QUICK if options.quick else [s for s in CASES if s not in ("pendulum_1000s", "four_bar_200")]
+    )
+    rows: list[dict[str, Any]] = []
+    for scene in scenes:
+        begin = time.perf_counter()
+        part = measure(scene, options.quick)
+        rows += part
+        print(f"{scene}: {len(part)} runs in {time.perf_counter() - begin:.0f} s", flush=True)
+        if options.charts is not None:
+            draw(part, CASES[scene].title, options.charts / f"stability_{scene}.png")
+    print(
+        "\nDefault settings: the steps over which they are fine, and the decades of eps around the default that are too"
+    )
+    lines = margins(rows)
+    form = {"scene": "", "method": "", "smallest_fine_h_s": ".1e", "largest_fine_h_s": ".1e", "first_break": ""}
+    decades = dict.fromkeys(("decades_below", "decades_above"), ".1f")
+    print_table(lines, form | decades | {"usual_h_s": ".1e", "usual_below": ".1f", "usual_above": ".1f"})
+    why = explain(rows)
+    print("\nClassical methods: outcomes, and where they first stop")
+    if why:
+        print_table(why, {"scene": "", "method": ""} | dict.fromkeys(OUTCOMES, "d") | {"first stop": ""})
+    for method, text in WHY.items():
+        print(f"{method}: {text}")
+    if options.json is not None:
+        meta = describe(
+            "stability",
+            mbs.Settings(),
+            fine=f"position within {WRONG:g} of the extent, energy within {ENERGY:g} of the largest kinetic energy",
+            window=f"until the scene's time, or {MOST_STEPS} steps ({MOST_CLASSICAL} or {FEW_CLASSICAL} in Python), "
+            "fewer for large scenes",
+            margins=lines,
+            why=WHY,
+            classical=why,
+        )
+        write_json(options.json, meta, rows)
+        print(f"written: {options.json}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

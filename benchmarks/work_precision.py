@@ -1,0 +1,264 @@
+"""Error against time: ``python -m benchmarks.work_precision [--scene NAME ...] [--json FILE] [--charts DIR]``.
+
+Every method over a range of steps against the exact motion, one chart a scene; Exudyn and MuJoCo in the same run when
+they are installed, and the ratio of our time to the best of theirs at equal error.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import sys
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import mbs
+from benchmarks import peers
+from benchmarks.baselines.run import LANGUAGE, run
+from benchmarks.baselines.run import METHODS as CLASSICAL
+from benchmarks.cases import CASES, SAMPLES, SHARED, exact_of, size_of, system_of
+from benchmarks.common import describe, print_table, write_json
+from benchmarks.kernel_methods import all_settings
+from benchmarks.work_precision_chart import draw
+
+ROUNDS, FEW_ROUNDS = 7, 2
+LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few rounds, or the first run, must do
+SCIPY = {"method": "index-1 minimum norm, Baumgarte", "solver": "DOP853"}
+SCIPY_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9)
+CLASSICAL_STEPS = 4000  # a slow method in Python is not run longer
+LOST = 0.5  # of the motion's extent: beyond it the run has no point on the chart
+LEVELS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of position error, m
+QUICK_DIVISIONS, QUICK_SCENES = 2, ("double_four_bar", "spatial_slider_crank")
+TABLE = {
+    "scene": "",
+    "family": "",
+    "method": "",
+    "h_s": ".4g",
+    "rtol": ".0e",
+    "position_error_m": ".2e",
+    "energy_deviation_J": ".2e",
+    "wall_s": ".2e",
+    "factorizations": "d",
+    "evaluations": "d",
+    "ended": "",
+}
+Action = Callable[[], tuple[float, dict[str, Any]]]
+
+
+def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
+    """A run of the kernel: wall time of its step loop, and what to put in the row."""
+    case, system = CASES[scene], system_of(scene)
+    every = round(case.end / SAMPLES / h)
+
+    def act() -> tuple[float, dict[str, Any]]:
+        try:
+            t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False)
+        except mbs.SimulationError as error:
+            return 0.0, {"ended": f"refused at {error.time:.4g} s"}
+        energy = t["energy.total"]
+        report = t.report
+        assert report is not None
+        return t.wall_s, {
+            "ended": "finished",
+            "position_error_m": _error(np.column_stack([t[s] for s in case.sensors]), scene),
+            "energy_deviation_J": float(np.abs(energy - energy[0]).max()) if case.energy_stays else None,
+            "factorizations": report.factorizations,
+            "evaluations": report.iterations + report.steps,
+        }
+
+    return act
+
+
+def classical_action(scene: str, method: str, h: float, solver: str = "RK4", rtol: float = 1e-8) -> Action:
+    """A run of a method in Python, by Runge and Kutta's rule at a fixed step or by a solver of scipy's."""
+    case, system = CASES[scene], system_of(scene)
+
+    def act() -> tuple[float, dict[str, Any]]:
+        every = round(case.end / SAMPLES / h)
+        r = run(system, case.end, h, method, case.sensors, every=every, solver=solver, rtol=rtol)
+        if r.status != "finished":
+            return 0.0, {"ended": f"{r.status} at {r.stopped_at:.4g} s: {r.reason}"}
+        return r.wall_s, {
+            "ended": "finished",
+            "position_error_m": _error(r.positions, scene),
+            "energy_deviation_J": float(np.abs(r.energy - r.energy[0]).max()) if case.energy_stays else None,
+            "factorizations": r.factorizations,
+            "evaluations": r.evaluations,
+        }
+
+    return act
+
+
+def peer_action(scene: str, engine: Any, integrator: str, h: float) -> Action:
+    """A run of another engine."""
+
+    def act() -> tuple[float, dict[str, Any]]:
+        r = engine.run(scene, h, CASES[scene].end, SAMPLES, integrator)
+        if not r.finished:
+            return 0.0, {"ended": f"gave up at {r.t[-1]:.4g} s"}
+        return r.wall_s, {
+            "ended": "finished",
+            "position_error_m": _error(r.positions, scene),
+            "energy_deviation_J": None if r.energy is None else float(np.abs(r.energy - r.energy[0]).max()),
+        }
+
+    return act
+
+
+def _error(positions: np.ndarray, scene: str) -> float:
+    return float(np.linalg.norm(positions - exact_of(scene), axis=1).max())
+
+
+def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[str, Any], Action]]:
+    """Rows without figures, and what measures them."""
+    case = CASES[scene]
+    divisions = case.divisions[3 : 3 + QUICK_DIVISIONS] if quick else case.divisions
+    todo: list[tuple[dict[str, Any], Action]] = []
+
+    def add(family: str, method: str, h: float | None, action: Action, rtol: float | None = None) -> None:
+        row = {"scene": scene, "family": family, "method": method, "h_s": h, "rtol": rtol, "position_error_m": None}
+        empty = dict.fromkeys(("energy_deviation_J", "wall_s", "factorizations", "evaluations"))
+        todo.append((row | empty | {"ended": ""}, action))
+
+    for d in divisions:
+        h = case.end / (SAMPLES * d)
+        for title, settings in all_settings(case.conservative).items():
+            add("kernel", title, h, kernel_action(scene, settings, h))
+        if case.classical and SAMPLES * d <= CLASSICAL_STEPS:
+            for method in CLASSICAL:
+                add("classical", method, h, classical_action(scene, method, h))
+        if scene in SHARED:
+            for name, engine in engines.items():
+                for integrator in engine.integrators(scene):
+                    add(name, f"{name}, {integrator}", h, peer_action(scene, engine, integrator, h))
+    for rtol in SCIPY_TOLERANCES[: 1 if quick else None] if case.classical else ():
+        action = classical_action(scene, SCIPY["method"], case.end / SAMPLES, SCIPY["solver"], rtol)
+        add("classical", f"index-1 minimum norm, scipy {SCIPY['solver']}", None, action, rtol)
+    return todo
+
+
+def measure(scene: str, quick: bool, engines: dict[str, Any], rounds: int) -> list[dict[str, Any]]:
+    """All rows of a scene; times are medians over rounds through all of them, so that a disturbance is shared."""
+    todo = plan(scene, quick, engines)
+    for row, action in todo:
+        wall, found = action()
+        row |= found
+        row["wall_s"] = wall if found["ended"] == "finished" else None
+    walls: list[list[float]] = [[] for _ in todo]
+    for turn in range(rounds):
+        for k, (row, action) in enumerate(todo):
+            wall = row["wall_s"]
+            if wall is not None and (wall < LONG or (turn < FEW_ROUNDS and wall < VERY_LONG)):
+                walls[k].append(action()[0])
+    for (row, _), times in zip(todo, walls, strict=True):
+        if times:
+            row["wall_s"] = statistics.median(times)
+    return [row for row, _ in todo]
+
+
+def time_at_error(rows: Sequence[dict[str, Any]], method: str, level: float) -> float | None:
+    """Least time in which a method reaches an error, along its curve (log-log); None where it does not.
+
+    A run that is better than asked for counts at its own time: no curve is extended.
+    """
+    found = [(r["wall_s"], r["position_error_m"]) for r in rows if r["method"] == method]
+    points = sorted((wall, error) for wall, error in found if wall is not None and error is not None)
+    best = min((w for w, e in points if e <= level), default=None)
+    for (w0, e0), (w1, e1) in pairwise(points):
+        if e0 > level >= e1 > 0.0:
+            share = np.log(e0 / level) / np.log(e0 / e1)
+            crossing = float(np.exp(np.log(w0) + share * np.log(w1 / w0)))
+            best = crossing if best is None else min(best, crossing)
+    return best
+
+
+def compare(rows: Sequence[dict[str, Any]], scene: str) -> list[dict[str, Any]]:
+    """Our best time over the best peer's at each level of error."""
+    part = [r for r in rows if r["scene"] == scene]
+    lines = []
+    for level in LEVELS:
+        best: dict[bool, tuple[float, str] | None] = {True: None, False: None}
+        for ours, families in ((True, ("kernel",)), (False, tuple(peers.NAMES))):
+            for method in dict.fromkeys(r["method"] for r in part if r["family"] in families):
+                wall = time_at_error(part, method, level)
+                found = best[ours]
+                if wall is not None and (found is None or wall < found[0]):
+                    best[ours] = (wall, method)
+        we, they = best[True], best[False]
+        ratio = we[0] / they[0] if we and they else None
+        lines.append(
+            {
+                "scene": scene,
+                "error_m": level,
+                "ours": we[1] if we else "not reached",
+                "ours_ms": 1e3 * we[0] if we else None,
+                "peer": they[1] if they else "not reached",
+                "peer_ms": 1e3 * they[0] if they else None,
+                "ratio": ratio,
+                "ahead": "-" if not (we or they) else "yes" if we and (ratio is None or ratio < 1.0) else "NO",
+            }
+        )
+    return lines
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.work_precision", description=__doc__)
+    parser.add_argument("--scene", action="append", choices=list(CASES), help="a scene; may be given again")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
+    parser.add_argument("--charts", type=Path, metavar="DIR", help="draw a PNG per scene")
+    parser.add_argument("--quick", action="store_true", help="two scenes, two steps, one round")
+    parser.add_argument("--rounds", type=int, default=ROUNDS, help=f"timed runs of each row; default {ROUNDS}")
+    options = parser.parse_args(arguments)
+    if options.quick:
+        options.rounds = 1
+    scenes = options.scene or (QUICK_SCENES if options.quick else tuple(CASES))
+    engines, missing = peers.available()
+    for name in missing:
+        print(f"{name} is not installed: its curves are left out (python -m pip install 'ali3[peers]')")
+    rows: list[dict[str, Any]] = []
+    ratios: list[dict[str, Any]] = []
+    for scene in scenes:
+        part = measure(scene, options.quick, engines, options.rounds)
+        rows += part
+        print(f"\n{CASES[scene].title}; extent of the motion {size_of(scene):.3g} m", flush=True)
+        print_table(part, {k: v for k, v in TABLE.items() if k != "scene"})
+        if engines and scene in SHARED:
+            lines = compare(rows, scene)
+            ratios += lines
+            print("\nours / best peer at equal error, interpolated along the curves")
+            form = {
+                "error_m": ".0e",
+                "ours": "",
+                "ours_ms": ".3g",
+                "peer": "",
+                "peer_ms": ".3g",
+                "ratio": ".3g",
+                "ahead": "",
+            }
+            print_table(lines, form)
+        if options.charts is not None:
+            draw(part, scene, CASES[scene].title, LOST * size_of(scene), options.charts / f"work_{scene}.png")
+    meta = describe(
+        "work_precision",
+        mbs.Settings(),
+        rounds=options.rounds,
+        wall="median over rounds through all rows of a scene, time of the steps alone, after one warm-up",
+        languages={"kernel": "C", "classical": LANGUAGE} | dict.fromkeys(engines, "C++"),
+        peers={name: engine.VERSION for name, engine in engines.items()},
+        missing_peers=missing,
+        scenes={s: CASES[s].title for s in scenes},
+        ratios=ratios,
+    )
+    if options.json is not None:
+        write_json(options.json, meta, rows)
+        print(f"written: {options.json}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,57 @@
+/* Order four by symmetric composition (Suzuki 1990) of energy-momentum steps: a h, a h, (1 - 4 a) h, a h, a h with
+ * a = 1 / (4 - 4^(1/3)). The third goes backwards in time, so nothing may dissipate. */
+#include <math.h>
+
+#include "ali3_internal.h"
+
+enum { STAGES = 5 };
+
+static bool conservative(const ali3_instance *in, int32_t e) {
+  const double *real = in->el_real + in->system->el_real_ptr[e];
+  switch (in->system->el_type[e]) {
+  case ALI3_SPRING_DAMPER:
+    return real[1] == 0.0;        /* damping */
+  case ALI3_SCALAR_SPRING_DAMPER:
+    return real[1] == 0.0; /* damping */
+  case ALI3_INPUT_FORCE:
+  case ALI3_BODY_FORCE:
+  case ALI3_BODY_TORQUE:
+  case ALI3_GYROSCOPIC_SPIN:
+    return true;
+  default:
+    return false;
+  }
+}
+
+/* ALI3_WRONG_METHOD where the method of the settings cannot take what the System has. */
+ali3_status ali3_check_method(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const int32_t method = in->settings.method;
+  if (method != ALI3_METHOD_ENERGY_MOMENTUM_4 && method != ALI3_METHOD_RUNGE_KUTTA_8) return ALI3_OK;
+  if (S->size.ny > 0) return ALI3_WRONG_METHOD;
+  for (int32_t g = 0; g < S->size.ng; g++)
+    if (S->guide_type[g] == 1) return ALI3_WRONG_METHOD;
+  for (int32_t e = 0; e < S->size.ne && method == ALI3_METHOD_ENERGY_MOMENTUM_4; e++)
+    if (!conservative(in, e)) return ALI3_WRONG_METHOD;
+  return ALI3_OK;
+}
+
+ali3_status ali3_composition(ali3_instance *in, double t, double h) {
+  const double outer = 0.41449077179437573714, share[STAGES] = {outer, outer, 1.0 - 4.0 * outer, outer, outer};
+  int32_t iterations = 0, most = in->report.max_iterations;
+  double done = -1.0; /* time from the end of the step, in steps */
+  ali3_vectors_copy(in, &in->whole, &in->now);
+  for (int stage = 0; stage < STAGES; stage++) {
+    done = stage == STAGES - 1 ? 0.0 : done + share[stage];
+    const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, in->whole.used,
+                                                    1.0 + done - 0.5 * share[stage], stage == STAGES - 1 && !in->quiet);
+    if (status != ALI3_OK) {
+      ali3_vectors_copy(in, &in->now, &in->whole);
+      return status;
+    }
+    iterations += in->report.last_iterations;
+  }
+  in->report.last_iterations = iterations;
+  in->report.max_iterations = iterations > most ? iterations : most;
+  return ALI3_OK;
+}

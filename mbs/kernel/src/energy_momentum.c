@@ -1,0 +1,252 @@
+/* One energy-momentum step of index 3. With D = q1 - q0, v1 = 2 D/h - v0 and everything in the middle of the step,
+ *   M (D - h v0) + c (A' lam - Q) = 0,  Phi(q1) = 0,  c = h^2/2,
+ * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: rows do no
+ * work, springs give back what they take, dampers and inputs account for the rest. The step carries its own velocity;
+ * the one that is reported lies on the constraints and has its kinetic energy. */
+#include <math.h>
+#include <string.h>
+
+#include "ali3_internal.h"
+
+enum { MAX_SWEEPS = 3, REFINEMENTS = 2, COMPOSED_PAST = 3 };
+static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
+static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
+static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
+static const double REFINE_PHI = 1e-2;
+static const double EPS_SHARE = 1e-3; /* of eps_rel */
+static const double LEAST_SCALE = 0.5, MOST_SCALE = 2.0; /* of kinetic energies that may be made equal */
+
+/* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
+ * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones feed the round-off
+ * of rows that turn far in a step back as forces. */
+static double penalty_weight(const ali3_instance *in, double h) {
+  return 0.5 * h * h * ali3_penalty(&in->settings, h) / EPS_SHARE;
+}
+
+static void evaluate(ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  const double c = 0.5 * h * h, inverse = 1.0 / h;
+  ali3_vectors *to = &in->next;
+  for (int32_t i = 0; i < nq; i++) {
+    const double D = in->D[i];
+    to->q[i] = in->now.q[i] + D;
+    in->middle[i] = in->now.q[i] + 0.5 * D;
+    in->rate[i] = inverse * D;
+    in->w[i] = D - h * in->now.own[i];
+  }
+  ali3_constraints(in, to->q, to->s, in->Phi, in->J);
+  ali3_discrete_rows(in, in->D, to->q, &in->now, to);
+  const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h,      0.25 * h * h,
+                                true,       in->Q,    to->y,     to->out, to->potential};
+  in->discrete = true;
+  in->force_input = in->input_middle;
+  ali3_forces(in, &call);
+  in->discrete = false;
+  in->force_input = in->input;
+  ali3_mass_times(S, in->w, in->r);
+  ali3_rows_transposed(S, in->A, to->lam, in->x);
+  for (int32_t i = 0; i < nq; i++) in->r[i] += c * (in->x[i] - in->Q[i]);
+}
+
+/* By how much the worst row is open beyond its round-off, m. */
+static double opening(const ali3_system *S, const double *Phi) {
+  double largest = 0.0;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const double v = fabs(Phi[k]) * S->row_measure[k] - S->row_round[k];
+    if (v > largest) largest = v;
+  }
+  return largest;
+}
+
+/* Fills the report. Returns false when something is not finite. */
+static bool judge(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  double largest = 0.0;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    const double size = fabs(in->r[i]) * S->mass_floor_inverse[i];
+    if (!(size <= largest) && largest == largest) { /* a NaN stays */
+      largest = size;
+      in->report.worst_coordinate = i;
+    }
+  }
+  in->report.residual = largest;
+  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+  return in->report.residual < 1e300 && in->report.violation < 1e300;
+}
+
+/* The exact tangent M + h^2/4 (K + sum lam_k H_k) + h/2 C + weight A' Phi_q(q1), slightly unsymmetric. */
+static ali3_status factorise(ali3_instance *in, double h, double weight) {
+  const ali3_system *S = in->system;
+  double *J = in->J, *A = in->A;
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, 0.25 * h * h, in->F);
+  ali3_forces_tangent(in, in->F);
+  ali3_mirror(in, in->F);
+  ali3_rows_product(in, A, J, weight, in->F);
+  in->J = in->J_tangent;
+  in->J_tangent = J;
+  in->A = in->A_tangent;
+  in->A_tangent = A;
+  return ali3_factorise_lu(in, in->F);
+}
+
+static ali3_status correct(ali3_instance *in, double weight, double alpha, int32_t iteration) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  for (int32_t k = 0; k < nc; k++) in->mu[k] = weight * in->Phi[k];
+  ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
+  for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
+  ali3_solve_lu(in, in->F, in->x);
+  if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+  ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
+  for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
+  ali3_accelerate(in, iteration);
+  for (int32_t k = 0; k < nc; k++) in->next.lam[k] += in->lam[k];
+  for (int32_t i = 0; i < nq; i++) in->D[i] += in->x[i];
+  return ALI3_OK;
+}
+
+/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. */
+static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *iterations) {
+  const ali3_settings *settings = &in->settings;
+  const bool refine = settings->method == ALI3_METHOD_ENERGY_MOMENTUM;
+  const double alpha = 2.0 * weight / (h * h), least_r = refine ? REFINE_R * fabs(h) : 1.0,
+               least_v = refine ? REFINE_PHI : 1.0;
+  double last = 0.0;
+  int32_t refinements = 0;
+  bool fresh = true;
+  evaluate(in, h);
+  for (*iterations = 0; *iterations < settings->max_iterations;) {
+    ali3_status status = fresh ? factorise(in, h, weight) : ALI3_OK;
+    if (status == ALI3_OK) status = correct(in, weight, alpha, *iterations);
+    if (status != ALI3_OK) return status;
+    ++*iterations;
+    evaluate(in, h);
+    if (!judge(in)) return ALI3_NOT_FINITE;
+    const double r = in->report.residual / settings->tolerance_r,
+                 v = opening(in->system, in->Phi) / settings->tolerance_phi;
+    const double size = fmax(r, v);
+    if (r <= least_r && v <= least_v) return ALI3_OK;
+    fresh = *iterations > 1 && size > SLOW * last;
+    if (size <= 1.0 && (refinements++ == REFINEMENTS || fresh)) return ALI3_OK;
+    last = size;
+  }
+  return ALI3_NOT_CONVERGED;
+}
+
+/* Takes out of lam what makes no force (redundant rows): round-off that extrapolation would let grow. */
+static void clean(ali3_instance *in, double weight, double *lam) {
+  const ali3_system *S = in->system;
+  ali3_rows_transposed(S, in->A_tangent, lam, in->x);
+  ali3_solve_lu(in, in->F, in->x);
+  ali3_rows_times(S, in->J_tangent, in->x, lam);
+  for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
+}
+
+/* As ali3_project, with the unsymmetric tangent; the part of v that is taken away is spread by A. */
+static double project(ali3_instance *in, double weight, const double *b, double *v, double tolerance) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  for (int32_t sweep = 0;; sweep++) {
+    double violation = 0.0, scale = 0.0;
+    ali3_rows_times(S, in->J, v, in->mu);
+    for (int32_t k = 0; k < nc; k++) {
+      in->mu[k] += b[k];
+      violation = fmax(violation, fabs(in->mu[k]) * S->row_measure[k]);
+      in->mu[k] *= weight;
+    }
+    for (int32_t i = 0; i < nq; i++) scale = fmax(scale, fabs(v[i]));
+    if (sweep == MAX_SWEEPS || violation <= tolerance * scale) return violation;
+    ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
+    ali3_solve_lu(in, in->F, in->x);
+    for (int32_t i = 0; i < nq; i++) v[i] -= in->x[i];
+  }
+}
+
+static double kinetic_energy(ali3_instance *in, const double *qd) {
+  double twice = 0.0;
+  ali3_mass_times(in->system, qd, in->x);
+  for (int32_t i = 0; i < in->system->size.nq; i++) twice += in->x[i] * qd[i];
+  return 0.5 * twice;
+}
+
+/* qd on the constraints with the kinetic energy of v->own, accelerations and multipliers from the last two middles,
+ * outputs of the elements. Needs Phi_q in in->J and a factorised tangent. */
+static void report(ali3_instance *in, ali3_vectors *v, double weight) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  const double *time = v->memory + ALI3_MEMORY_TIME;
+  const bool two = v->memory[ALI3_MEMORY_COUNT] >= 2.0;
+  const double second = two ? time[0] / (time[1] - time[0]) : 0.0, first = 1.0 - second;
+  ali3_constraint_rate(in, v->q, v, in->Phit);
+  memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
+  in->report.velocity_violation = project(in, weight, in->Phit, v->qd, VELOCITY_TOLERANCE);
+  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
+  ali3_forces(in, &call);
+  const double own = kinetic_energy(in, v->own), projected = kinetic_energy(in, v->qd);
+  bool driven = false;
+  for (int32_t k = 0; k < nc; k++) driven = driven || in->Phit[k] != 0.0;
+  if (!driven && own > LEAST_SCALE * projected && own < MOST_SCALE * projected) {
+    const double scale = sqrt(own / projected);
+    for (int32_t i = 0; i < nq; i++) v->qd[i] *= scale;
+  }
+  for (int32_t i = 0; i < nq; i++) v->qdd[i] = first * v->past_a[i] + (two ? second * v->past_a[nq + i] : 0.0);
+  for (int32_t k = 0; k < nc; k++) v->lam[k] = first * v->past_lam[k] + (two ? second * v->past_lam[nc + k] : 0.0);
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
+  project(in, weight, in->gamma, v->qdd, ACCELERATION_TOLERANCE);
+}
+
+void ali3_energy_momentum_report(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const double weight = penalty_weight(in, in->h_last > 0.0 ? in->h_last : 1.0);
+  ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
+  memcpy(in->A_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_mirror(in, in->F);
+  ali3_rows_product(in, in->J, in->J, weight, in->F);
+  if (ali3_factorise_lu(in, in->F) == ALI3_OK) report(in, &in->now, weight);
+}
+
+/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
+ * Inputs go straight from u0 to the present ones; the middle of this step has the given share of the latter. */
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool reported) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  const double weight = penalty_weight(in, h);
+  ali3_vectors *from = &in->now, *to = &in->next;
+  int32_t iterations = 0;
+  ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
+  ali3_guides_step(in, from, to, t, h);
+  ali3_switch_carry(in);
+  ali3_history_predict(in, h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST, in->d0,
+                       to->lam);
+  for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];
+  for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
+  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
+  const ali3_status status = newton(in, h, weight, &iterations);
+  in->report.iterations += iterations;
+  in->report.last_iterations = iterations;
+  if (iterations > in->report.max_iterations) in->report.max_iterations = iterations;
+  if (status != ALI3_OK) return status;
+  for (int32_t i = 0; i < nq; i++) {
+    to->own[i] = 2.0 / h * in->D[i] - from->own[i];
+    in->d0[i] = 2.0 * (in->D[i] - h * from->own[i]) / (h * h);
+  }
+  clean(in, weight, to->lam);
+  ali3_history_append(in, h, in->d0);
+  if (S->size.ny > 0) {
+    const ali3_force_call call = {to->q, to->own, from->y, h,       0.5 * h,      0.25 * h * h,
+                                  false, in->Q,   to->y,   to->out, to->potential};
+    ali3_forces(in, &call);
+    ali3_forces_accept(in, &call);
+  }
+  to->h_last[0] = 0.0;
+  if (reported) report(in, to, weight);
+  if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
+  const ali3_vectors swap = in->now;
+  in->now = in->next;
+  in->next = swap;
+  return ALI3_OK;
+}

@@ -1,0 +1,121 @@
+/* Multifrontal L U of a matrix whose pattern is symmetric but whose numbers are not quite: the fronts of the tangent,
+ * whole blocks instead of lower triangles, no pivoting. A factorised front holds L below the diagonal (ones on it are
+ * not stored) and U above, with the inverse of its diagonal. */
+#include <math.h>
+
+#include "ali3_internal.h"
+
+enum { PANEL = 4 };
+
+static ali3_status check_pivot(ali3_instance *in, int32_t coordinate, double d) {
+  if (fabs(d) > 1e-14 * in->system->mass_floor[coordinate] && fabs(d) < 1e300) {
+    if (d < 0.0) in->report.negative_pivots++;
+    return ALI3_OK;
+  }
+  in->report.worst_coordinate = coordinate;
+  return d == d ? ALI3_SINGULAR : ALI3_NOT_FINITE;
+}
+
+/* Panels of pivots: columns of the panel among themselves, then the others lose the panel at once. */
+static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n) {
+  for (int32_t start = 0; start < n_pivot; start += PANEL) {
+    const int32_t end = start + PANEL < n_pivot ? start + PANEL : n_pivot;
+    for (int32_t p = start; p < end; p++) {
+      double *restrict column = block + (int64_t)p * n;
+      for (int32_t k = start; k < p; k++) {
+        const double *restrict left = block + (int64_t)k * n, factor = column[k];
+        for (int32_t i = k + 1; i < n; i++) column[i] -= factor * left[i];
+      }
+      const ali3_status status = check_pivot(in, first + p, column[p]);
+      if (status != ALI3_OK) return status;
+      const double inverse = 1.0 / column[p];
+      column[p] = inverse;
+      for (int32_t i = p + 1; i < n; i++) column[i] *= inverse;
+    }
+    for (int32_t j = end; j < n; j++) {
+      double *restrict column = block + (int64_t)j * n;
+      if (end - start == PANEL) {
+        const double *restrict a = block + (int64_t)start * n, *restrict b = a + n, *restrict c = b + n,
+                               *restrict d = c + n;
+        const double u0 = column[start], u1 = column[start + 1] - a[start + 1] * u0,
+                     u2 = column[start + 2] - (a[start + 2] * u0 + b[start + 2] * u1),
+                     u3 = column[start + 3] - (a[start + 3] * u0 + b[start + 3] * u1 + c[start + 3] * u2);
+        column[start + 1] = u1;
+        column[start + 2] = u2;
+        column[start + 3] = u3;
+        for (int32_t i = end; i < n; i++) column[i] -= (u0 * a[i] + u1 * b[i]) + (u2 * c[i] + u3 * d[i]);
+      } else {
+        for (int32_t p = start; p < end; p++) {
+          const double *restrict left = block + (int64_t)p * n, factor = column[p];
+          for (int32_t i = p + 1; i < n; i++) column[i] -= factor * left[i];
+        }
+      }
+    }
+  }
+  return ALI3_OK;
+}
+
+/* Fills the upper triangles from the lower ones. */
+void ali3_mirror(const ali3_instance *in, double *F) {
+  const ali3_system *S = in->system;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
+    double *block = F + S->front_off[f];
+    for (int32_t j = 0; j < n; j++)
+      for (int32_t i = j + 1; i < n; i++) block[(int64_t)i * n + j] = block[(int64_t)j * n + i];
+  }
+}
+
+ali3_status ali3_factorise_lu(ali3_instance *in, double *F) {
+  const ali3_system *S = in->system;
+  in->report.factorizations++;
+  in->report.negative_pivots = 0;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first,
+                  n = S->front_ptr[f + 1] - S->front_ptr[f];
+    const int32_t *map = S->front_map + S->front_ptr[f], parent = S->front_parent[f];
+    double *block = F + S->front_off[f];
+    const ali3_status status = eliminate(in, block, first, n_pivot, n);
+    if (status != ALI3_OK) return status;
+    if (parent < 0) continue;
+    const int32_t parent_n = S->front_ptr[parent + 1] - S->front_ptr[parent];
+    for (int32_t j = n_pivot; j < n; j++) {
+      const double *column = block + (int64_t)j * n;
+      double *target = F + S->front_off[parent] + (int64_t)map[j] * parent_n;
+      for (int32_t i = n_pivot; i < n; i++) target[map[i]] += column[i];
+    }
+  }
+  return ALI3_OK;
+}
+
+/* b becomes the solution. */
+void ali3_solve_lu(ali3_instance *in, const double *F, double *b) {
+  const ali3_system *S = in->system;
+  double *restrict x = in->local;
+  in->report.solves++;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
+    const int32_t *idx = S->front_idx + S->front_ptr[f];
+    const double *block = F + S->front_off[f];
+    for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
+    for (int32_t p = 0; p < n_pivot; p++) {
+      const double *restrict left = block + (int64_t)p * n, factor = x[p];
+      for (int32_t i = p + 1; i < n; i++) x[i] -= factor * left[i];
+    }
+    for (int32_t i = 0; i < n; i++) b[idx[i]] = x[i];
+  }
+  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
+    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
+    const double *block = F + S->front_off[f];
+    for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
+    for (int32_t j = n - 1; j >= 0; j--) { /* down the columns of U */
+      const double *restrict column = block + (int64_t)j * n;
+      if (j < n_pivot) x[j] *= column[j];
+      const double factor = x[j];
+      const int32_t last = j < n_pivot ? j : n_pivot;
+      for (int32_t i = 0; i < last; i++) x[i] -= factor * column[i];
+    }
+    for (int32_t p = 0; p < n_pivot; p++) b[first + p] = x[p];
+  }
+}

@@ -1,0 +1,122 @@
+"""The PUMA 560 whose hand is pinned to the ground and released while it moves (paper, section 3.2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib.resources import files
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.model import Model
+from mbs.scenes.puma.robot_data import FOREARM_EXCESS, GRAVITY, HAND_POINT, LINKS, STAGES_S, START_DEG, frames
+from mbs.settings import Settings
+from mbs.simulation import Simulation
+from mbs.system import System
+
+PIN = "hand"
+TORQUES = tuple(f"torque.{k}" for k in range(1, 7))
+
+
+def build() -> Model:
+    """Six links on revolutes with relative angles, armature inertias and motor torques; a pin for the hand point, off.
+
+    At rest at the start of the manoeuvre, gravity along -z.
+    """
+    m = Model("PUMA 560", dimension=3, gravity=(0.0, 0.0, -GRAVITY))
+    m.stop_time = sum(STAGES_S)
+    before = m.ground
+    pose, links = frames(START_DEG), []
+    for k, link in enumerate(LINKS):
+        (base, origin), (R, p) = pose[k], pose[k + 1]
+        body = m.body(link.name, mass=link.mass, com=p + R @ link.com, inertia=R @ np.diag(link.inertia) @ R.T)
+        axis = base[:, 2]
+        m.revolute(f"joint {k + 1}", before, body, point=origin, axis=axis)
+        angle = m.relative_angle(f"angle.{k + 1}", before, body, axis=axis, zero=float(np.deg2rad(START_DEG[k])))
+        m.armature(f"motor {k + 1}", angle, inertia=link.armature)
+        torque = m.input(
+            TORQUES[k], start=float(_table()[0, 2 + k]), unit="N m", description=f"torque at joint {k + 1}"
+        )
+        m.torque_on(f"torque {k + 1}", angle, input=torque)
+        m.sense_coordinate(f"angle.{k + 1}", angle, description=f"angle of joint {k + 1}")
+        before = body
+        links.append(body)
+    shoulder = m.relative_angle(
+        "forearm against waist",
+        links[0],
+        links[2],
+        axis=pose[1][0][:, 2],
+        zero=float(np.deg2rad(START_DEG[1] + START_DEG[2])),
+    )
+    m.armature("forearm excess", shoulder, inertia=FOREARM_EXCESS)
+    R, p = pose[-1]
+    hand = p + R @ HAND_POINT
+    m.pin(PIN, before, hand)
+    for component in "xyz":
+        m.sense_position(
+            f"hand.position.{component}", before, hand, component, description=f"position of the hand along {component}"
+        )
+    m.sense_energy("energy.total", "total", description="kinetic and potential energy")
+    return m
+
+
+@dataclass(frozen=True)
+class Replay:
+    """What came of a replay of the manoeuvre.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        s; the switch times appear twice.
+    hand : ndarray, shape (n, 3)
+        m.
+    jumps_J : tuple of float
+        Change of the kinetic energy when the pin closed and when it opened.
+    """
+
+    times: NDArray[np.float64]
+    hand: NDArray[np.float64]
+    jumps_J: tuple[float, float]
+
+    @property
+    def error(self) -> float:
+        """Distance between the first and the last position of the hand, m: the paper's measure."""
+        return float(np.linalg.norm(self.hand[-1] - self.hand[0]))
+
+    def path_error(self) -> float:
+        """Largest distance of the hand from the path that the torques were made for, m, at the table's times."""
+        table = _table()
+        expected = np.column_stack([np.interp(self.times, table[:, 1], table[:, k]) for k in (8, 9, 10)])
+        on_table = np.abs(self.times * 100.0 - np.round(self.times * 100.0)) < 1e-6
+        return float(np.linalg.norm(self.hand - expected, axis=1)[on_table].max())
+
+
+def replay(system: System, h: float, settings: Settings | None = None) -> Replay:
+    """Two seconds from rest to rest, four with the hand pinned, two back: torques from the table, steps of `h`.
+
+    Raises
+    ------
+    SimulationError
+        When a step fails.
+    """
+    simulation = Simulation(system, settings=settings)
+    table, end = _table(), 0.0
+    times, hand, jumps = [], [], []
+    for stage, duration in enumerate(STAGES_S, start=1):
+        part = table[table[:, 0] == stage]
+        if stage > 1:
+            for name, value in zip(TORQUES, part[0, 2:8].tolist(), strict=True):
+                simulation.set_input(name, value)
+            jumps.append(simulation.set_switch(PIN, stage == 2))
+        end += duration
+        inputs = {name: (part[:, 1], part[:, 2 + k]) for k, name in enumerate(TORQUES)}
+        run = simulation.run(end, h, inputs=inputs, progress=False)
+        times.append(run.t)
+        hand.append(np.column_stack([run[f"hand.position.{c}"] for c in "xyz"]))
+    return Replay(np.concatenate(times), np.concatenate(hand), (jumps[0], jumps[1]))
+
+
+def _table() -> NDArray[np.float64]:
+    """Stage, time, six torques and the position of the hand; shape (804, 11)."""
+    text = files("mbs.scenes.puma").joinpath("manoeuvre.csv").read_text(encoding="utf-8")
+    return np.array([[float(v) for v in line.split(",")] for line in text.splitlines()[1:]])

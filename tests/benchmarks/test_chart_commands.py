@@ -1,0 +1,120 @@
+"""The commands that draw the charts run in their reduced form, and what they compute from rows is right."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from benchmarks import growth, pages, puma, stability, work_precision
+from benchmarks.baselines.run import METHODS as CLASSICAL
+from mbs import compile
+from mbs.scenes import double_four_bar
+from mbs.settings import METHODS as KERNEL
+
+PNG = b"\x89PNG"
+
+
+def read(file):
+    data = json.loads(file.read_text(encoding="utf-8"))
+    assert data["meta"]["machine"]["python"]
+    assert data["rows"]
+    return data["meta"], data["rows"]
+
+
+def test_work_precision_runs_every_method_and_the_default_gets_better_with_the_step(tmp_path, capsys):
+    arguments = [
+        "--quick",
+        "--scene",
+        "double_four_bar",
+        "--json",
+        str(tmp_path / "w.json"),
+        "--charts",
+        str(tmp_path),
+    ]
+    assert work_precision.main(arguments) == 0
+    _, rows = read(tmp_path / "w.json")
+    assert {"kernel", "classical"} <= {r["family"] for r in rows}
+    assert set(CLASSICAL) <= {r["method"] for r in rows}
+    lagrange = sorted((r["h_s"], r["position_error_m"]) for r in rows if r["method"] == "index-1 Lagrange, Baumgarte")
+    assert lagrange[0][1] < 0.5 * lagrange[-1][1]
+    refused = [r for r in rows if r["ended"].startswith("refused")]
+    assert any(r["method"] == "velocity transformation" for r in refused)
+    assert (tmp_path / "work_double_four_bar.png").read_bytes().startswith(PNG)
+    assert "2-four-bar" in capsys.readouterr().out
+
+
+def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, capsys):
+    arguments = ["--quick", "--json", str(tmp_path / "s.json"), "--charts", str(tmp_path)]
+    assert stability.main(arguments) == 0
+    meta, rows = read(tmp_path / "s.json")
+    assert {r["outcome"] for r in rows} <= set(stability.OUTCOMES)
+    assert len({r["method"] for r in rows}) == len(KERNEL) + len(CLASSICAL)
+    fixed = [r for r in rows if r["method"] == "velocity transformation"]
+    assert fixed
+    assert all(r["outcome"] == "refused" and r["reason"] for r in fixed)
+    assert all(m["largest_fine_h_s"] >= 0.003 for m in meta["margins"])
+    assert set(stability.WHY) == set(CLASSICAL)
+    assert (tmp_path / "stability_double_four_bar.png").read_bytes().startswith(PNG)
+    assert "dead point" in capsys.readouterr().out
+
+
+def test_growth_counts_arithmetic_and_finds_the_non_zeros_linear(tmp_path):
+    arguments = ["--quick", "--json", str(tmp_path / "g.json"), "--chart", str(tmp_path / "growth.png")]
+    assert growth.main(arguments) == 0
+    _, rows = read(tmp_path / "g.json")
+    assert all(0.0 < r["of_dgemm"] < 1.0 for r in rows)
+    assert (tmp_path / "growth.png").read_bytes().startswith(PNG)
+    counts = [growth.operations(compile(double_four_bar.build(n)), 2.0, 2.0, 4.0) for n in (50, 100, 200)]
+    assert counts[2] - counts[1] == pytest.approx(2.0 * (counts[1] - counts[0]), rel=0.02)
+
+
+def test_the_arithmetic_of_a_dense_front_is_a_third_of_its_cube():
+    """Cholesky of m x m takes m^3/3 additions and multiplications."""
+    system = compile(double_four_bar.build(2))
+    m = system.nq
+    assert system.report["factor_nonzeros"] == m * (m + 1) // 2  # one front
+    with_, without = (growth.operations(system, 0.0, f, 0.0) for f in (1.0, 0.0))
+    in_row = np.diff(system.arrays["row_ptr"])
+    assembly = np.sum(in_row * (in_row + 1)) + 3 * len(system.arrays["quad_h"])
+    assert with_ - without - assembly == pytest.approx(m**3 / 3.0, rel=0.35)  # and lower powers of m
+
+
+def test_time_at_equal_error_lies_on_the_curve_and_no_curve_is_extended():
+    rows = [{"method": "m", "wall_s": w, "position_error_m": e} for w, e in ((1.0, 1e-2), (10.0, 1e-4), (100.0, 1e-6))]
+    assert work_precision.time_at_error(rows, "m", 1e-3) == pytest.approx(np.sqrt(10.0))
+    assert work_precision.time_at_error(rows, "m", 1.0) == 1.0
+    assert work_precision.time_at_error(rows, "m", 1e-7) is None
+    assert work_precision.time_at_error(rows, "other", 1e-3) is None
+
+
+def test_margins_count_decades_around_the_default_and_stop_at_the_first_gap():
+    def row(h, value, outcome):
+        return {"scene": "s", "method": "m", "h_s": h, "parameter": "eps", "value": value, "outcome": outcome}
+
+    rows = [row(h, None, "fine" if h < 0.1 else "wrong") for h in (1e-3, 1e-2, 0.1)]
+    centre = stability.mbs.Settings().eps_rel
+    rows += [
+        row(h, centre * 10.0**k, "fine" if -2 <= k <= 1 else "refused") for h in (1e-3, 1e-2) for k in range(-3, 3)
+    ]
+    (line,) = stability.margins(rows)
+    assert (line["smallest_fine_h_s"], line["largest_fine_h_s"]) == (1e-3, 1e-2)
+    assert line["first_break"] == "wrong at 0.1 s"
+    assert line["decades_below"] == pytest.approx(3.0)
+    assert line["decades_above"] == pytest.approx(2.0)
+
+
+def test_the_puma_table_has_the_paper_beside_it(tmp_path):
+    assert puma.main(["--quick", "--json", str(tmp_path / "p.json")]) == 0
+    _, rows = read(tmp_path / "p.json")
+    found = {r["h_s"]: r for r in rows}
+    assert found[0.01]["paper_error_mm"] == pytest.approx(0.53)
+    assert found[0.005]["error_mm"] < 0.3 * found[0.01]["error_mm"] < 0.3  # mm
+    assert found[0.1]["ended"] == "finished" or "refused" in found[0.1]["ended"]
+
+
+def test_tables_go_between_their_marks_and_nothing_else_changes():
+    page = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n<!-- begin y -->\nkept\n<!-- end y -->\n"
+    new = pages.replace(page, {"x": pages.table([{"h_s": 0.01, "e": None}], {"h_s": "g", "e": ".1f"}), "z": "nowhere"})
+    assert new == page.replace("old", "| h s | e |\n| --- | --- |\n| 0.01 | – |")

@@ -1,0 +1,72 @@
+"""Methods by name, and where one is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
+from mbs.scenes import double_four_bar
+from mbs.settings import METHODS
+from tests.methods.models import hinge, swing
+
+REFUSED = "takes no element states"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_method_runs_by_name(method):
+    system = compile(double_four_bar.build())
+    run = simulate(system, 0.5, 0.01, method=method)
+    reference = simulate(system, 0.5, 0.001)
+    assert run.settings.method == method
+    assert abs(run["B0.position.x"][-1] - reference["B0.position.x"][-1]) < 1e-3
+
+
+def test_an_unknown_method_is_refused_with_the_names_there_are():
+    with pytest.raises(ValueError, match="'energy_momentum_4'"):
+        Settings(method="rk4")
+    with pytest.raises(ValueError, match="rho_infinity"):
+        Settings(rho_infinity=1.5)
+
+
+@pytest.mark.parametrize("model", [swing(1.0), hinge(0.1)])
+def test_dampers_are_refused_by_the_step_that_goes_backwards(model):
+    with pytest.raises(SimulationError, match=REFUSED):
+        simulate(compile(model), 1.0, 0.01, method="energy_momentum_4")
+
+
+def test_a_filtered_guide_is_refused_too():
+    m = Model("rack", dimension=2)
+    arm = m.body("arm", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    m.revolute("pivot", m.ground, arm, point=(0.0, 0.0))
+    angle = m.relative_angle("angle", m.ground, arm)
+    m.drive("motor", angle, m.guide_input("follow", input=m.input("target"), frequency=2.0, unit="rad"))
+    bob = m.body("bob", mass=1.0, com=(1.0, -0.3), inertia=0.02)
+    m.revolute("end", arm, bob, point=(1.0, 0.0))
+    with pytest.raises(SimulationError, match=REFUSED):
+        simulate(compile(m), 1.0, 0.01, method="energy_momentum_4")
+
+
+def test_a_refused_step_leaves_the_state():
+    simulation = Simulation(compile(swing(1.0)), settings=Settings(method="energy_momentum_4"))
+    before = simulation.save()
+    with pytest.raises(SimulationError, match=REFUSED):
+        simulation.step(0.01)
+    assert simulation.save() == before
+
+
+def test_generalised_alpha_damps_a_stiff_oscillation_and_the_trapezoidal_rule_does_not():
+    m = Model("stiff", dimension=2, gravity=(0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(1.01, 0.0))
+    m.torsional_spring_damper("spring", mass.point(None).components[0], stiffness=1e8, free_angle=1.0)
+    m.sense_energy("energy", "total")
+    system, h = compile(m), 0.01  # 100 rad of phase a step
+    left = {}
+    for rho in (0.0, 0.5, 0.9):
+        run = simulate(system, 0.5, h, settings=Settings(method="ali3p_generalised_alpha", rho_infinity=rho))
+        left[rho] = run["energy"][-1] / run["energy"][0]
+    kept = simulate(system, 0.5, h)["energy"]
+    assert left[0.0] < 1e-6
+    assert left[0.0] < left[0.5] < left[0.9] < 0.1
+    assert kept[-1] > 0.5 * kept[0]
+    assert np.all(np.isfinite(kept))

@@ -1,0 +1,164 @@
+"""What the energy-momentum step keeps: energy, momenta, rows, and the books of dampers and drives."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Settings, Simulation, SimulationError, compile, simulate
+from mbs.scenes import bricard, double_four_bar
+from tests.methods.models import MOVED_S, TRIANGLE_MASSES, driven, hinge, swing, triangle
+
+END = 10.0  # s
+EXACT_J = 1e-8
+ROUND_OFF = 1e-9
+EM = Settings(method="energy_momentum", max_halvings=0)
+
+
+def spread(trajectory, name="energy.total"):
+    return float(np.abs(trajectory[name] - trajectory[name][0]).max())
+
+
+def carried(x, start, h):
+    """The velocity that the step carries, v1 = 2 (x1 - x0)/h - v0."""
+    v = [start]
+    for d in np.diff(x):
+        v.append(2.0 * d / h - v[-1])
+    return np.array(v)
+
+
+@pytest.fixture(scope="module")
+def four_bar():
+    return compile(double_four_bar.build())
+
+
+@pytest.fixture(scope="module")
+def loop():
+    return compile(bricard.build())
+
+
+@pytest.mark.parametrize("h", [0.1, 0.05, 0.03, 0.01, 0.003, 0.001])
+@pytest.mark.parametrize("scene", ["four_bar", "loop"])
+def test_energy_stays_through_singular_positions_and_with_a_redundant_row(scene, h, request):
+    run = simulate(request.getfixturevalue(scene), END, h, settings=EM)
+    assert spread(run) < EXACT_J
+    assert run.report.halvings == 0
+    assert np.ptp(run[next(iter(run))]) > 0.1  # it moves
+
+
+@pytest.mark.parametrize("h", [0.05, 0.01])
+def test_the_velocity_that_is_reported_lies_on_the_constraints_and_has_the_energy(four_bar, h):
+    simulation = Simulation(four_bar, settings=EM)
+    start = simulation.sensors["energy.total"]
+    a = four_bar.arrays
+    row = np.repeat(np.arange(four_bar.nc), np.diff(a["row_ptr"]))
+    for _ in range(40):
+        simulation.step(h)
+        state = simulation.state
+        J = np.array(simulation.instance.evaluate(state.q, state.qd)["jacobian"], float)
+        rate = np.bincount(row, J * state.qd[a["row_col"]], minlength=four_bar.nc)
+        assert np.abs(rate * a["row_measure"]).max() < 1e-8  # m/s
+        assert abs(simulation.sensors["energy.total"] - start) < EXACT_J
+
+
+def test_it_loses_no_energy_where_ali3p_does(four_bar):
+    lost = spread(simulate(four_bar, END, 0.03))
+    assert lost > 0.5
+    assert spread(simulate(four_bar, END, 0.03, settings=EM)) < 1e-7 * lost
+
+
+@pytest.mark.parametrize("h", [0.02, 0.005])
+def test_a_free_system_of_springs_keeps_both_momenta_and_its_energy(h):
+    run = simulate(compile(triangle()), 5.0, h, settings=EM)
+    assert spread(run, "energy") < ROUND_OFF
+    assert np.ptp(np.hypot(run["a.x"] - run["c.x"], run["a.y"] - run["c.y"])) > 0.05
+    momenta = {k: np.zeros(len(run.t)) for k in ("x", "y", "turn")}
+    for n, m in TRIANGLE_MASSES.items():
+        x, y = run[f"{n}.x"], run[f"{n}.y"]
+        vx, vy = (carried(run[f"{n}.{c}"], run[f"{n}.v{c}"][0], h) for c in "xy")
+        momenta["x"] += m * vx
+        momenta["y"] += m * vy
+        momenta["turn"] += m * (x * vy - y * vx)
+    for values in momenta.values():
+        np.testing.assert_allclose(values, values[0], atol=ROUND_OFF)
+    reported = sum(m * run[f"{n}.vx"] for n, m in TRIANGLE_MASSES.items())
+    assert np.abs(reported - reported[0]).max() < 1e4 * h**4  # it is scaled to the energy
+
+
+@pytest.mark.parametrize("h", [0.02, 0.004])
+@pytest.mark.parametrize("damping", [0.0, 3.0, 80.0])
+@pytest.mark.parametrize("stops", [False, True])
+def test_a_damped_spring_loses_exactly_what_the_damper_takes(h, damping, stops):
+    run = simulate(compile(swing(damping, stops)), 3.0, h, settings=EM)
+    length = run["length"]
+    taken = np.concatenate([[0.0], np.cumsum(damping * np.diff(length) ** 2 / h)])
+    np.testing.assert_allclose(run["energy"] + taken, run["energy"][0], atol=EXACT_J)
+    assert np.ptp(length) > 0.05
+    if stops and damping < 10.0:
+        assert length.min() < 1.1 or length.max() > 1.6
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.2])
+def test_an_angle_row_does_no_work_over_several_turns(damping):
+    h = 0.01
+    run = simulate(compile(hinge(damping)), 4.0, h, settings=EM)
+    taken = np.concatenate([[0.0], np.cumsum(damping * np.diff(run["angle"]) ** 2 / h)])
+    np.testing.assert_allclose(run["energy"] + taken, run["energy"][0], atol=EXACT_J)
+    assert np.ptp(run["angle"]) > np.pi
+
+
+def test_a_drive_gives_energy_only_while_it_moves():
+    system = compile(driven())
+    run = simulate(system, 4.0, 0.01, settings=EM)
+    moved = run.t > MOVED_S + 0.005
+    assert np.abs(run["angle"][moved] - 1.0).max() < 1e-10
+    assert abs(run["energy"][moved][0] - run["energy"][0]) > 1.0
+    np.testing.assert_allclose(run["energy"][moved], run["energy"][moved][0], atol=ROUND_OFF)
+    other = simulate(system, 4.0, 0.001)
+    assert abs(run["bob.x"][-1] - other["bob.x"][-1]) < 0.02
+
+
+def test_a_state_continues_bit_for_bit_and_quiet_steps_change_nothing(four_bar):
+    whole, parts = Simulation(four_bar, settings=EM), Simulation(four_bar, settings=EM)
+    whole.run(2.0, 0.01, every=200)
+    for _ in range(100):
+        parts.step(0.01)
+    saved = parts.save()
+    other = Simulation(four_bar)
+    other.restore(saved)
+    other.run(2.0, 0.01)
+    for a, b in zip(vars(whole.state).values(), vars(other.state).values(), strict=True):
+        assert np.array_equal(a, b)
+
+
+def test_a_step_that_does_not_converge_is_made_in_halves_and_keeps_the_energy(four_bar):
+    few = Settings(method="energy_momentum", max_iterations=8)
+    run = simulate(four_bar, END, 0.1, settings=few)
+    assert run.report.halvings > 0
+    assert run.report.failures == 0
+    assert spread(run) < 10.0 * EXACT_J
+
+
+def test_a_run_that_fails_unseen_leaves_the_last_good_state_complete(four_bar):
+    """Steps that nobody looks at leave out what only a reader needs; it is there when a later one fails."""
+    few = Settings(method="energy_momentum", max_iterations=6, max_halvings=0)
+    unseen, seen = Simulation(four_bar, settings=few), Simulation(four_bar, settings=few)
+    with pytest.raises(SimulationError, match="did not converge"):
+        unseen.run(END, 0.1, every=100)
+    with pytest.raises(SimulationError, match="did not converge"):
+        seen.run(END, 0.1)
+    assert unseen.time == seen.time > 0.3
+    a, b = unseen.state, seen.state
+    assert np.array_equal(a.q, b.q)
+    np.testing.assert_allclose(a.qd, b.qd, atol=1e-8)
+    np.testing.assert_allclose(a.qdd, b.qdd, atol=1e-4)
+
+
+def test_the_method_may_change_on_the_way(four_bar):
+    simulation = Simulation(four_bar)
+    simulation.run(1.0, 0.01)
+    middle = simulation.sensors["energy.total"]
+    simulation.instance.set_settings(method=2)
+    run = simulation.run(3.0, 0.01)
+    assert spread(run) < EXACT_J
+    assert run["energy.total"][0] == middle
