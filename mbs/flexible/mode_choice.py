@@ -1,0 +1,87 @@
+"""How many dynamic modes a named output needs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbs.errors import ModelError
+from mbs.flexible.fe_model import FiniteElementModel, Reference
+from mbs.flexible.fixed_interface import FixedInterface, Interface
+from mbs.flexible.frequencies import natural_modes
+
+
+@dataclass(frozen=True)
+class ModeChoice:
+    """Chosen fixed-interface modes and what they leave out.
+
+    Parameters
+    ----------
+    modes : tuple of int
+        Numbers of the modes (0 is the lowest), ascending; for `craig_bampton`.
+    left_out : float
+        Largest error of the output over the accelerations looked at, as a fraction of its largest value.
+    frequencies : ndarray
+        Of the chosen modes, Hz.
+    """
+
+    modes: tuple[int, ...]
+    left_out: float
+    frequencies: np.ndarray
+
+
+def modes_for_output(
+    model: FiniteElementModel,
+    reference: Reference,
+    interfaces: Sequence[Interface | str | int],
+    rows: np.ndarray | sp.sparray,
+    tolerance: float,
+    candidates: int = 100,
+) -> ModeChoice:
+    """Fewest modes with which the outputs under steady rigid accelerations are right to a tolerance.
+
+    With the interfaces held the output under the inertia of each unit acceleration (three along the axes, three
+    about them) is known exactly; a mode contributes ``row psi (psi' M R) / w2``. Modes are taken in the order of
+    their largest contribution until every output misses less than `tolerance` of its largest value.
+
+    Parameters
+    ----------
+    rows : ndarray or sparse array, shape (n_outputs, n_dof)
+        Outputs per unit nodal displacement.
+    tolerance : float
+        Fraction of each output's largest value over the six accelerations.
+    candidates : int
+        Lowest modes that are looked at.
+    """
+    if not 0 < tolerance < 1:
+        raise ModelError(f"The tolerance on an output is {tolerance:g}; a fraction between 0 and 1 is needed.")
+    fixed = FixedInterface(model, reference, interfaces)
+    hertz, modes = natural_modes(model, candidates, fixed.held_numbers())
+    load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(reference)))
+    # accelerations about the axes count over the size of the model, to compare with those along them
+    load[:, 3:] /= float(np.ptp(model.positions, axis=0).max())
+    exact = np.asarray(rows @ fixed.solve(load))
+    scale = np.abs(exact).max(axis=1, keepdims=True)
+    if (scale == 0).any():
+        raise ModelError(f"Output {int(np.flatnonzero(scale == 0)[0])} does not see any deformation of the model.")
+    participation = (modes.T @ load) / ((2 * np.pi * hertz) ** 2)[:, None]
+    parts = np.asarray(rows @ modes)[:, :, None] * participation[None] / scale[:, :, None]
+    missing = exact / scale
+    order = np.argsort(-np.abs(parts).max(axis=(0, 2)), kind="stable")
+    chosen: list[int] = []
+    for mode in order:
+        if np.abs(missing).max() <= tolerance:
+            break
+        missing = missing - parts[:, mode]
+        chosen.append(int(mode))
+    error = float(np.abs(missing).max())
+    if error > tolerance:
+        raise ModelError(
+            f"The lowest {candidates} modes leave an error of {error:.2g} of the output; look at more candidates or "
+            "add the inertia modes, which make steady accelerations exact."
+        )
+    chosen.sort()
+    return ModeChoice(tuple(chosen), error, hertz[chosen])

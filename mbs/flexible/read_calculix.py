@@ -1,0 +1,86 @@
+"""Models written by CalculiX with ``*FREQUENCY, SOLVER=MATRIXSTORAGE`` (mesh reader: meshio, extra `fem`)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import spsolve
+
+from mbs.errors import ModelError
+from mbs.flexible.external_model import external_model
+from mbs.flexible.fe_model import FiniteElementModel
+
+
+def read_calculix(deck: str | Path) -> FiniteElementModel:
+    """Model of solid elements from ``name.inp`` and the files ``name.sti``, ``.mas`` and ``.dof`` beside it.
+
+    The deck must have no supports and SI units; nodes keep their numbers as names and have three translations.
+
+    Parameters
+    ----------
+    deck : str or Path
+        Input deck.
+    """
+    try:
+        import meshio
+    except ImportError as error:
+        raise ModelError("CalculiX decks are read with meshio: install it with pip install 'ali3[fem]'.") from error
+    deck = Path(deck)
+    files = [deck, *(deck.with_suffix(suffix) for suffix in (".sti", ".mas", ".dof"))]
+    for path in files:
+        if not path.is_file():
+            raise ModelError(f"There is no file {path}; *FREQUENCY, SOLVER=MATRIXSTORAGE writes it.")
+    places = meshio.read(deck, file_format="abaqus")
+    numbers = _node_numbers(deck)
+    if len(numbers) != len(places.points):
+        raise ModelError(f"{deck.name} has {len(numbers)} node lines but {len(places.points)} nodes.")
+    freedoms = [line.split(".") for line in files[3].read_text().split()]
+    row = {number: i for i, number in enumerate(numbers)}
+    table = np.full((len(numbers), 6), -1)
+    inner = np.array([int(node) not in row for node, _ in freedoms])
+    number_of = np.cumsum(~inner) - 1
+    for k, (node, axis) in enumerate(freedoms):
+        if not inner[k]:
+            table[row[int(node)], int(axis) - 1] = number_of[k]
+    used = (table[:, :3] >= 0).all(axis=1)
+    if (table[~used] >= 0).any():
+        node = numbers[int(np.flatnonzero(~used & (table >= 0).any(axis=1))[0])]
+        raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
+    K, M = (_triangle(path, len(freedoms)) for path in files[1:3])
+    K, M = _without_inner(K, M, inner)
+    names = [str(number) for number, keep in zip(numbers, used, strict=True) if keep]
+    return external_model(K, M, np.asarray(places.points, float)[used], names, table[used])
+
+
+def _without_inner(K: sp.csc_array, M: sp.csc_array, inner: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
+    """Static condensation of freedoms without a node of the deck (incompatible modes of elements)."""
+    if not inner.any():
+        return K, M
+    keep, drop = np.flatnonzero(~inner), np.flatnonzero(inner)
+    follow = -sp.csc_array(spsolve(sp.csc_matrix(K[drop][:, drop]), sp.csc_matrix(K[drop][:, keep])))
+    T = sp.csc_array(sp.vstack([sp.eye_array(keep.size), follow]))
+    order = np.concatenate([keep, drop])
+    K, M = (sp.csc_array(T.T @ X[order][:, order] @ T) for X in (K, M))
+    return K, M
+
+
+def _triangle(path: Path, size: int) -> sp.csc_array:
+    """Symmetric matrix from lines ``row column value`` (from 1) of one triangle."""
+    i, j, value = np.loadtxt(path, unpack=True, ndmin=2)
+    one = sp.coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=(size, size)).tocsc()
+    return sp.csc_array(one + one.T - sp.diags_array(one.diagonal()))
+
+
+def _node_numbers(deck: Path) -> list[int]:
+    """Node numbers of the deck in the order of its lines, which meshio keeps for the points."""
+    numbers, inside = [], False
+    for line in deck.read_text(encoding="latin-1").splitlines():
+        if line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            inside = line.split(",")[0].strip().upper() == "*NODE"
+        elif inside and line.strip():
+            numbers.append(int(line.split(",")[0]))
+    return numbers
