@@ -67,10 +67,11 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t total = 3 * n_vector + nu + 2 * np + data + 8 * nq + 7 * nc + 2 * (size_t)z->nnz_rows +
                        (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny +
                        nout + ne;
+  const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u;
   *out = NULL;
-  char *block = calloc(1, head + roads + total * sizeof(double));
+  char *block = calloc(1, head + roads + (total + n_flex + n_flex_work) * sizeof(double));
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
   double *pool = (double *)(block + head + roads);
@@ -110,6 +111,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->S = take(&pool, n_S);
   in->SB = take(&pool, n_work);
   in->local = take(&pool, (size_t)s->max_front);
+  in->flex = take(&pool, n_flex);
+  in->flex_work = take(&pool, n_flex_work);
   in->y_work = take(&pool, ny);
   in->out_work = take(&pool, nout);
   in->potential_work = take(&pool, ne);

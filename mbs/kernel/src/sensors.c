@@ -70,11 +70,11 @@ static double quaternion(const ali3_instance *in, int32_t wanted, const int32_t 
 static double energy(const ali3_instance *in, int32_t kind) {
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = S->gravity_const[0], elastic = 0.0;
+  ali3_flexible_prepare(in, in->now.q);
+  ali3_flexible_energy(in, in->now.q, &gravity, &elastic);
+  ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    double momentum = 0.0;
-    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++)
-      momentum += S->mass_val[k] * in->now.qd[S->mass_col[k]];
-    kinetic += 0.5 * momentum * in->now.qd[i];
+    kinetic += 0.5 * in->x[i] * in->now.qd[i];
     gravity -= S->gravity_force[i] * in->now.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->now.potential[e];

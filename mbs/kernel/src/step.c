@@ -16,12 +16,14 @@ bool ali3_finite(const double *v, int64_t n) {
   return sum == 0.0;
 }
 
-void ali3_mass_times(const ali3_system *S, const double *x, double *out) {
+void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
+  const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.nq; i++) {
     double sum = 0.0;
     for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += S->mass_val[k] * x[S->mass_col[k]];
     out[i] = sum;
   }
+  ali3_flexible_mass_times(in, x, out);
 }
 
 /* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. */
@@ -77,7 +79,7 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   const ali3_force_call call = {to->q, to->qd, in->now.y, h, 0.5 * h, c, tangent, in->Q, to->y, to->out, to->potential};
   ali3_forces(in, &call);
-  ali3_mass_times(S, in->w, in->r);
+  ali3_mass_times(in, in->w, in->r);
   for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
 }
 
