@@ -11,6 +11,7 @@ from mbs.affine import Affine
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
 from mbs.compile.equilibrium import equilibrium
+from mbs.compile.flexible import flexible_arrays, flexible_cliques, flexible_coordinates
 from mbs.compile.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
@@ -46,8 +47,11 @@ def compile(model: Model) -> System:
         raise ModelError(f"The model '{model.name}' has no bodies.")
     linear, others = _equations(model)
     natural = natural_coordinates(model)
-    kept, full, of_z, redundant = reduce_coordinates(natural, linear, model.grounded)
+    kept, full, of_z, redundant, left = reduce_coordinates(
+        natural, linear, model.grounded, flexible_coordinates(model)
+    )
     candidates = [row_terms(e, j, k, full) for j, k, e in others]
+    candidates += left
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
     rows, dependent = independent_rows(candidates)
     if not kept:
@@ -91,6 +95,7 @@ def compile(model: Model) -> System:
         **element_arrays(model, signals, locate),
         **sensor_arrays(model, signals, row_of),
         **channel_arrays(model),
+        **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, kept, of_z, q[new], order),
         **signals.arrays(),
     }
@@ -127,6 +132,6 @@ def _symbolic(model: Model, rows: list[RowTerms], full: list[Affine], mass: spar
     entries = mass.tocoo()
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
     cliques += [row.columns() for row in rows]
-    cliques += element_cliques(model, full)
+    cliques += element_cliques(model, full) + flexible_cliques(model, full)
     pattern = clique_pattern(mass.shape[0], cliques)
     return build_fronts(pattern, fill_reducing_order(pattern)), (pattern.nnz + mass.shape[0]) // 2
