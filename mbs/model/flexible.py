@@ -8,7 +8,6 @@ rows. Rotations of nodes are linear in eta too, and a direction that turns with 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -251,11 +250,6 @@ def located(body: Body, position: ArrayLike, what: str) -> Body:
 def bends(body: Body) -> bool:
     """Whether vectors of the body turn with its deformation and so change their length a little."""
     return isinstance(body, Interface) and body.bends
-
-
-def weighted(body: FlexibleBody, rows: Sequence[ArrayLike]) -> list[Affine]:
-    """`FlexibleBody.combination` of several rows, such as those of `ReducedBody.recovery`."""
-    return [body.combination(row) for row in rows]
 
 
 def node_displacement(body: FlexibleBody, node: str | int, direction: ArrayLike) -> Affine:

@@ -13,6 +13,7 @@ from mbs.affine import Affine, AffineVector
 from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
+from mbs.model.flexible import FlexibleBody
 from mbs.model.joints.joint import Joint
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
@@ -179,6 +180,20 @@ class SensorVocabulary(ModelCore):
         if not unit:
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
         return self._sense(name, unit, description, order, [expression], reals=[scale])
+
+    def sense_recovery(
+        self, name: str, body: FlexibleBody, weights: ArrayLike, unit: str = "", description: str = ""
+    ) -> Sensor:
+        """A constant row times the amplitudes of a flexible body, such as a stress of `ReducedBody.recovery`.
+
+        Parameters
+        ----------
+        weights : array_like, shape (n_modes,)
+            Output per unit amplitude.
+        """
+        if not isinstance(self.owned(body, f"The sensor '{name}'"), FlexibleBody):
+            raise ModelError(f"The sensor '{name}' needs a flexible body, not '{body.name}'.")
+        return self._sense(name, unit, description, 0, [body.combination(weights)], reals=[1.0])
 
     def sense_angular_rate(
         self, name: str, body: Body, component: str = "z", unit: str = "rad/s", description: str = ""
