@@ -9,6 +9,7 @@ from scipy.sparse.linalg import eigsh
 
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
+from mbs.flexible.sparse import Sparse
 
 SYMMETRY = 1e-6  # of the largest entry: matrices printed with seven digits pass
 GROUNDED = 1e-5  # of the stiffness times the size: printed matrices pass, a spring to the ground does not
@@ -19,7 +20,7 @@ AXIS_WORDS = ("along x", "along y", "along z", "about x", "about y", "about z")
 NAMED = 5  # nodes named in one sentence
 
 
-def check_symmetric(matrix: sp.sparray, what: str) -> None:
+def check_symmetric(matrix: Sparse, what: str) -> None:
     """Refuse a matrix that is not square, finite and symmetric."""
     if matrix.shape[0] != matrix.shape[1]:
         raise ModelError(f"The {what} matrix is {matrix.shape[0]} by {matrix.shape[1]}; it must be square.")
@@ -31,10 +32,9 @@ def check_symmetric(matrix: sp.sparray, what: str) -> None:
         raise ModelError(f"The {what} matrix is zero.")
     error = sp.coo_array(matrix - matrix.T)
     if error.nnz and (worst := int(np.abs(error.data).argmax())) >= 0 and abs(error.data[worst]) > SYMMETRY * largest:
-        i, j = int(error.row[worst]), int(error.col[worst])
-        raise ModelError(
-            f"The {what} matrix is not symmetric: entries ({i}, {j}) and ({j}, {i}) differ by {abs(error.data[worst]):g}."
-        )
+        i, j = sorted((int(error.row[worst]), int(error.col[worst])))
+        gap = abs(error.data[worst])
+        raise ModelError(f"The {what} matrix is not symmetric: entries ({i}, {j}) and ({j}, {i}) differ by {gap:g}.")
 
 
 def check_masses(masses: np.ndarray, names: tuple[str, ...]) -> None:
@@ -100,7 +100,7 @@ def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
         number = int(free[np.flatnonzero(diagonal <= 0)[0]])
         node, axis = (int(i) for i in np.argwhere(model.dof == number)[0])
         raise ModelError(f"Nothing resists the motion {AXIS_WORDS[axis]} of node {model.names[node]!r}.")
-    scale = sp.diags_array(1 / np.sqrt(diagonal))
+    scale = sp.csr_array(sp.diags(1 / np.sqrt(diagonal)))
     K = sp.csc_array(scale @ model.K[free][:, free] @ scale)
     # the shift keeps the factorisation regular where the stiffness is not
     value, vector = eigsh(K, k=1, sigma=-1e-9, which="LM", v0=np.ones(free.size))

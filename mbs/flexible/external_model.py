@@ -14,11 +14,12 @@ from mbs.flexible.checks import check_free, check_masses, check_symmetric, check
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.lumping import lumped_masses
 from mbs.flexible.mass_points import nodal_mass_points
+from mbs.flexible.sparse import Sparse
 
 
 def external_model(
-    stiffness: ArrayLike | sp.sparray,
-    mass: ArrayLike | sp.sparray,
+    stiffness: np.ndarray | Sparse,
+    mass: np.ndarray | Sparse,
     positions: ArrayLike,
     names: Sequence[str] | None = None,
     dof: ArrayLike | None = None,
@@ -27,9 +28,9 @@ def external_model(
 
     Parameters
     ----------
-    stiffness : array_like or sparse array, shape (n_dof, n_dof)
+    stiffness : ndarray or sparse array, shape (n_dof, n_dof)
         Symmetric.
-    mass : array_like or sparse array, shape (n_dof, n_dof) or (n,)
+    mass : ndarray or sparse array, shape (n_dof, n_dof) or (n,)
         Mass matrix, lumped at the nodes by `lumped_masses`; or one mass per node, kg.
     positions : array_like, shape (n, 3)
         Nodes, m.

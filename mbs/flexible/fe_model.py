@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.linalg import qr
 
 from mbs.errors import ModelError
 from mbs.flexible.mass_points import MassPoints
 
+ON_ONE_LINE = 1e-6  # of the extent of the three reference nodes
 Reference = str | int | Sequence[str | int]
 
 
@@ -82,24 +84,24 @@ class FiniteElementModel:
     def reference_freedoms(self, reference: Reference) -> np.ndarray:
         """Six degrees of freedom that hold the model: those of one node, or six of three nodes of solid elements.
 
-        Of three nodes the six best conditioned translations are taken (rank-revealing QR of the rigid motions).
+        Of three nodes the first is held, and of the others the three translations that best resist rotations about it
+        (rank-revealing QR).
         """
         if isinstance(reference, str | int):
             return np.concatenate([self.freedoms(reference), self.freedoms(reference, rotations=True)])
         if len(reference) != 3:
             raise ModelError(f"The reference is one node with rotations or three nodes, not {len(reference)} nodes.")
-        from scipy.linalg import qr
-
-        numbers = np.concatenate([self.freedoms(node) for node in reference])
+        first, *others = (self.freedoms(node) for node in reference)
+        numbers = np.concatenate(others)
         places = self.positions[[self.node(node) for node in reference]]
         size = max(float(np.ptp(places, axis=0).max()), np.finfo(float).tiny)
-        R = self.rigid_motions(places[0])[numbers] / np.r_[np.ones(3), np.full(3, size)]
-        _, triangle, order = qr(R.T, pivoting=True)
-        if abs(triangle[5, 5]) < 1e-6:
+        turns = self.rigid_motions(places[0])[numbers, 3:] / size
+        _, triangle, order = qr(turns.T, pivoting=True)
+        if abs(triangle[2, 2]) < ON_ONE_LINE:
             raise ModelError(f"The three reference nodes {list(reference)} lie on one line; they must span a triangle.")
-        return np.sort(numbers[order[:6]])
+        return np.concatenate([first, np.sort(numbers[order[:3]])])
 
     def origin(self, reference: Reference) -> np.ndarray:
         """Origin of the floating frame: the reference node, or the first of three, shape (3,)."""
         first = reference if isinstance(reference, str | int) else reference[0]
-        return self.positions[self.node(first)].copy()
+        return np.array(self.positions[self.node(first)])

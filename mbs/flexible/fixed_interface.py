@@ -81,7 +81,7 @@ class FixedInterface:
         unit[self.boundary, np.arange(self.boundary.size)] = 1.0
         if self.boundary.size == 0:
             return unit
-        return unit - self.solve(self.model.K @ unit)
+        return np.asarray(unit - self.solve(np.asarray(self.model.K @ unit)))
 
     def held_numbers(self) -> np.ndarray:
         """All degrees of freedom that are held for the dynamic modes."""

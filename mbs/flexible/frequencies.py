@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 from scipy.linalg import eigh
-from scipy.sparse.linalg import eigsh
+from scipy.sparse.linalg import ArpackError, eigsh
 
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
@@ -14,9 +14,7 @@ from mbs.flexible.fe_model import FiniteElementModel
 DENSE = 300  # below this size all modes are computed at once
 
 
-def natural_modes(
-    model: FiniteElementModel, count: int, held: ArrayLike = ()
-) -> tuple[np.ndarray, np.ndarray]:
+def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -> tuple[np.ndarray, np.ndarray]:
     """The lowest `count` modes; the first six of a free model are its rigid motions (0 Hz).
 
     Parameters
@@ -41,14 +39,20 @@ def natural_modes(
         return np.zeros(0), np.zeros((model.n_dof, 0))
     # a shift below zero keeps the factorisation regular for free models; small against the lowest elastic mode
     shift = -1e-3 * float(np.min(K.diagonal() / np.maximum(M.diagonal(), 1e-6 * M.diagonal().max())))
-    if free.size <= DENSE or count >= free.size - 1:
-        shifted = (K - shift * M).toarray()
-        values, V = eigh(M.toarray(), shifted, subset_by_index=[free.size - count, free.size - 1])
-        squares, V = shift + 1 / values[::-1], V[:, ::-1]
-    else:
-        squares, V = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=np.ones(free.size))
-        order = np.argsort(squares)
-        squares, V = squares[order], V[:, order]
+    try:
+        if free.size <= DENSE or count >= free.size - 1:
+            shifted = (K - shift * M).toarray()
+            values, V = eigh(M.toarray(), shifted, subset_by_index=[free.size - count, free.size - 1])
+            squares, V = shift + 1 / values[::-1], V[:, ::-1]
+        else:
+            squares, V = eigsh(K, k=count, M=M, sigma=shift, which="LM", v0=np.ones(free.size))
+            order = np.argsort(squares)
+            squares, V = squares[order], V[:, order]
+    except (np.linalg.LinAlgError, RuntimeError, ArpackError) as error:
+        raise ModelError(
+            "The modes cannot be computed: a motion has neither stiffness nor mass (a straight beam needs its rotary "
+            "inertia to resist a twist)."
+        ) from error
     V = V / np.sqrt(np.einsum("ij,ij->j", V, M @ V))
     shapes = np.zeros((model.n_dof, count))
     shapes[free] = V

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface
+from mbs.flexible.sparse import Sparse
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class InertiaRelief:
 
 
 def inertia_relief(
-    model: FiniteElementModel, reference: Reference, interfaces: Sequence[str | int], rows: np.ndarray | sp.sparray
+    model: FiniteElementModel, reference: Reference, interfaces: Sequence[str | int], rows: np.ndarray | Sparse
 ) -> InertiaRelief:
     """Solve the model once per interface force and per unit acceleration.
 

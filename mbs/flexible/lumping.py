@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
 from mbs.errors import ModelError
 from mbs.flexible.mass_points import MassPoints, nodal_mass_points
+from mbs.flexible.sparse import Sparse
 
 ISOTROPY = 1e-3  # largest difference between the masses of a model along x, y and z
 
 
-def lumped_masses(M: sp.sparray, positions: np.ndarray, dof: np.ndarray) -> MassPoints:
+def lumped_masses(M: Sparse, positions: np.ndarray, dof: np.ndarray) -> MassPoints:
     """Lump a mass matrix at the nodes, isotropic in translation; the total mass is kept.
 
     Row sums are used where none is negative (bars, beams, linear solids); otherwise the diagonal is scaled to the
@@ -42,7 +42,9 @@ def lumped_masses(M: sp.sparray, positions: np.ndarray, dof: np.ndarray) -> Mass
         diagonal = M.diagonal()[translation]
         if (diagonal < 0).any():
             node = int(np.argwhere(diagonal < 0)[0, 0])
-            raise ModelError(f"The mass matrix has the negative diagonal entry {diagonal[node].min():g} at node {node}.")
+            raise ModelError(
+                f"The mass matrix has the negative diagonal entry {diagonal[node].min():g} at node {node}."
+            )
         masses = diagonal.mean(axis=1)
     masses = np.maximum(masses, 0.0)
     return nodal_mass_points(positions, masses * (totals.mean() / masses.sum()), translation, n_dof)

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface, Interface
 from mbs.flexible.frequencies import natural_modes
+from mbs.flexible.sparse import Sparse
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ def modes_for_output(
     model: FiniteElementModel,
     reference: Reference,
     interfaces: Sequence[Interface | str | int],
-    rows: np.ndarray | sp.sparray,
+    rows: np.ndarray | Sparse,
     tolerance: float,
     candidates: int = 100,
 ) -> ModeChoice:

@@ -23,6 +23,12 @@ def read_calculix(deck: str | Path) -> FiniteElementModel:
     deck : str or Path
         Input deck.
     """
+    K, M, positions, numbers = calculix_matrices(deck)
+    return external_model(K, M, positions, [str(number) for number in numbers])
+
+
+def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.ndarray, list[int]]:
+    """Stiffness and mass over x, y, z of node after node, positions (n, 3), and the numbers of the nodes."""
     try:
         import meshio
     except ImportError as error:
@@ -32,35 +38,33 @@ def read_calculix(deck: str | Path) -> FiniteElementModel:
     for path in files:
         if not path.is_file():
             raise ModelError(f"There is no file {path}; *FREQUENCY, SOLVER=MATRIXSTORAGE writes it.")
-    places = meshio.read(deck, file_format="abaqus")
+    points = np.asarray(meshio.read(deck, file_format="abaqus").points, float)
     numbers = _node_numbers(deck)
-    if len(numbers) != len(places.points):
-        raise ModelError(f"{deck.name} has {len(numbers)} node lines but {len(places.points)} nodes.")
-    freedoms = [line.split(".") for line in files[3].read_text().split()]
+    if len(numbers) != len(points):
+        raise ModelError(f"{deck.name} has {len(numbers)} node lines but {len(points)} nodes.")
     row = {number: i for i, number in enumerate(numbers)}
-    table = np.full((len(numbers), 6), -1)
-    inner = np.array([int(node) not in row for node, _ in freedoms])
-    number_of = np.cumsum(~inner) - 1
+    freedoms = [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in files[3].read_text().split())]
+    table = np.full((len(numbers), 3), -1)
     for k, (node, axis) in enumerate(freedoms):
-        if not inner[k]:
-            table[row[int(node)], int(axis) - 1] = number_of[k]
-    used = (table[:, :3] >= 0).all(axis=1)
-    if (table[~used] >= 0).any():
-        node = numbers[int(np.flatnonzero(~used & (table >= 0).any(axis=1))[0])]
+        if node in row and axis < 3:
+            table[row[node], axis] = k
+    used = (table >= 0).all(axis=1)
+    held = np.flatnonzero(~used & (table >= 0).any(axis=1))
+    if held.size or not used.any():
+        node = numbers[int(held[0])] if held.size else numbers[0]
         raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
     K, M = (_triangle(path, len(freedoms)) for path in files[1:3])
-    K, M = _without_inner(K, M, inner)
-    names = [str(number) for number, keep in zip(numbers, used, strict=True) if keep]
-    return external_model(K, M, np.asarray(places.points, float)[used], names, table[used])
+    K, M = _condensed(K, M, table[used].ravel())
+    return K, M, points[used], [numbers[int(i)] for i in np.flatnonzero(used)]
 
 
-def _without_inner(K: sp.csc_array, M: sp.csc_array, inner: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
-    """Static condensation of freedoms without a node of the deck (incompatible modes of elements)."""
-    if not inner.any():
-        return K, M
-    keep, drop = np.flatnonzero(~inner), np.flatnonzero(inner)
+def _condensed(K: sp.csc_array, M: sp.csc_array, keep: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
+    """Static condensation on freedoms `keep`: the others are inner ones of elements (incompatible modes)."""
+    drop = np.setdiff1d(np.arange(K.shape[0]), keep)
+    if not drop.size:
+        return K[keep][:, keep], M[keep][:, keep]
     follow = -sp.csc_array(spsolve(sp.csc_matrix(K[drop][:, drop]), sp.csc_matrix(K[drop][:, keep])))
-    T = sp.csc_array(sp.vstack([sp.eye_array(keep.size), follow]))
+    T = sp.csc_array(sp.vstack([sp.identity(keep.size), follow]))
     order = np.concatenate([keep, drop])
     K, M = (sp.csc_array(T.T @ X[order][:, order] @ T) for X in (K, M))
     return K, M
@@ -70,7 +74,7 @@ def _triangle(path: Path, size: int) -> sp.csc_array:
     """Symmetric matrix from lines ``row column value`` (from 1) of one triangle."""
     i, j, value = np.loadtxt(path, unpack=True, ndmin=2)
     one = sp.coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=(size, size)).tocsc()
-    return sp.csc_array(one + one.T - sp.diags_array(one.diagonal()))
+    return sp.csc_array(one + one.T - sp.diags(one.diagonal()))
 
 
 def _node_numbers(deck: Path) -> list[int]:

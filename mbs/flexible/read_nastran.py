@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from mbs.errors import ModelError
 from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.sparse import Sparse
 
 
 def read_nastran(
@@ -57,7 +58,7 @@ def _is_punch(path: str | Path) -> bool:
     return not any(line.strip().startswith("CEND") for line in lines)
 
 
-def _symmetric(data: np.ndarray | sp.sparray) -> sp.csc_array:
+def _symmetric(data: np.ndarray | Sparse) -> sp.csc_array:
     """Whole matrix from what may be one triangle of it."""
     full = sp.csc_array(data)
     lower, upper = sp.tril(full, -1), sp.triu(full, 1)

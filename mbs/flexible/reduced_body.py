@@ -96,11 +96,11 @@ class ReducedBody:
 
     def interface_translation(self, name: str) -> np.ndarray:
         """Displacement of an interface node per unit amplitude, shape (3, m): unit columns in the default basis."""
-        return self.node_translations[self.interface(name).node]
+        return np.asarray(self.node_translations[self.interface(name).node])
 
     def interface_rotation(self, name: str) -> np.ndarray:
         """Rotation of an interface node per unit amplitude, shape (3, m)."""
-        return self.node_rotations[self.interface(name).node]
+        return np.asarray(self.node_rotations[self.interface(name).node])
 
     def recovery(self, rows: np.ndarray) -> np.ndarray:
         """Outputs per unit amplitude from outputs per nodal displacement: shape (k, d) to (k, m)."""

@@ -50,16 +50,16 @@ class ShapeIntegrals:
 
     def first_moments(self, eta: np.ndarray) -> np.ndarray:
         """sum m (x + phi eta), shape (3,)."""
-        return self.S0 + self.P @ eta
+        return np.asarray(self.S0 + self.P @ eta)
 
     def second_moments(self, eta: np.ndarray) -> np.ndarray:
         """sum m (x + phi eta)(x + phi eta)', shape (3, 3)."""
         mixed = np.einsum("ijk,j->ik", self.c, eta)
-        return self.J0 + mixed + mixed.T + np.einsum("jlik,j,l->ik", self.T, eta, eta)
+        return np.asarray(self.J0 + mixed + mixed.T + np.einsum("jlik,j,l->ik", self.T, eta, eta))
 
     def couplings(self, eta: np.ndarray) -> np.ndarray:
         """sum m (x + phi eta)_i phi_j at [i, j], shape (3, n, 3)."""
-        return self.c + np.einsum("jlik,l->ijk", self.T, eta)
+        return np.asarray(self.c + np.einsum("jlik,l->ijk", self.T, eta))
 
     def mass_matrix(self, A: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Equation (13), shape (12 + n, 12 + n)."""
@@ -98,7 +98,8 @@ def shape_integrals(body: ReducedBody) -> ShapeIntegrals:
     m, x, phi = body.masses, body.mass_positions, body.mass_shapes
     n = body.n_modes
     weighted = (m[:, None, None] * phi).reshape(len(m), 3 * n)
-    pairs = (weighted.T @ phi.reshape(len(m), 3 * n)).reshape(3, n, 3, n)  # [k, j, i, l] = sum m phi_j,k phi_l,i
+    products = weighted.T @ phi.reshape(len(m), 3 * n)
+    pairs = ((products + products.T) / 2).reshape(3, n, 3, n)  # [k, j, i, l] = sum m phi_j,k phi_l,i
     return ShapeIntegrals(
         mass=float(m.sum()),
         S0=m @ x,

@@ -8,15 +8,12 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
-from mbs.flexible.damping import RayleighDamping
-from mbs.flexible.frame import Beam, Frame
-from mbs.flexible.material import Material
-from mbs.flexible.recovery import StrainGauge
-from mbs.flexible.section import tube
+from mbs.flexible import Beam, Frame, Material, RayleighDamping, StrainGauge, tube
 
 STEEL = Material(E=2.10e11, nu=0.30, rho=7850.0)
 SECTIONS = {"M": tube(0.040, 0.0020), "S": tube(0.030, 0.0015)}  # main and secondary tubes
@@ -74,7 +71,7 @@ def prototype_frame(
         positions += [joints[start] + (joints[end] - joints[start]) * (k / divisions) for k in inner]
         chain = [names.index(start), *range(first, first + len(inner)), names.index(end)]
         tubes.append(FrameTube(start, end, section, range(len(beams), len(beams) + divisions)))
-        beams += [Beam(i, j, SECTIONS[section], STEEL) for i, j in zip(chain[:-1], chain[1:], strict=True)]
+        beams += [Beam(i, j, SECTIONS[section], STEEL) for i, j in pairwise(chain)]
     masses = _masses() if carried_masses else {}
     return Frame(np.array(positions), beams, masses, names, theory), tuple(tubes)
 

@@ -1,6 +1,9 @@
-"""Forces of the suspension on the frame at rest, from the equilibrium of each corner (no frame model in it)."""
+"""Forces of the suspension on the frame of the prototype car at rest, from the equilibrium of each corner alone."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -37,10 +40,13 @@ def wheel_loads() -> tuple[float, float]:
 
 
 class _Corner:
-    """Equilibrium of massless-jointed bodies: unknown forces act on bodies at points along directions."""
+    """Equilibrium of several bodies: joints push along given directions at given points."""
 
     def __init__(self, bodies: list[str]) -> None:
-        self.bodies, self.columns, self.load, self.names = bodies, [], np.zeros(6 * len(bodies)), []
+        self.bodies = bodies
+        self.columns: list[np.ndarray] = []
+        self.names: list[tuple[str, np.ndarray]] = []
+        self.load = np.zeros(6 * len(bodies))
 
     def _wrench(self, body: str, force: np.ndarray, point: np.ndarray) -> np.ndarray:
         w = np.zeros(6 * len(self.bodies))
@@ -49,7 +55,9 @@ class _Corner:
             w[at : at + 3], w[at + 3 : at + 6] = force, np.cross(point, force)
         return w
 
-    def unknown(self, name: str, first: str, second: str, directions: np.ndarray, p1: np.ndarray, p2: np.ndarray) -> None:
+    def unknown(
+        self, name: str, first: str, second: str, directions: np.ndarray, p1: np.ndarray, p2: np.ndarray
+    ) -> None:
         """A force on body `first` at p1 along each direction, and its opposite on `second` at p2."""
         for d in directions:
             self.columns.append(self._wrench(first, d, p1) - self._wrench(second, d, p2))
@@ -62,14 +70,15 @@ class _Corner:
         """Least-norm solution: hinges share an axial force equally."""
         G = np.array(self.columns).T
         x, *_ = np.linalg.lstsq(G, -self.load, rcond=1e-10)
-        assert np.allclose(G @ x, -self.load, atol=1e-8 * np.abs(self.load).max())
+        if not np.allclose(G @ x, -self.load, atol=1e-8 * np.abs(self.load).max()):
+            raise RuntimeError(f"The bodies {', '.join(self.bodies)} cannot be in equilibrium.")
         forces: dict[str, np.ndarray] = {}
         for (name, d), value in zip(self.names, x, strict=True):
             forces[name] = forces.get(name, np.zeros(3)) + value * d
         return forces
 
 
-def _weigh(c: _Corner, body: str, data: dict) -> None:
+def _weigh(c: _Corner, body: str, data: dict[str, Any]) -> None:
     c.known(body, np.array([0.0, 0.0, -data["mass"] * GRAVITY]), np.array(data["com"]))
 
 
@@ -77,14 +86,14 @@ def front_forces() -> dict[str, np.ndarray]:
     """Forces on the left front interfaces of the frame, N."""
     p = {k: np.array(v) for k, v in FRONT.items()}
     c = _Corner(["lower", "upper", "upright"])
-    I = np.eye(3)
+    axes = np.eye(3)
     for end, node in (("front", "F"), ("rear", "R")):
         for arm, letter in (("lower", "L"), ("upper", "U")):
             at = p[f"{arm}_pivot_{end}"]
-            c.unknown(letter + node, "frame", arm, I, at, at)
+            c.unknown(letter + node, "frame", arm, axes, at, at)
     for arm in ("lower", "upper"):
         at = p[f"{arm}_ball_joint"]
-        c.unknown(f"ball {arm}", arm, "upright", I, at, at)
+        c.unknown(f"ball {arm}", arm, "upright", axes, at, at)
     spring = p["spring_upper"] - p["spring_lower"]
     c.unknown("TF", "frame", "lower", (spring / np.linalg.norm(spring))[None], p["spring_upper"], p["spring_lower"])
     rod = p["tie_rod_inner"] - p["tie_rod_outer"]
@@ -101,11 +110,11 @@ def rear_forces() -> dict[str, np.ndarray]:
     """Forces on the left rear interfaces of the frame, N."""
     p = {k: np.array(v) for k, v in REAR.items()}
     c = _Corner(["arm", "upright"])
-    I = np.eye(3)
+    axes = np.eye(3)
     for end, node in (("front", "AF"), ("rear", "AR")):
-        c.unknown(node, "frame", "arm", I, p[f"lower_pivot_{end}"], p[f"lower_pivot_{end}"])
-    c.unknown("ball", "arm", "upright", I, p["lower_ball_joint"], p["lower_ball_joint"])
-    c.unknown("TR", "frame", "upright", I, p["strut_top"], p["strut_top"])
+        c.unknown(node, "frame", "arm", axes, p[f"lower_pivot_{end}"], p[f"lower_pivot_{end}"])
+    c.unknown("ball", "arm", "upright", axes, p["lower_ball_joint"], p["lower_ball_joint"])
+    c.unknown("TR", "frame", "upright", axes, p["strut_top"], p["strut_top"])
     rod = p["toe_link_inner"] - p["toe_link_outer"]
     c.unknown("TL", "frame", "upright", (rod / np.linalg.norm(rod))[None], p["toe_link_inner"], p["toe_link_outer"])
     _weigh(c, "arm", REAR_BODIES["lower_arm"])
@@ -116,7 +125,7 @@ def rear_forces() -> dict[str, np.ndarray]:
     return {n: solution[n] for n in REAR_NODES}
 
 
-def interface_forces(names: list[str], front_factor: float = 1.0, rear_factor: float = 1.0) -> np.ndarray:
+def interface_forces(names: Sequence[str], front_factor: float = 1.0, rear_factor: float = 1.0) -> np.ndarray:
     """Forces on all interfaces in the order of `names` (node names with side), shape (3 n,), N."""
     left = {n: front_factor * f for n, f in front_forces().items()}
     left |= {n: rear_factor * f for n, f in rear_forces().items()}
