@@ -13,6 +13,8 @@ from mbs.flexible.fixed_interface import FixedInterface, Interface
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.sparse import Sparse
 
+RESONANT = 1.5  # modes below this multiple of the frequency that matters are always taken
+
 
 @dataclass(frozen=True)
 class ModeChoice:
@@ -40,12 +42,16 @@ def modes_for_output(
     rows: np.ndarray | Sparse,
     tolerance: float,
     candidates: int = 100,
+    frequency: float = 0.0,
+    inertia_modes: bool = False,
 ) -> ModeChoice:
-    """Fewest modes with which the outputs under steady rigid accelerations are right to a tolerance.
+    """Fewest modes with which the outputs under rigid accelerations are right to a tolerance.
 
     With the interfaces held the output under the inertia of each unit acceleration (three along the axes, three
-    about them) is known exactly; a mode contributes ``row psi (psi' M R) / w2``. Modes are taken in the order of
-    their largest contribution until every output misses less than `tolerance` of its largest value.
+    about them) is known exactly; a mode contributes ``row psi (psi' M R) / w2``, and at a frequency W of the
+    accelerations w2 / (w2 - W2) times that. With the inertia modes the steady part is exact whatever is chosen, and a
+    mode contributes the rest, W2 / (w2 - W2). Modes below 1.5 W are always taken, then the others in the order of
+    their largest contribution until every output misses less than `tolerance` of its largest steady value.
 
     Parameters
     ----------
@@ -55,6 +61,10 @@ def modes_for_output(
         Fraction of each output's largest value over the six accelerations.
     candidates : int
         Lowest modes that are looked at.
+    frequency : float
+        Highest frequency of the accelerations that matters, Hz; 0 for steady ones.
+    inertia_modes : bool
+        Whether the reduction will have the inertia modes.
     """
     if not 0 < tolerance < 1:
         raise ModelError(f"The tolerance on an output is {tolerance:g}; a fraction between 0 and 1 is needed.")
@@ -69,11 +79,16 @@ def modes_for_output(
         raise ModelError(f"Output {int(np.flatnonzero(scale == 0)[0])} does not see any deformation of the model.")
     participation = (modes.T @ load) / ((2 * np.pi * hertz) ** 2)[:, None]
     parts = np.asarray(rows @ modes)[:, :, None] * participation[None] / scale[:, :, None]
-    missing = exact / scale
-    order = np.argsort(-np.abs(parts).max(axis=(0, 2)), kind="stable")
+    resonant = hertz < RESONANT * frequency
+    # at resonance only damping bounds the response: these modes are taken whatever they contribute
+    ratio = np.where(resonant, 0.0, frequency / np.where(resonant, 1.0, hertz)) ** 2
+    rest = parts * (ratio / (1 - ratio))[None, :, None]
+    missing = rest.sum(axis=1) + (0.0 if inertia_modes else exact / scale)
+    parts = rest if inertia_modes else parts + rest
+    order = np.argsort(np.where(resonant, -np.inf, -np.abs(parts).max(axis=(0, 2))), kind="stable")
     chosen: list[int] = []
     for mode in order:
-        if np.abs(missing).max() <= tolerance:
+        if np.abs(missing).max() <= tolerance and not resonant[mode]:
             break
         missing = missing - parts[:, mode]
         chosen.append(int(mode))
@@ -81,7 +96,7 @@ def modes_for_output(
     if error > tolerance:
         raise ModelError(
             f"The lowest {candidates} modes leave an error of {error:.2g} of the output; look at more candidates or "
-            "add the inertia modes, which make steady accelerations exact."
+            "take the inertia modes, which make steady accelerations exact."
         )
     chosen.sort()
     return ModeChoice(tuple(chosen), error, hertz[chosen])

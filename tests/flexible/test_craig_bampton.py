@@ -155,6 +155,23 @@ def test_a_named_output_takes_the_modes_it_needs() -> None:
         modes_for_output(model, REFERENCE, INTERFACES, rows, 2.0)
 
 
+def test_inertia_modes_leave_only_what_moves_fast_to_the_dynamic_modes() -> None:
+    frame = portal()
+    model = frame.finite_element_model()
+    rows = section_forces(frame, 2, 0.5)[[4]]
+    hertz = natural_modes(model, 30, _held(model))[0]
+
+    def chosen(frequency: float, inertia: bool) -> tuple[int, ...]:
+        choice = modes_for_output(model, REFERENCE, INTERFACES, rows, 0.02, 30, frequency, inertia)
+        assert choice.left_out <= 0.02
+        return choice.modes
+
+    assert chosen(0.0, inertia=True) == ()
+    slow, fast = chosen(hertz[0] / 3, inertia=True), chosen(hertz[2] * 1.01, inertia=True)
+    assert 0 < len(slow) < len(chosen(hertz[0] / 3, inertia=False))
+    assert set(range(3)) <= set(fast), "modes below the frequency that matters are never left out"
+
+
 def _largest(model: FiniteElementModel, rows: sp.sparray) -> float:
     exact = craig_bampton(model, REFERENCE, INTERFACES, 0, inertia_modes=True)
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(REFERENCE)))
