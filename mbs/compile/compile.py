@@ -11,7 +11,12 @@ from mbs.affine import Affine
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
 from mbs.compile.equilibrium import equilibrium
-from mbs.compile.flexible import flexible_arrays, flexible_cliques, flexible_coordinates
+from mbs.compile.flexible import (
+    deformation_metric,
+    flexible_arrays,
+    flexible_cliques,
+    flexible_coordinates,
+)
 from mbs.compile.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
@@ -68,8 +73,10 @@ def compile(model: Model) -> System:
     arrays = RowArrays(rows, new)
 
     guides, guide_rates = guide_start(model)
-    q = close_position(rows, arrays, mass, reference_position(model, natural, kept, T, z0, M_full)[order], guides)
-    qd = velocity(model, full, T, q[new], mass, order, arrays, guides, guide_rates)
+    stiffness = deformation_metric(model, full, new)
+    reference = reference_position(model, natural, kept, T, z0, M_full)[order]
+    q = close_position(rows, arrays, mass, stiffness, reference, guides)
+    qd = velocity(model, full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates)
     _, Phiq, _ = arrays.evaluate(q, guides)
     scale, measure = row_scale(rows, Phiq, mass.diagonal())
     arrays.scale(scale)

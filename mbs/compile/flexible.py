@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
 
 from mbs.affine import Affine
 from mbs.compile.front_arrays import Locate
@@ -16,6 +17,8 @@ from mbs.model.model import Model
 Array = NDArray[np.float64]
 PAIRS = ((1, 2), (2, 0), (0, 1))
 """yz, zx, xy."""
+TIME = 0.1
+"""What moves within this time, s, should deform bodies as little as possible when the start is made consistent."""
 
 
 def flexible_bodies(model: Model) -> list[FlexibleBody]:
@@ -31,6 +34,17 @@ def flexible_coordinates(model: Model) -> set[int]:
 def flexible_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each body couples in the tangent."""
     return [_places(b, full) for b in flexible_bodies(model)]
+
+
+def deformation_metric(
+    model: Model, full: Sequence[Affine], new: NDArray[np.int64]
+) -> sparse.csr_matrix:
+    """Stiffness of the flexible bodies times TIME^2, kg, in elimination order, shape (nq, nq)."""
+    metric = sparse.lil_matrix((len(new), len(new)))
+    for body in flexible_bodies(model):
+        places = new[_places(body, full)][12:]
+        metric[np.ix_(places, places)] = TIME**2 * body.reduced.K
+    return metric.tocsr()
 
 
 def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 The full coordinates are the origin r_o at the reference node, the axes a, b, c (the earth axes in the reference
 configuration) and the amplitudes eta (the paper's equations (1) to (3), (9)). A node is at
 ``r_o + A (x + Phi eta)``: bilinear, so that a joint or force there brings three coordinates without mass and three
-rows. Rotations of nodes are linear in eta too, and a direction that turns with a node is ``A (v + (Theta eta) x v)``.
+rows.
 """
 
 from __future__ import annotations
@@ -168,7 +168,8 @@ class FlexibleBody(Body):
 class Interface(Body):
     """A node of a flexible body in the part of a body: joints, springs and sensors take it.
 
-    Its points are fixed to the node as by rigid arms, its vectors turn with the node.
+    Its points are fixed to the node as by rigid arms, its vectors turn with the node. Coordinates and rows come with
+    the first use: three for the node, three for its rotation, three for each vector.
     """
 
     is_flexible = True
@@ -181,7 +182,9 @@ class Interface(Body):
         R, reduced = owner.axes, owner.reduced
         self.translation = _without_round_off(R @ reduced.node_translations[node])  # (3, modes), m per amplitude
         self.rotation = _without_round_off(R @ reduced.node_rotations[node])  # (3, modes), rad per amplitude
-        self._known: dict[tuple[float, ...], AffineVector] = {}
+        self._point: AffineVector | None = None
+        self._turn: AffineVector | None = None  # rotation against the frame, earth axes, rad
+        self._vectors: dict[tuple[float, ...], AffineVector] = {}
 
     @property
     def bends(self) -> bool:
@@ -189,57 +192,62 @@ class Interface(Body):
         return bool(np.any(self.rotation))
 
     def point(self, position: ArrayLike | None = None) -> AffineVector:
-        """The node, or a point fixed to it (earth axes, reference configuration, m)."""
+        """The node, or a point fixed to it by a rigid arm (earth axes, reference configuration, m)."""
+        if self._point is None:
+            self._point = self._moved("", self.com - self.owner.com, self.translation, 1.0)
         arm = np.zeros(3) if position is None else vector(position, 3, f"a point of interface '{self.name}'") - self.com
-        if np.linalg.norm(arm) <= SAME_PLACE:
-            arm = np.zeros(3)
-        local = self.com - self.owner.com + arm
-        motion = self.translation + np.cross(self.rotation, arm, axisa=0, axisb=0).T
-        return self._tied(local, motion, 1.0)
+        return self._point if np.linalg.norm(arm) <= SAME_PLACE else self._point + self.vector(arm)
 
     def vector(self, components: ArrayLike) -> AffineVector:
         """The vector that turns with the node and is `components` (earth axes) in the reference configuration.
 
-        Its length changes by half the square of the node's rotation.
+        The node turns against the frame by ``theta = Theta eta`` (equation (9) for unit vectors). With t = A theta, the
+        vector V is A v turned by Cayley's rotation, ``V - A v = t x (A v + V) / 2``: bilinear, and V keeps its length.
         """
         v = vector(components, 3, f"a vector of interface '{self.name}'")
-        return self._tied(v, np.cross(self.rotation, v, axisa=0, axisb=0).T, 0.0)
-
-    def _tied(self, local: Vector, motion: NDArray[np.float64], origin: float) -> AffineVector:
-        """``origin r_o + A (local + motion eta)``; new coordinates and rows where eta takes part."""
-        frame, owner = self.owner.start, self.owner
-        motion = _without_round_off(motion)
-        if not np.any(motion):
-            return owner._expression(local, origin)
-        key = (origin, *np.round(local, 12))
-        if key not in self._known:
-            what = self._what(local, origin)
-            kind = "point" if origin else "vector"
-            drawn = local + origin * owner.com
-            model = self.model
-            new = [model.new_coordinate(f"{what}.{'xyz'[k]}", kind, float(drawn[k]), k) for k in range(3)]
-            bent = [
-                Affine(
-                    {frame + 12 + int(j): float(motion[i, j]) for j in np.flatnonzero(motion[i])}, float(local[i])
-                )
-                for i in range(3)
-            ]
+        carried = self.owner.vector(v)
+        if not self.bends:
+            return carried
+        if self._turn is None:
+            self._turn = self._moved(".rotation", np.zeros(3), self.rotation, 0.0)
+        key = tuple(np.round(v, 12).tolist())
+        if key not in self._vectors:
+            what = f"{self.name}.vector {len(self._vectors) + 1}"
+            new = self._new(what, "vector", v)
+            middle = (carried + new) * 0.5
             rows = []
             for k in range(3):
-                products: list[Product] = [
-                    (-1.0, Affine({frame + 3 + 3 * i + k: 1.0}), bent[i]) for i in range(3) if bent[i] != Affine()
-                ]
-                linear = Affine({new[k]: 1.0}) - origin * Affine({frame + k: 1.0})
-                rows.append(Equation(what, "interface", products, linear))
-            model.joints.append(Joint(model.unique("joint", what), "interface", rows))
-            self._known[key] = AffineVector(tuple(Affine({i: 1.0}) for i in new))
-        return self._known[key]
+                i, j = (k + 1) % 3, (k + 2) % 3
+                products: list[Product] = [(-1.0, self._turn[i], middle[j]), (1.0, self._turn[j], middle[i])]
+                rows.append(Equation(what, "interface", products, new[k] - carried[k]))
+            self.model.joints.append(Joint(what, "interface", rows))
+            self._vectors[key] = new
+        return self._vectors[key]
 
-    def _what(self, local: Vector, origin: float) -> str:
-        if origin and np.array_equal(local, self.com - self.owner.com):
-            return self.name
-        count = sum(1 for key in self._known if key[0] == origin)
-        return f"{self.name}.{'point' if origin else 'vector'} {count + 1}"
+    def _moved(self, part: str, local: Vector, motion: NDArray[np.float64], origin: float) -> AffineVector:
+        """``origin r_o + A (local + motion eta)``; new coordinates and rows where eta takes part."""
+        owner, frame = self.owner, self.owner.start
+        if not np.any(motion):
+            return owner._expression(local, origin)
+        what = f"{self.name}{part}"
+        new = self._new(what, "point" if origin else "vector", local + origin * owner.com)
+        eta = frame + 12
+        bent = [
+            Affine({eta + int(j): float(motion[i, j]) for j in np.flatnonzero(motion[i])}, float(local[i]))
+            for i in range(3)
+        ]
+        rows = []
+        for k in range(3):
+            products = [(-1.0, Affine({frame + 3 + 3 * i + k: 1.0}), bent[i]) for i in range(3)]
+            rows.append(Equation(what, "interface", products, new[k] - origin * Affine({frame + k: 1.0})))
+        self.model.joints.append(Joint(what, "interface", rows))
+        return new
+
+    def _new(self, what: str, kind: str, drawn: Vector) -> AffineVector:
+        """Three coordinates without mass."""
+        self.model.unique("joint", what)
+        numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", kind, float(drawn[k]), k) for k in range(3)]
+        return AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
 
 
 def located(body: Body, position: ArrayLike, what: str) -> Body:
@@ -248,7 +256,7 @@ def located(body: Body, position: ArrayLike, what: str) -> Body:
 
 
 def bends(body: Body) -> bool:
-    """Whether vectors of the body turn with its deformation and so change their length a little."""
+    """Whether vectors of the body turn with its deformation."""
     return isinstance(body, Interface) and body.bends
 
 

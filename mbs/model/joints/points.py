@@ -38,8 +38,8 @@ def shared_axis(model: ModelCore, name: str, body_1: Body, body_2: Body, axis: A
 
 
 def may_share(body_1: Body, body_2: Body) -> bool:
-    """Whether vectors of one body may become those of the other: not where a node bends, because the vector then
-    changes its length a little, and not between flexible frames and the ground, whose coordinates all stay.
+    """Whether vectors of one body may become those of the other: not where a node bends or a flexible frame meets the
+    ground or another one, because their unit length, which stays a condition of its own, would be stated twice.
     """
     if not (body_1.is_flexible or body_2.is_flexible):
         return True
