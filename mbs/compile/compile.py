@@ -20,6 +20,7 @@ from mbs.compile.flexible import (
 from mbs.compile.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
+from mbs.compile.locked import check_motion
 from mbs.compile.metadata import metadata
 from mbs.compile.natural import natural_coordinates
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
@@ -77,7 +78,8 @@ def compile(model: Model) -> System:
     reference = reference_position(model, natural, kept, T, z0, M_full)[order]
     q = close_position(rows, arrays, mass, stiffness, reference, guides)
     qd = velocity(model, full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates)
-    _, Phiq, _ = arrays.evaluate(q, guides)
+    _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
+    check_motion(model, rows, Phiq, phi_t, qd, mass.diagonal())
     scale, measure = row_scale(rows, Phiq, mass.diagonal())
     arrays.scale(scale)
 
