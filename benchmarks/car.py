@@ -89,13 +89,13 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int) -> float:
 
     def once() -> float:
         with Fmu(file) as fmu:
-            inputs, outputs = fmu.references(manoeuvre.inputs), fmu.references(OUTPUTS)
+            set_inputs, get_outputs = fmu.setter(list(manoeuvre.inputs)), fmu.getter(OUTPUTS)
             fmu.initialise(manoeuvre.start | manoeuvre.at(0.0) | {"step_size": h})
             begin = time.perf_counter()
             for k, row in enumerate(rows):
-                fmu.set(inputs, row)
+                set_inputs(row)
                 fmu.step(k * h, h)
-                fmu.get(outputs)
+                get_outputs()
             return time.perf_counter() - begin
 
     return median_wall(once, repeats)
@@ -183,7 +183,7 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
         ax.set_xlabel("wall time per simulated second, ms (steps 10, 5, 2, 1 ms from the left)")
         ax.set_ylabel(label)
         ax.grid(True, which="major", alpha=0.3)
-    axes[1].legend(fontsize="small")
+    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside right center", fontsize="small")
     figure.suptitle("Prototype car: error against cost")
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=120)

@@ -43,12 +43,12 @@ def _default_system() -> System:
     return compile(prototype_car.build())
 
 
-def rise() -> GridRoad:
-    """Level road that goes over into a rise of ten per cent, with a curvature that begins and ends at zero."""
+def rise(grade: float = GRADE) -> GridRoad:
+    """Level road that goes over into a rise dz/dx, with a curvature that begins and ends at zero."""
     x = np.arange(-20.0, 200.1, 0.5)
     s = np.clip((x - RISE_BEGINS) / (RISE_ENDS - RISE_BEGINS), 0.0, 1.0)
     # the slope grows like 3 s^2 - 2 s^3; its integral
-    height = GRADE * (RISE_ENDS - RISE_BEGINS) * (s**3 - 0.5 * s**4) + GRADE * np.clip(x - RISE_ENDS, 0.0, None)
+    height = grade * ((RISE_ENDS - RISE_BEGINS) * (s**3 - 0.5 * s**4) + np.clip(x - RISE_ENDS, 0.0, None))
     return GridRoad((-20.0, -10.0), (0.5, 20.0), np.column_stack([height, height]), FRICTION)
 
 

@@ -1,7 +1,7 @@
 """Writes the reference trajectories of the prototype car: ``python -m benchmarks.car_references [NAME ...]``.
 
 They come from this engine at a step of 0.1 ms with a tight tolerance. Each file says how the runs with 1, 0.5 and
-0.25 ms differ from it: the differences fall with the square of the step where nothing in the manoeuvre is discontinuous.
+0.25 ms differ from it: the differences fall with the square of the step where nothing is discontinuous.
 """
 
 from __future__ import annotations

@@ -137,7 +137,7 @@ def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | 
             middle = 0.5 * (low + high)
             axes.set_ylim(middle - 0.5 * panel.least, middle + 0.5 * panel.least)
         if panel.title == "Speed":
-            axes.set_ylim(min(0.0, low), low + 1.05 * (high - low))
+            axes.set_ylim(min(0.0, low), 1.05 * high)
     return figure
 
 

@@ -21,7 +21,9 @@ class Settings:
     tolerance_r : float
         Bound on the residual ``max |r_i| / m_i`` of a converged step, coordinate units (m).
     tolerance_phi : float
-        Bound on the constraint violation of a converged step, m.
+        Bound on the constraint violation of a converged step, m, beside the round-off of the constraint itself. At
+        singular positions a violation hides a displacement of its square root and an error of the multipliers of
+        alpha times it, so it should stay near ``1e-4 * eps_rel``.
     max_iterations : int
         Newton iterations of one step.
     max_halvings : int
@@ -36,10 +38,10 @@ class Settings:
     """
 
     alpha: float = 0.0
-    eps_rel: float = 1e-9
+    eps_rel: float = 1e-7
     tolerance_r: float = 1e-10
-    tolerance_phi: float = 1e-10
-    max_iterations: int = 20
+    tolerance_phi: float = 1e-11
+    max_iterations: int = 30
     max_halvings: int = 4
     project: bool = True
     update: str = "linearised"

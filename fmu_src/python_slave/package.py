@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import html
+import importlib.metadata
 import json
 import zipfile
 from collections.abc import Mapping, Sequence
@@ -104,6 +105,8 @@ def pack(contents: Contents, file: Path) -> str:
         ).encode(),
         "resources/slavemodule.txt": main.encode(),
         "resources/guid.txt": guid.encode(),
+        "documentation/licenses/ALi3.txt": _license("ali3"),
+        "documentation/licenses/PythonFMU.txt": _license("pythonfmu"),
         "documentation/index.html": _documentation(contents).encode(),
         "modelDescription.xml": model_description(
             Description(
@@ -122,6 +125,15 @@ def pack(contents: Contents, file: Path) -> str:
     }
     _write_zip(files, file)
     return guid
+
+
+def _license(distribution: str) -> bytes:
+    """The licence text an installed distribution carries."""
+    files = importlib.metadata.files(distribution) or []
+    texts = [Path(str(f.locate())).read_bytes() for f in files if f.name.upper().startswith("LICENSE")]
+    if not texts:
+        raise RuntimeError(f"The licence of '{distribution}' is not installed with it; install the package again.")
+    return texts[0]
 
 
 def _package_files(contents: Contents) -> dict[str, bytes]:

@@ -54,6 +54,8 @@ class Slave(Fmi2Slave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        # PythonFMU puts the resources before the host's own path at each instantiation and leaves them there.
+        sys.path[:] = [place for place in sys.path if place != kwargs["resources"]]
         shared = _Shared.get()
         self._identity = shared.identity
         self._table = shared.table

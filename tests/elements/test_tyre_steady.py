@@ -146,7 +146,8 @@ def wheel_motion(rng: np.random.Generator, speed: float) -> tuple[Array, Array, 
 
 
 @pytest.mark.parametrize("speed", [0.0, 10.0])
-def test_force_has_the_power_of_force_times_material_velocity_of_the_patch(speed: float) -> None:
+def test_force_has_the_power_of_force_times_slip_velocity(speed: float) -> None:
+    """At standstill the slip velocity is the material velocity of the patch; the rolling wheel has a longer lever."""
     element = tyre_element(
         replace(TYRE, trail=(0.0, 0.0), rolling_resistance=0.0), PlaneRoad(grade_x=0.1, grade_y=-0.05, friction=0.8)
     )
@@ -165,14 +166,15 @@ def test_force_has_the_power_of_force_times_material_velocity_of_the_patch(speed
         )
         rho = np.array([r.out[f"contact_{k}"] for k in "xyz"]) - u[:3]
         assert rho @ axis == pytest.approx(0.0, abs=1e-12)
-        spin = omega * axis + np.cross(axis, ud[3:6])
-        patch = ud[:3] + np.cross(spin, rho)
-        assert r.f @ ud == pytest.approx(force @ patch, rel=1e-9, abs=1e-6)
+        longer = slip_radius((R - np.linalg.norm(rho)) * TYRE.stiffness, omega) / np.linalg.norm(rho)
+        slip = ud[:3] + np.cross(longer * omega * axis + np.cross(axis, ud[3:6]), rho)
+        assert r.f @ ud == pytest.approx(force @ slip, rel=1e-9, abs=1e-6)
         assert np.allclose(r.f[:3], force, atol=1e-9)
         # the moment about the centre, by virtual rotations of the wheel
         for turn in np.eye(3):
             virtual = np.r_[0.0, 0.0, 0.0, np.cross(turn, axis), turn @ axis]
-            assert r.f @ virtual == pytest.approx(np.cross(rho, force) @ turn, abs=1e-8)
+            moment = np.cross(rho, force) + (longer - 1.0) * (np.cross(rho, force) @ axis) * axis
+            assert r.f @ virtual == pytest.approx(moment @ turn, abs=1e-8)
 
 
 def test_aligning_moment_and_rolling_resistance_are_moments_on_the_wheel() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -51,6 +52,14 @@ def test_many_lives_of_one_instance(crane: Path, host: HostMaker) -> None:
         driven.slave.fmi2FreeInstance(driven.slave.component)
         driven.slave = driven.instance()
         assert driven.start().run(5, 0.01) == expected
+
+
+def test_the_path_of_the_hosts_python_stays_as_it_was(crane: Path, host: HostMaker) -> None:
+    before = list(sys.path)
+    first = host(crane)
+    first.instance()
+    assert first.start().step(0.0, 0.01) == OK
+    assert sys.path == before
 
 
 def test_two_builds_of_a_scene_in_one_process(build: Callable[[str], Path], host: HostMaker) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -55,7 +57,8 @@ def test_double_four_bar_keeps_its_energy_through_ten_singular_positions(h: floa
     assert -ENERGY_BOUND_J[h] < energy.min() < -0.01 * ENERGY_BOUND_J[h]  # trapezoidal rule with projections: a loss
     assert energy.max() < 0.2 * ENERGY_BOUND_J[h]
     assert report["halvings"] == 0
-    assert report["max_iterations"] <= 4
+    assert report["iterations"] < (2.6 if h > 0.03 else 2.1) * report["steps"]
+    assert report["max_iterations"] <= 8  # the steps that end at a singular position
     assert 1.0 <= report["iterations"] / report["steps"] <= {0.01: 2.0, 0.03: 2.2, 0.05: 2.6}[h]
 
 
@@ -69,8 +72,12 @@ def test_a_step_that_lands_on_the_singular_position_does_not_leave_the_path() ->
 def test_without_projections_the_energy_blows_up() -> None:
     instance = start(four_bar(), project=0)
     before = instance.sensors()[2]
-    energy = run(instance, 0.01, 600)[:, 2] - before
-    assert abs(energy).max() > 1e3
+    energies = []
+    with contextlib.suppress(KernelError):  # or the velocities are such that no step is possible any more
+        for _ in range(600):
+            instance.step(0.01)
+            energies.append(instance.sensors()[2] - before)
+    assert np.abs(energies).max() > 1e3
 
 
 @pytest.mark.parametrize("update", [0, 1], ids=["linearised", "paper"])

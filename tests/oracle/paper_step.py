@@ -3,7 +3,9 @@
 Constraints do not depend on time here (Phi_t = 0). What the paper leaves open follows the kernel: Newton starts from
 q + h qd + h^2/2 qdd; the projections use the tangent of the last Newton iteration, its Phi_q' included, and are made
 PASSES times, since a finite penalty leaves a part behind. They are solved for the change of qd and qdd, that is (24)
-less [df/dq] qd* and (25) less [df/dq] qdd* on both sides, because the sums lose their last digits to the penalty.
+less [df/dq] qd* and (25) less [df/dq] qdd* on both sides, because the sums lose their last digits to the penalty. The
+multipliers follow the projected accelerations: a change x of qdd by (25) is balanced by the change of the multipliers
+with which M x = Phi_q' dlam, up to h/2 C x + h^2/4 K x.
 """
 
 from __future__ import annotations
@@ -71,9 +73,13 @@ def paper_step(m, state, h, alpha, iterations, update, geometric=True, project=T
     qd = 2.0 / h * q + qdhat  # (17)
     qdd = 4.0 / h**2 * q + qddhat  # (18)
     if project:
+        Phiq_tangent = Phiq
         spread, Phiq = c * Phiq.T * alpha, m.Phiq(q)
         for _ in range(PASSES):
             qd = qd - np.linalg.solve(df, spread @ (Phiq @ qd))  # (24)
         for _ in range(PASSES):
-            qdd = qdd - np.linalg.solve(df, spread @ (Phiq @ qdd + m.Phiqdot_qd(qd)))  # (25)
+            open_by = Phiq @ qdd + m.Phiqdot_qd(qd)
+            x = np.linalg.solve(df, spread @ open_by)
+            qdd = qdd - x  # (25)
+            lam = lam + c * alpha * (open_by - Phiq_tangent @ x)
     return PaperState(q, qd, qdd, lam)

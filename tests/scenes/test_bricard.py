@@ -37,7 +37,7 @@ def test_the_redundant_row_is_there_and_the_loop_swings_back_after_five_seconds(
 def test_the_linearised_update_needs_one_to_three_iterations(system, h):
     report = simulate(system, 10.0, h, settings=ONE_STEP).report
     assert report.max_iterations <= 3
-    assert report.mean_iterations < (3.0 if h > 0.05 else 2.05)
+    assert report.mean_iterations < (3.0 if h > 0.01 else 2.05)
 
 
 @pytest.mark.parametrize("h", [0.1, 0.05])
@@ -46,7 +46,7 @@ def test_the_paper_s_update_hits_the_cap_and_with_a_softer_penalty_takes_more_it
     with pytest.raises(SimulationError, match="did not converge"):
         simulate(system, 10.0, h, settings=paper)
     softer, linearised = (simulate(system, 10.0, h, settings=replace(s, eps_rel=SOFTER)) for s in (paper, ONE_STEP))
-    assert softer.report.mean_iterations > 1.2 * linearised.report.mean_iterations
+    assert softer.report.mean_iterations > 1.05 * linearised.report.mean_iterations
     # the same converged step, by two roads
     np.testing.assert_allclose(place(softer), place(linearised), atol=1e-5)
 
@@ -60,22 +60,25 @@ def test_positions_do_not_depend_on_a_fixed_penalty_over_decades(system):
 
 
 def test_a_step_too_large_to_converge_is_made_in_halves(system):
-    h = 0.4
+    """Three iterations are enough at 0.1 s, not at 0.2 s."""
+    h, few = 0.2, 3
     with pytest.raises(SimulationError, match="did not converge"):
-        simulate(system, 12.0, h, settings=Settings(max_halvings=0))
-    halved = simulate(system, 12.0, h)
+        simulate(system, 12.0, h, settings=Settings(max_iterations=few, max_halvings=0))
+    halved = simulate(system, 12.0, h, settings=Settings(max_iterations=few))
     assert halved.report.halvings > 0
     assert halved.report.failures == 0
     assert halved.report.steps == len(halved.t) - 1
     assert halved.report.violation < Settings().tolerance_phi
+    whole = simulate(system, 12.0, h, settings=Settings(max_halvings=0))
+    assert np.ptp(whole["energy.total"]) > np.ptp(halved["energy.total"])  # half steps are more accurate
 
 
 def test_a_refused_step_keeps_the_last_good_state(system):
-    simulation = Simulation(system, settings=Settings(max_halvings=1))
-    simulation.step(0.8)
+    simulation = Simulation(system, settings=Settings(max_iterations=2, max_halvings=1))
+    simulation.step(0.01, n=50)
     before, time = simulation.state, simulation.time
     with pytest.raises(SimulationError, match="did not converge") as refusal:
-        simulation.step(0.8)
+        simulation.step(0.5)
     assert refusal.value.time == time == simulation.time
     for part, other in zip(vars(before).values(), vars(simulation.state).values(), strict=True):
         assert np.array_equal(part, other)

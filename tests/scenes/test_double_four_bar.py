@@ -43,6 +43,14 @@ def position_error(windows, t_end, h, settings=None):
     return float(np.linalg.norm(tip(trajectory) - exact(windows, trajectory.t), axis=1).max())
 
 
+def recorded(system, h, settings):
+    """A run to the end or to the step that is refused."""
+    try:
+        return simulate(system, END, h, settings=settings)
+    except SimulationError as error:
+        return error.trajectory
+
+
 def energy_deviation(trajectory):
     energy = trajectory["energy.total"]
     return float(np.abs(energy - energy[0]).max())
@@ -101,17 +109,22 @@ def test_ten_seconds_at_one_millisecond(windows, bound):
     assert position_error(windows, END, 0.001, TIGHT) < bound
 
 
-def test_a_tight_tolerance_is_what_singular_passages_need_at_small_steps():
-    h = 0.000625
-    loose, tight = (position_error(2, END, h, s) for s in (Settings(), Settings(tolerance_phi=1e-14)))
-    assert tight < 1e-4 < 1e-3 < loose
+def test_singular_passages_at_small_steps_need_a_violation_well_below_the_regularisation():
+    """What is left of the violation, times alpha, is an error of the multipliers where a row loses its lever."""
+    steps = np.random.default_rng(5).uniform(0.0006, 0.003, 12)
+    loose, default = (
+        np.array([position_error(2, END, h, s) / h**2 for h in steps])
+        for s in (Settings(eps_rel=1e-9, tolerance_phi=1e-10), Settings())
+    )
+    assert default.max() < 900.0  # the method's own error, 450 h^2 at large steps
+    assert loose.max() > 3.0 * default.max()
 
 
 @pytest.mark.parametrize("windows", [1, 2])
 def test_without_projections_the_velocities_run_away(windows):
     system, h = compile(double_four_bar.build(windows)), 0.01
     projected = simulate(system, END, h)
-    bare = simulate(system, END, h, settings=Settings(project=False))
+    bare = recorded(system, h, Settings(project=False))
     assert energy_deviation(projected) < 0.1
     assert energy_deviation(bare) > 1e3
     assert projected.report.velocity_violation < 1e-10
@@ -128,7 +141,7 @@ def test_the_result_does_not_depend_on_the_penalty_over_decades(h):
     # before the first singular position, to more digits
     early = [tip(r)[: int(0.6 / h)] for r in runs]
     for part in early[1:]:
-        np.testing.assert_allclose(part, early[0], atol=1e-6)
+        np.testing.assert_allclose(part, early[0], atol=3e-6)  # 1e-13 is where round-off begins to show
 
 
 @pytest.mark.parametrize("h", [1e-5, 1e-6])

@@ -41,7 +41,7 @@ def test_the_defaults_are_those_of_the_kernel():
 
 def test_every_field_reaches_the_kernel():
     instance = Instance(LoadedSystem(pendulum().to_bytes()))
-    other = Settings(1e9, 1e-7, 1e-9, 1e-8, 7, 3, project=False, update="paper", geometric=False)
+    other = Settings(1e9, 1e-6, 1e-9, 1e-8, 7, 3, project=False, update="paper", geometric=False)
     changed = other.kernel_fields()
     assert all(changed[name] != value for name, value in Settings().kernel_fields().items())
     instance.set_settings(**changed)

@@ -74,6 +74,7 @@ struct ali3_system {
   void *derived;
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q */
   double *hess_val;
+  double *row_round; /* round-off of the violation at the reference position, m */
   unsigned char *row_wide; /* 1: the row fills most of its front */
   ali3_term *quad;             /* as quad_* */
   ali3_angle_term *angle;      /* as angle_a */
@@ -202,9 +203,11 @@ void ali3_solve(ali3_instance *in, const double *F, double *b);
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
 double ali3_penalty(const ali3_settings *s, double h);
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
-double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double tolerance, int32_t sweeps);
+double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
+                    int32_t sweeps);
 bool ali3_finite(const double *v, int64_t n);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
+bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
 
 /* accelerate.c */
 void ali3_accelerate(ali3_instance *in, int32_t iteration);

@@ -130,7 +130,7 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)nint, (void)n_roads;
   if (integer[0] < 0 || integer[0] >= n_inputs) return "an automatic drive names an input that does not exist";
-  if (integer[1] < 1 || nreal != RATIOS + integer[1])
+  if (integer[1] < 1 || integer[1] != nreal - RATIOS)
     return "an automatic drive needs one ratio per gear, at least one";
   for (int i = 0; i < nreal; i++)
     if (real[i] < 0.0) return "the numbers of an automatic drive must not be negative";

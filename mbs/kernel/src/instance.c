@@ -128,7 +128,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
 void ali3_instance_free(ali3_instance *in) { free(in); }
 
 ali3_settings ali3_default_settings(void) {
-  const ali3_settings settings = {0.0, 1e-9, 1e-10, 1e-10, 20, 4, 1, ALI3_UPDATE_LINEARISED, 1, 0};
+  const ali3_settings settings = {0.0, 1e-7, 1e-10, 1e-11, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1, 0};
   return settings;
 }
 

@@ -41,10 +41,18 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   return largest;
 }
 
+bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance) {
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (!(fabs(Phi[k]) * S->row_measure[k] <= tolerance + S->row_round[k])) return false;
+  return true;
+}
+
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'
  * that spreads the correction is that of the tangent: the penalty would amplify what a later one has outside its
- * range. The violation is judged at the converged position. Returns it. */
-double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double tolerance, int32_t sweeps) {
+ * range. The violation is judged at the converged position. Returns it. With accelerations in v, lam (or NULL) takes the
+ * multipliers along: T x = Phi_q' mu is (T - factor Phi_q' Phi_q) x = Phi_q' (mu - factor Phi_q x). */
+double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
+                    int32_t sweeps) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   for (int32_t sweep = 0;; sweep++) {
@@ -62,6 +70,9 @@ double ali3_project(ali3_instance *in, double factor, const double *b, double *v
     ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
     ali3_solve(in, in->F, in->x);
     for (int32_t i = 0; i < nq; i++) v[i] -= in->x[i];
+    if (lam == NULL) continue;
+    ali3_rows_times(S, in->J_tangent, in->x, in->lam);
+    for (int32_t k = 0; k < nc; k++) lam[k] += in->mu[k] - factor * in->lam[k];
   }
 }
 
@@ -142,7 +153,8 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *it
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
     if (!judge(in, h)) return ALI3_NOT_FINITE;
-    if (in->report.residual <= settings->tolerance_r && in->report.violation <= settings->tolerance_phi) return ALI3_OK;
+    if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
+      return ALI3_OK;
   }
   return ALI3_NOT_CONVERGED;
 }
@@ -171,11 +183,11 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   ali3_forces_accept(in, &call);
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, VELOCITY_TOLERANCE, MAX_SWEEPS);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
-    ali3_project(in, c * alpha, in->gamma, to->qdd, ACCELERATION_TOLERANCE, MAX_SWEEPS);
+    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS);
   } else {
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, 0.0, 0);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0);
   }
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
   const ali3_vectors swap = in->now;

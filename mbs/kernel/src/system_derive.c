@@ -1,5 +1,7 @@
 /* What the loops want and the file need not say: terms with their places, the mass matrix in front storage, element
  * entries. */
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,6 +26,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->hess_ptr = take(p, (size_t)s->n_row_col + 1, sizeof(int32_t));
   s->hess_col = take(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
   s->hess_val = take(p, 2 * (size_t)s->n_quad_a, sizeof(double));
+  s->row_round = take(p, (size_t)s->size.nc, sizeof(double));
   s->row_wide = take(p, (size_t)s->size.nc, 1);
   s->quad = take(p, (size_t)s->n_quad_a, sizeof *s->quad);
   s->angle = take(p, (size_t)s->n_angle_a, sizeof *s->angle);
@@ -97,6 +100,17 @@ static void derive_rows(ali3_system *s) {
                                     s->angle_hs[t]};
       s->angle[t] = term;
     }
+  }
+}
+
+/* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away. */
+static void derive_round(ali3_system *s) {
+  for (int32_t k = 0; k < s->size.nc; k++) {
+    double sum = fabs(s->row_const[k]);
+    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) sum += fabs(s->row_lin[i] * s->q0[s->row_col[i]]);
+    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
+      sum += fabs(s->quad[t].h * s->q0[s->quad[t].a] * s->q0[s->quad[t].b]);
+    s->row_round[k] = 4.0 * DBL_EPSILON * sum * s->row_measure[k];
   }
 }
 
@@ -225,6 +239,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   pool.used = 0;
   place(s, &pool, (size_t)n_entry);
   derive_rows(s);
+  derive_round(s);
   derive_hessian(s);
   derive_mass(s);
   derive_elements(s);

@@ -5,9 +5,10 @@
  * Integers: road. States: carcass deflections x, y and their rates. Outputs: Fx, Fy, Fz, Mz, slip, slip angle, deflection,
  * loaded radius, contact point (3).
  *
- * Two radii are kept apart: the contact patch lies, and forces act, at the loaded radius |rho|; the rolling wheel advances by the
- * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity. At standstill the slip velocity is
- * the material velocity at the patch (both radii equal), which makes the carcass a true spring there.
+ * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the larger effective
+ * radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power F v_s, as the lever of F about
+ * the axle: the pressure under a driven wheel moves by that difference. With the loaded radius as lever a driven tyre would make
+ * energy out of nothing, Fx (v - |rho| Omega). At standstill both are the loaded radius, which makes the carcass a true spring.
  *
  * Carcass, per direction, with secant slip damping g = |F_steady|/|v_s|: x'(d + g) = -c x - g v_s, F = c x + d x'. Hence
  * F (v_s + x') = -F^2/g <= 0: sliding only takes energy. With x = a + b x' (theta rule, a and b known) and D = d + b c the step is
@@ -186,7 +187,7 @@ static void evaluate(ali3_element_args *a) {
     travel[i] = ali3_dot(t, rd) - lean * turn;
     v[i] = travel[i] + ratio * spin * omega;
     for (int k = 0; k < 3; k++) row[i][k] = t[k], row[i][3 + k] = -lean * rho[k];
-    row[i][6] = spin;
+    row[i][6] = ratio * spin;
   }
   carcass(a, &contact, v, transport + SLOW_SPEED, F, C);
   a->potential +=
@@ -205,8 +206,6 @@ static void evaluate(ali3_element_args *a) {
   a->f[6] += moment * ali3_dot(n, e) - resist * roll;
 
   if (a->S) {
-    for (int i = 0; i < 2; i++)
-      row[i][6] *= 0.5 * (1.0 + ratio); /* mean of slip and force lever: the symmetric part to first order */
     ali3_add_outer(a->S, 7, a->wC * C[0], row[0]);
     ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], row[0], row[1]);
     ali3_add_outer(a->S, 7, a->wC * C[2], row[1]);

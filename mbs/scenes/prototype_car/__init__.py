@@ -20,6 +20,9 @@ KERB_HEIGHT = 0.08  # m, of the paper's test
 def build(road: Road | None = None) -> Model:
     """The car at rest in static equilibrium, its front axle over the origin.
 
+    On a plane with a grade nothing but the brakes could hold it: there it starts as drawn, level, and settles; a pose
+    must lift it above the plane.
+
     Parameters
     ----------
     road : Road, optional
@@ -28,7 +31,7 @@ def build(road: Road | None = None) -> Model:
     """
     m = Model("prototype car", gravity=(0.0, 0.0, -car_data.GRAVITY))
     m.floating = True
-    m.start_in_equilibrium = True
+    m.start_in_equilibrium = not (isinstance(road, PlaneRoad) and (road.grade_x != 0.0 or road.grade_y != 0.0))
     m.stop_time, m.step = 10.0, 0.002
     steering = m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left")
     throttle = m.input("throttle", min=0.0, max=1.0, description="throttle pedal")
@@ -79,7 +82,7 @@ def _road_parameters(m: Model, road: Road | None, ground: int) -> None:
         m.parameter(
             "road.friction",
             friction,
-            0.05,
+            0.0,
             2.0,
             "1",
             "friction of the road",

@@ -7,6 +7,7 @@ from mbs.model.body import Body
 from mbs.model.guides import Guide
 from mbs.scenes.prototype_car.car_data import FRONT, FRONT_BODIES, FRONT_SPRING
 from mbs.scenes.prototype_car.side import Side
+from mbs.scenes.prototype_car.stops import end_stops
 
 
 def front_suspension(m: Model, chassis: Body, side: Side, rack: Guide) -> Body:
@@ -22,5 +23,8 @@ def front_suspension(m: Model, chassis: Body, side: Side, rack: Guide) -> Body:
         m.spherical(f"{part} ball joint {w}", wishbone, upright, point=p[f"{part}_ball_joint"])
     rack_end = m.slide(f"rack end {w}", chassis, point=p["tie_rod_inner"], direction=(0.0, 1.0, 0.0), guide=rack)
     m.distance(f"tie rod {w}", (upright, p["tie_rod_outer"]), rack_end)
-    m.spring_damper(f"spring {w}", (lower, p["spring_lower"]), (chassis, p["spring_upper"]), **FRONT_SPRING)
+    ends = p["spring_lower"], p["spring_upper"]
+    m.spring_damper(
+        f"spring {w}", (lower, ends[0]), (chassis, ends[1]), stops=end_stops(side.axle, *ends), **FRONT_SPRING
+    )
     return upright

@@ -8,6 +8,7 @@ from mbs.model import Model
 from mbs.model.body import Body
 from mbs.scenes.prototype_car.car_data import REAR, REAR_BODIES, REAR_SPRING
 from mbs.scenes.prototype_car.side import Side
+from mbs.scenes.prototype_car.stops import end_stops
 
 
 def rear_suspension(m: Model, chassis: Body, side: Side) -> Body:
@@ -22,5 +23,8 @@ def rear_suspension(m: Model, chassis: Body, side: Side) -> Body:
     strut = np.subtract(p["strut_top"], p["lower_ball_joint"])
     m.point_on_line(f"strut {w}", (chassis, p["strut_top"]), (upright, p["lower_ball_joint"]), axis=strut)
     m.distance(f"toe link {w}", (upright, p["toe_link_outer"]), (chassis, p["toe_link_inner"]))
-    m.spring_damper(f"spring {w}", (upright, p["lower_ball_joint"]), (chassis, p["strut_top"]), **REAR_SPRING)
+    ends = p["lower_ball_joint"], p["strut_top"]
+    m.spring_damper(
+        f"spring {w}", (upright, ends[0]), (chassis, ends[1]), stops=end_stops(side.axle, *ends), **REAR_SPRING
+    )
     return upright

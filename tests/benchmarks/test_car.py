@@ -1,0 +1,54 @@
+"""The car's benchmark command: its rows, its verdict, its files."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from benchmarks import car
+
+KEYS = {
+    "manoeuvre", "h_s", "path_error_m", "path_error_rel", "wheel_load_error_rel", "iterations_mean", "iterations_max",
+    "halvings", "us_per_step", "realtime_factor", "us_per_step_fmpy", "realtime_factor_fmpy",
+}  # fmt: skip
+
+
+def test_rows_and_files(tmp_path, capsys):
+    file, picture = tmp_path / "car.json", tmp_path / "car.png"
+    arguments = [
+        "--no-fmu",
+        "--repeats",
+        "1",
+        "--manoeuvres",
+        "kerb_drop",
+        "--json",
+        str(file),
+        "--chart",
+        str(picture),
+    ]
+    assert car.main(arguments) == 0
+    written = json.loads(file.read_text(encoding="utf-8"))
+    assert set(written) == {"meta", "rows"}
+    assert [row["h_s"] for row in written["rows"]] == list(car.STEPS)
+    for row in written["rows"]:
+        assert set(row) == KEYS
+        assert row["us_per_step_fmpy"] is None
+        assert row["realtime_factor"] * row["us_per_step"] == pytest.approx(1e6 * row["h_s"])
+        assert 0.0 < row["path_error_rel"] < row["path_error_m"] < 0.01
+    errors = [row["wheel_load_error_rel"] for row in written["rows"]]
+    assert errors == sorted(errors, reverse=True)
+    assert picture.stat().st_size > 10_000
+    assert "times real time" in capsys.readouterr().out
+
+
+def test_verdict_takes_the_largest_step_within_both_bounds():
+    rows = [
+        {"manoeuvre": "a", "h_s": h, "path_error_rel": path, "wheel_load_error_rel": load, "realtime_factor": factor}
+        for h, path, load, factor in ((0.01, 0.02, 0.0, 100.0), (0.005, 0.001, 0.04, 80.0), (0.002, 0.001, 0.01, 60.0))
+    ]
+    assert car.verdict(rows) == [
+        "a: 2 ms, 60 times real time",
+        "all: 2 ms, at least 60 times real time (aim 50: reached)",
+    ]
+    assert car.verdict(rows[:2]) == ["a: no step stays within the bounds"]

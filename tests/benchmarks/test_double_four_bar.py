@@ -1,0 +1,43 @@
+"""The command of the double four-bar writes the rows it promises, a table and a chart."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from matplotlib import image
+
+from benchmarks import double_four_bar
+
+KEYS = {
+    "method",
+    "N",
+    "h_s",
+    "energy_deviation_J",
+    "position_error_m",
+    "iterations_mean",
+    "iterations_max",
+    "us_per_step",
+    "wall_s",
+    "realtime_factor",
+}
+
+
+def test_quick_run(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(double_four_bar, "ROUNDS", 1)
+    file, chart = tmp_path / "rows.json", tmp_path / "chart.png"
+    assert double_four_bar.main(["--quick", "--json", str(file), "--chart", str(chart)]) == 0
+    printed = capsys.readouterr().out
+    assert "The paper's Table 1" in printed
+    written = json.loads(file.read_text(encoding="utf-8"))
+    assert {"benchmark", "time", "machine", "settings", "methods"} <= set(written["meta"])
+    rows = written["rows"]
+    assert {(r["N"], r["method"]) for r in rows} == {(n, m) for n in (1, 2) for m in double_four_bar.METHODS}
+    for row in rows:
+        assert set(row) >= KEYS
+        assert (row["wall_s"] is None) == (row["failed_at_s"] is not None)
+    row = next(r for r in rows if r["N"] == 2 and r["h_s"] == 0.01 and r["method"] == "ALi3-P")
+    assert row["energy_deviation_J"] < 0.1
+    assert row["us_per_step"] == pytest.approx(1e6 * row["wall_s"] / 1000)
+    assert row["realtime_factor"] == pytest.approx(10.0 / row["wall_s"])
+    assert len({tuple(p) for p in image.imread(chart).reshape(-1, 4)}) > 20

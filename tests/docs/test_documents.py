@@ -1,0 +1,120 @@
+"""What the documents show runs and prints what they say; what they name exists."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from fmu_src.variables import variable_table
+from hosts.manoeuvre import manoeuvre_names
+
+ROOT = Path(__file__).parents[2]
+PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+FILE = r"[\w./]+\.(?:c|h|py|md|cff)"
+
+
+def snippets(text):
+    return re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+
+
+def run(code, folder):
+    """Standard output of a program run as a user runs it, warnings as errors."""
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"},
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def defines(file, name):
+    """Whether a C or Python file defines a function, class or macro of that name."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    pattern = rf"^\s*(?:def|class) {name}\b" if file.endswith(".py") else rf"^(?:#define {name}\b|\w[^;=\n]*\b{name}\()"
+    return re.search(pattern, text, re.MULTILINE) is not None
+
+
+@pytest.fixture(scope="module")
+def car():
+    return load_scene("prototype_car")[1]
+
+
+def test_readme_runs_the_fmu_in_fmpy(car, tmp_path):
+    code = next(s for s in snippets(README) if "fmpy" in s)
+    build_fmu(car, "prototype_car", tmp_path / "dist", (PLATFORM,))
+    x, y = map(float, re.search(r"x = ([\d.-]+) m, y = ([\d.-]+) m", run(code, tmp_path)).groups())
+    assert x > 10.0
+    assert y > 10.0  # steering is positive to the left
+
+
+def test_readme_models_a_pendulum(tmp_path):
+    code = next(s for s in snippets(README) if "import mbs" in s)
+    printed = run(code, tmp_path).strip()
+    said = re.search(r"It prints `(.*?)`", README)[1]
+    assert printed.split("energy")[0] == said.split("energy")[0]
+    assert float(re.search(r"kept to (\S+) J", printed)[1]) < 1e-3
+
+
+def test_modelling_page_runs(tmp_path):
+    code = "\n".join(snippets((ROOT / "docs" / "modelling.md").read_text(encoding="utf-8")))
+    printed = run(code, tmp_path)
+    assert "degrees of freedom           1" in printed
+    assert "Trajectory(2001 samples" in printed
+
+
+def test_readme_lists_the_manoeuvres_and_the_scene_of_ones_own():
+    for name in manoeuvre_names():
+        assert name in README
+    scene = re.search(r"--scene (\S+\.py:\w+)", README)[1]
+    lines = (ROOT / scene.split(":")[0]).read_text(encoding="utf-8").splitlines()
+    assert f"in {len(lines)} lines" in README
+    assert load_scene(str(ROOT / scene))[0] == scene.split(":")[1]
+
+
+def test_readme_has_every_group_of_variables_and_no_other(car):
+    names = {v.name for v in variable_table(car.meta, pose=True, step_size=0.002)}
+    table = re.search(r"\| variables \|.*?\n\n", README, re.DOTALL)[0]
+    cells = re.findall(r"`([^`]+)`", "\n".join(line.split("|")[1] for line in table.splitlines() if line))
+    shown = {c.partition(".")[0] for c in cells if c[0] not in "._"}
+    assert shown == {re.sub(r"_(FR|RL|RR)$", "_FL", n.partition(".")[0]) for n in names}
+
+
+@pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)
+def test_links_and_named_files_exist(file):
+    text = file.read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#:]+)\)", text):
+        assert (file.parent / target).exists(), target
+    for name in re.findall(rf"`((?:mbs|fmu_src|hosts|benchmarks|tests|docs|examples)/{FILE})`", text):
+        assert (ROOT / name).is_file(), name
+
+
+def test_theory_names_functions_that_exist():
+    listed = [
+        (file, names)
+        for file, names in re.findall(rf"`({FILE})`(?: \||,)((?:[,\s]*`\w+`)+)", THEORY)
+        if file.endswith((".c", ".h", ".py"))
+    ]
+    found = [(file, name) for file, names in listed for name in re.findall(r"`(\w+)`", names)]
+    assert len(found) > 40
+    missing = [f"{file}: {name}" for file, name in found if not defines(file, name)]
+    assert not missing
+
+
+def test_theory_has_all_equations_from_15_to_25():
+    table = THEORY.partition("## Equation of the paper")[2].partition("\n## ")[0]
+    first_cells = " ".join(line.split("|")[1] for line in table.splitlines() if line.startswith("| ("))
+    assert {int(n) for n in re.findall(r"\((\d+)\)", first_cells)} == set(range(15, 26))

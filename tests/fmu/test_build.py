@@ -1,0 +1,102 @@
+"""The command that builds an FMU: what it makes and how it refuses."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import fmpy
+import pytest
+
+import build_fmu
+from fmu_src.build import fmu_name
+from fmu_src.scene_registry import SceneError, load_scene, scene_names
+
+PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+SCENE = """
+import mbs
+
+def swing(length=1.0):
+    m = mbs.Model("swing", dimension=2)
+    bob = m.point_mass("bob", mass=1.0, position=(length, 0.0))
+    m.distance("rod", (m.ground, (0.0, 0.0)), bob)
+    m.sense_position("bob.x", bob, component="x")
+    return m
+
+def compiled():
+    return mbs.compile(swing())
+
+def needs(length):
+    return swing(length)
+
+def nothing():
+    return 3
+
+build = swing
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "own_scene.py"
+    path.write_text(SCENE)
+    return path
+
+
+def test_names_of_scenes_become_names_of_fmus() -> None:
+    assert fmu_name("prototype_car") == "PrototypeCarPython"
+    assert fmu_name("double four-bar") == "DoubleFourBarPython"
+    with pytest.raises(ValueError, match="gives no name"):
+        fmu_name("2nd")
+
+
+def test_the_car_is_a_scene() -> None:
+    assert {"prototype_car", "double_four_bar"} <= set(scene_names())
+
+
+@pytest.mark.parametrize(("function", "name"), [("swing", "swing"), ("compiled", "compiled"), ("", "own_scene")])
+def test_scene_of_a_file(file: Path, function: str, name: str) -> None:
+    found, system = load_scene(f"{file}:{function}" if function else str(file))
+    assert found == name
+    assert [s["name"] for s in system.meta["sensors"]] == ["bob.x"]
+
+
+def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "a" / "b"
+    assert build_fmu.main(["--scene", f"{file}:swing", "--out", str(out), "--platforms", PLATFORM]) == 0
+    assert "SwingPython.fmu" in capsys.readouterr().out
+    description = fmpy.read_model_description(str(out / "SwingPython.fmu"))
+    assert description.modelName == "SwingPython"
+    assert [p.name for p in out.iterdir()] == ["SwingPython.fmu"]
+
+
+@pytest.mark.parametrize(
+    ("scene", "message"),
+    [
+        ("moon_car", "no scene 'moon_car'. The scenes are: "),
+        ("nowhere.py:f", "no file nowhere.py"),
+        ("{file}:slide", "has no function 'slide'"),
+        ("{file}:needs", "needs arguments (length)"),
+        ("{file}:nothing", "returned a int"),
+    ],
+)
+def test_scenes_that_are_none(file: Path, scene: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert build_fmu.main(["--scene", scene.format(file=file), "--platforms", PLATFORM]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_unknown_scene_lists_all() -> None:
+    with pytest.raises(SceneError, match="double_four_bar.*prototype_car"):
+        load_scene("x")
+
+
+def test_unknown_platform(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert build_fmu.main(["--scene", f"{file}:swing", "--platforms", "amiga"]) == 2
+    assert "Platform 'amiga' is not known" in capsys.readouterr().err
+
+
+def test_a_scene_that_cannot_be_built_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "broken.py"
+    path.write_text("import mbs\ndef build():\n    return mbs.Model('x', dimension=4)\n")
+    assert build_fmu.main(["--scene", str(path), "--platforms", PLATFORM]) == 2
+    assert capsys.readouterr().err.startswith("error: The dimension of model 'x' is 4")

@@ -1,0 +1,42 @@
+"""The prototype car for its tests."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from mbs import compile, simulate
+from mbs.elements.road import PlaneRoad
+from mbs.scenes import prototype_car
+
+WHEELS = ("FL", "FR", "RL", "RR")
+NEUTRAL = {"drive.creep_torque": 0.0}
+H = 0.01  # s
+
+
+@cache
+def car():
+    return compile(prototype_car.build())
+
+
+@cache
+def car_on_ice():
+    """Without friction the horizontal tyre forces do not disturb the suspension."""
+    return compile(prototype_car.build(PlaneRoad(friction=0.0)))
+
+
+def drive(system, t_end, h=H, inputs=None, *, neutral=False, pose=None, every=1, parameters=None):
+    parameters = (parameters or {}) | (NEUTRAL if neutral else {})
+    return simulate(system, t_end, h, inputs, None, parameters, every=every, pose=pose, progress=False)
+
+
+def place(trajectory):
+    """Reference point, shape (n, 3), m."""
+    return np.array([trajectory[f"chassis.{c}"] for c in "xyz"]).T
+
+
+def moved(trajectory, begin, end):
+    """Largest distance of the reference point from where it was at `begin`, s, until `end`, s."""
+    part = place(trajectory)[(trajectory.t > begin - 1e-9) & (trajectory.t < end + 1e-9)]
+    return np.linalg.norm(part - part[0], axis=1).max()

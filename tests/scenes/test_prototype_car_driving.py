@@ -1,0 +1,131 @@
+"""Prototype car in motion: cornering, energy, symmetry, invariance."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmarks import car_manoeuvres
+from mbs import Pose, Simulation
+from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.tyre_data import LATERAL, RADIUS, tyre
+from tests.scenes.car import WHEELS, H, car, drive, place
+
+MASS, WHEELBASE = 597.0, 2.3
+LOAD, DEFLECTION = {"front": 1267.3, "rear": 1661.0}, {"front": 0.02112, "rear": 0.02768}
+TO_FRONT = 1.3046  # m, from the centre of mass
+
+
+def bicycle(speed, angle):
+    """Yaw rate of the linear bicycle model with the tyres' slopes and trails at the static loads.
+
+    At small lateral acceleration the load transfer is of second order and the curves are straight.
+    """
+    stiffness, trail = {}, {}
+    for axle in LOAD:
+        q = LOAD[axle] / 1500.0
+        c1, c2 = LATERAL.slope
+        stiffness[axle] = 2.0 * q * (2.0 * c1 - 0.5 * c2 - (c1 - 0.5 * c2) * q)
+        t = tyre(axle).trail
+        trail[axle] = (t[0] + (t[1] - t[0]) * (q - 1.0)) * 2.0 * np.sqrt(RADIUS[axle] * DEFLECTION[axle])
+    a, b = TO_FRONT - trail["front"], WHEELBASE - TO_FRONT + trail["rear"]
+    gradient = MASS * (b / stiffness["front"] - a / stiffness["rear"]) / (a + b)
+    return speed * angle / (a + b + gradient * speed**2), gradient
+
+
+@pytest.mark.parametrize("speed", [8.0, 14.0, 20.0])
+@pytest.mark.parametrize("steering", [0.01, -0.01])
+def test_steady_cornering_is_that_of_the_bicycle_model(speed, steering):
+    t = drive(car(), 6.0, H, {"steering": steering}, neutral=True, pose=Pose(speed=speed))
+    v, yaw_rate = t["speed"][-1], t["chassis.wz"][-1]
+    angle = 0.5 * (t["wheel_FL.steer"][-1] + t["wheel_FR.steer"][-1])
+    expected, gradient = bicycle(v, angle)
+    assert abs(v * yaw_rate) < 1.0
+    assert np.sign(yaw_rate) == np.sign(steering)
+    assert yaw_rate == pytest.approx(expected, rel=0.01)
+    measured = (v * angle / yaw_rate - WHEELBASE) / v**2
+    assert measured == pytest.approx(gradient, abs=0.0003)  # rad/(m/s2): 0.17 deg/g
+
+
+@pytest.mark.parametrize(("speed", "gear"), [(0.0, 1), (6.0, 1), (22.0, 3)])
+def test_a_start_finds_the_gear_that_fits(speed, gear):
+    assert Simulation(car(), pose=Pose(speed=speed)).sensors["gear"] == gear
+
+
+def test_full_lock_at_15_m_s():
+    """The front slides: the car turns at what its tyres hold, upright, and not at what the wheels point to."""
+    t = car_manoeuvres.run("full_lock", H)
+    assert t.report.failures == 0
+    assert t.report.halvings == 0
+    assert 6.0 < np.abs(t["chassis.ay"]).max() < 11.0
+    assert np.abs(t["chassis.roll"]).max() < np.radians(12.0)
+    assert np.unwrap(t["chassis.yaw"])[-1] > 3.0
+    assert 3.0 < t["speed"][-1] < 7.0
+    for w in WHEELS:
+        assert np.abs(t[f"wheel_{w}.travel"]).max() < 0.15
+        grip = 0.9 / 0.8 * 1.2  # a little more than the largest force per load
+        force = np.hypot(t[f"wheel_{w}.Fx"], t[f"wheel_{w}.Fy"])
+        assert np.all(force <= grip * np.maximum(t[f"wheel_{w}.Fz"], 1.0))
+
+
+def powers(t):
+    """Power of drive, drag, rolling resistance, brakes and tyre slip, W; all but the first take energy."""
+    omega = {w: t[f"wheel_{w}.omega"] for w in WHEELS}
+    drive_power = t["drive_torque"] * (omega["RL"] + omega["RR"] - 2.0 * t["chassis.wy"])
+    drag = 0.5 * car_data.AIR_DENSITY * car_data.DRAG_AREA * t["speed"] ** 3
+    rolling = brakes = slip = 0.0
+    for w in WHEELS:
+        radius = RADIUS["front" if w[0] == "F" else "rear"]
+        rolling = rolling + 0.015 * t[f"wheel_{w}.Fz"] * radius * omega[w] * np.tanh(omega[w])
+        brakes = brakes - t[f"wheel_{w}.brake_torque"] * omega[w]
+        faster = np.maximum(np.abs(omega[w]) * radius, np.abs(t["chassis.vx"]))
+        slip = slip + np.abs(t[f"wheel_{w}.Fx"] * t[f"wheel_{w}.slip"]) * faster
+    return drive_power, drag, rolling, brakes, slip
+
+
+@pytest.mark.parametrize(
+    ("case", "bound"), [("coast", 2e-4), ("launch", 2e-3), ("brake", 5e-4)]
+)  # of the largest of the works; left out are dampers and carcasses, and the slip power comes from sensors
+def test_energy_balance(case, bound):
+    h = 0.001
+    inputs = {
+        "coast": {},
+        "launch": {"throttle": ([0.0, 0.5, 8.0], [0.0, 0.6, 0.6])},
+        "brake": {"brake": ([0.0, 0.5, 0.8, 8.0], [0.0, 0.0, 0.4, 0.4])},
+    }[case]
+    start = None if case == "launch" else Pose(speed=20.0)
+    t = drive(car(), {"coast": 10.0, "launch": 6.0, "brake": 4.0}[case], h, inputs, neutral=case == "coast", pose=start)
+    drive_power, *losses = powers(t)
+    work, *lost = (float(np.sum(0.5 * (p[1:] + p[:-1])) * h) for p in (drive_power, *losses))
+    change = t["energy.total"][-1] - t["energy.total"][0]
+    scale = max(abs(work), *lost)
+    assert scale > 5e3
+    assert change == pytest.approx(work - sum(lost), abs=bound * scale)
+
+
+def test_left_and_right_are_mirror_images():
+    steer = np.array([0.0, 0.0, 0.3, -0.2, 0.1, 0.1])
+    times = np.array([0.0, 0.5, 1.0, 2.0, 3.0, 4.0])
+    pedals = {"throttle": 0.3}
+    left = drive(car(), 4.0, H, {"steering": (times, steer), **pedals}, pose=Pose(speed=12.0))
+    right = drive(car(), 4.0, H, {"steering": (times, -steer), **pedals}, pose=Pose(speed=12.0))
+    assert np.abs(left["chassis.y"]).max() > 1.0
+    for name, sign in (("x", 1), ("y", -1), ("z", 1), ("yaw", -1), ("roll", -1), ("pitch", 1), ("wz", -1)):
+        a, b = left[f"chassis.{name}"], right[f"chassis.{name}"]
+        np.testing.assert_allclose(a, sign * b, rtol=0, atol=1e-6 * np.abs(a).max())
+    for one, other in (("FL", "FR"), ("RL", "RR")):
+        np.testing.assert_allclose(left[f"wheel_{one}.Fz"], right[f"wheel_{other}.Fz"], rtol=0, atol=1e-2)
+
+
+def test_start_turned_and_shifted_gives_the_turned_and_shifted_path():
+    inputs = {"steering": ([0.0, 0.5, 1.0, 4.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.2}
+    yaw, shift = 2.1, np.array([120.0, -45.0])
+    plain = drive(car(), 4.0, H, inputs, pose=Pose(speed=10.0))
+    turned = drive(car(), 4.0, H, inputs, pose=Pose(shift[0], shift[1], 0.0, yaw, 10.0))
+    rotation = np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
+    expected = place(plain)[:, :2] @ rotation.T + shift
+    np.testing.assert_allclose(place(turned)[:, :2], expected, rtol=0, atol=1e-6)
+    heading = np.unwrap(turned["chassis.yaw"]) - np.unwrap(plain["chassis.yaw"])
+    np.testing.assert_allclose(np.exp(1j * heading), np.exp(1j * yaw), rtol=0, atol=1e-6)
+    for name in ("wheel_FL.Fz", "wheel_RR.Fy", "chassis.ay", "speed"):
+        np.testing.assert_allclose(turned[name], plain[name], rtol=0, atol=1e-6 * np.abs(plain[name]).max())

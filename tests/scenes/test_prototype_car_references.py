@@ -1,0 +1,35 @@
+"""Prototype car against its converged trajectories (`tests/data/car`, origin in each file)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmarks import car_manoeuvres, car_references
+
+# per manoeuvre: largest path error over the length of the path, largest wheel load error over the largest load,
+# both at 5 ms; about three times what was measured
+BOUNDS = dict.fromkeys(car_manoeuvres.NAMES, (6e-5, 0.003)) | {"drop": (6e-4, 0.02), "kerb_drop": (1e-4, 0.025)}
+SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay")
+
+
+def error(name, h):
+    t, values, length = car_references.read(name)
+    found = car_manoeuvres.run(name, h, every=round(car_manoeuvres.sampling(name) / h))
+    np.testing.assert_allclose(found.t, t, rtol=0, atol=1e-6)
+    assert found.report.failures == 0
+    return car_references.path_error(found, values), car_references.load_error(found, values), length
+
+
+@pytest.mark.parametrize("name", car_manoeuvres.NAMES)
+def test_manoeuvre_follows_its_reference(name):
+    path, load, length = error(name, 0.005)
+    assert path / length < BOUNDS[name][0]
+    assert load < BOUNDS[name][1]
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_smooth_manoeuvres_converge_with_the_square_of_the_step(name):
+    coarse, fine = error(name, 0.01), error(name, 0.0025)
+    assert coarse[1] / fine[1] == pytest.approx(16.0, rel=0.5)  # wheel loads; paths err by micrometres, like the solver
+    assert fine[0] < coarse[0] / 6.0
