@@ -119,7 +119,9 @@ def test_a_failing_step_is_discarded_and_the_last_state_kept(reach: Path, host: 
     # The mechanism opens some steps later, in the middle of the communication step.
     assert driven.step(0.05, 0.2) == DISCARD
     assert driven.outputs() == before
-    assert any("not converge" in m and "0.05 s is kept" in m and ("'rod'" in m or "'cable'" in m) for m in driven.messages)
+    assert any(
+        "not converge" in m and "0.05 s is kept" in m and ("'rod'" in m or "'cable'" in m) for m in driven.messages
+    )
     assert driven.set("pull", 0.0) == OK
     assert driven.slave.serializeFMUstate(driven.slave.getFMUstate())[-200:] == state[-200:]
     assert driven.step(0.05, 0.2) == OK
