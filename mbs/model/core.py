@@ -4,6 +4,7 @@ it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,7 @@ from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
 from mbs.model.checks import Vector, direction, inertia_matrix, number, positive, vector
 from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.ports import PortedBody
 
 if TYPE_CHECKING:
     from mbs.model.guides import Guide
@@ -205,6 +207,20 @@ class ModelCore:
         new = FlexibleBody(self, name, reduced, place, R, len(self.coordinates))
         self._register(new)
         return new
+
+    def ported(self, body: Body, ports: Mapping[str, ArrayLike]) -> PortedBody:
+        """A rigid body with ports: joints and springs given the result leave the forces there to be read.
+
+        Parameters
+        ----------
+        ports : mapping of str to array_like, shape (3,)
+            Places by name, earth axes in the reference configuration, m.
+        """
+        self.owned(body, "The ports")
+        if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
+            raise ModelError(f"Ports belong to a rigid body in space, not to '{body.name}'.")
+        places = {n: vector(p, 3, f"the port '{n}' of body '{body.name}'") for n, p in ports.items()}
+        return PortedBody(body, places)
 
     def point_mass(self, name: str, *, mass: float, position: ArrayLike) -> PointMass:
         """A particle of `mass` (kg) at `position` (m)."""

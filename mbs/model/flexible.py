@@ -96,6 +96,11 @@ class FlexibleBody(Body):
         w = vector(weights, self.n_modes, f"the weights of the modes of flexible body '{self.name}'")
         return Affine({self.start + 12 + j: float(v) for j, v in enumerate(w) if v != 0.0})
 
+    @property
+    def frame(self) -> Body:
+        """The floating frame in the part of a rigid body: its points do not take part in the deformation."""
+        return Body(self.model, f"{self.name}.frame", self.com, self.start)
+
     def interface(self, node: str | int) -> Interface:
         """A node as something that joints, forces and sensors take like a body."""
         number = self._node_number(node)
@@ -194,7 +199,9 @@ class Interface(Body):
     def point(self, position: ArrayLike | None = None) -> AffineVector:
         """The node, or a point fixed to it by a rigid arm (earth axes, reference configuration, m)."""
         if self._point is None:
-            self._point = self._moved("", self.com - self.owner.com, self.translation, 1.0)
+            # from the origin of the frame, so that the rows lose no digits far from that of the earth
+            origin = AffineVector(tuple(Affine({self.owner.start + k: 1.0}) for k in range(3)))
+            self._point = origin + self._moved("", self.com - self.owner.com, self.translation)
         arm = np.zeros(3) if position is None else vector(position, 3, f"a point of interface '{self.name}'") - self.com
         return self._point if np.linalg.norm(arm) <= SAME_PLACE else self._point + self.vector(arm)
 
@@ -209,7 +216,7 @@ class Interface(Body):
         if not self.bends:
             return carried
         if self._turn is None:
-            self._turn = self._moved(".rotation", np.zeros(3), self.rotation, 0.0)
+            self._turn = self._moved(".rotation", np.zeros(3), self.rotation)
         key = tuple(np.round(v, 12).tolist())
         if key not in self._vectors:
             what = f"{self.name}.vector {len(self._vectors) + 1}"
@@ -224,13 +231,13 @@ class Interface(Body):
             self._vectors[key] = new
         return self._vectors[key]
 
-    def _moved(self, part: str, local: Vector, motion: NDArray[np.float64], origin: float) -> AffineVector:
-        """``origin r_o + A (local + motion eta)``; new coordinates and rows where eta takes part."""
+    def _moved(self, part: str, local: Vector, motion: NDArray[np.float64]) -> AffineVector:
+        """``A (local + motion eta)``; new coordinates and rows where eta takes part."""
         owner, frame = self.owner, self.owner.start
         if not np.any(motion):
-            return owner._expression(local, origin)
+            return owner.vector(local)
         what = f"{self.name}{part}"
-        new = self._new(what, "point" if origin else "vector", local + origin * owner.com)
+        new = self._new(what, "vector", local)
         eta = frame + 12
         bent = [
             Affine({eta + int(j): float(motion[i, j]) for j in np.flatnonzero(motion[i])}, float(local[i]))
@@ -239,7 +246,7 @@ class Interface(Body):
         rows = []
         for k in range(3):
             products = [(-1.0, Affine({frame + 3 + 3 * i + k: 1.0}), bent[i]) for i in range(3)]
-            rows.append(Equation(what, "interface", products, new[k] - origin * Affine({frame + k: 1.0})))
+            rows.append(Equation(what, "interface", products, new[k]))
         self.model.joints.append(Joint(what, "interface", rows))
         return new
 
