@@ -29,12 +29,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print('error: PythonFMU is not installed; run: pip install "ali3[fmu]"', file=sys.stderr)
         return 2
     from fmu_src.build import build_fmu
-    from fmu_src.scene_registry import load_scene
+    from fmu_src.scene_registry import load_variants
 
     try:
         print(f"scene {options.scene} ...", flush=True)
-        name, system = load_scene(options.scene)
-        file = build_fmu(system, name, options.out, options.platforms.split(","), lambda text: print(text, flush=True))
+        name, systems, fidelity = load_variants(options.scene)
+        platforms = options.platforms.split(",")
+        file = build_fmu(systems, name, options.out, platforms, lambda text: print(text, flush=True), fidelity)
+        system = systems[fidelity]
     except (ValueError, RuntimeError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

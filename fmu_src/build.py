@@ -15,7 +15,7 @@ import mbs
 from fmu_src.platforms import PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.python_slave.package import Contents, pack
 from fmu_src.python_slave.shell_build import compile_shell
-from fmu_src.variables import variable_table
+from fmu_src.variables import check_variants, variable_table
 from mbs.kernel import binding, build
 
 Say = Callable[[str], None]
@@ -32,13 +32,19 @@ def fmu_name(scene: str) -> str:
 
 
 def build_fmu(
-    system: mbs.System, name: str, out: Path, platforms: Sequence[str] = PLATFORMS, say: Say = lambda text: None
+    system: mbs.System | Sequence[mbs.System],
+    name: str,
+    out: Path,
+    platforms: Sequence[str] = PLATFORMS,
+    say: Say = lambda text: None,
+    fidelity: int = 0,
 ) -> Path:
     """Build the FMU of a System.
 
     Parameters
     ----------
-    system : mbs.System
+    system : mbs.System or sequence of them
+        Several are the rungs of the parameter `fidelity`: with the same inputs, parameters and sensors.
     name : str
         Of the scene, such as ``prototype_car``.
     out : Path
@@ -47,6 +53,8 @@ def build_fmu(
         Out of ``linux64`` and ``win64``.
     say : callable
         Is told what is going on, one line at a time.
+    fidelity : int
+        The default among several Systems.
 
     Returns
     -------
@@ -57,9 +65,14 @@ def build_fmu(
     if unknown or not platforms:
         raise ValueError(f"Platform '{', '.join(unknown)}' is not known; PythonFMU runs on {', '.join(PLATFORMS)}.")
     model_name = fmu_name(name)
-    experiment = system.meta["experiment"]
+    systems = [system] if isinstance(system, mbs.System) else list(system)
+    check_variants([s.meta for s in systems])
+    meta = systems[fidelity].meta
+    experiment = meta["experiment"]
     step = float(experiment["step_s"])
-    table = variable_table(system.meta, pose=bool(system.meta["floating"]), step_size=step)
+    table = variable_table(
+        meta, pose=bool(meta["floating"]), step_size=step, fidelities=len(systems), fidelity=fidelity
+    )
     kernels, shells = {}, {}
     with tempfile.TemporaryDirectory() as folder:
         for platform in platforms:
@@ -73,11 +86,11 @@ def build_fmu(
             pack(
                 Contents(
                     model_name,
-                    system.meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
+                    meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
                     importlib.metadata.version("ali3"),
-                    system.to_bytes(),
+                    [s.to_bytes() for s in systems],
                     table,
-                    [row["name"] for row in system.meta["rows"]],
+                    [[row["name"] for row in s.meta["rows"]] for s in systems],
                     float(experiment["stop_time_s"]),
                     step,
                     Path(binding.__file__),

@@ -46,10 +46,7 @@ def load_path_modes(body: ReducedBody, loads: np.ndarray, tolerance: float = 1e-
     tolerance : float
         Square root of the energy, as a fraction of the largest, below which a combination of loads is left out.
     """
-    if loads.ndim != 2 or loads.shape[0] != 3 * len(body.interfaces):
-        raise ModelError(f"The loads have shape {loads.shape}; {3 * len(body.interfaces)} rows are needed.")
-    shapes = np.concatenate([body.interface_translation(name) for name in body.interfaces])
-    deformation = np.linalg.solve(body.K, shapes.T @ loads - _balancing_inertia(body, loads))
+    deformation = load_path_deformations(body, loads)
     energy = deformation.T @ body.K @ deformation
     values, vectors = np.linalg.eigh((energy + energy.T) / 2)
     keep = values > tolerance**2 * values[-1]
@@ -57,6 +54,14 @@ def load_path_modes(body: ReducedBody, loads: np.ndarray, tolerance: float = 1e-
     squares, V = eigh(basis.T @ body.K @ basis, basis.T @ body.M @ basis)
     names = tuple(f"load path {i + 1}" for i in range(squares.size))
     return body.transformed(basis @ V, names, np.sqrt(squares) / (2 * np.pi))
+
+
+def load_path_deformations(body: ReducedBody, loads: np.ndarray) -> np.ndarray:
+    """Amplitudes under interface forces and the inertia that balances them, shape (n_modes, n_loads)."""
+    if loads.ndim != 2 or loads.shape[0] != 3 * len(body.interfaces):
+        raise ModelError(f"The loads have shape {loads.shape}; {3 * len(body.interfaces)} rows are needed.")
+    shapes = np.concatenate([body.interface_translation(name) for name in body.interfaces])
+    return np.linalg.solve(body.K, shapes.T @ loads - _balancing_inertia(body, loads))
 
 
 def reduced_eigenmodes(body: ReducedBody, up_to: float = np.inf) -> ReducedBody:

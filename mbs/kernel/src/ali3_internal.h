@@ -199,9 +199,6 @@ void ali3_flexible_tangent(const ali3_instance *in, double wC, double wK, double
 ali3_status ali3_factorise(ali3_instance *in, double *F);
 void ali3_solve(ali3_instance *in, const double *F, double *b);
 
-/* predict.c */
-void ali3_predict(ali3_instance *in, double h);
-
 /* step.c */
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
 double ali3_penalty(const ali3_settings *s, double h);

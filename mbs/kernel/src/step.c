@@ -167,7 +167,10 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   ali3_vectors *from = &in->now, *to = &in->next;
   int32_t iterations = 0;
   ali3_guides_step(in, from, to, t, h);
-  ali3_predict(in, h);
+  for (int32_t i = 0; i < nq; i++) {
+    in->D[i] = h * from->qd[i] + 0.5 * h * h * from->qdd[i];
+    in->d0[i] = h * from->qd[i] + c * from->qdd[i];
+  }
   memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   const ali3_status status = newton(in, h, alpha, &iterations);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.elements.road import KerbRoad, PlaneRoad, Road
@@ -60,7 +61,7 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
     for side in REAR_SIDES:
         spins[side.wheel] = wheel(m, rear_suspension(m, parts.body, side), side, ground, pedal)
     z, x = parts.drive_axes  # the reaction of the drive is about the lateral axis of the chassis (z cross x = y)
-    drive = AutomaticDrive(**car_data.DRIVELINE)
+    drive = AutomaticDrive(**(car_data.DRIVELINE if guide is None else car_data.DRIVELINE | {"creep_torque": 0.0}))
     m.add(drive.record("drive", spins["RL"].coordinate, spins["RR"].coordinate, z, x, throttle.index))
     m.drag("drag", chassis, car_data.REFERENCE_POINT, drag_area=car_data.DRAG_AREA, air_density=car_data.AIR_DENSITY)
 
@@ -84,6 +85,11 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
     if guide is not None:
         m.drive("guided way", chassis.point(parts.origin)[0], guide(m))
     return m
+
+
+def variants() -> dict[int, Callable[[], Model]]:
+    """The rungs an FMU offers by its parameter `fidelity`."""
+    return {k: partial(build, None, k) for k in range(4)}
 
 
 def _road_parameters(m: Model, road: Road | None, ground: int) -> None:
@@ -117,4 +123,4 @@ def _road_parameters(m: Model, road: Road | None, ground: int) -> None:
         )
 
 
-__all__ = ["build"]
+__all__ = ["build", "variants"]

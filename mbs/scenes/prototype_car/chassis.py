@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
@@ -16,9 +18,9 @@ from mbs.flexible import (
     craig_bampton,
     gauge_rows,
     inertia_relief,
-    interface_loads,
     load_path_modes,
 )
+from mbs.flexible.load_path_modes import load_path_deformations
 from mbs.flexible.recovery import StrainGauge
 from mbs.model import Model
 from mbs.model.body import Body
@@ -46,7 +48,8 @@ FIDELITIES = (
 PAPER_MODES = "paper"
 """In place of a number: the 60 static and 5 dynamic modes of the paper, without the inertia modes."""
 MANY_MODES = 40
-LOAD_PATH_TOLERANCE = 1e-3
+LOAD_FILE = Path(__file__).parent / "frame" / "loads.csv"
+LOAD_PATH_TOLERANCE = 1e-2
 """Load paths whose deformation has less than this part of the largest, in the energy norm, are left out."""
 # wishbones hold the distance of their two pivots: no load stretches the frame between them
 STIFF_PAIRS = tuple((f"{a}{s}", f"{b}{s}") for a, b in (("LF", "LR"), ("UF", "UR"), ("AF", "AR")) for s in "LR")
@@ -95,30 +98,35 @@ def reduced_chassis(fidelity: int | str) -> ReducedBody:
     body = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=True, damping=DAMPING)
     if fidelity != LOAD_PATHS:
         return body
-    return load_path_modes(body, interface_loads(body, load_directions(body)), LOAD_PATH_TOLERANCE)
+    # without the stretch between the pivots of a wishbone the frame could not follow its fixed length
+    loads, pairs = recorded_loads(), _relief_with_stretch()[1]
+    sizes = [np.sqrt(np.diag(deformation_energy(f))) for f in (loads, pairs)]
+    return load_path_modes(body, np.hstack([loads, pairs * (sizes[0].max() / sizes[1])]), LOAD_PATH_TOLERANCE)
 
 
-def load_directions(body: ReducedBody) -> dict[str, np.ndarray]:
-    """Along which axes each interface can be loaded: rods and springs push along themselves, joints anywhere."""
-    front, rear = car_data.FRONT, car_data.REAR
-    ends = {
-        "RK": (front["tie_rod_inner"], front["tie_rod_outer"]),
-        "TF": (front["spring_lower"], front["spring_upper"]),
-        "TL": (rear["toe_link_inner"], rear["toe_link_outer"]),
-    }
-    directions = {}
-    for name in body.interfaces:
-        directions[name] = np.eye(3)
-        if name[:2] in ends:
-            a, b = ends[name[:2]]
-            along = np.subtract(b, a) * (1.0, 1.0 if name[2] == "L" else -1.0, 1.0)
-            directions[name] = along[None] / np.linalg.norm(along)
-    return directions
+def recorded_loads() -> np.ndarray:
+    """Principal combinations of the interface forces in driving, shape (60, n), N; see the head of the file."""
+    with LOAD_FILE.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(line for line in file if not line.startswith("#")))
+    return np.array([[float(v) for v in row[2:]] for row in rows[1:]])
+
+
+def settled_loads(forces: np.ndarray) -> np.ndarray:
+    """Interface forces, shape (60, n), N, with the wishbones' axial forces that keep their pivots apart."""
+    relief, pairs, n = _relief_with_stretch()
+    return np.asarray(forces - pairs @ np.linalg.solve(relief.forces[n:] @ pairs, relief.balanced[n:] @ forces))
+
+
+def deformation_energy(forces: np.ndarray) -> np.ndarray:
+    """Products of the deformations under interface forces, freely accelerated, in the energy norm, shape (n, n), J."""
+    body = craig_bampton(_finite_elements()[0], REFERENCE, INTERFACES, 0, inertia_modes=True)
+    deformation = load_path_deformations(body, forces)
+    return np.asarray(deformation.T @ body.K @ deformation)
 
 
 @cache
-def quasi_static() -> InertiaRelief:
-    """From interface forces and motion to the moments and half-bridges; wishbones keep their pivots apart."""
+def _relief_with_stretch() -> tuple[InertiaRelief, np.ndarray, int]:
+    """From loads to the gauges, then to the stretch between pivots; forces per unit axial force; number of gauge rows."""
     model, _, outputs = _finite_elements()
     stretch = np.zeros((len(STIFF_PAIRS), model.n_dof))
     pairs = np.zeros((3 * len(INTERFACES), len(STIFF_PAIRS)))
@@ -131,7 +139,13 @@ def quasi_static() -> InertiaRelief:
             start = 3 * INTERFACES.index(name)
             pairs[start : start + 3, k] = sign * along
     relief = inertia_relief(model, REFERENCE, INTERFACES, np.vstack([outputs, stretch]))
-    n = len(outputs)
+    return relief, pairs, len(outputs)
+
+
+@cache
+def quasi_static() -> InertiaRelief:
+    """From interface forces and motion to the moments and half-bridges; wishbones keep their pivots apart."""
+    relief, pairs, n = _relief_with_stretch()
     # forces of each wishbone along its axis that undo the stretch
     undo = -relief.forces[:n] @ pairs @ np.linalg.inv(relief.forces[n:] @ pairs)
     mixed = [part[:n] + undo @ part[n:] for part in (relief.forces, relief.acceleration, relief.rotation, relief.balanced)]
@@ -175,7 +189,7 @@ def _rear_axes(body: Body) -> tuple[AffineVector, AffineVector]:
 def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
     """Moments and stresses at the gauges; zero on the rigid rung, where `stress.computed` says so."""
     _, _, rows = _finite_elements() if fidelity != RIGID else (None, None, None)
-    note = "" if fidelity != RIGID else "; not computed: zero on this rung"
+    note = "; zero where stress.computed is 0"
     names = list(GAUGES)
     outputs = [(f"bending_moment.{g}", "N.m", f"bending moment at gauge {g}, positive: upper fibre pulled") for g in names]
     outputs += [(f"stress.{g}", "Pa", f"half-bridge {g}, upper minus lower fibre") for g in names]
@@ -183,11 +197,11 @@ def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
         if fidelity == RIGID:
             m.sense_constant(name, 0.0, unit, text + note)
         elif isinstance(chassis.body, PortedBody):
-            m.sense_quasi_static(name, chassis.body, quasi_static(), k, chassis.origin, unit, text)
+            m.sense_quasi_static(name, chassis.body, quasi_static(), k, chassis.origin, unit, text + note)
         else:
             body = chassis.body
             assert isinstance(body, FlexibleBody) and rows is not None
-            m.sense_recovery(name, body, body.reduced.recovery(rows[k : k + 1])[0], unit, text)
+            m.sense_recovery(name, body, body.reduced.recovery(rows[k : k + 1])[0], unit, text + note)
     m.sense_constant(
         "stress.computed", float(fidelity != RIGID), "1", "1 where moments and stresses are computed; 0: they read zero"
     )
