@@ -59,13 +59,21 @@ def port_forces(name: str) -> NDArray[np.float64]:
     return np.array(found).T
 
 
+def mirrored(forces: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same with left and right exchanged."""
+    other = [INTERFACES.index(name[:-1] + {"L": "R", "R": "L"}[name[-1]]) for name in INTERFACES]
+    parts = forces.reshape(len(INTERFACES), 3, -1)[other] * np.array([1.0, -1.0, 1.0])[:, None]
+    return parts.reshape(forces.shape)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Drive, decompose, write."""
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.load_paths", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.parse_args(arguments)
-    snapshots = settled_loads(np.hstack([port_forces(name) for name in MANOEUVRES]))
+    driven = settled_loads(np.hstack([port_forces(name) for name in MANOEUVRES]))
+    snapshots = np.hstack([driven, mirrored(driven)])
     energy = deformation_energy(snapshots)
     values, vectors = np.linalg.eigh(energy)
     size = np.sqrt(np.maximum(values[::-1], 0.0))
@@ -74,7 +82,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     loads *= np.sign(loads[np.abs(loads).argmax(axis=0), np.arange(loads.shape[1])])
     lines = [
         "# Loads of the prototype car's frame, N, most deforming first: principal combinations of the interface forces,",
-        f"# body axes, in {', '.join(m.replace('_', ' ') for m in MANOEUVRES)}; root mean square over all of them.",
+        f"# body axes, in {', '.join(m.replace('_', ' ') for m in MANOEUVRES)} and their mirror images; root mean square.",
         "# Source: this engine, rigid car with ports; made by python -m benchmarks.load_paths",
         ",".join(["interface", "axis", *(f"load_{k + 1}" for k in range(loads.shape[1]))]),
     ]

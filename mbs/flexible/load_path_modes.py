@@ -31,7 +31,9 @@ def interface_loads(body: ReducedBody, directions: dict[str, np.ndarray]) -> np.
     return np.array(columns).T
 
 
-def load_path_modes(body: ReducedBody, loads: np.ndarray, tolerance: float = 1e-6) -> ReducedBody:
+def load_path_modes(
+    body: ReducedBody, loads: np.ndarray, tolerance: float = 1e-6, frame_loads: np.ndarray | None = None
+) -> ReducedBody:
     """Body with the deformations under given loads and the inertia that balances them, and no others.
 
     Each load is put in balance by the inertia of the rigid motion it causes and the deformation is solved for in the
@@ -45,8 +47,10 @@ def load_path_modes(body: ReducedBody, loads: np.ndarray, tolerance: float = 1e-
         Forces at the interfaces, of `interface_loads` or snapshots of a simulation.
     tolerance : float
         Square root of the energy, as a fraction of the largest, below which a combination of loads is left out.
+    frame_loads : ndarray, shape (6, n_loads), optional
+        Forces and moments on the floating frame that act together with the loads (drag, a guide), N and N m.
     """
-    deformation = load_path_deformations(body, loads)
+    deformation = load_path_deformations(body, loads, frame_loads)
     energy = deformation.T @ body.K @ deformation
     values, vectors = np.linalg.eigh((energy + energy.T) / 2)
     keep = values > tolerance**2 * values[-1]
@@ -56,12 +60,14 @@ def load_path_modes(body: ReducedBody, loads: np.ndarray, tolerance: float = 1e-
     return body.transformed(basis @ V, names, np.sqrt(squares) / (2 * np.pi))
 
 
-def load_path_deformations(body: ReducedBody, loads: np.ndarray) -> np.ndarray:
+def load_path_deformations(
+    body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None = None
+) -> np.ndarray:
     """Amplitudes under interface forces and the inertia that balances them, shape (n_modes, n_loads)."""
     if loads.ndim != 2 or loads.shape[0] != 3 * len(body.interfaces):
         raise ModelError(f"The loads have shape {loads.shape}; {3 * len(body.interfaces)} rows are needed.")
     shapes = np.concatenate([body.interface_translation(name) for name in body.interfaces])
-    return np.linalg.solve(body.K, shapes.T @ loads - _balancing_inertia(body, loads))
+    return np.linalg.solve(body.K, shapes.T @ loads - _balancing_inertia(body, loads, frame_loads))
 
 
 def reduced_eigenmodes(body: ReducedBody, up_to: float = np.inf) -> ReducedBody:
@@ -74,13 +80,14 @@ def reduced_eigenmodes(body: ReducedBody, up_to: float = np.inf) -> ReducedBody:
     return body.transformed(V[:, keep], tuple(f"eigenmode {i + 1}" for i in range(int(keep.sum()))), hertz[keep])
 
 
-def _balancing_inertia(body: ReducedBody, loads: np.ndarray) -> np.ndarray:
+def _balancing_inertia(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None) -> np.ndarray:
     """Modal forces of the inertia of the rigid motion that each load causes, shape (n_modes, n_loads)."""
     places = np.array([interface.position for interface in body.interfaces.values()])
     fields, moves = _rigid_field(body.mass_positions), _rigid_field(places)
     rigid_mass = np.einsum("k,kia,kib->ab", body.masses, fields, fields)
     coupling = np.einsum("k,kij,kia->ja", body.masses, body.mass_shapes, fields)
-    acceleration = np.linalg.solve(rigid_mass, moves.reshape(-1, 6).T @ loads)
+    total = moves.reshape(-1, 6).T @ loads + (0.0 if frame_loads is None else frame_loads)
+    acceleration = np.linalg.solve(rigid_mass, total)
     return np.asarray(coupling @ acceleration)
 
 

@@ -49,8 +49,9 @@ PAPER_MODES = "paper"
 """In place of a number: the 60 static and 5 dynamic modes of the paper, without the inertia modes."""
 MANY_MODES = 40
 LOAD_FILE = Path(__file__).parent / "frame" / "loads.csv"
-LOAD_PATH_TOLERANCE = 1e-2
+LOAD_PATH_TOLERANCE = 5e-3
 """Load paths whose deformation has less than this part of the largest, in the energy norm, are left out."""
+GUIDING_FORCE = 2e3  # N, along the car at the origin of the floating frame
 # wishbones hold the distance of their two pivots: no load stretches the frame between them
 STIFF_PAIRS = tuple((f"{a}{s}", f"{b}{s}") for a, b in (("LF", "LR"), ("UF", "UR"), ("AF", "AR")) for s in "LR")
 
@@ -101,7 +102,10 @@ def reduced_chassis(fidelity: int | str) -> ReducedBody:
     # without the stretch between the pivots of a wishbone the frame could not follow its fixed length
     loads, pairs = recorded_loads(), _relief_with_stretch()[1]
     sizes = [np.sqrt(np.diag(deformation_energy(f))) for f in (loads, pairs)]
-    return load_path_modes(body, np.hstack([loads, pairs * (sizes[0].max() / sizes[1])]), LOAD_PATH_TOLERANCE)
+    every = np.hstack([loads, pairs * (sizes[0].max() / sizes[1]), np.zeros((len(loads), 1))])
+    guided = np.zeros((6, every.shape[1]))
+    guided[0, -1] = GUIDING_FORCE
+    return load_path_modes(body, every, LOAD_PATH_TOLERANCE, guided)
 
 
 def recorded_loads() -> np.ndarray:
