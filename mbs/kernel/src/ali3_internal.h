@@ -69,6 +69,7 @@ struct ali3_system {
   ali3_sizes size;
   int32_t nr;        /* roads */
   int32_t max_front; /* largest front */
+  double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
   int32_t n_flexible, max_modes; /* flexible bodies, most modes of one */
   /* derived at load, in one block */
   void *derived;
@@ -101,6 +102,7 @@ struct ali3_system {
 /* One state; the vectors lie in one block of `n` doubles so that a copy is one memcpy. */
 typedef struct {
   double *q, *qd, *qdd, *lam, *y;
+  double *mean, *mean_before; /* mean rates of the last two steps, of systems with flexible bodies */
   double *s, *sd, *sdd;      /* guides */
   double *out, *potential;   /* of the last evaluation of the elements */
   double *used;              /* inputs as used in the last step */
@@ -201,13 +203,17 @@ void ali3_solve(ali3_instance *in, const double *F, double *b);
 
 /* step.c */
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
-double ali3_penalty(const ali3_settings *s, double h);
+double ali3_penalty(const ali3_instance *in, double h);
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
 double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
                     int32_t sweeps);
 bool ali3_finite(const double *v, int64_t n);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
 bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
+
+/* predict.c */
+void ali3_predict(ali3_instance *in, double h);
+void ali3_predict_accept(ali3_instance *in, double h);
 
 /* accelerate.c */
 void ali3_accelerate(ali3_instance *in, int32_t iteration);
@@ -225,5 +231,6 @@ void ali3_sensors_evaluate(const ali3_instance *in, double *out);
 /* instance.c */
 ali3_status ali3_parameters_apply(ali3_instance *in);
 bool ali3_settings_valid(const ali3_settings *s);
+size_t ali3_vector_count(const ali3_system *s); /* doubles in ali3_vectors */
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 #endif

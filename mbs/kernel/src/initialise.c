@@ -128,6 +128,10 @@ ali3_status ali3_solve_rates(ali3_instance *in) {
   memcpy(v->y, in->y_work, (size_t)S->size.ny * sizeof(double));
   ali3_forces(in, &call);
   if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
+  if (S->n_flexible > 0) {
+    memcpy(v->mean, v->qd, (size_t)S->size.nq * sizeof(double));
+    memcpy(v->mean_before, v->qd, (size_t)S->size.nq * sizeof(double));
+  }
   status = solve_index_one(in, in->Q, in->gamma, v->qdd, v->lam);
   return status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector) ? ALI3_NOT_FINITE : status;
 }

@@ -29,7 +29,16 @@ static double *take(double **pool, size_t n) {
   return piece;
 }
 
-static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
+size_t ali3_vector_count(const ali3_system *s) {
+  const ali3_sizes *z = &s->size;
+  const size_t of_coordinates = s->n_flexible > 0 ? 5 : 3;
+  return of_coordinates * (size_t)z->nq + (size_t)z->nc + (size_t)z->ny + 3 * (size_t)z->ng + (size_t)z->nout +
+         (size_t)z->ne + (size_t)z->nu;
+}
+
+static void place_vectors(const ali3_system *s, ali3_vectors *v, double **pool) {
+  const ali3_sizes *z = &s->size;
+  const size_t n_mean = s->n_flexible > 0 ? (size_t)z->nq : 0;
   v->q = take(pool, (size_t)z->nq); /* first: copies and saves start here */
   v->qd = take(pool, (size_t)z->nq);
   v->qdd = take(pool, (size_t)z->nq);
@@ -41,6 +50,8 @@ static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
   v->out = take(pool, (size_t)z->nout);
   v->potential = take(pool, (size_t)z->ne);
   v->used = take(pool, (size_t)z->nu);
+  v->mean = take(pool, n_mean);
+  v->mean_before = take(pool, n_mean);
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
@@ -61,7 +72,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   if (s == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &s->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ny = (size_t)z->ny, nout = (size_t)z->nout, ne = (size_t)z->ne;
-  const size_t n_vector = 3 * nq + nc + ny + 3 * (size_t)z->ng + nout + ne + (size_t)z->nu;
+  const size_t n_vector = ali3_vector_count(s);
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
   const size_t total = 3 * n_vector + nu + 2 * np + data + 8 * nq + 7 * nc + 2 * (size_t)z->nnz_rows +
@@ -78,9 +89,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->system = s;
   in->road = (ali3_road *)(block + head);
   in->n_vector = n_vector;
-  place_vectors(z, &in->now, &pool);
-  place_vectors(z, &in->next, &pool);
-  place_vectors(z, &in->start, &pool);
+  place_vectors(s, &in->now, &pool);
+  place_vectors(s, &in->next, &pool);
+  place_vectors(s, &in->start, &pool);
   in->input = take(&pool, nu);
   in->parameter = take(&pool, np);
   in->parameter_work = take(&pool, np);

@@ -81,7 +81,7 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
   ali3_forces(in, &call);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  ali3_rows_square(in, in->J, c * ali3_penalty(&in->settings, h), in->F);
+  ali3_rows_square(in, in->J, c * ali3_penalty(in, h), in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
   ali3_forces_tangent(in, in->F);
   spread(in, dense);

@@ -15,14 +15,9 @@ typedef struct { /* 40 bytes without holes */
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'S', 'T', 'A', '\n'};
 enum { CHECKED_FROM = 28 }; /* the checksum covers what follows it */
 
-static size_t vector_count(const ali3_sizes *z) {
-  return 3 * (size_t)z->nq + (size_t)z->nc + (size_t)z->ny + 3 * (size_t)z->ng + (size_t)z->nout + (size_t)z->ne +
-         (size_t)z->nu;
-}
-
 size_t ali3_state_size(const ali3_system *s) {
   if (s == NULL) return 0;
-  const size_t numbers = 2 + vector_count(&s->size) + (size_t)s->size.nu + (size_t)s->size.np;
+  const size_t numbers = 2 + ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np;
   return sizeof(ali3_state_header) + sizeof(ali3_settings) + sizeof(ali3_report) + numbers * sizeof(double);
 }
 

@@ -9,6 +9,7 @@ enum { MAX_SWEEPS = 3 };
 /* Relative violations at which projections end: velocities at round-off; accelerations only steer the next
  * prediction. */
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
+static const double MOST_STIFF = 100.0; /* a higher penalty would only bring round-off */
 
 bool ali3_finite(const double *v, int64_t n) {
   double sum = 0.0; /* x - x is 0 for finite x, NaN else */
@@ -26,8 +27,13 @@ void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
   ali3_flexible_mass_times(in, x, out);
 }
 
-/* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. */
-double ali3_penalty(const ali3_settings *s, double h) { return s->alpha > 0.0 ? s->alpha : 1.0 / (s->eps_rel * h * h); }
+/* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
+ * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as fast. */
+double ali3_penalty(const ali3_instance *in, double h) {
+  const ali3_settings *s = &in->settings;
+  const double stiff = 0.25 * h * h * in->system->flex_rate;
+  return s->alpha > 0.0 ? s->alpha : (1.0 + (stiff < MOST_STIFF ? stiff : MOST_STIFF)) / (s->eps_rel * h * h);
+}
 
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   double largest = 0.0;
@@ -163,14 +169,11 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *it
 static ali3_status attempt(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double c = 0.25 * h * h, alpha = ali3_penalty(&in->settings, h);
+  const double c = 0.25 * h * h, alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
   int32_t iterations = 0;
   ali3_guides_step(in, from, to, t, h);
-  for (int32_t i = 0; i < nq; i++) {
-    in->D[i] = h * from->qd[i] + 0.5 * h * h * from->qdd[i];
-    in->d0[i] = h * from->qd[i] + c * from->qdd[i];
-  }
+  ali3_predict(in, h);
   memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   const ali3_status status = newton(in, h, alpha, &iterations);
@@ -181,6 +184,7 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;
   const ali3_force_call call = {to->q, to->qd, from->y, h, 0.5 * h, c, false, in->Q, to->y, to->out, to->potential};
   ali3_forces_accept(in, &call);
+  ali3_predict_accept(in, h);
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);

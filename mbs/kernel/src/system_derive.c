@@ -172,6 +172,11 @@ static void derive_flexible(ali3_system *s) {
     const int32_t n = s->flex_mode_ptr[b + 1] - s->flex_mode_ptr[b];
     s->flex_square[b + 1] = s->flex_square[b] + n * n;
     if (n > s->max_modes) s->max_modes = n;
+    for (int32_t j = 0; j < n; j++) {
+      const double mass = s->front_mass[s->diagonal_pos[s->flex_mode[s->flex_mode_ptr[b] + j]]];
+      const double rate = mass > 0.0 ? s->flex_K[s->flex_square[b] + (int64_t)j * (n + 1)] / mass : 0.0;
+      if (rate > s->flex_rate) s->flex_rate = rate;
+    }
   }
 }
 
