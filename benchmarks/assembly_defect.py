@@ -1,4 +1,4 @@
-"""The four-bar with an assembly defect: ``python -m benchmarks.assembly_defect [--json FILE] [--chart FILE] [--quick]``.
+"""Four-bar with assembly defect: ``python -m benchmarks.assembly_defect [--json FILE] [--chart FILE] [--quick]``.
 
 Section forces in the middle of the coupler (paper, section 3.3, Figure 5) against an independent program with
 geometrically exact beams, for bars of 1, 2, 4 and 8 flexible bodies and several sets of modes.

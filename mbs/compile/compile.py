@@ -53,9 +53,7 @@ def compile(model: Model) -> System:
         raise ModelError(f"The model '{model.name}' has no bodies.")
     linear, others = _equations(model)
     natural = natural_coordinates(model)
-    kept, full, of_z, redundant, left = reduce_coordinates(
-        natural, linear, model.grounded, flexible_coordinates(model)
-    )
+    kept, full, of_z, redundant, left = reduce_coordinates(natural, linear, model.grounded, flexible_coordinates(model))
     candidates = [row_terms(e, j, k, full) for j, k, e in others]
     candidates += left
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]

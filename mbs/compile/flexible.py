@@ -36,15 +36,16 @@ def flexible_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     return [_places(b, full) for b in flexible_bodies(model)]
 
 
-def deformation_metric(
-    model: Model, full: Sequence[Affine], new: NDArray[np.int64]
-) -> sparse.csr_matrix:
+def deformation_metric(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
     """Stiffness of the flexible bodies times TIME^2, kg, in elimination order, shape (nq, nq)."""
-    metric = sparse.lil_matrix((len(new), len(new)))
+    rows, columns, values = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros(0)]
     for body in flexible_bodies(model):
         places = new[_places(body, full)][12:]
-        metric[np.ix_(places, places)] = TIME**2 * body.reduced.K
-    return metric.tocsr()
+        rows.append(np.repeat(places, len(places)))
+        columns.append(np.tile(places, len(places)))
+        values.append(TIME**2 * body.reduced.K.ravel())
+    places_of = (np.concatenate(rows), np.concatenate(columns))
+    return sparse.coo_matrix((np.concatenate(values), places_of), shape=(len(new), len(new))).tocsr()
 
 
 def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate) -> dict[str, Any]:

@@ -27,8 +27,8 @@ def check_motion(
     scleronomic = [i for i, row in enumerate(rows) if not row.guides]
     if len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
         raise ModelError(
-            f"The model '{model.name}' is locked: its joints are {nq} independent conditions on {nq} coordinates, which "
-            "leaves no motion; check the axes of its joints, or let a body bend."
+            f"The model '{model.name}' is locked: its joints are {nq} independent conditions on {nq} coordinates, "
+            "which leaves no motion; check the axes of its joints, or let a body bend."
         )
     size = np.sqrt(np.asarray(Phiq.multiply(Phiq).sum(axis=1)).ravel())
     open_rates = np.abs(Phiq @ qd + phi_t) / size
@@ -37,6 +37,6 @@ def check_motion(
         drives = ", ".join(sorted({f"'{row.name}'" for row, rate in zip(rows, phi_t, strict=True) if rate != 0.0}))
         worst = rows[int(np.argmax(open_rates))].name
         raise ModelError(
-            f"The model '{model.name}' cannot start as {drives} asks: no velocity satisfies its joints; '{worst}' stays "
-            f"open by {np.max(open_rates):.3g} m/s. Check the drives, the axes of the joints, or let a body bend."
+            f"The model '{model.name}' cannot start as {drives} asks: no velocity satisfies its joints; '{worst}' "
+            f"stays open by {np.max(open_rates):.3g} m/s. Check the drives, the axes of the joints, or let a body bend."
         )

@@ -53,9 +53,9 @@ def build(
         Flexible bodies per bar, welded end to end: each adds its own floating frame, so that large deflections are
         followed.
     elements : int
-        Beam elements of each of them.
+        Beam elements of each of them, an even number: its frame is in its middle.
     dynamic_modes : int
-        Fixed-interface modes of each beside the six static ones.
+        Fixed-interface modes of each beside the twelve static ones.
     flexible : bool
         False: rigid bars, which lock unless `tilt` is zero; `compile` then says so.
     tilt : float
@@ -91,7 +91,9 @@ def build(
     m.revolute("C", ends[1][1], ends[2][0], point=C, axis=axis)
     m.revolute("D", ends[2][1], m.ground, point=D, axis=NORMAL)
     angle = m.relative_angle("crank angle", m.ground, frame, axis=NORMAL)
-    m.drive("crank drive", angle, m.guide_time("crank motion", PPoly([[SPEED], [0.0]], [0.0, 2 * DURATION]), unit="rad"))
+    m.drive(
+        "crank drive", angle, m.guide_time("crank motion", PPoly([[SPEED], [0.0]], [0.0, 2 * DURATION]), unit="rad")
+    )
     m.sense_coordinate("crank.angle", angle)
     for component in "xyz":
         m.sense_position(f"C.position.{component}", ends[1][1], C, component, description="position of joint C")
@@ -103,9 +105,9 @@ def build(
 def _bent(
     m: Model, name: str, start: np.ndarray, end: np.ndarray, radius: float, parts: int, elements: int, modes: int
 ) -> list[FlexibleBody]:
-    """A bar as a chain of flexible bodies, each with its frame at its start and an interface at its end."""
-    if parts < 1 or elements < 1:
-        raise ModelError(f"The {name} needs at least one part and one element, not {parts} and {elements}.")
+    """A bar as a chain of flexible bodies, each with its frame in its middle and an interface at either end."""
+    if parts < 1 or elements < 2 or elements % 2:
+        raise ModelError(f"The {name} needs parts of an even number of elements, not {parts} parts of {elements}.")
     bodies: list[FlexibleBody] = []
     for k in range(parts):
         p, q = start + (end - start) * k / parts, start + (end - start) * (k + 1) / parts
@@ -133,7 +135,7 @@ def _sense_middle(m: Model, coupler: list[FlexibleBody], radius: float, elements
     start = np.asarray(body.node_positions[0])
     length = (np.array(C) - np.array(B)) / len(coupler)
     rows = section_forces(_frame(start, start + length, radius, elements), local, place - element)
-    weights = body.reduced.recovery(rows)
+    weights = body.reduced.recovery(rows.toarray())
     for name, row, what in (("T", 3, "torsion"), ("My", 4, "bending moment"), ("Mz", 5, "bending moment")):
         m.sense_recovery(f"coupler.{name}", body, weights[row], "N m", f"{what} in the middle of the coupler")
 
