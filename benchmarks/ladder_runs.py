@@ -56,8 +56,8 @@ def run(name: str, rung: int | str, h: float, settings: Settings | None = None) 
     return simulate(system, m.stop_time, h, inputs, settings, parameters, pose=pose, progress=False)
 
 
-def wall(name: str, rung: int | str, h: float, repeats: int) -> float:
-    """Median wall time of all steps of a run, s; start and input table are made before."""
+def cpu_time(name: str, rung: int | str, h: float, repeats: int) -> float:
+    """Median processor time of all steps of a run, s; start and input table are made before."""
     m = manoeuvre_of(name)
     parameters, pose = car_manoeuvres.start_of(m)
     system = system_of(name, rung)
@@ -79,9 +79,9 @@ def wall(name: str, rung: int | str, h: float, repeats: int) -> float:
         if pose is not None:
             instance.set_pose(*astuple(pose))
         instance.initialise(0.0)
-        begin = time.perf_counter()
+        begin = time.process_time()
         instance.run(h, steps, table, steps, values)
-        return time.perf_counter() - begin
+        return time.process_time() - begin
 
     return median_wall(once, repeats)
 

@@ -69,7 +69,9 @@ def mirrored(forces: NDArray[np.float64]) -> NDArray[np.float64]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Drive, decompose, write."""
     parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.load_paths", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        prog="python -m benchmarks.load_paths",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.parse_args(arguments)
     driven = settled_loads(np.hstack([port_forces(name) for name in MANOEUVRES]))
@@ -81,15 +83,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     loads = (snapshots @ vectors[:, ::-1][:, keep]) / np.sqrt(snapshots.shape[1])
     loads *= np.sign(loads[np.abs(loads).argmax(axis=0), np.arange(loads.shape[1])])
     lines = [
-        "# Loads of the prototype car's frame, N, most deforming first: principal combinations of the interface forces,",
-        f"# body axes, in {', '.join(m.replace('_', ' ') for m in MANOEUVRES)} and their mirror images; root mean square.",
+        "# Loads of the prototype car's frame, N, most deforming first: principal combinations of interface forces,",
+        f"# body axes, in {', '.join(m.replace('_', ' ') for m in MANOEUVRES)} and their mirror images; rms values.",
         "# Source: this engine, rigid car with ports; made by python -m benchmarks.load_paths",
         ",".join(["interface", "axis", *(f"load_{k + 1}" for k in range(loads.shape[1]))]),
     ]
     for k, row in enumerate(loads):
         lines.append(",".join([INTERFACES[k // 3], "xyz"[k % 3], *(f"{v:.7g}" for v in row)]))
     LOAD_FILE.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    print(f"{snapshots.shape[1]} snapshots, {loads.shape[1]} loads; sizes {np.array2string(size[keep] / size[0], precision=2)}")
+    sizes = np.array2string(size[keep] / size[0], precision=2)
+    print(f"{snapshots.shape[1]} snapshots, {loads.shape[1]} loads; sizes {sizes}")
     return 0
 
 

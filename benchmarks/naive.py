@@ -158,7 +158,9 @@ def measure(scene: str, repeats: int) -> dict[str, Any]:
         simulation.step(H, round(DURATION / H))
         ends.append(simulation.sensors[output])
     walls = [wall(s, round(DURATION / H), repeats) for s in systems]
-    sizes = [(len(m.bodies), len(s.arrays["q0"]), len(s.arrays["row_const"])) for m, s in zip(models, systems, strict=True)]
+    sizes = [
+        (len(m.bodies), len(s.arrays["q0"]), len(s.arrays["row_const"])) for m, s in zip(models, systems, strict=True)
+    ]
     return {
         "scene": scene,
         "bodies": sizes[0][0],

@@ -124,9 +124,7 @@ def variable_table(
     if fidelities > 1:
         text = "How much model: 0 the least, up; stress.computed and the documentation say what it computes"
         last = float(fidelities - 1)
-        table.append(
-            Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last)
-        )
+        table.append(Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last))
     table += [
         Variable(
             entry["name"],
@@ -152,7 +150,7 @@ def check_variants(metas: Sequence[Mapping[str, Any]]) -> None:
             if mine != first:
                 odd = next((a or b for a, b in zip_longest(mine, first) if a != b), ("", ""))[0]
                 raise ValueError(
-                    f"Fidelity {k} has other {kind} than fidelity 0, first '{odd}'; all must have the same in one order."
+                    f"Fidelity {k} has other {kind} than fidelity 0, first '{odd}'; all need the same in one order."
                 )
 
 

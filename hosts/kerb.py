@@ -1,7 +1,7 @@
 """The paper's test in one picture: ``python -m hosts.kerb [FMU] [--fidelity N] [--step H] [--out DIR]``.
 
-Runs the FMU of the scene kerb_test for 15 s and draws the bending moments at the gauges, unfiltered and after a low-pass
-of 10 Hz, with the three intervals of the paper's Figure 8 marked. All through FMI.
+Runs the FMU of the scene kerb_test for 15 s and draws the bending moments at the gauges, unfiltered and after a
+low-pass of 10 Hz, with the three intervals of the paper's Figure 8 marked. All through FMI.
 """
 
 from __future__ import annotations
@@ -75,7 +75,9 @@ def _kerb(path: Path, fidelity: float | None, step: float, out: Path) -> int:
             f"{row['filtered_low']:>9.2f}{row['filtered_high']:>9.2f}{row['left']:>12.3f}"
         )
     n = result["solver.iterations"][1:]
-    print(f"Newton iterations {n.mean():.2f} a step, {n.max():.0f} at most; real-time factor {DURATION / result.wall:.1f}")
+    print(
+        f"Newton iterations {n.mean():.2f} a step, {n.max():.0f} at most; real-time factor {DURATION / result.wall:.1f}"
+    )
     for message in dict.fromkeys(result.messages):
         print(f"FMU: {message}")
     print(f"written: {table}, {picture}")

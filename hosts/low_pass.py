@@ -23,4 +23,7 @@ def low_pass(values: ArrayLike, interval: float, frequency: float = 10.0) -> NDA
             f"A low-pass of {frequency:g} Hz needs samples closer than {0.5 / frequency:g} s, not {interval:g} s."
         )
     b, a = butter(2, 2.0 * frequency * interval)
-    return np.asarray(filtfilt(b, a, np.asarray(values, float)))
+    x = np.asarray(values, float)
+    # ends are mirrored over a fixed time, so that the result does not depend on the sampling
+    mirrored = min(len(x) - 1, round(3.0 / (frequency * interval)))
+    return np.asarray(filtfilt(b, a, x, padlen=mirrored))

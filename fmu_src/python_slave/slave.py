@@ -40,15 +40,11 @@ class _Shared:
         self.table: list[dict[str, Any]] = description["variables"]
         self.identity = bytes.fromhex(description["identity"])[:16]
         folder = _HERE / ("win64" if sys.platform == "win32" else "linux64")
-        self._library = next(folder.iterdir())
-        self._systems: dict[int, binding.LoadedSystem] = {}
-
-    def system(self, fidelity: int) -> binding.LoadedSystem:
-        """The System of a fidelity, loaded when it is first asked for."""
-        if fidelity not in self._systems:
-            file = _HERE / f"system_{fidelity}.ali3"
-            self._systems[fidelity] = binding.LoadedSystem(file.read_bytes(), self._library)
-        return self._systems[fidelity]
+        library = next(folder.iterdir())
+        # All at once: a host may remove this folder while a later instance, unpacked elsewhere, shares this module.
+        self.systems = [
+            binding.LoadedSystem((_HERE / f"system_{k}.ali3").read_bytes(), library) for k in range(len(self.rows))
+        ]
 
     @classmethod
     def get(cls) -> _Shared:
@@ -73,7 +69,7 @@ class Slave(Fmi2Slave):
         self._step_reference = next(i for i, v in enumerate(self._table) if v["source"] == "step_size")
         self._fidelity_reference = next((i for i, v in enumerate(self._table) if v["source"] == "fidelity"), None)
         self._fidelity = self._wanted_fidelity(self._values)
-        self._kernel = binding.Instance(shared.system(self._fidelity))
+        self._kernel = binding.Instance(shared.systems[self._fidelity])
         self._parameters = {i for i, v in enumerate(self._table) if v["source"] == "parameter"}
         self._pending: set[int] = set()
         self._clamped: set[int] = set()
@@ -244,7 +240,7 @@ class Slave(Fmi2Slave):
             try:
                 kernel, fidelity = self._kernel_of(values)
                 kernel.restore(bytes(state[size:]))
-            except (binding.KernelError, OSError) as error:
+            except binding.KernelError as error:
                 self._refuse(f"The state was refused: {error}")
                 return
             self._kernel, self._fidelity = kernel, fidelity
@@ -327,7 +323,7 @@ class Slave(Fmi2Slave):
         """The kernel for the fidelity among the values: the present one, or a new one of another System."""
         wanted = self._wanted_fidelity(values)
         same = wanted == self._fidelity
-        return (self._kernel if same else binding.Instance(_Shared.get().system(wanted))), wanted
+        return (self._kernel if same else binding.Instance(_Shared.get().systems[wanted])), wanted
 
     def _stale(self) -> None:
         self._initialised = False

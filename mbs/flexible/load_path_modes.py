@@ -60,9 +60,7 @@ def load_path_modes(
     return body.transformed(basis @ V, names, np.sqrt(squares) / (2 * np.pi))
 
 
-def load_path_deformations(
-    body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None = None
-) -> np.ndarray:
+def load_path_deformations(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None = None) -> np.ndarray:
     """Amplitudes under interface forces and the inertia that balances them, shape (n_modes, n_loads)."""
     if loads.ndim != 2 or loads.shape[0] != 3 * len(body.interfaces):
         raise ModelError(f"The loads have shape {loads.shape}; {3 * len(body.interfaces)} rows are needed.")

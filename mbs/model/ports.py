@@ -35,9 +35,7 @@ class PortedBody(Body):
         self._points: list[tuple[Vector, AffineVector]] = []
         for name, place in places.items():
             what = f"{owner.name}.{name}"
-            numbers = [
-                self.model.new_coordinate(f"{what}.{'xyz'[k]}", "point", float(place[k]), k) for k in range(3)
-            ]
+            numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", "point", float(place[k]), k) for k in range(3)]
             free = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
             joint = Joint(what, "port", equal_vectors(what, "point", free, owner.point(place)), rows_weight=1.0)
             joint.keep = True

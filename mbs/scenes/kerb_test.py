@@ -61,14 +61,28 @@ def way(t: float | np.ndarray) -> np.ndarray:
 
 def guide(m: Model) -> Guide:
     """x of the floor's centre: pieces of fifth degree that share place, speed and acceleration with `way`."""
-    breaks = np.concatenate([[0.0], *(np.arange(a, b + 0.5 * PIECE, PIECE) for a, b in (ACCELERATE, BRAKE)), [DURATION]])
+    breaks = np.concatenate(
+        [[0.0], *(np.arange(a, b + 0.5 * PIECE, PIECE) for a, b in (ACCELERATE, BRAKE)), [DURATION]]
+    )
     v, rate = speed(breaks), _acceleration(breaks)
     x = car_data.FLOOR_CENTRE[0] + way(breaks)
     coefficients = []
     for k, h in enumerate(np.diff(breaks)):
         low = [x[k], v[k], rate[k] / 2.0]
-        A = np.array([[h**n for n in (3, 4, 5)], [n * h ** (n - 1) for n in (3, 4, 5)], [n * (n - 1) * h ** (n - 2) for n in (3, 4, 5)]])
-        rest = np.array([x[k + 1] - low[0] - low[1] * h - low[2] * h * h, v[k + 1] - low[1] - 2 * low[2] * h, rate[k + 1] - 2 * low[2]])
+        A = np.array(
+            [
+                [h**n for n in (3, 4, 5)],
+                [n * h ** (n - 1) for n in (3, 4, 5)],
+                [n * (n - 1) * h ** (n - 2) for n in (3, 4, 5)],
+            ]
+        )
+        rest = np.array(
+            [
+                x[k + 1] - low[0] - low[1] * h - low[2] * h * h,
+                v[k + 1] - low[1] - 2 * low[2] * h,
+                rate[k + 1] - 2 * low[2],
+            ]
+        )
         coefficients.append([*low, *np.linalg.solve(A, rest)])
     motion = PPoly(np.array(coefficients).T[::-1], breaks)
     return m.guide_time("way of the chassis", motion, unit="m")

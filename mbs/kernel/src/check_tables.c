@@ -60,7 +60,7 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
 /* What the integers of a sensor mean, one letter each: s signal, e element, o output of it, u input, g guide, d order,
  * k energy, q quaternion component, h health. Rows (types 9 and 17) and norms (type 14) have their own rule. */
 static const char *const sensor_integers[] = {"s", "s", "s", "dssssss", "ss", "s", "ssssss",     "qsssssssss", "eo",
-                                              "",  "k", "u", "gd",      "h",  "",  "dsssssssss", "sssssssss", ""};
+                                              "",  "k", "u", "gd",      "h",  "",  "dsssssssss", "sssssssss",  ""};
 static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0, -1};
 enum { SENSOR_TYPES = sizeof sensor_reals / sizeof sensor_reals[0] };
 

@@ -1,4 +1,4 @@
-"""The prototype car of the paper (sections 3.4 and 4): steering, throttle and brake, with a rigid or flexible chassis."""
+"""The prototype car of the paper (sections 3.4 and 4), rigid or with a flexible chassis: steering, throttle, brake."""
 
 from __future__ import annotations
 

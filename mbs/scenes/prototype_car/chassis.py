@@ -1,4 +1,4 @@
-"""The chassis on every rung of the ladder: rigid, rigid with quasi-static stresses, or flexible; same outputs on all."""
+"""The chassis on every rung of the ladder, with the same outputs: rigid, with quasi-static stresses, or flexible."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def deformation_energy(forces: np.ndarray) -> np.ndarray:
 
 @cache
 def _relief_with_stretch() -> tuple[InertiaRelief, np.ndarray, int]:
-    """From loads to the gauges, then to the stretch between pivots; forces per unit axial force; number of gauge rows."""
+    """From loads to the gauges and to the stretch between pivots; forces per axial force; number of gauge rows."""
     model, _, outputs = _finite_elements()
     stretch = np.zeros((len(STIFF_PAIRS), model.n_dof))
     pairs = np.zeros((3 * len(INTERFACES), len(STIFF_PAIRS)))
@@ -152,8 +152,17 @@ def quasi_static() -> InertiaRelief:
     relief, pairs, n = _relief_with_stretch()
     # forces of each wishbone along its axis that undo the stretch
     undo = -relief.forces[:n] @ pairs @ np.linalg.inv(relief.forces[n:] @ pairs)
-    mixed = [part[:n] + undo @ part[n:] for part in (relief.forces, relief.acceleration, relief.rotation, relief.balanced)]
-    return InertiaRelief(*mixed, relief.acceleration_of_forces)
+
+    def mixed(part: np.ndarray) -> np.ndarray:
+        return np.asarray(part[:n] + undo @ part[n:])
+
+    return InertiaRelief(
+        mixed(relief.forces),
+        mixed(relief.acceleration),
+        mixed(relief.rotation),
+        mixed(relief.balanced),
+        relief.acceleration_of_forces,
+    )
 
 
 def chassis(m: Model, fidelity: int | str) -> Chassis:
@@ -195,7 +204,9 @@ def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
     _, _, rows = _finite_elements() if fidelity != RIGID else (None, None, None)
     note = "; zero where stress.computed is 0"
     names = list(GAUGES)
-    outputs = [(f"bending_moment.{g}", "N.m", f"bending moment at gauge {g}, positive: upper fibre pulled") for g in names]
+    outputs = [
+        (f"bending_moment.{g}", "N.m", f"bending moment at gauge {g}, positive: upper fibre pulled") for g in names
+    ]
     outputs += [(f"stress.{g}", "Pa", f"half-bridge {g}, upper minus lower fibre") for g in names]
     for k, (name, unit, text) in enumerate(outputs):
         if fidelity == RIGID:
@@ -204,11 +215,12 @@ def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
             m.sense_quasi_static(name, chassis.body, quasi_static(), k, chassis.origin, unit, text + note)
         else:
             body = chassis.body
-            assert isinstance(body, FlexibleBody) and rows is not None
+            assert isinstance(body, FlexibleBody)
+            assert rows is not None
             m.sense_recovery(name, body, body.reduced.recovery(rows[k : k + 1])[0], unit, text + note)
     m.sense_constant(
         "stress.computed", float(fidelity != RIGID), "1", "1 where moments and stresses are computed; 0: they read zero"
     )
 
 
-__all__ = ["Chassis", "FIDELITIES", "chassis", "quasi_static", "reduced_chassis", "stress_outputs"]
+__all__ = ["FIDELITIES", "Chassis", "chassis", "quasi_static", "reduced_chassis", "stress_outputs"]

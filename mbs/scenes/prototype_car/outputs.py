@@ -18,7 +18,7 @@ FORWARD, LEFT, UP = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
-    """Pose, velocity and acceleration of the reference point, in earth and vehicle axes; `accelerated` has the corners."""
+    """Pose, velocity and acceleration of the reference point; accelerometers on `accelerated`."""
     for c in "xyz":
         m.sense_position(f"chassis.{c}", chassis, REFERENCE_POINT, c, description=f"{c} of the reference point, earth")
     m.sense_yaw("chassis.yaw", chassis, description="heading, positive to the left")
