@@ -3,7 +3,7 @@
 ``pip install exudyn numpy; python exudyn_beams.py {four_bar,spin_up,pendulum} ELEMENTS STEP FILE``. Beams on SE(3)
 (`ObjectBeamGeometricallyExact`), generalised-alpha. The stored files were made with Exudyn 1.13.6:
 `assembly_defect_reference.csv` by ``four_bar 16 2.5e-3`` (elements per 0.12 m), `spin_up_beam.csv` by
-``spin_up 16 5e-3``, `falling_flexible_pendulum.csv` by ``pendulum 16 1e-3``.
+``spin_up 16 5e-3``, `falling_flexible_pendulum.csv` by ``pendulum 32 1e-3``.
 """
 
 from __future__ import annotations
