@@ -133,7 +133,7 @@ struct ali3_instance {
   double *local;                           /* one front */
   double *shifted;                         /* nq */
   double *flex, *flex_work;                /* flexible bodies: at the last q prepared; scratch */
-  double wC, wK;                           /* weights of the last forces with a tangent */
+  double wC, wK;                           /* weights of the last forces */
   double *y_work, *out_work, *potential_work, *parameter_work;
 };
 

@@ -24,7 +24,7 @@ void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
     for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += S->mass_val[k] * x[S->mass_col[k]];
     out[i] = sum;
   }
-  ali3_flexible_mass_times(in, x, out);
+  if (S->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
 }
 
 /* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
