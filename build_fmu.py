@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     from fmu_src.build import KINDS, build_fmu
     from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
-    from fmu_src.scene_registry import load_scene
+    from fmu_src.scene_registry import load_variants
 
     kinds = options.kind.split(",")
     platforms = options.platforms.split(",") if options.platforms else None
@@ -46,18 +46,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if "python" in kinds:
             _need_pythonfmu()
         print(f"scene {options.scene} ...", flush=True)
-        name, system = load_scene(options.scene)
+        name, systems, fidelity = load_variants(options.scene)
+        meta = systems[fidelity].meta
         for kind in kinds:
             able = [p for p in PYTHON_PLATFORMS if p in platforms] if platforms and kind == "python" else platforms
             if able == []:
                 print(f"python: left out, it runs on {', '.join(PYTHON_PLATFORMS)} only", flush=True)
                 continue
             file = build_fmu(
-                system, name, options.out, able, lambda text, kind=kind: print(f"{kind}: {text}", flush=True), kind
+                systems,
+                name,
+                options.out,
+                able,
+                lambda text, kind=kind: print(f"{kind}: {text}", flush=True),
+                kind,
+                fidelity,
             )
             print(
-                f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(system.meta['inputs'])} inputs, "
-                f"{len(system.meta['sensors'])} outputs",
+                f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(meta['inputs'])} inputs, "
+                f"{len(meta['sensors'])} outputs",
                 flush=True,
             )
     except (ValueError, RuntimeError, OSError) as error:

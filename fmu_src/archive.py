@@ -52,12 +52,13 @@ def write_zip(files: Mapping[str, bytes], file: Path) -> None:
     """Write an archive; an older file is replaced only when the new one is whole."""
     file.parent.mkdir(parents=True, exist_ok=True)
     partial = file.with_suffix(".part")
-    # Stored, not deflated: the bytes do not depend on the version of a compression library.
-    with zipfile.ZipFile(partial, "w", zipfile.ZIP_STORED) as archive:
+    # One level for all: the same content gives the same bytes with the same zlib; the identity is of the content alone.
+    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         # The description first: readers that stream find it at once.
         for name in sorted(files, key=lambda n: (n != "modelDescription.xml", n)):
             info = zipfile.ZipInfo(name, _ZIP_DATE)
             info.create_system = 3
+            info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
-            archive.writestr(info, files[name])
+            archive.writestr(info, files[name], compresslevel=9)
     partial.replace(file)

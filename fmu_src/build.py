@@ -15,7 +15,7 @@ from pathlib import Path
 import mbs
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
-from fmu_src.variables import variable_table
+from fmu_src.variables import check_variants, variable_table
 from mbs.kernel import binding, build
 
 Say = Callable[[str], None]
@@ -41,18 +41,20 @@ def fmu_name(scene: str, kind: str = "native") -> str:
 
 
 def build_fmu(
-    system: mbs.System,
+    system: mbs.System | Sequence[mbs.System],
     name: str,
     out: Path,
     platforms: Sequence[str] | None = None,
     say: Say = lambda text: None,
     kind: str = "native",
+    fidelity: int = 0,
 ) -> Path:
     """Build the FMU of a System.
 
     Parameters
     ----------
-    system : mbs.System
+    system : mbs.System or sequence of them
+        Several are the rungs of the parameter `fidelity`: with the same inputs, parameters and sensors.
     name : str
         Of the scene, such as ``prototype_car``.
     out : Path
@@ -63,6 +65,8 @@ def build_fmu(
         Is told what is going on, one line at a time.
     kind : str
         One of `KINDS`.
+    fidelity : int
+        The default among several Systems.
 
     Returns
     -------
@@ -76,13 +80,22 @@ def build_fmu(
     unknown = sorted(set(chosen) - set(able))
     if unknown or not chosen:
         raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
-    step = float(system.meta["experiment"]["step_s"])
+    systems = (system,) if isinstance(system, mbs.System) else tuple(system)
+    check_variants([s.meta for s in systems])
+    meta = systems[fidelity].meta
     contents = NativeContents(
         fmu_name(name, kind),
-        system.meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
+        meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
         importlib.metadata.version("ali3"),
-        system,
-        variable_table(system.meta, pose=bool(system.meta["floating"]), step_size=step),
+        systems,
+        variable_table(
+            meta,
+            pose=bool(meta["floating"]),
+            step_size=float(meta["experiment"]["step_s"]),
+            fidelities=len(systems),
+            fidelity=fidelity,
+        ),
+        fidelity,
     )
     file = out / f"{contents.model_name}.fmu"
 
@@ -119,7 +132,7 @@ def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path,
                     contents.model_name,
                     contents.description,
                     contents.version,
-                    contents.system.to_bytes(),
+                    [s.to_bytes() for s in contents.systems],
                     contents.table,
                     contents.rows,
                     contents.stop_time,

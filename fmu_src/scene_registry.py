@@ -69,6 +69,31 @@ def load_scene(scene: str) -> tuple[str, mbs.System]:
     return name, result
 
 
+def load_variants(scene: str) -> tuple[str, list[mbs.System], int]:
+    """Build and compile a scene in all the fidelities it offers.
+
+    A scene offers them by a function `variants` beside its `build`: it returns functions that make a model by number,
+    0 and on. The one of `build` is the default of its argument `fidelity`.
+
+    Returns
+    -------
+    name : str
+    systems : list of mbs.System
+        By fidelity; one if there is no choice.
+    default : int
+        The fidelity of `build`.
+    """
+    name, build = _from_file(scene) if _is_path(scene) else _from_package(scene)
+    variants = getattr(sys.modules[build.__module__], "variants", None)
+    if not callable(variants) or build.__name__ != "build":
+        return name, [load_scene(scene)[1]], 0
+    makers = variants()
+    if sorted(makers) != list(range(len(makers))):
+        raise SceneError(f"The variants of scene '{scene}' are numbered {sorted(makers)}; they must be 0, 1, 2 and on.")
+    default = inspect.signature(build).parameters["fidelity"].default
+    return name, [mbs.compile(makers[k]()) for k in range(len(makers))], int(default)
+
+
 def _is_path(scene: str) -> bool:
     return ".py" in scene or "/" in scene or "\\" in scene
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from itertools import zip_longest
 from typing import Any
 
 from fmu_src.units import DISPLAY_UNITS, parse_unit
@@ -20,6 +21,7 @@ _POSE = (
     ("initial.speed", "m/s", "Initial speed along the heading, wheels rolling"),
 )
 STEP_SIZE = "step_size"
+FIDELITY = "fidelity"
 
 
 @dataclass(frozen=True)
@@ -39,9 +41,10 @@ class Variable:
     description : str
         One sentence.
     source : str
-        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose`` or ``step_size``.
+        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size`` or
+        ``fidelity``.
     index : int
-        Number of that input, parameter or sensor; place in (x, y, z, yaw, speed) for ``pose``; 0 for ``step_size``.
+        Number of that input, parameter or sensor; place in (x, y, z, yaw, speed) for ``pose``; 0 for the last two.
     start, min, max : float, optional
         In `unit`.
     display_unit : str, optional
@@ -61,7 +64,9 @@ class Variable:
     display_unit: str | None = None
 
 
-def variable_table(meta: Mapping[str, Any], *, pose: bool, step_size: float) -> tuple[Variable, ...]:
+def variable_table(
+    meta: Mapping[str, Any], *, pose: bool, step_size: float, fidelities: int = 1, fidelity: int = 0
+) -> tuple[Variable, ...]:
     """Make the table of variables of a System.
 
     Parameters
@@ -72,6 +77,11 @@ def variable_table(meta: Mapping[str, Any], *, pose: bool, step_size: float) -> 
         Whether the System has an initial pose (is not tied to the ground).
     step_size : float
         Default inner step, s.
+    fidelities : int
+        How many Systems there are to choose from; the others must share inputs, parameters and sensors with this one
+        (`check_variants`).
+    fidelity : int
+        The default one.
 
     Returns
     -------
@@ -111,6 +121,10 @@ def variable_table(meta: Mapping[str, Any], *, pose: bool, step_size: float) -> 
             step_size * 10.0,
         )
     )
+    if fidelities > 1:
+        text = "How much model: 0 the least, up; stress.computed and the documentation say what it computes"
+        last = float(fidelities - 1)
+        table.append(Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last))
     table += [
         Variable(
             entry["name"],
@@ -126,6 +140,18 @@ def variable_table(meta: Mapping[str, Any], *, pose: bool, step_size: float) -> 
     ]
     _check(table)
     return tuple(table)
+
+
+def check_variants(metas: Sequence[Mapping[str, Any]]) -> None:
+    """Systems to choose from must have the same inputs, parameters and sensors in the same order."""
+    for k, meta in enumerate(metas[1:], start=1):
+        for kind in ("inputs", "parameters", "sensors"):
+            mine, first = ([(e["name"], e["unit"]) for e in m[kind]] for m in (meta, metas[0]))
+            if mine != first:
+                odd = next((a or b for a, b in zip_longest(mine, first) if a != b), ("", ""))[0]
+                raise ValueError(
+                    f"Fidelity {k} has other {kind} than fidelity 0, first '{odd}'; all need the same in one order."
+                )
 
 
 def table_records(table: Iterable[Variable]) -> list[dict[str, Any]]:

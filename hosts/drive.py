@@ -1,4 +1,4 @@
-"""Drives an FMU through a manoeuvre: ``python -m hosts.drive [FMU] --manoeuvre NAME-or-CSV [--step H] [--out DIR]``."""
+"""Drives an FMU through a manoeuvre: ``python -m hosts.drive [FMU] --manoeuvre NAME-or-CSV [--fidelity N]``."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import csv
 import re
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from tqdm import tqdm
@@ -34,16 +35,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--step", type=float, metavar="H", help="communication step in s; default: that of the FMU")
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
+    parser.add_argument("--fidelity", type=float, metavar="N", help="how much model, where the FMU offers a choice")
     options = parser.parse_args(arguments)
     try:
-        return _drive(options.fmu, options.manoeuvre, options.step, options.out)
+        return _drive(options.fmu, options.manoeuvre, options.step, options.out, options.fidelity)
     except HostError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
 
 
-def _drive(path: Path, name: str, step: float | None, out: Path) -> int:
+def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float | None) -> int:
     manoeuvre = load_manoeuvre(name)
+    if fidelity is not None:
+        manoeuvre = replace(manoeuvre, start=manoeuvre.start | {"fidelity": fidelity})
     driver = make_driver(manoeuvre.driver) if manoeuvre.driver else None
     with Fmu(path) as fmu:
         experiment = fmu.description.defaultExperiment

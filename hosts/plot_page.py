@@ -91,6 +91,10 @@ def _wheels(quantity: str) -> tuple[tuple[str, str, str], ...]:
     return tuple((w, f"wheel_{w}.{quantity}", c) for w, c in zip(WHEELS, colours, strict=True))
 
 
+def _gauges(quantity: str) -> tuple[tuple[str, str, str], ...]:
+    return tuple((f"SG{k}", f"{quantity}.SG{k}", c) for k, c in enumerate((BLUE, SKY, RED, ORANGE), start=1))
+
+
 _DEGREES = 180.0 / np.pi
 _CAR_PANELS = (
     _Panel("Speed", "km/h", (("speed", "speed", BLUE),), 3.6),
@@ -110,12 +114,15 @@ _CAR_PANELS = (
     _Panel("Roll and pitch", "deg", (("roll", "chassis.roll", BLUE), ("pitch", "chassis.pitch", RED)), _DEGREES, 1.0),
     _Panel("Yaw rate", "deg/s", (("yaw rate", "chassis.wz", BLUE),), _DEGREES, 2.0),
     _Panel("Sideslip", "deg", (("sideslip", "sideslip", BLUE),), _DEGREES, 1.0),
+    _Panel("Bending moments at the gauges", "N m", _gauges("bending_moment"), 1.0, 1.0),
+    _Panel("Stress at the gauges, upper minus lower fibre", "MPa", _gauges("stress"), 1e-6, 1.0),
     _Panel("Newton iterations of a step", "1", (("iterations", "solver.iterations", BLACK),)),
 )
 
 
 def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | None) -> Figure:
-    panels = [p for p in _CAR_PANELS if any(name in result for _, name, _ in p.lines)]
+    hidden = () if _has_stresses(result) else ("bending_moment.", "stress.")
+    panels = [p for p in _CAR_PANELS if any(n in result and not n.startswith(hidden) for _, n, _ in p.lines)]
     lines = -(-len(panels) // 3)
     height = 4.0 + 2.6 * lines
     figure = plt.figure(figsize=(16, height), layout="constrained")
@@ -139,6 +146,11 @@ def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | 
         if panel.title == "Speed":
             axes.set_ylim(min(0.0, low), 1.05 * high)
     return figure
+
+
+def _has_stresses(result: Result) -> bool:
+    """Whether moments and stresses were computed, not only reported as zero."""
+    return "stress.computed" in result and bool(result["stress.computed"][0])
 
 
 def _shown(result: Result, name: str) -> np.ndarray:

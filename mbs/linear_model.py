@@ -174,8 +174,8 @@ class _Evaluator:
         self.slots = [k for k in range(len(self.state.y)) if self._remembers(k)]
 
     def mass(self) -> Array:
-        """Mass matrix (nq, nq)."""
-        return _dense(self.arrays["mass_ptr"], self.arrays["mass_col"], self.arrays["mass_val"], len(self.state.q))
+        """Mass matrix (nq, nq) at the state."""
+        return np.reshape(self.instance.mass_matrix(self.state.q.tolist()), (len(self.state.q),) * 2)
 
     def constraints(self, q: Array) -> tuple[Array, Array]:
         """Phi_q (nc, nq) of the stored rows at `q` (nq,), and their rate Phi_q qd + Phi_t (nc,)."""
@@ -184,10 +184,12 @@ class _Evaluator:
         return jacobian, jacobian @ self.state.qd + np.array(values["phi_t"])
 
     def rates(self, q: Array, qd: Array, y: Array) -> Array:
-        """Forces Q (nq,) and rates g of the states among the slots, in one vector."""
+        """Forces Q - M(q) qdd (nq,) and rates g of the states among the slots, in one vector."""
         settled = self._element_step(q, qd, y, SHORT_STEP)
         settled[self.slots] = y[self.slots]
         force = np.array(self._evaluate(q, qd, settled)["force"])
+        if len(self.arrays["flex_mode"]):
+            force -= np.reshape(self.instance.mass_matrix(q.tolist()), (len(q),) * 2) @ self.state.qdd
         whole = (self._element_step(q, qd, settled, STATE_STEP) - settled) / STATE_STEP
         half = (self._element_step(q, qd, settled, STATE_STEP / 2) - settled) / (STATE_STEP / 2)
         return np.concatenate([force, (2.0 * half - whole)[self.slots]])  # without the first-order error of the steps

@@ -21,7 +21,6 @@ from fmu_src.platforms import SUFFIXES
 from fmu_src.variables import Variable, table_records
 
 Telling = Callable[..., AbstractContextManager[None]]
-SYSTEM_FILE = "resources/system.ali3"
 _WORDS = (
     "FMI 2.0 co-simulation in C: it needs nothing but the C library of its platform, and can be compiled from its "
     "folder sources (compilers other than the one used here may change the last bits unless they are kept from "
@@ -42,20 +41,34 @@ class NativeContents:
     model_name : str
         A C identifier, also the model identifier.
     description, version : str
-    system : mbs.System
+    systems : sequence of mbs.System
+        One per fidelity.
     table : sequence of Variable
+    fidelity : int
+        The default one.
     """
 
     model_name: str
     description: str
     version: str
-    system: mbs.System
+    systems: Sequence[mbs.System]
     table: Sequence[Variable]
+    fidelity: int = 0
 
     @property
-    def rows(self) -> list[str]:
-        """Names of the constraint rows."""
-        return [row["name"] for row in self.system.meta["rows"]]
+    def system(self) -> mbs.System:
+        """The default System."""
+        return self.systems[self.fidelity]
+
+    @property
+    def rows(self) -> list[list[str]]:
+        """Names of the constraint rows of each System."""
+        return [[row["name"] for row in system.meta["rows"]] for system in self.systems]
+
+    @property
+    def system_files(self) -> dict[str, bytes]:
+        """System files as they lie in the FMU."""
+        return {f"resources/system_{k}.ali3": system.to_bytes() for k, system in enumerate(self.systems)}
 
     @property
     def stop_time(self) -> float:
@@ -70,7 +83,7 @@ class NativeContents:
     def identity(self, face: str) -> tuple[str, str]:
         """Hash of the content, and the GUID made from it."""
         return identity_of(
-            packed_sources(face, c_table(self.table, self.rows, "0" * 32, "")) | {"system": self.system.to_bytes()},
+            packed_sources(face, c_table(self.table, self.rows, "0" * 32, "")) | self.system_files,
             [self.model_name, self.description, self.version, self.stop_time, table_records(self.table)],
         )
 
@@ -130,7 +143,7 @@ def common_files(contents: NativeContents, told: Telling) -> dict[str, bytes]:
     with told("running the default experiment"):
         run = reference_run(contents.system)
     return {
-        SYSTEM_FILE: contents.system.to_bytes(),
+        **contents.system_files,
         "documentation/licenses/ALi3.txt": licence("ali3"),
         "model.png": _picture(run),
     } | reference_files(contents.model_name, run, contents.stop_time, contents.step_size)

@@ -12,19 +12,20 @@ _SOURCES = {
     "parameter": "SLAVE_PARAMETER",
     "pose": "SLAVE_POSE",
     "step_size": "SLAVE_STEP_SIZE",
+    "fidelity": "SLAVE_FIDELITY",
     "sensor": "SLAVE_SENSOR",
 }
 
 
-def c_table(table: Sequence[Variable], rows: Sequence[str], identity: str, token: str) -> str:
+def c_table(table: Sequence[Variable], rows: Sequence[Sequence[str]], identity: str, token: str) -> str:
     """`table.c` of the shell.
 
     Parameters
     ----------
     table : sequence of Variable
         Outputs last.
-    rows : sequence of str
-        Names of the constraint rows, for messages.
+    rows : sequence of sequences of str
+        Names of the constraint rows of each System, for messages.
     identity : str
         32 hexadecimal digits.
     token : str
@@ -41,16 +42,17 @@ def c_table(table: Sequence[Variable], rows: Sequence[str], identity: str, token
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}}},"
         for v, unit in zip(table, units, strict=True)
     )
-    names = "\n".join(f"    {c_string(name)}," for name in rows) or "    NULL,"
+    names = "\n".join(f"    {c_string(name)}," for one in rows for name in one) or "    NULL,"
+    first = ", ".join(str(sum(map(len, rows[:k]))) for k in range(len(rows) + 1))
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
     known = sum(v.causality != "output" for v in table)
     return (
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
-        f"static const char *const rows[] = {{\n{names}\n}};\n\n"
+        f"static const char *const rows[] = {{\n{names}\n}};\n\nstatic const size_t first_row[] = {{{first}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
-        f"{len(table)}, {known},\n    rows, {len(rows)},\n}};\n"
+        f"{len(table)}, {known},\n    rows, first_row, {len(rows)},\n}};\n"
     )
 
 

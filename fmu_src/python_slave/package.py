@@ -33,11 +33,11 @@ class Contents:
         One sentence.
     version : str
         Of the product.
-    system : bytes
-        System file.
+    systems : sequence of bytes
+        System files, one per fidelity.
     table : sequence of Variable
-    rows : sequence of str
-        Names of the constraint rows, for messages.
+    rows : sequence of sequences of str
+        Names of the constraint rows of each System, for messages.
     stop_time, step_size : float
         Default experiment, s.
     binding : Path
@@ -49,9 +49,9 @@ class Contents:
     model_name: str
     description: str
     version: str
-    system: bytes
+    systems: Sequence[bytes]
     table: Sequence[Variable]
-    rows: Sequence[str]
+    rows: Sequence[Sequence[str]]
     stop_time: float
     step_size: float
     binding: Path
@@ -90,7 +90,7 @@ def pack(contents: Contents, file: Path) -> str:
     files |= {
         f"resources/{main}.py": script.encode(),
         f"resources/{package}/fmu.json": json.dumps(
-            {"identity": identity, "variables": records, "rows": list(contents.rows)}, indent=1
+            {"identity": identity, "variables": records, "rows": [list(r) for r in contents.rows]}, indent=1
         ).encode(),
         "resources/slavemodule.txt": main.encode(),
         "resources/guid.txt": guid.encode(),
@@ -129,7 +129,7 @@ def _package_files(contents: Contents) -> dict[str, bytes]:
         "__init__.py": b"",
         "slave.py": (_HERE / "slave.py").read_bytes(),
         "binding.py": contents.binding.read_bytes(),
-        "system.ali3": contents.system,
+        **{f"system_{k}.ali3": system for k, system in enumerate(contents.systems)},
         "pythonfmu/__init__.py": b"",
     }
     for module in _PYTHONFMU_MODULES:

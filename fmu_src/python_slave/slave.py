@@ -32,17 +32,21 @@ _STEP_DEVIATION = 0.05
 
 
 class _Shared:
-    """What all instances of one FMU share: the library, the System and the table; none of it changes."""
+    """What all instances of one FMU share: the library, the Systems and the table; none of it changes."""
 
     _instance: _Shared | None = None
 
     def __init__(self) -> None:
         description = json.loads((_HERE / "fmu.json").read_text(encoding="utf-8"))
-        self.rows: list[str] = description["rows"]
+        self.rows: list[list[str]] = description["rows"]
         self.table: list[dict[str, Any]] = description["variables"]
         self.identity = bytes.fromhex(description["identity"])[:16]
         folder = _HERE / ("win64" if sys.platform == "win32" else "linux64")
-        self.system = binding.LoadedSystem((_HERE / "system.ali3").read_bytes(), next(folder.iterdir()))
+        library = next(folder.iterdir())
+        # All at once: a host may remove this folder while a later instance, unpacked elsewhere, shares this module.
+        self.systems = [
+            binding.LoadedSystem((_HERE / f"system_{k}.ali3").read_bytes(), library) for k in range(len(self.rows))
+        ]
 
     @classmethod
     def get(cls) -> _Shared:
@@ -61,12 +65,13 @@ class Slave(Fmi2Slave):
         shared = _Shared.get()
         self._identity = shared.identity
         self._table = shared.table
-        self._rows = shared.rows
-        self._kernel = binding.Instance(shared.system)
         self._n_known = sum(v["causality"] != "output" for v in self._table)
         # Values by value reference; the outputs are filled when they are asked for.
         self._values = [0.0 if v["start"] is None else v["start"] for v in self._table]
         self._step_reference = next(i for i, v in enumerate(self._table) if v["source"] == "step_size")
+        self._fidelity_reference = next((i for i, v in enumerate(self._table) if v["source"] == "fidelity"), None)
+        self._fidelity = self._wanted_fidelity(self._values)
+        self._kernel = binding.Instance(shared.systems[self._fidelity])
         self._parameters = {i for i, v in enumerate(self._table) if v["source"] == "parameter"}
         self._pending: set[int] = set()
         self._clamped: set[int] = set()
@@ -240,10 +245,12 @@ class Slave(Fmi2Slave):
         initialised = bool(word >> 2 & 1)
         if initialised:
             try:
-                self._kernel.restore(content[size:])
+                kernel, fidelity = self._kernel_of(values)
+                kernel.restore(content[size:])
             except binding.KernelError as error:
                 self._refuse(f"The state was refused: {error}")
                 return
+            self._kernel, self._fidelity = kernel, fidelity
         self._phase = word & 3
         self._initialised = initialised
         self._outputs_fresh = bool(word >> 3 & 1)
@@ -280,10 +287,10 @@ class Slave(Fmi2Slave):
 
     def _worst(self) -> str:
         report = self._kernel.report()
-        row = report["worst_row"]
-        if not 0 <= row < len(self._rows) or not report["violation"] > 0.0:
+        row, rows = report["worst_row"], _Shared.get().rows[self._fidelity]
+        if not 0 <= row < len(rows) or not report["violation"] > 0.0:
             return ""
-        return f" Worst constraint: '{self._rows[row]}', open by {report['violation']:.3g} m."
+        return f" Worst constraint: '{rows[row]}', open by {report['violation']:.3g} m."
 
     def _apply_pending(self) -> None:
         for vr in sorted(self._pending):
@@ -295,8 +302,9 @@ class Slave(Fmi2Slave):
 
     def _initialise(self) -> bool:
         """Put the kernel at its initial state with the values set so far; False, and logged, if that fails."""
-        kernel = self._kernel
         try:
+            self._kernel, self._fidelity = self._kernel_of(self._values)
+            kernel = self._kernel
             kernel.reset()
             for v, value in zip(self._table, self._values, strict=True):
                 if v["source"] == "input":
@@ -314,6 +322,15 @@ class Slave(Fmi2Slave):
         self._initialised = True
         self._outputs_fresh = False
         return True
+
+    def _wanted_fidelity(self, values: list[float]) -> int:
+        return 0 if self._fidelity_reference is None else int(values[self._fidelity_reference])
+
+    def _kernel_of(self, values: list[float]) -> tuple[binding.Instance, int]:
+        """The kernel for the fidelity among the values: the present one, or a new one of another System."""
+        wanted = self._wanted_fidelity(values)
+        same = wanted == self._fidelity
+        return (self._kernel if same else binding.Instance(_Shared.get().systems[wanted])), wanted
 
     def _stale(self) -> None:
         self._initialised = False
@@ -349,6 +366,9 @@ class Slave(Fmi2Slave):
                 f"'{name}' was set to {value}; a finite number is needed, "
                 f"the last value {self._values[vr]}{unit} is kept."
             )
+            return None
+        if v["source"] == "fidelity" and value != math.floor(value):
+            self._refuse(f"'{name}' was set to {value}; it must be a whole number, it keeps {self._values[vr]:g}.")
             return None
         low = -math.inf if v["min"] is None else v["min"]
         high = math.inf if v["max"] is None else v["max"]

@@ -11,9 +11,16 @@ from mbs.affine import Affine
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
 from mbs.compile.equilibrium import equilibrium
+from mbs.compile.flexible import (
+    deformation_metric,
+    flexible_arrays,
+    flexible_cliques,
+    flexible_coordinates,
+)
 from mbs.compile.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
+from mbs.compile.locked import check_motion
 from mbs.compile.metadata import metadata
 from mbs.compile.natural import natural_coordinates
 from mbs.compile.open_joints import joint_gaps, joints_of_bodies
@@ -47,11 +54,12 @@ def compile(model: Model) -> System:
         raise ModelError(f"The model '{model.name}' has no bodies.")
     linear, others = _equations(model)
     natural = natural_coordinates(model)
-    kept, full, of_z, redundant = reduce_coordinates(natural, linear, model.grounded)
+    kept, full, of_z, redundant, left = reduce_coordinates(natural, linear, model.grounded, flexible_coordinates(model))
     candidates = [row_terms(e, j, k, full) for j, k, e in others]
     for row in candidates:
         switch = model.joints[row.joint].switch
         row.switch = -1 if switch is None else switch.index
+    candidates += left
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
     rows, dependent = independent_rows(candidates, joints_of_bodies(model))
     if not kept:
@@ -70,9 +78,12 @@ def compile(model: Model) -> System:
     guides, guide_rates = guide_start(model)
     holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
     start = RowArrays(holding, new)
+    stiffness = deformation_metric(model, full, new)
     drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
-    q = close_position(holding, start, mass, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
-    qd = velocity(model, full, T, q[new], mass, order, start, guides, guide_rates)
+    q = close_position(holding, start, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
+    qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
+    _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
+    check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
     _, Phiq, _ = arrays.evaluate(q, guides)
     scale, measure = row_scale(rows, Phiq, mass.diagonal())
     arrays.scale(scale)
@@ -100,6 +111,7 @@ def compile(model: Model) -> System:
         **element_arrays(model, signals, locate),
         **sensor_arrays(model, signals, row_of),
         **channel_arrays(model),
+        **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, kept, of_z, q[new], order),
         **signals.arrays(),
     }
@@ -136,6 +148,6 @@ def _symbolic(model: Model, rows: list[RowTerms], full: list[Affine], mass: spar
     entries = mass.tocoo()
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
     cliques += [row.columns() for row in rows]
-    cliques += element_cliques(model, full)
+    cliques += element_cliques(model, full) + flexible_cliques(model, full)
     pattern = clique_pattern(mass.shape[0], cliques)
     return build_fronts(pattern, fill_reducing_order(pattern)), (pattern.nnz + mass.shape[0]) // 2

@@ -49,16 +49,17 @@ def close_position(
     rows: Sequence[RowTerms],
     arrays: RowArrays,
     mass: sparse.csr_matrix,
+    stiffness: sparse.csr_matrix,
     q: Array,
     guides: Array,
     joint_gaps: Callable[[Array], Mapping[str, float]],
 ) -> Array:
-    """The assembled position next to `q` (Gauss-Newton in the metric of the mass), or a `ModelError` naming what
-    stays open; `joint_gaps` tells it of the eliminated joints.
+    """The assembled position next to `q` (Gauss-Newton in the metric of the mass and of the stiffness of flexible
+    bodies, kg), or a `ModelError` naming what stays open; `joint_gaps` tells it of the eliminated joints.
     """
     if arrays.nc == 0:
         return q
-    metric = positive_metric(mass)
+    metric = (positive_metric(mass) + stiffness).tocsr()
     open_now, best, step = _violation(arrays, q, guides)[0], q, 1.0
     for _ in range(ITERATIONS):
         if np.max(open_now) <= CLOSED:
@@ -100,6 +101,7 @@ def _violation(arrays: RowArrays, q: Array, guides: Array) -> tuple[Array, spars
 def start_velocity(
     arrays: RowArrays,
     mass: sparse.csr_matrix,
+    stiffness: sparse.csr_matrix,
     given: sparse.csr_matrix,
     aim: Array,
     q: Array,
@@ -109,10 +111,13 @@ def start_velocity(
     """Velocity that satisfies the rows and comes nearest to what was given.
 
     Minimises (v-target)' given (v-target) with a slight weight on the kinetic energy of all else; repeated about its
-    own result, so that the slight weight leaves no trace in what was given.
+    own result, so that the slight weight leaves no trace in what was given. Rates of deformation count by the energy
+    they would store, so that flexible bodies start as quietly as the joints let them.
 
     Parameters
     ----------
+    stiffness : csr_matrix
+        Of the flexible bodies, as a mass (kg).
     given : csr_matrix
         Mass of the bodies with a given velocity, over z.
     aim : ndarray, shape (nq,)
@@ -122,8 +127,8 @@ def start_velocity(
     v = np.zeros(arrays.nq)
     if not np.any(aim) and not np.any(phi_t):
         return v
-    metric = positive_metric(mass)
-    total = (given + FREE * metric).tocsr()
+    metric = (positive_metric(mass) + stiffness).tocsr()
+    total = (given + stiffness + FREE * metric).tocsr()
     lu, factor = solver(total, Phiq)
     weight = float(np.mean(total.diagonal()))
     for _ in range(4):

@@ -34,15 +34,23 @@ class Elimination:
         Every full coordinate as an expression of z (terms count in z).
     redundant : int
         Equations that followed from others.
+    left : list of (int, Affine)
+        Numbers of the equations between coordinates that stay, as expressions of z.
     """
 
     kept: list[int]
     expressions: list[Affine]
     redundant: int
+    left: list[tuple[int, Affine]]
 
 
 def eliminate(
-    n: int, equations: Sequence[tuple[str, Affine]], locked: set[int], first: set[int], first_only: bool = False
+    n: int,
+    equations: Sequence[tuple[str, Affine]],
+    locked: set[int],
+    first: set[int],
+    first_only: bool = False,
+    stay: frozenset[int] = frozenset(),
 ) -> Elimination:
     """Solve linear equations for as many coordinates.
 
@@ -58,6 +66,8 @@ def eliminate(
         Coordinates that are eliminated rather than others at equal cost.
     first_only : bool
         Eliminate all that can be of `first` before any other, whatever the cost.
+    stay : set of int
+        Coordinates that stay although equations between them are possible: those are left (flexible bodies).
     """
     rows = [dict(e.terms) for _, e in equations]
     constants = [e.constant for _, e in equations]
@@ -70,7 +80,7 @@ def eliminate(
     redundant = 0
 
     def best(i: int) -> tuple[bool, int, bool, int]:
-        row = rows[i]
+        row = {j: v for j, v in rows[i].items() if j not in stay}
         least = PIVOT_THRESHOLD * max(abs(v) for v in row.values())
         columns = [j for j, v in row.items() if abs(v) >= least and j not in locked]
         if not columns:
@@ -78,12 +88,15 @@ def eliminate(
                 f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; drive it by a guide instead."
             )
         late, count, other, j = min((first_only and j not in first, len(users[j]), j not in first, j) for j in columns)
-        return late, (len(row) - 1) * (count - 1), other, j
+        return late, (len(rows[i]) - 1) * (count - 1), other, j
 
     heap: list[tuple[bool, int, bool, int]] = []
 
     def offer(i: int) -> bool:
         """Queue an unsolved row; an empty one is checked. True if it was redundant."""
+        if rows[i] and stay.issuperset(rows[i]):
+            left.add(i)
+            return False
         if rows[i]:
             heapq.heappush(heap, (*best(i)[:3], i))
             return False
@@ -94,10 +107,11 @@ def eliminate(
             )
         return True
 
+    left: set[int] = set()
     empty = {i for i in range(len(rows)) if offer(i)}
     while heap:
         *cost, i = heapq.heappop(heap)
-        if i in solved or i in empty:
+        if i in solved or i in empty or i in left:
             continue
         *now, pivot = best(i)
         if now > cost:
@@ -143,4 +157,5 @@ def eliminate(
             expressions.append(
                 Affine({number[k]: -v for k, v in rows[i].items()}, constant if abs(constant) > DROP * scale else 0.0)
             )
-    return Elimination(kept, expressions, redundant)
+    over = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(left)]
+    return Elimination(kept, expressions, redundant, over)

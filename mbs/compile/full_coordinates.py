@@ -11,7 +11,7 @@ from scipy import sparse
 from mbs.affine import Affine
 from mbs.compile.eliminate import eliminate
 from mbs.compile.natural import NaturalCoordinates
-from mbs.compile.polynomial import substitute
+from mbs.compile.polynomial import RowTerms, cleaned, substitute
 from mbs.model.equation import Equation
 from mbs.model.model import Model
 
@@ -19,14 +19,16 @@ Array = NDArray[np.float64]
 
 
 def reduce_coordinates(
-    natural: NaturalCoordinates, linear: Sequence[Equation], grounded: bool
-) -> tuple[list[int], list[Affine], list[Affine], int]:
+    natural: NaturalCoordinates, linear: Sequence[Equation], grounded: bool, stay: set[int]
+) -> tuple[list[int], list[Affine], list[Affine], int, list[RowTerms]]:
     """Eliminate the linear equations.
 
     Parameters
     ----------
     grounded : bool
         Whether a joint ties the scene to the ground.
+    stay : set of int
+        Coordinates of flexible bodies, which are never eliminated.
 
     Returns
     -------
@@ -38,14 +40,20 @@ def reduce_coordinates(
         Each natural coordinate as an expression of z.
     redundant : int
         Linear equations that said nothing new.
+    left : list of RowTerms
+        Linear equations between coordinates that stay.
     """
     equations = [(e.name, substitute(e.linear_form(), natural.expressions)) for e in linear]
     locked = {i for i, info in enumerate(natural.info) if info.kind in ("angle", "spin")}
     points = {i for i, info in enumerate(natural.info) if info.kind == "point"}
     # a scene without ties to the ground may go far: its rows must not hold differences of positions
-    result = eliminate(len(natural.info), equations, locked, points, first_only=not grounded)
+    result = eliminate(len(natural.info), equations, locked, points, first_only=not grounded, stay=frozenset(stay))
     full = [substitute(e, result.expressions) for e in natural.expressions]
-    return result.kept, full, result.expressions, result.redundant
+    left = []
+    for i, over in result.left:
+        terms = {(j, -1): v for j, v in over.terms.items()} | {(-1, -1): over.constant}
+        left.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
+    return result.kept, full, result.expressions, result.redundant, left
 
 
 def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, Array]:

@@ -50,7 +50,7 @@ def pose_arrays(
             if wheel.rolling_radius > 0.0:
                 arrays["pose_speed"][k] = wheel.axis_reference[1] / wheel.rolling_radius
             continue
-        if info.kind == "angle":
+        if info.kind in ("angle", "mode"):
             arrays["pose_0"][k] = q[k]
             continue
         x, y = value[i - info.component], value[i - info.component + 1]

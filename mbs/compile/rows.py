@@ -27,6 +27,8 @@ def candidates(body: Body) -> list[Vector]:
     """Local vectors a rigid-body equation may use: axes of the body and of its joints, differences of its joint
     points.
     """
+    if body.is_flexible:
+        return list(np.eye(3))
     size = body_length(body)
     found: list[Vector] = [size * e for e in np.eye(body.dimension)]
     found += [size * u for u in body.joint_axes]

@@ -58,6 +58,7 @@ def velocity(
     T: sparse.csr_matrix,
     z: Array,
     mass: sparse.csr_matrix,
+    stiffness: sparse.csr_matrix,
     order: Index,
     arrays: RowArrays,
     guides: Array,
@@ -82,4 +83,4 @@ def velocity(
     given = symmetric(T.T @ M_given @ T)[order][:, order].tocsr()
     aim = (T.T @ (M_given @ rates))[order]
     q = z[order]
-    return start_velocity(arrays, mass, given, aim, q, guides, guide_rates)
+    return start_velocity(arrays, mass, stiffness, given, aim, q, guides, guide_rates)

@@ -107,7 +107,8 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
             rows = [row_of[joints[id(sensor.joint)], k] for k in sensor.integers]
             ints.append([len(rows), *rows])
         else:
-            ints.append([*sensor.integers, *(signals.number(s) for s in sensor.signals)])
+            rows = [row_of[joints[id(j)], k] for j in sensor.joints for k in j.force_equations]
+            ints.append([*sensor.integers, *(signals.number(s) for s in sensor.signals), *rows])
     return {
         "sen_type": np.array([s.type for s in model.sensors], dtype=np.int64),
         **ragged("sen_int", ints, np.int64),

@@ -134,6 +134,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_state_restore": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_get_state": (c_int32, [c_void_p] + [_DOUBLES] * 5),
     "ali3_evaluate": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 6),
+    "ali3_mass_matrix": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_tangent": (c_int32, [c_void_p, c_double, _DOUBLES, _DOUBLES]),
     "ali3_element_step": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 2),
 }
@@ -432,6 +433,13 @@ class Instance:
         sizes = self.system.sizes
         dense = (c_double * (sizes.nq * sizes.nq))()
         self._check(self._library.ali3_tangent(self._handle, h, _numbers(lam, sizes.nc, "lam"), dense))
+        return dense
+
+    def mass_matrix(self, q: Sequence[float]) -> Any:
+        """M(q): C array of nq * nq, symmetric; it depends on q only where bodies are flexible."""
+        nq = self.system.sizes.nq
+        dense = (c_double * (nq * nq))()
+        self._check(self._library.ali3_mass_matrix(self._handle, _numbers(q, nq, "q"), dense))
         return dense
 
     def element_step(

@@ -34,6 +34,7 @@ class Body:
 
     is_ground = False
     is_point = False
+    is_flexible = False
 
     def __init__(self, model: ModelCore, name: str, com: Vector, start: int) -> None:
         self.model = model

@@ -4,6 +4,7 @@ it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -13,8 +14,11 @@ from numpy.typing import ArrayLike
 from mbs.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
+from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
 from mbs.model.checks import Vector, direction, inertia_matrix, number, positive, vector
+from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.ports import PortedBody
 
 if TYPE_CHECKING:
     from mbs.model.guides import Guide
@@ -126,15 +130,19 @@ class ModelCore:
         """A unit joint axis of a body; remembered like a joint point."""
         self.owned(body, what)
         unit = direction(axis, self.dimension, f"the axis of {what} on body '{body.name}'")
+        if isinstance(body, FlexibleBody):
+            raise ModelError(
+                f"The {what} needs an axis of flexible body '{body.name}': name the node, {body.name}.interface(node)."
+            )
         if body.is_ground:
             self.grounded = True
         elif not body.is_point:
             body.joint_axes.append(unit)
         return body.vector(unit)
 
-    def new_coordinate(self, name: str, kind: str, reference: float) -> int:
+    def new_coordinate(self, name: str, kind: str, reference: float, component: int = 0) -> int:
         """Register a scalar full coordinate and return its number."""
-        self.coordinates.append(CoordinateInfo(name, kind, 0, reference))
+        self.coordinates.append(CoordinateInfo(name, kind, component, reference))
         return len(self.coordinates) - 1
 
     def owned_coordinate(self, coordinate: Coordinate, what: str) -> Coordinate:
@@ -163,6 +171,9 @@ class ModelCore:
             for k in range(self.dimension):
                 kind = "point" if part == "r" else "vector"
                 self.coordinates.append(CoordinateInfo(f"{body.name}.{part}{'xyz'[k]}", kind, k, float(next(values))))
+        if isinstance(body, FlexibleBody):
+            for mode in body.reduced.mode_names:
+                self.coordinates.append(CoordinateInfo(f"{body.name}.{mode}", "mode", 0, float(next(values))))
         body.number = len(self.bodies)
         self.bodies.append(body)
 
@@ -191,6 +202,47 @@ class ModelCore:
         self._register(new)
         return new
 
+    def flexible_body(
+        self, name: str, reduced: ReducedBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None
+    ) -> FlexibleBody:
+        """A body that bends, from a reduced finite-element model.
+
+        Parameters
+        ----------
+        reduced : ReducedBody
+            For instance of `mbs.flexible.craig_bampton.craig_bampton`.
+        origin : array_like, shape (3,)
+            Where the origin of the finite-element model is in the reference configuration, earth axes, m.
+        axes : array_like, shape (3, 3), optional
+            Columns: axes of the finite-element model in earth axes there; by default the same.
+        """
+        self.unique("body", name)
+        if self.dimension != 3:
+            raise ModelError(f"The flexible body '{name}' needs a spatial model; this one has dimension 2.")
+        if not isinstance(reduced, ReducedBody):
+            raise ModelError(f"The flexible body '{name}' needs a ReducedBody, got {type(reduced).__name__}.")
+        place = vector(origin, 3, f"the origin of flexible body '{name}'")
+        R = np.eye(3) if axes is None else np.array(axes, dtype=float)
+        if R.shape != (3, 3) or not np.allclose(R @ R.T, np.eye(3), atol=1e-9) or np.linalg.det(R) < 0.0:
+            raise ModelError(f"The axes of flexible body '{name}' must be the columns of a rotation matrix.")
+        new = FlexibleBody(self, name, reduced, place, R, len(self.coordinates))
+        self._register(new)
+        return new
+
+    def ported(self, body: Body, ports: Mapping[str, ArrayLike]) -> PortedBody:
+        """A rigid body with ports: joints and springs given the result leave the forces there to be read.
+
+        Parameters
+        ----------
+        ports : mapping of str to array_like, shape (3,)
+            Places by name, earth axes in the reference configuration, m.
+        """
+        self.owned(body, "The ports")
+        if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
+            raise ModelError(f"Ports belong to a rigid body in space, not to '{body.name}'.")
+        places = {n: vector(p, 3, f"the port '{n}' of body '{body.name}'") for n, p in ports.items()}
+        return PortedBody(body, places)
+
     def point_mass(self, name: str, *, mass: float, position: ArrayLike) -> PointMass:
         """A particle of `mass` (kg) at `position` (m)."""
         self.unique("body", name)
@@ -208,8 +260,8 @@ class ModelCore:
         """
         what = f"initial velocity of body '{getattr(body, 'name', body)}'"
         self.owned(body, f"The {what}")
-        if body.is_ground:
-            raise ModelError("The ground cannot have an initial velocity.")
+        if body.is_ground or isinstance(body, Interface):
+            raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
         v = np.zeros(self.dimension) if linear is None else vector(linear, self.dimension, f"the linear {what}")
         size = 1 if self.dimension == 2 else 3
         given = np.zeros(size) if angular is None else np.atleast_1d(np.asarray(angular, dtype=float))

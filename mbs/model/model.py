@@ -12,6 +12,7 @@ from mbs.model.angle import relative_angle
 from mbs.model.body import Body
 from mbs.model.checks import not_negative
 from mbs.model.core import Coordinate
+from mbs.model.flexible import FlexibleBody
 from mbs.model.forces import ForceVocabulary
 from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input
@@ -159,11 +160,15 @@ class Model(ForceVocabulary, SensorVocabulary):
         return guide_time(self, name, motion, unit)
 
     def slide(self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, guide: Guide) -> SlidingPoint:
-        """A point that a guide (m) slides along a direction fixed in a body; an end of `distance`."""
+        """A point that a guide (m) slides along a direction fixed in a body (of a flexible one, in its floating frame);
+        an end of `distance`.
+        """
         self.unique("slide", name)
         what = f"slide '{name}'"
         index = owned_guide(self, guide, f"The {what}").index
-        return SlidingPoint(name, body, self.anchor(body, point, what), self.anchor_axis(body, direction, what), index)
+        start = self.anchor(body, point, what)
+        turning = body.frame if isinstance(body, FlexibleBody) else body
+        return SlidingPoint(name, body, start, self.anchor_axis(turning, direction, what), index)
 
     def parameter(
         self,

@@ -11,9 +11,12 @@ from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
 from mbs.errors import ModelError
+from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
+from mbs.model.flexible import FlexibleBody
 from mbs.model.joints.joint import Joint
+from mbs.model.ports import PortedBody
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
@@ -36,6 +39,8 @@ class Sensor:
         The rest of its data.
     joint : Joint, optional
         For joint forces: the joint whose kept rows are weighted; ``integers`` are then numbers of its equations.
+    joints : sequence of Joint
+        Joints whose three kept rows each come last among the integers.
     """
 
     name: str
@@ -46,6 +51,7 @@ class Sensor:
     integers: Sequence[int] = ()
     reals: Sequence[float] = ()
     joint: Joint | None = None
+    joints: Sequence[Joint] = ()
 
 
 def component_number(component: Any, dimension: int, what: str) -> int:
@@ -178,6 +184,20 @@ class SensorVocabulary(ModelCore):
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
         return self._sense(name, unit, description, order, [expression], reals=[scale])
 
+    def sense_recovery(
+        self, name: str, body: FlexibleBody, weights: ArrayLike, unit: str = "", description: str = ""
+    ) -> Sensor:
+        """A constant row times the amplitudes of a flexible body, such as a stress of `ReducedBody.recovery`.
+
+        Parameters
+        ----------
+        weights : array_like, shape (n_modes,)
+            Output per unit amplitude.
+        """
+        if not isinstance(self.owned(body, f"The sensor '{name}'"), FlexibleBody):
+            raise ModelError(f"The sensor '{name}' needs a flexible body, not '{body.name}'.")
+        return self._sense(name, unit, description, 0, [body.combination(weights)], reals=[1.0])
+
     def sense_angular_rate(
         self, name: str, body: Body, component: str = "z", unit: str = "rad/s", description: str = ""
     ) -> Sensor:
@@ -309,6 +329,48 @@ class SensorVocabulary(ModelCore):
         sensor = Sensor(name, unit, description, 9, integers=rows, reals=weights, joint=found)
         self.sensors.append(sensor)
         return sensor
+
+    def sense_quasi_static(
+        self,
+        name: str,
+        body: PortedBody,
+        relief: InertiaRelief,
+        output: int,
+        origin: ArrayLike,
+        unit: str = "",
+        description: str = "",
+    ) -> Sensor:
+        """An output of a structure that follows the forces at the ports of a rigid body and its motion at once.
+
+        Parameters
+        ----------
+        relief : InertiaRelief
+            Interfaces in the order of the ports, axes those of the earth in the reference configuration.
+        output : int
+            Row of its matrices.
+        origin : array_like, shape (3,)
+            Its origin in the reference configuration, m.
+        """
+        if not isinstance(self.owned(body, f"The sensor '{name}'"), PortedBody):
+            raise ModelError(f"The sensor '{name}' needs a body with ports, not '{body.name}'.")
+        n = len(body.ports)
+        if relief.forces.shape[1] != 3 * n or not 0 <= output < len(relief.forces):
+            raise ModelError(
+                f"The sensor '{name}' needs matrices of {n} interfaces and a row of them; they have "
+                f"{relief.forces.shape[1] // 3} and {len(relief.forces)} rows, the row is {output}."
+            )
+        signals = [*body.point(origin).components, *(s for e in np.eye(3) for s in body.vector(e).components)]
+        weights = np.concatenate([relief.forces[output], relief.acceleration[output], relief.rotation[output]])
+        self.unique("sensor", name)
+        sensor = Sensor(
+            name, unit, description, 17, signals, [n], [*self.gravity, *weights], joints=list(body.ports.values())
+        )
+        self.sensors.append(sensor)
+        return sensor
+
+    def sense_constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Sensor:
+        """A number that does not change."""
+        return self._sense(name, unit, description, 0, [Affine({}, 1.0)], reals=[float(value)])
 
     def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
         """ "kinetic", "gravity", "elastic" or "total" energy, J."""

@@ -61,7 +61,7 @@ def spin(
     if model.dimension == 2:
         raise ModelError(f"The {what} needs a spatial model; in the plane a wheel is a body.")
     model.owned(carrier, f"The {what}")
-    if carrier.is_ground or carrier.is_point:
+    if carrier.is_ground or carrier.is_point or carrier.is_flexible:
         raise ModelError(f"The carrier of {what} must be a rigid body, not '{carrier.name}'.")
     m = positive(mass, f"The mass of {what}")
     I_s = positive(spin_inertia, f"The spin inertia of {what}")

@@ -176,7 +176,7 @@ def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory)
 
     def run(what: str, count: int) -> str:
         command = [str(program), folder.joinpath("resources").as_uri(), native.guid_of(folder)]
-        command += [str(folder / "resources" / "system.ali3"), what, str(count)]
+        command += [str(folder / "resources" / "system_0.ali3"), what, str(count)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr[-4000:]
         return done.stdout

@@ -230,7 +230,7 @@ def test_a_damaged_system_file_is_refused_with_a_reason(
     build: Callable[..., Path], host: HostMaker, tmp_path: Path
 ) -> None:
     driven = host(build("crane", "native"), tmp_path / "fmu")
-    file = driven.folder / "resources" / "system.ali3"
+    file = driven.folder / "resources" / "system_0.ali3"
     good = file.read_bytes()
     for bad, reason in ((good[:-1], "refused"), (good[:40] + b"\xff" + good[41:], "refused"), (b"", "cannot be read")):
         file.write_bytes(bad)
@@ -240,12 +240,12 @@ def test_a_damaged_system_file_is_refused_with_a_reason(
     file.unlink()
     with pytest.raises(Exception, match="instantiate"):
         driven.instance()
-    assert "system.ali3" in driven.messages[-1]
+    assert "system_0.ali3" in driven.messages[-1]
 
 
 def test_the_system_of_another_fmu_is_refused(build: Callable[..., Path], host: HostMaker, tmp_path: Path) -> None:
     driven, other = host(build("crane", "native"), tmp_path / "a"), host(build("reach", "native"), tmp_path / "b")
-    (driven.folder / "resources" / "system.ali3").write_bytes((other.folder / "resources" / "system.ali3").read_bytes())
+    (driven.folder / "resources" / "system_0.ali3").write_bytes((other.folder / "resources" / "system_0.ali3").read_bytes())
     with pytest.raises(Exception, match="instantiate"):
         driven.instance()
     assert "does not belong" in driven.messages[-1]

@@ -14,6 +14,7 @@ REALS = {
     "row_measure", "quad_h", "angle_hc", "angle_hs", "gterm_h", "sig_val", "sig_const", "el_real", "input_start",
     "input_min", "input_max", "guide_real", "road_real", "par_value", "par_min", "par_max", "par_scale", "pose_0",
     "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed", "sen_real",
+    "flex_gravity", "flex_P", "flex_c", "flex_T", "flex_K", "flex_C",
 }  # fmt: skip
 INTS = {
     "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
@@ -22,6 +23,7 @@ INTS = {
     "sig_col", "el_type", "el_sig_ptr", "el_sig", "el_real_ptr", "el_int_ptr", "el_int", "el_state_ptr", "el_out_ptr",
     "el_front", "el_loc_ptr", "el_loc", "guide_type", "guide_input", "guide_real_ptr", "road_type", "road_real_ptr",
     "par_ptr", "par_target", "par_index", "sen_type", "sen_int_ptr", "sen_int", "sen_real_ptr",
+    "flex_mode_ptr", "flex_frame", "flex_mode", "flex_front", "flex_loc",
 }  # fmt: skip
 
 
@@ -276,6 +278,7 @@ class SystemBuilder:
         a["sen_real_ptr"] = pointers([len(s[2]) for s in self.sensors])
         a["sen_real"] = [v for s in self.sensors for v in s[2]]
         a.update(self.pose)
+        a["flex_mode_ptr"] = [0]
 
     def to_bytes(self) -> bytes:
         """The System file."""

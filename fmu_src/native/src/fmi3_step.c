@@ -14,7 +14,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 
   if (event_needed != NULL) *event_needed = false;
   if (terminate != NULL) *terminate = false;
   if (early_return != NULL) *early_return = false;
-  if (last_successful_time != NULL) *last_successful_time = ali3_time(face->s->kernel);
+  if (last_successful_time != NULL) *last_successful_time = ali3_time(face->s->rung.kernel);
   return (fmi3Status)status;
 }
 

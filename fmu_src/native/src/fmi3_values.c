@@ -6,7 +6,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetFloat64)(fmi3Instance instance, const fm
   fmi3_face *face = fmi3_slave(instance, "fmi3GetFloat64", FMI3_GET);
   if (face == NULL || !fmi3_given(face, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (n == 1 && n_values == 1 && vr[0] == fmi3_the_table.n_arrays) {
-    value[0] = face->s->calls.phase == SLAVE_INITIALISING ? face->s->calls.start_time : ali3_time(face->s->kernel);
+    value[0] = face->s->calls.phase == SLAVE_INITIALISING ? face->s->calls.start_time : ali3_time(face->s->rung.kernel);
     return fmi3OK;
   }
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;

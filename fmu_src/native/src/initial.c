@@ -13,9 +13,11 @@ void slave_stale(slave *s) {
 const char *slave_worst_row(slave *s, char *text, size_t size) {
   ali3_report report;
   text[0] = 0;
-  if (ali3_report_get(s->kernel, &report) == ALI3_OK && report.violation > 0.0 && report.worst_row >= 0 &&
-      (size_t)report.worst_row < slave_the_table.n_rows)
-    snprintf(text, size, " Worst constraint: '%.128s', open by %.3g m.", slave_the_table.row[report.worst_row],
+  const slave_table *t = &slave_the_table;
+  const size_t first = t->first_row[s->rung.fidelity], n = t->first_row[s->rung.fidelity + 1] - first;
+  if (ali3_report_get(s->rung.kernel, &report) == ALI3_OK && report.violation > 0.0 && report.worst_row >= 0 &&
+      (size_t)report.worst_row < n)
+    snprintf(text, size, " Worst constraint: '%.128s', open by %.3g m.", t->row[first + (size_t)report.worst_row],
              report.violation);
   return text;
 }
@@ -24,21 +26,23 @@ static ali3_status apply(slave *s) {
   const slave_table *t = &slave_the_table;
   double pose[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
   bool posed = false;
-  ali3_status status = ali3_reset(s->kernel);
+  ali3_status status = ali3_reset(s->rung.kernel);
   for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
     const slave_variable *v = &t->variable[i];
-    if (v->source == SLAVE_INPUT) status = ali3_set_input(s->kernel, v->index, s->value[i]);
-    if (v->source == SLAVE_PARAMETER) status = ali3_set_parameter(s->kernel, v->index, s->value[i]);
+    if (v->source == SLAVE_INPUT) status = ali3_set_input(s->rung.kernel, v->index, s->value[i]);
+    if (v->source == SLAVE_PARAMETER) status = ali3_set_parameter(s->rung.kernel, v->index, s->value[i]);
     if (v->source != SLAVE_POSE) continue;
     pose[v->index] = s->value[i];
     posed = posed || s->value[i] != 0.0;
   }
-  if (status == ALI3_OK && posed) status = ali3_set_pose(s->kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
-  return status == ALI3_OK ? ali3_initialise(s->kernel, s->calls.start_time) : status;
+  if (status == ALI3_OK && posed) status = ali3_set_pose(s->rung.kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
+  return status == ALI3_OK ? ali3_initialise(s->rung.kernel, s->calls.start_time) : status;
 }
 
 bool slave_initialise(slave *s) {
   char worst[SLAVE_TEXT / 2];
+  slave_stale(s);
+  if (!slave_rung_choose(s)) return false;
   const ali3_status status = apply(s);
   s->calls.initialised = status == ALI3_OK;
   s->outputs_fresh = false;

@@ -4,61 +4,49 @@
 
 #include "slave.h"
 
-static const char SYSTEM_FILE[] = "system.ali3";
-
-/* One block behind the instance for all its arrays; 0 if there is no memory. */
+/* One block behind the instance for all its arrays; false if there is no memory. */
 static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
-  const ali3_sizes z = ali3_system_sizes(s->system);
+  const ali3_sizes z = ali3_system_sizes(s->rung.system);
   const size_t numbers = t->n_variables + t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + 2 * (size_t)z.nu;
-  const size_t saved = ali3_state_size(s->system);
-  double *pool = s->memory.allocate(1, numbers * sizeof(double) + saved + 2 * t->n_known + (size_t)z.ns + 1);
-  if (pool == NULL) return false;
+  double *pool = s->memory.allocate(1, numbers * sizeof(double) + 2 * t->n_known + (size_t)z.ns + 1);
+  if (pool == NULL) {
+    slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
+    return false;
+  }
   s->value = pool;
   s->slope = s->value + t->n_variables;
   s->sensors = s->slope + t->n_known * SLAVE_MOST_ORDERS;
   s->direction = s->sensors + z.ns;
   s->input = s->direction + z.nu;
-  s->saved = (unsigned char *)(s->input + z.nu);
-  s->pending = s->saved + saved;
+  s->pending = (unsigned char *)(s->input + z.nu);
   s->clamped = s->pending + t->n_known;
   s->known = s->clamped + t->n_known;
   return true;
 }
 
-/* Whether the table and the System speak of the same things. */
-static bool table_fits(const slave *s) {
-  const slave_table *t = &slave_the_table;
-  const ali3_sizes z = ali3_system_sizes(s->system);
-  if (t->n_variables != t->n_known + (size_t)z.ns || t->n_rows != (size_t)z.nc) return false;
-  for (size_t i = 0; i < t->n_variables; i++) {
-    const slave_variable *v = &t->variable[i];
-    const int32_t limit[] = {z.nu, z.np, z.has_pose ? 5 : 0, 1, z.ns};
-    if (v->index < 0 || v->index >= limit[v->source]) return false;
-  }
-  return true;
+static char *copy_of(const ali3_memory *memory, const char *text) {
+  char *copy = memory->allocate(1, strlen(text) + 1);
+  if (copy != NULL) strcpy(copy, text);
+  return copy;
 }
 
+/* The System of the fidelity that the table starts with. */
 static bool load(slave *s, const char *resources) {
-  char message[256] = "";
-  size_t size = 0;
-  unsigned char *bytes = slave_read(resources, SYSTEM_FILE, &s->memory, &size);
-  if (bytes == NULL) {
-    slave_say(s, SLAVE_ERROR, "The file %s of the FMU cannot be read in %s.", SYSTEM_FILE, resources);
+  const slave_table *t = &slave_the_table;
+  size_t fidelity = 0;
+  s->fidelity_reference = t->n_variables;
+  for (size_t i = 0; i < t->n_known; i++)
+    if (t->variable[i].source == SLAVE_FIDELITY) {
+      s->fidelity_reference = i;
+      fidelity = (size_t)t->variable[i].start;
+    }
+  s->resources = copy_of(&s->memory, resources);
+  if (s->resources == NULL) {
+    slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
   }
-  ali3_status status = ali3_system_load_with(bytes, size, &s->memory, &s->system, message, sizeof message);
-  s->memory.release(bytes);
-  if (status == ALI3_OK && !table_fits(s)) {
-    slave_say(s, SLAVE_ERROR, "The file %s does not belong to this FMU.", SYSTEM_FILE);
-    return false;
-  }
-  if (status == ALI3_OK) status = ali3_instance_new(s->system, &s->kernel);
-  if (status == ALI3_OK && !take_arrays(s)) status = ALI3_NO_MEMORY;
-  if (status != ALI3_OK)
-    slave_say(s, SLAVE_ERROR, "The file %s was refused: %s%s%s.", SYSTEM_FILE, ali3_status_text(status),
-              message[0] != 0 ? ": " : "", message);
-  return status == ALI3_OK;
+  return slave_rung_load(s, fidelity, &s->rung) && take_arrays(s);
 }
 
 static void start_values(slave *s) {
@@ -85,8 +73,7 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
   s->logger = logger;
   s->logging = logging;
   s->all_categories = true;
-  s->name = memory->allocate(1, (name != NULL ? strlen(name) : 0) + 1);
-  if (s->name != NULL) strcpy(s->name, name != NULL ? name : "");
+  s->name = copy_of(memory, name != NULL ? name : "");
   bool good = false;
   if (s->name == NULL)
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
@@ -96,7 +83,7 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
     slave_say(s, SLAVE_ERROR, "The GUID %.64s does not belong to this FMU; its GUID is %s.",
               token != NULL ? token : "(none)", slave_the_table.token);
   else if (resources == NULL)
-    slave_say(s, SLAVE_ERROR, "The location of the resources is missing; this FMU reads %s there.", SYSTEM_FILE);
+    slave_say(s, SLAVE_ERROR, "The location of the resources is missing; this FMU reads its System there.");
   else
     good = load(s, resources);
   if (!good) {
@@ -104,9 +91,6 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
     return NULL;
   }
   start_values(s);
-  const ali3_sizes z = ali3_system_sizes(s->system);
-  slave_say(s, SLAVE_OK, "System loaded: %d coordinates, %d rows, %d inputs, %d outputs.", (int)z.nq, (int)z.nc,
-            (int)z.nu, (int)z.ns);
   return s;
 }
 
@@ -114,8 +98,8 @@ void slave_free(slave *s) {
   if (s == NULL) return;
   void (*const release)(void *) = s->memory.release;
   if (s->value != NULL) release(s->value);
-  if (s->kernel != NULL) ali3_instance_free(s->kernel);
-  if (s->system != NULL) ali3_system_free(s->system);
+  slave_rung_free(s, &s->rung);
+  if (s->resources != NULL) release(s->resources);
   if (s->name != NULL) release(s->name);
   release(s);
 }
@@ -149,7 +133,7 @@ slave_status slave_terminate(slave *s) {
 }
 
 slave_status slave_reset(slave *s) {
-  ali3_reset(s->kernel);
+  ali3_reset(s->rung.kernel);
   start_values(s);
   return SLAVE_OK;
 }

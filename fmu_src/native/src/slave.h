@@ -9,7 +9,7 @@
 #include "ali3.h"
 
 /* The table, generated with the FMU (table.c); the place of a variable is its number. */
-typedef enum { SLAVE_INPUT, SLAVE_PARAMETER, SLAVE_POSE, SLAVE_STEP_SIZE, SLAVE_SENSOR } slave_source;
+typedef enum { SLAVE_INPUT, SLAVE_PARAMETER, SLAVE_POSE, SLAVE_STEP_SIZE, SLAVE_FIDELITY, SLAVE_SENSOR } slave_source;
 
 typedef struct {
   const char *name, *unit; /* the unit as it stands behind a number */
@@ -23,8 +23,9 @@ typedef struct {
   unsigned char identity[16];  /* the same as bytes */
   const slave_variable *variable;
   size_t n_variables, n_known; /* known: all but the outputs, which come last */
-  const char *const *row;      /* names of the constraint rows */
-  size_t n_rows;
+  const char *const *row;      /* names of the constraint rows of all Systems */
+  const size_t *first_row;     /* n_systems + 1 */
+  size_t n_systems;            /* to choose from by the fidelity */
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -51,25 +52,30 @@ typedef struct { /* what a state is beside the kernel's bytes; numbers only */
   double start_time, stop_time; /* infinite where not given */
 } slave_memory_of_calls;
 
+typedef struct { /* a System of the FMU at work */
+  size_t fidelity;
+  ali3_system *system;
+  ali3_instance *kernel;
+  unsigned char *saved; /* one state of the kernel, for steps that are taken back */
+} slave_rung;
+
 struct slave {
   void *host; /* what the face needs for its logger */
   slave_logger *logger;
   ali3_memory memory;
-  char *name;
+  char *name, *resources;
   bool logging, all_categories;
   unsigned categories; /* bits, see slave_category */
-  ali3_system *system;
-  ali3_instance *kernel;
+  slave_rung rung;
   slave_memory_of_calls calls;
   double *value;          /* per variable; the outputs are filled when they are asked for */
   double *slope;          /* per variable and order: derivatives of the inputs from the communication point on */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *clamped; /* per known variable: said once */
   bool outputs_fresh;
-  unsigned char *saved;   /* one state of the kernel, for steps that are taken back */
   double *sensors, *direction, *input; /* work: ns, nu, nu */
   unsigned char *known;
-  size_t step_reference;
+  size_t step_reference, fidelity_reference; /* the latter n_variables where there is no choice */
 };
 
 /* log.c */
@@ -82,6 +88,12 @@ bool slave_allowed(slave *s, const char *function, unsigned mask);
 /* resource.c */
 bool slave_path_of_uri(const char *uri, char *path, size_t size);
 unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size);
+
+/* rung.c */
+bool slave_rung_load(slave *s, size_t fidelity, slave_rung *rung);
+void slave_rung_take(slave *s, const slave_rung *rung);
+void slave_rung_free(const slave *s, slave_rung *rung);
+bool slave_rung_choose(slave *s);
 
 /* life.c */
 slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bool logging, const char *name,

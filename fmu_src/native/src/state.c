@@ -10,7 +10,9 @@ typedef struct { /* 72 bytes without holes */
   uint32_t version, crc;
   uint64_t size;
   unsigned char identity[16];
-  uint32_t phase, initialised, step_warned, n_known;
+  uint32_t phase;
+  uint16_t initialised, step_warned;
+  uint32_t fidelity, n_known; /* fidelity of the kernel's bytes; the value may be set for the next initialisation */
   double start_time, stop_time;
 } header;
 
@@ -21,7 +23,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 1, CRC_AT = 12, CHECKED_FROM = 16 };
+enum { STATE_VERSION = 2, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
@@ -30,7 +32,7 @@ static size_t own_size(void) {
   return sizeof(header) + n * (1 + SLAVE_MOST_ORDERS) * sizeof(double) + 2 * n;
 }
 
-static size_t whole_size(const slave *s) { return own_size() + ali3_state_size(s->system); }
+static size_t whole_size(const slave *s) { return own_size() + ali3_state_size(s->rung.system); }
 
 static void put(unsigned char **to, const void *from, size_t size) {
   memcpy(*to, from, size);
@@ -46,8 +48,9 @@ static void save(const slave *s, unsigned char *bytes) {
                  size,
                  {0},
                  (uint32_t)c->phase,
-                 (uint32_t)c->initialised,
-                 (uint32_t)c->step_warned,
+                 (uint16_t)c->initialised,
+                 (uint16_t)c->step_warned,
+                 (uint32_t)s->rung.fidelity,
                  (uint32_t)n,
                  c->start_time,
                  c->stop_time};
@@ -59,7 +62,7 @@ static void save(const slave *s, unsigned char *bytes) {
   put(&p, s->slope, n * SLAVE_MOST_ORDERS * sizeof(double));
   put(&p, s->pending, n);
   put(&p, s->clamped, n);
-  ali3_state_save(s->kernel, p, ali3_state_size(s->system));
+  ali3_state_save(s->rung.kernel, p, ali3_state_size(s->rung.system));
 }
 
 /* One sentence on what is wrong with the bytes, or NULL. */
@@ -71,8 +74,10 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (head.version != STATE_VERSION) return "they have another version";
   if (memcmp(head.identity, slave_the_table.identity, sizeof head.identity) != 0)
     return "only states of the same build can be set";
-  if (head.size != size || size != whole_size(s) || head.n_known != slave_the_table.n_known)
+  if (head.size != size || size < own_size() || head.n_known != slave_the_table.n_known)
     return "they have another size";
+  if (head.fidelity >= slave_the_table.n_systems) return "their header makes no sense";
+  if (head.fidelity == s->rung.fidelity && size != whole_size(s)) return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
       head.initialised > 1 || head.step_warned > 1 || !(fabs(head.start_time) < HUGE_VAL) ||
       !(head.stop_time > head.start_time))
@@ -90,6 +95,8 @@ static const char *bad_value(const unsigned char *p) {
     if (!(fabs(v) < HUGE_VAL)) return "a number in them is not finite";
     if (i < t->n_known && !(v >= t->variable[i].min && v <= t->variable[i].max))
       return "a number in them is out of its range";
+    if (i < t->n_known && t->variable[i].source == SLAVE_FIDELITY && v != floor(v))
+      return "a number in them is out of its range";
   }
   const unsigned char *flag = p + t->n_known * (1 + SLAVE_MOST_ORDERS) * sizeof v;
   for (size_t i = 0; i < 2 * t->n_known; i++)
@@ -105,6 +112,21 @@ static void get(void *to, const unsigned char **from, size_t size) {
   *from += size;
 }
 
+/* The state of the kernel, of another System too; false, said and nothing changed, if that fails. */
+static bool restore_kernel(slave *s, size_t fidelity, const unsigned char *bytes, size_t size) {
+  slave_rung other = s->rung;
+  const bool same = fidelity == s->rung.fidelity;
+  if (!same && !slave_rung_load(s, fidelity, &other)) return false;
+  const ali3_status status = ali3_state_restore(other.kernel, bytes, size);
+  if (status != ALI3_OK) {
+    if (!same) slave_rung_free(s, &other);
+    slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", ali3_status_text(status));
+    return false;
+  }
+  if (!same) slave_rung_take(s, &other);
+  return true;
+}
+
 static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   const size_t n = slave_the_table.n_known;
   const unsigned char *p = bytes + sizeof(header);
@@ -112,10 +134,8 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   header head;
   if (why == NULL) why = bad_value(p);
   if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
-  const ali3_status status = ali3_state_restore(s->kernel, bytes + own_size(), ali3_state_size(s->system));
-  if (status != ALI3_OK)
-    return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", ali3_status_text(status));
   memcpy(&head, bytes, sizeof head);
+  if (!restore_kernel(s, head.fidelity, bytes + own_size(), size - own_size())) return SLAVE_ERROR;
   s->calls.phase = (slave_phase)head.phase;
   s->calls.initialised = (int32_t)head.initialised;
   s->calls.step_warned = (int32_t)head.step_warned;

@@ -46,9 +46,9 @@ static ali3_status apply_pending(slave *s) {
     const slave_variable *v = &t->variable[i];
     if (!s->pending[i]) continue;
     if (v->source == SLAVE_INPUT)
-      status = ali3_set_input(s->kernel, v->index, s->value[i]);
+      status = ali3_set_input(s->rung.kernel, v->index, s->value[i]);
     else
-      status = ali3_set_parameter(s->kernel, v->index, s->value[i]);
+      status = ali3_set_parameter(s->rung.kernel, v->index, s->value[i]);
   }
   return status;
 }
@@ -65,7 +65,7 @@ static ali3_status follow_slopes(slave *s, double elapsed) {
       power *= elapsed / (k + 1);
       u += slope[k] * power;
     }
-    status = ali3_set_input(s->kernel, t->variable[i].index, u);
+    status = ali3_set_input(s->rung.kernel, t->variable[i].index, u);
   }
   return status;
 }
@@ -73,10 +73,10 @@ static ali3_status follow_slopes(slave *s, double elapsed) {
 static ali3_status advance(slave *s, int64_t n, double h) {
   ali3_status status = apply_pending(s);
   if (status != ALI3_OK) return status;
-  if (!any_slope(s)) return n == 1 ? ali3_step(s->kernel, h) : ali3_run(s->kernel, h, n, NULL, 1, NULL, NULL);
+  if (!any_slope(s)) return n == 1 ? ali3_step(s->rung.kernel, h) : ali3_run(s->rung.kernel, h, n, NULL, 1, NULL, NULL);
   for (int64_t k = 0; k < n && status == ALI3_OK; k++) {
     status = follow_slopes(s, (double)(k + 1) * h);
-    if (status == ALI3_OK) status = ali3_step(s->kernel, h);
+    if (status == ALI3_OK) status = ali3_step(s->rung.kernel, h);
   }
   return status;
 }
@@ -87,13 +87,13 @@ static void forget_slopes(slave *s) {
   if (!any_slope(s)) return;
   memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
   for (size_t i = 0; i < t->n_known; i++)
-    if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->kernel, t->variable[i].index, s->value[i]);
+    if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->rung.kernel, t->variable[i].index, s->value[i]);
 }
 
 static void take_back(slave *s, bool whole) {
-  const int32_t nu = ali3_system_sizes(s->system).nu;
-  if (whole) ali3_state_restore(s->kernel, s->saved, ali3_state_size(s->system));
-  for (int32_t i = 0; i < nu; i++) ali3_set_input(s->kernel, i, s->input[i]);
+  const int32_t nu = ali3_system_sizes(s->rung.system).nu;
+  if (whole) ali3_state_restore(s->rung.kernel, s->rung.saved, ali3_state_size(s->rung.system));
+  for (int32_t i = 0; i < nu; i++) ali3_set_input(s->rung.kernel, i, s->input[i]);
 }
 
 static slave_status refused(slave *s, ali3_status status, double time, double step, const char *worst) {
@@ -104,7 +104,7 @@ static slave_status refused(slave *s, ali3_status status, double time, double st
 
 slave_status slave_step(slave *s, double time, double step) {
   char worst[SLAVE_TEXT / 2];
-  const double now = ali3_time(s->kernel);
+  const double now = ali3_time(s->rung.kernel);
   double h;
   if (!(fabs(time) < HUGE_VAL && step > 0.0 && step < HUGE_VAL))
     return slave_say(s, SLAVE_ERROR, "A step from %g s over %g s: a finite time and a positive step are needed.", time,
@@ -120,9 +120,9 @@ slave_status slave_step(slave *s, double time, double step) {
   const int64_t n = division(s, now, time + step, &h);
   /* one step keeps the last state when it fails; several, or a changed parameter, must be taken back together */
   const bool whole = n > 1 || any_pending(s, SLAVE_PARAMETER);
-  if (whole) ali3_state_save(s->kernel, s->saved, ali3_state_size(s->system));
-  const int32_t nu = ali3_system_sizes(s->system).nu;
-  for (int32_t i = 0; i < nu; i++) ali3_get_input(s->kernel, i, &s->input[i]);
+  if (whole) ali3_state_save(s->rung.kernel, s->rung.saved, ali3_state_size(s->rung.system));
+  const int32_t nu = ali3_system_sizes(s->rung.system).nu;
+  for (int32_t i = 0; i < nu; i++) ali3_get_input(s->rung.kernel, i, &s->input[i]);
   const ali3_status status = advance(s, n, h);
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);

@@ -10,7 +10,7 @@ bool slave_outputs(slave *s) {
   const slave_table *t = &slave_the_table;
   if (s->outputs_fresh) return true;
   if (!s->calls.initialised && !slave_initialise(s)) return false;
-  if (ali3_sensors(s->kernel, s->sensors) != ALI3_OK) return false;
+  if (ali3_sensors(s->rung.kernel, s->sensors) != ALI3_OK) return false;
   for (size_t i = t->n_known; i < t->n_variables; i++) s->value[i] = s->sensors[t->variable[i].index];
   s->outputs_fresh = true;
   return true;
@@ -35,7 +35,7 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
   if (reference >= t->n_variables)
     return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference);
   const slave_variable *v = &t->variable[reference];
-  const bool fixed = v->source == SLAVE_POSE || v->source == SLAVE_STEP_SIZE;
+  const bool fixed = v->source == SLAVE_POSE || v->source == SLAVE_STEP_SIZE || v->source == SLAVE_FIDELITY;
   if (v->source == SLAVE_SENSOR) return slave_say(s, SLAVE_ERROR, "'%s' is an output and cannot be set.", v->name);
   if (!(s->calls.phase & SETTABLE) || (fixed && (s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))))
     return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s%s.", v->name, slave_phase_name(s->calls.phase),
@@ -43,6 +43,9 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
   if (!(fabs(value) < HUGE_VAL))
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g%s is kept.",
                      v->name, value, s->value[reference], v->unit);
+  if (v->source == SLAVE_FIDELITY && value != floor(value))
+    return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g; it must be a whole number, it keeps %g.", v->name, value,
+                     s->value[reference]);
   *clamped = value;
   if (value >= v->min && value <= v->max) return SLAVE_OK;
   if (v->source != SLAVE_INPUT)
@@ -57,12 +60,12 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
 static slave_status try_parameter(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
   double before;
-  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->kernel, v->index, &before) != ALI3_OK) return SLAVE_OK;
-  const ali3_status status = ali3_set_parameter(s->kernel, v->index, value);
+  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->rung.kernel, v->index, &before) != ALI3_OK) return SLAVE_OK;
+  const ali3_status status = ali3_set_parameter(s->rung.kernel, v->index, value);
   if (status != ALI3_OK)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, which the model cannot take; it keeps %g.", v->name,
                      value, v->unit, s->value[reference]);
-  ali3_set_parameter(s->kernel, v->index, before);
+  ali3_set_parameter(s->rung.kernel, v->index, before);
   return SLAVE_OK;
 }
 

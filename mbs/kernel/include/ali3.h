@@ -144,6 +144,8 @@ ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const dou
 /* The tangent (23) as a dense symmetric nq x nq matrix at the present state for step h with multipliers lam (NULL:
  * present). */
 ALI3_API ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense);
+/* M(q), dense nq x nq; it depends on q only where bodies are flexible. */
+ALI3_API ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense);
 /* One element step in isolation: slots y_old -> y_new over h at (q, qd); force (nq) may be NULL. */
 ALI3_API ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old,
                                        double h, double *y_new, double *force);

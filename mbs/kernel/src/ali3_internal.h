@@ -36,7 +36,10 @@
   X(double, 2, pose_0) X(double, 2, pose_cos) X(double, 2, pose_sin) X(double, 2, pose_x) X(double, 2, pose_y) \
   X(double, 2, pose_z) X(double, 2, pose_speed) \
   X(int32_t, 1, sen_type) X(int32_t, 1, sen_int_ptr) X(int32_t, 1, sen_int) X(int32_t, 1, sen_real_ptr) \
-  X(double, 2, sen_real)
+  X(double, 2, sen_real) \
+  X(int32_t, 1, flex_mode_ptr) X(int32_t, 1, flex_frame) X(int32_t, 1, flex_mode) X(int32_t, 1, flex_front) \
+  X(int32_t, 1, flex_loc) X(double, 2, flex_gravity) X(double, 2, flex_P) X(double, 2, flex_c) X(double, 2, flex_T) \
+  X(double, 2, flex_K) X(double, 2, flex_C)
 /* clang-format on */
 
 /* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */
@@ -68,6 +71,8 @@ struct ali3_system {
   ali3_sizes size;
   int32_t nr;        /* roads */
   int32_t max_front; /* largest front */
+  double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
+  int32_t n_flexible, max_modes; /* flexible bodies, most modes of one */
   /* derived at load, in one block */
   void *derived;
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q */
@@ -92,12 +97,14 @@ struct ali3_system {
   int32_t *el_coordinate_ptr;  /* ne+1 */
   int32_t *el_coordinate_loc;  /* local index in the front, ascending */
   int32_t *active_signal;      /* signals that elements use */
+  int32_t *flex_square;        /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
   int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
 };
 
 /* One state; the vectors lie in one block of `n` doubles so that a copy is one memcpy. */
 typedef struct {
   double *q, *qd, *qdd, *lam, *y;
+  double *mean, *mean_before; /* mean rates of the last two steps, of systems with flexible bodies */
   double *s, *sd, *sdd;      /* guides */
   double *out, *potential;   /* of the last evaluation of the elements */
   double *used;              /* inputs as used in the last step */
@@ -149,6 +156,8 @@ struct ali3_instance {
   double *correction_q, *step_q, *correction_lam, *step_lam; /* of the last iteration */
   double *local; /* one front */
   double *shifted; /* nq */
+  double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
+  double wC, wK; /* weights of the last forces */
   double *y_work, *out_work, *potential_work, *parameter_work;
 };
 
@@ -168,6 +177,7 @@ ali3_status ali3_check_fronts(ali3_system *s, ali3_message m);
 ali3_status ali3_check_rows(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_elements(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_sensors(const ali3_system *s, ali3_message m);
+ali3_status ali3_check_flexible(ali3_system *s, ali3_message m);
 ali3_status ali3_check_pointers(ali3_message m, const char *name, const int32_t *ptr, int64_t n_ptr, int64_t n,
                                 int64_t total);
 ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *v, int64_t n, int64_t low,
@@ -211,6 +221,12 @@ ali3_element_function *ali3_discrete_gradient(int32_t type); /* NULL: the middle
 /* discrete_rows.c */
 void ali3_discrete_rows(ali3_instance *in, const double *D, const double *q1, const ali3_vectors *from,
                         const ali3_vectors *to);
+/* flexible_body.c: prepare is for one q, the others use what it left */
+void ali3_flexible_prepare(const ali3_instance *in, const double *q);
+void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *out);
+void ali3_flexible_forces(const ali3_instance *in, const double *q, const double *qd, double *Q);
+void ali3_flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic);
+void ali3_flexible_tangent(const ali3_instance *in, double wC, double wK, double *F);
 
 /* fronts.c */
 ali3_status ali3_factorise(ali3_instance *in, double *F);
@@ -222,14 +238,18 @@ ali3_status ali3_factorise_lu(ali3_instance *in, double *F);
 void ali3_solve_lu(ali3_instance *in, const double *F, double *b);
 
 /* step.c */
-void ali3_mass_times(const ali3_system *S, const double *x, double *out);
-double ali3_penalty(const ali3_settings *s, double h);
+void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
+double ali3_penalty(const ali3_instance *in, double h);
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
 double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
                     int32_t sweeps);
 bool ali3_finite(const double *v, int64_t n);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
 bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
+
+/* predict.c */
+void ali3_predict(ali3_instance *in, double h);
+void ali3_predict_accept(ali3_instance *in, double h);
 
 /* accelerate.c */
 void ali3_accelerate(ali3_instance *in, int32_t iteration);
@@ -272,6 +292,6 @@ void ali3_sensors_tangent(const ali3_instance *in, double *out);
 /* instance.c */
 ali3_status ali3_parameters_apply(ali3_instance *in);
 bool ali3_settings_valid(const ali3_settings *s);
-size_t ali3_vector_count(const ali3_sizes *z);
+size_t ali3_vector_count(const ali3_system *s); /* doubles in ali3_vectors */
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 #endif

@@ -58,10 +58,10 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
 }
 
 /* What the integers of a sensor mean, one letter each: s signal, e element, o output of it, u input, g guide, d order,
- * k energy, q quaternion component, h health. Rows (type 9) and norms (type 14) have their own rule. */
+ * k energy, q quaternion component, h health. Rows (types 9 and 17) and norms (type 14) have their own rule. */
 static const char *const sensor_integers[] = {"s", "s", "s", "dssssss", "ss", "s", "ssssss",     "qsssssssss", "eo",
-                                              "",  "k", "u", "gd",      "h",  "",  "dsssssssss", "sssssssss"};
-static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0};
+                                              "",  "k", "u", "gd",      "h",  "",  "dsssssssss", "sssssssss",  ""};
+static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0, -1};
 enum { SENSOR_TYPES = sizeof sensor_reals / sizeof sensor_reals[0] };
 
 static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m) {
@@ -70,6 +70,12 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
   if (type == 9) {
     if (n < 1 || v[0] != n - 1 || n_real != n - 1) return ali3_bad(m, "sensor %d lists %d rows", (int)i, (int)n);
     return ali3_check_indices(m, "sen_int", v + 1, n - 1, 0, s->size.nc);
+  }
+  if (type == 17) {
+    if (n < 13 || v[0] < 0 || v[0] > (n - 13) / 3 || n != 13 + 3 * v[0] || n_real != 15 + 3 * v[0])
+      return ali3_bad(m, "sensor %d lists %d integers and %d reals", (int)i, (int)n, (int)n_real);
+    CHECK(ali3_check_indices(m, "sen_int", v + 1, 12, 0, s->size.nsig));
+    return ali3_check_indices(m, "sen_int", v + 13, n - 13, 0, s->size.nc);
   }
   if (sensor_reals[type] != n_real)
     return ali3_bad(m, "sensor %d of type %d has %d reals", (int)i, (int)type, (int)n_real);

@@ -31,6 +31,8 @@ ali3_status ali3_check_method(ali3_instance *in) {
   if (S->size.ny > 0) return ALI3_WRONG_METHOD;
   for (int32_t g = 0; g < S->size.ng; g++)
     if (S->guide_type[g] == 1) return ALI3_WRONG_METHOD;
+  for (int64_t i = 0; i < S->n_flex_C && method == ALI3_METHOD_ENERGY_MOMENTUM_4; i++)
+    if (S->flex_C[i] != 0.0) return ALI3_WRONG_METHOD;
   for (int32_t e = 0; e < S->size.ne && method == ALI3_METHOD_ENERGY_MOMENTUM_4; e++)
     if (!conservative(in, e)) return ALI3_WRONG_METHOD;
   return ALI3_OK;

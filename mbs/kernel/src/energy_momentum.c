@@ -20,7 +20,7 @@ static const double LEAST_SCALE = 0.5, MOST_SCALE = 2.0; /* of kinetic energies 
  * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones feed the round-off
  * of rows that turn far in a step back as forces. */
 static double penalty_weight(const ali3_instance *in, double h) {
-  return 0.5 * h * h * ali3_penalty(&in->settings, h) / EPS_SHARE;
+  return 0.5 * h * h * ali3_penalty(in, h) / EPS_SHARE;
 }
 
 static void evaluate(ali3_instance *in, double h) {
@@ -44,7 +44,7 @@ static void evaluate(ali3_instance *in, double h) {
   ali3_forces(in, &call);
   in->discrete = false;
   in->force_input = in->input;
-  ali3_mass_times(S, in->w, in->r);
+  ali3_mass_times(in, in->w, in->r);
   ali3_rows_transposed(S, in->A, to->lam, in->x);
   for (int32_t i = 0; i < nq; i++) in->r[i] += c * (in->x[i] - in->Q[i]);
 }
@@ -166,7 +166,7 @@ static double project(ali3_instance *in, double weight, const double *b, double 
 
 static double kinetic_energy(ali3_instance *in, const double *qd) {
   double twice = 0.0;
-  ali3_mass_times(in->system, qd, in->x);
+  ali3_mass_times(in, qd, in->x);
   for (int32_t i = 0; i < in->system->size.nq; i++) twice += in->x[i] * qd[i];
   return 0.5 * twice;
 }
@@ -203,6 +203,10 @@ void ali3_energy_momentum_report(ali3_instance *in) {
   ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
   memcpy(in->A_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  if (S->n_flexible > 0) {
+    ali3_flexible_prepare(in, in->now.q);
+    ali3_flexible_tangent(in, 0.0, 0.0, in->F);
+  }
   ali3_mirror(in, in->F);
   ali3_rows_product(in, in->J, in->J, weight, in->F);
   if (ali3_factorise_lu(in, in->F) == ALI3_OK) report(in, &in->now, weight);
@@ -234,6 +238,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
     to->own[i] = 2.0 / h * in->D[i] - from->own[i];
     in->d0[i] = 2.0 * (in->D[i] - h * from->own[i]) / (h * h);
   }
+  ali3_predict_accept(in, h);
   clean(in, weight, to->lam);
   ali3_history_append(in, h, in->d0);
   if (S->size.ny > 0) {

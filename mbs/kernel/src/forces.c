@@ -55,6 +55,12 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   double u[ALI3_LOCAL], ud[ALI3_LOCAL], f[ALI3_LOCAL];
   active_signals(in, call->q, call->qd);
   memcpy(call->Q, S->gravity_force, (size_t)S->size.nq * sizeof(double));
+  if (S->n_flexible > 0) {
+    ali3_flexible_prepare(in, call->q);
+    ali3_flexible_forces(in, call->q, call->qd, call->Q);
+    in->wC = call->wC;
+    in->wK = call->wK;
+  }
   for (int32_t e = 0; e < S->size.ne; e++) {
     ali3_element_args a;
     prepare(in, call, e, u, ud, f, &a);
@@ -74,10 +80,11 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
 }
 
 /* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a
- * tangent. */
+ * tangent; and the flexible bodies. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   double *restrict SB = in->SB; /* a row per signal, a column per coordinate of the element */
+  if (S->n_flexible > 0) ali3_flexible_tangent(in, in->wC, in->wK, F);
   for (int32_t e = 0; e < S->size.ne; e++) {
     const int32_t front = S->el_front[e];
     if (front < 0) continue;

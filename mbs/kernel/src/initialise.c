@@ -12,13 +12,15 @@ static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
 static const double ROUND_OFF = 1e-13;
 enum { POSITION_ITERATIONS = 200, MULTIPLIER_ITERATIONS = 60 };
 
-/* F = M (+ what massless coordinates lack) + ALPHA Phi_q' Phi_q, factorised. */
-static ali3_status factorise_metric(ali3_instance *in, bool fill_massless) {
+/* F = M(q) (+ what massless coordinates lack) + ALPHA Phi_q' Phi_q, factorised. */
+static ali3_status factorise_metric(ali3_instance *in, const double *q, bool fill_massless) {
   const ali3_system *S = in->system;
+  ali3_flexible_prepare(in, q);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
   if (fill_massless)
     for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
   ali3_rows_square(in, in->J, ALPHA, in->F);
+  ali3_flexible_tangent(in, 0.0, 0.0, in->F);
   return ali3_factorise(in, in->F);
 }
 
@@ -35,10 +37,10 @@ static ali3_status close_position(ali3_instance *in) {
     if (in->report.violation <= CLOSED) break;
     if (iteration == POSITION_ITERATIONS) return in->report.violation <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
     if (!(in->report.violation < 1e300)) return ALI3_NOT_ASSEMBLED;
-    const ali3_status status = factorise_metric(in, true);
+    const ali3_status status = factorise_metric(in, q, true);
     if (status != ALI3_OK) return status;
     for (int32_t i = 0; i < nq; i++) in->w[i] = q[i] - in->now.q[i];
-    ali3_mass_times(S, in->w, in->r);
+    ali3_mass_times(in, in->w, in->r);
     for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->Phi[k];
     ali3_rows_transposed(S, in->J, in->mu, in->x);
     for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + S->mass_missing[i] * in->w[i] + in->x[i]);
@@ -65,7 +67,7 @@ static ali3_status solve_index_one(ali3_instance *in, const double *Q, const dou
   memset(lam, 0, (size_t)nc * sizeof(double));
   for (int iteration = 0; iteration < MULTIPLIER_ITERATIONS; iteration++) {
     double force = 0.0, force_scale = 0.0, violation = 0.0, violation_scale = 0.0;
-    ali3_mass_times(S, x, in->r);
+    ali3_mass_times(in, x, in->r);
     ali3_rows_transposed(S, in->J, lam, in->x);
     ali3_rows_times(S, in->J, x, in->mu);
     for (int32_t i = 0; i < nq; i++) {
@@ -116,7 +118,7 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  ali3_status status = factorise_metric(in, false);
+  ali3_status status = factorise_metric(in, v->q, false);
   if (status == ALI3_OK) status = close_velocity(in);
   if (status != ALI3_OK) return status;
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
@@ -131,6 +133,10 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
     ali3_forces(in, &call);
   }
   if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
+  if (S->n_flexible > 0) {
+    memcpy(v->mean, v->qd, (size_t)S->size.nq * sizeof(double));
+    memcpy(v->mean_before, v->qd, (size_t)S->size.nq * sizeof(double));
+  }
   status = solve_index_one(in, in->Q, in->gamma, v->qdd, v->lam);
   return status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector) ? ALI3_NOT_FINITE : status;
 }

@@ -16,7 +16,8 @@ typedef struct {
   double plus, minus; /* ends of the difference, PART or 0 where an input may not go further */
 } linear_step;
 
-/* At now + part * tangent: in->x = Phi_q' lam - Q, in->Phi = the rows of a stage, out_work and potential_work. */
+/* At now + part * tangent: in->x = M(q) qdd + Phi_q' lam - Q, in->Phi = the rows of a stage, out_work and
+ * potential_work; qdd are the present ones, and without flexible bodies, whose M changes, its term is left out. */
 static void look(ali3_instance *in, const linear_step *step, double part, int stage) {
   const ali3_system *S = in->system;
   const double *now = in->now.q, *tangent = in->tangent.q;
@@ -30,6 +31,9 @@ static void look(ali3_instance *in, const linear_step *step, double part, int st
     ali3_forces(in, &call);
     ali3_rows_transposed(S, in->J, at->lam, in->x);
     for (int32_t i = 0; i < S->size.nq; i++) in->x[i] -= in->Q[i];
+    if (S->n_flexible == 0) return;
+    ali3_mass_times(in, in->now.qdd, in->w);
+    for (int32_t i = 0; i < S->size.nq; i++) in->x[i] += in->w[i];
     return;
   }
   ali3_rows_times(S, in->J, stage == VELOCITY ? at->qd : at->qdd, in->Phi);
@@ -48,7 +52,7 @@ static void difference(double *first, const double *second, int32_t n, double sp
   for (int32_t i = 0; i < n; i++) first[i] = (first[i] - second[i]) / span;
 }
 
-/* Changes along the tangent: in->r of Phi_q' lam - Q, in->mu of the rows. */
+/* Changes along the tangent: in->r of M qdd + Phi_q' lam - Q at present qdd, in->mu of the rows. */
 static void changes(ali3_instance *in, const linear_step *step, int stage) {
   const ali3_sizes *z = &in->system->size;
   look(in, step, step->plus, stage);
@@ -103,7 +107,8 @@ static double correct(ali3_instance *in, const linear_step *step) {
   ali3_vectors *d = &in->tangent;
   double last = 0.0, size = 0.0;
   changes(in, step, POSITION);
-  ali3_mass_times(S, d->q, in->w);
+  ali3_flexible_prepare(in, in->now.q);
+  ali3_mass_times(in, d->q, in->w);
   for (int32_t k = 0; k < nc; k++) in->mu[k] *= step->alpha;
   ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
   for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->w[i] + step->c * (in->r[i] + in->x[i]));
@@ -180,7 +185,7 @@ ali3_status ali3_input_derivative(ali3_instance *in, const double *direction, do
   const ali3_sizes *z = &in->system->size;
   const ali3_report report = in->report;
   const double h = in->now.h_last[0];
-  linear_step step = {h, 0.25 * h * h, ali3_penalty(&in->settings, h), 0.0, 0.0};
+  linear_step step = {h, 0.25 * h * h, ali3_penalty(in, h), 0.0, 0.0};
   memset(in->tangent.q, 0, in->n_vector * sizeof(double));
   memset(out, 0, (size_t)z->ns * sizeof(double));
   const double scale = scale_direction(in, direction, &step);

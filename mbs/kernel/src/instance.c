@@ -29,7 +29,17 @@ static double *take(double **pool, size_t n) {
   return piece;
 }
 
-static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
+size_t ali3_vector_count(const ali3_system *s) {
+  const ali3_sizes *z = &s->size;
+  const size_t of_coordinates = 4 + ALI3_PAST + (s->n_flexible > 0 ? 2 : 0);
+  return of_coordinates * (size_t)z->nq + (1 + ALI3_PAST) * (size_t)z->nc + 2 * (size_t)z->ny + 3 * (size_t)z->ng +
+         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + (size_t)z->n_switch + (z->n_switch > 0 ? (size_t)z->nc : 0) +
+         ALI3_MEMORY + 1;
+}
+
+static void place_vectors(const ali3_system *s, ali3_vectors *v, double **pool) {
+  const ali3_sizes *z = &s->size;
+  const size_t n_mean = s->n_flexible > 0 ? (size_t)z->nq : 0;
   v->q = take(pool, (size_t)z->nq); /* first: copies and saves start here */
   v->qd = take(pool, (size_t)z->nq);
   v->qdd = take(pool, (size_t)z->nq);
@@ -49,12 +59,8 @@ static void place_vectors(const ali3_sizes *z, ali3_vectors *v, double **pool) {
   v->own = take(pool, (size_t)z->nq);
   v->past_a = take(pool, ALI3_PAST * (size_t)z->nq);
   v->past_lam = take(pool, ALI3_PAST * (size_t)z->nc);
-}
-
-size_t ali3_vector_count(const ali3_sizes *z) {
-  return (4 + ALI3_PAST) * (size_t)z->nq + (1 + ALI3_PAST) * (size_t)z->nc + 2 * (size_t)z->ny + 3 * (size_t)z->ng +
-         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + (size_t)z->n_switch + (z->n_switch > 0 ? (size_t)z->nc : 0) +
-         ALI3_MEMORY + 1;
+  v->mean = take(pool, n_mean);
+  v->mean_before = take(pool, n_mean);
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
@@ -75,16 +81,17 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   if (s == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &s->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ny = (size_t)z->ny, nout = (size_t)z->nout, ne = (size_t)z->ne;
-  const size_t n_vector = ali3_vector_count(z);
+  const size_t n_vector = ali3_vector_count(s);
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
   const size_t total = 5 * n_vector + 3 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
                        5 * (size_t)z->nnz_rows + (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work +
                        (size_t)s->max_front + ny + nout + ne;
+  const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u;
   *out = NULL;
-  char *block = s->memory.allocate(1, head + roads + total * sizeof(double));
+  char *block = s->memory.allocate(1, head + roads + (total + n_flex + n_flex_work) * sizeof(double));
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
   double *pool = (double *)(block + head + roads);
@@ -92,11 +99,11 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->release = s->memory.release;
   in->road = (ali3_road *)(block + head);
   in->n_vector = n_vector;
-  place_vectors(z, &in->now, &pool);
-  place_vectors(z, &in->next, &pool);
-  place_vectors(z, &in->start, &pool);
-  place_vectors(z, &in->whole, &pool);
-  place_vectors(z, &in->tangent, &pool);
+  place_vectors(s, &in->now, &pool);
+  place_vectors(s, &in->next, &pool);
+  place_vectors(s, &in->start, &pool);
+  place_vectors(s, &in->whole, &pool);
+  place_vectors(s, &in->tangent, &pool);
   in->input = take(&pool, nu);
   in->input_work = take(&pool, nu);
   in->input_middle = take(&pool, nu);
@@ -137,6 +144,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->S = take(&pool, n_S);
   in->SB = take(&pool, n_work);
   in->local = take(&pool, (size_t)s->max_front);
+  in->flex = take(&pool, n_flex);
+  in->flex_work = take(&pool, n_flex_work);
   in->y_work = take(&pool, ny);
   in->out_work = take(&pool, nout);
   in->potential_work = take(&pool, ne);

@@ -45,21 +45,10 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   return ALI3_OK;
 }
 
-ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense) {
-  if (in == NULL || dense == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
-  if (lam != NULL && !ali3_finite(lam, in->system->size.nc)) return ALI3_BAD_ARGUMENT;
+/* Lower triangles of the fronts as a dense symmetric matrix. */
+static void spread(const ali3_instance *in, double *dense) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double c = 0.25 * h * h;
-  const ali3_vectors *v = &in->now;
-  const ali3_force_call call = {
-      v->q, v->qd, v->y, h, 0.5 * h, c, true, in->Q, in->y_work, in->out_work, in->potential_work};
-  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  ali3_forces(in, &call);
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  ali3_rows_square(in, in->J, c * ali3_penalty(&in->settings, h), in->F);
-  if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
-  ali3_forces_tangent(in, in->F);
   memset(dense, 0, (size_t)nq * (size_t)nq * sizeof(double));
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
@@ -70,6 +59,32 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
         if (i != j) dense[(int64_t)idx[j] * nq + idx[i]] += value;
       }
   }
+}
+
+ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) {
+  if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
+  memcpy(in->F, in->system->front_mass, (size_t)in->system->size.front_size * sizeof(double));
+  ali3_flexible_prepare(in, q);
+  ali3_flexible_tangent(in, 0.0, 0.0, in->F);
+  spread(in, dense);
+  return ALI3_OK;
+}
+
+ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense) {
+  if (in == NULL || dense == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+  if (lam != NULL && !ali3_finite(lam, in->system->size.nc)) return ALI3_BAD_ARGUMENT;
+  const ali3_system *S = in->system;
+  const double c = 0.25 * h * h;
+  const ali3_vectors *v = &in->now;
+  const ali3_force_call call = {
+      v->q, v->qd, v->y, h, 0.5 * h, c, true, in->Q, in->y_work, in->out_work, in->potential_work};
+  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  ali3_forces(in, &call);
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_rows_square(in, in->J, c * ali3_penalty(in, h), in->F);
+  if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
+  ali3_forces_tangent(in, in->F);
+  spread(in, dense);
   return ALI3_OK;
 }
 

@@ -63,6 +63,7 @@ static ali3_status accelerate(ali3_instance *in, ali3_vectors *v) {
   const ali3_force_call call = {v->q, v->qd, in->now.y, 0.0, 0.0, 0.0, false, in->Q, v->y, v->out, v->potential};
   ali3_forces(in, &call);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  if (S->n_flexible > 0) ali3_flexible_tangent(in, 0.0, 0.0, in->F);
   ali3_rows_square(in, in->J, ALPHA, in->F);
   const ali3_status status = ali3_factorise(in, in->F);
   if (status != ALI3_OK) return status;
@@ -70,7 +71,7 @@ static ali3_status accelerate(ali3_instance *in, ali3_vectors *v) {
     ali3_rows_times(S, in->J, v->qdd, in->mu);
     for (int32_t k = 0; k < nc; k++) in->mu[k] = v->lam[k] + ALPHA * (in->mu[k] + in->gamma[k]);
     ali3_rows_transposed(S, in->J, in->mu, in->x);
-    ali3_mass_times(S, v->qdd, in->r);
+    ali3_mass_times(in, v->qdd, in->r);
     for (int32_t i = 0; i < nq; i++) in->x[i] = in->Q[i] - in->r[i] - in->x[i];
     ali3_solve(in, in->F, in->x);
     for (int32_t i = 0; i < nq; i++) v->qdd[i] += in->x[i];
@@ -158,6 +159,8 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
   if (status != ALI3_OK) return status;
   to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
+  for (int32_t i = 0; i < nq; i++) in->D[i] = to->q[i] - from->q[i];
+  ali3_predict_accept(in, h);
   to->h_last[0] = 0.0;
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
   const ali3_vectors swap = in->now;

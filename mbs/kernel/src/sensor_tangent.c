@@ -72,14 +72,32 @@ static double quaternion(const ali3_instance *in, int32_t wanted, const int32_t 
   return wanted == 0 ? -0.5 * dot(w, p + 1) : 0.5 * (p[0] * w[wanted - 1] + one[wanted - 1]);
 }
 
+/* What the positions change in the energies of flexible bodies: they are quadratic in q, for which differences of any
+ * width are exact. */
+static void flexible_energy(const ali3_instance *in, double *kinetic, double *gravity, double *elastic) {
+  const int32_t nq = in->system->size.nq;
+  for (int side = -1; side <= 1; side += 2) {
+    double twice = 0.0, of_weight = 0.0, of_strain = 0.0;
+    for (int32_t i = 0; i < nq; i++) in->w[i] = in->now.q[i] + side * in->tangent.q[i];
+    ali3_flexible_prepare(in, in->w);
+    ali3_flexible_energy(in, in->w, &of_weight, &of_strain);
+    memset(in->x, 0, (size_t)nq * sizeof(double));
+    ali3_flexible_mass_times(in, in->now.qd, in->x);
+    for (int32_t i = 0; i < nq; i++) twice += in->x[i] * in->now.qd[i];
+    *kinetic += 0.25 * side * twice;
+    *gravity += 0.5 * side * of_weight;
+    *elastic += 0.5 * side * of_strain;
+  }
+}
+
 static double energy(const ali3_instance *in, int32_t kind) {
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = 0.0, elastic = 0.0;
+  if (S->n_flexible > 0) flexible_energy(in, &kinetic, &gravity, &elastic);
+  ali3_flexible_prepare(in, in->now.q);
+  ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    double momentum = 0.0;
-    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++)
-      momentum += S->mass_val[k] * in->now.qd[S->mass_col[k]];
-    kinetic += momentum * in->tangent.qd[i];
+    kinetic += in->x[i] * in->tangent.qd[i];
     gravity -= S->gravity_force[i] * in->tangent.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->tangent.potential[e];
@@ -117,6 +135,31 @@ static double angle_about(const ali3_instance *in, const int32_t *v) {
   return angle_change(dot(turn.v, c.v), dot(a.v, b.v), dot_change(&turn, &c), dot_change(&a, &b));
 }
 
+/* Products of axes with forces at ports and accelerations, as in sensors.c. */
+static double quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
+  const int32_t n = v[0], *row = v + 13;
+  const double *gravity = real, *weight = real + 3;
+  moving axis[3], rdd = vector(in, v + 1, 2, 3);
+  double sum = 0.0;
+  for (int i = 0; i < 3; i++) axis[i] = vector(in, v + 4 + 3 * i, 0, 3);
+  for (int k = 0; k < 3; k++) rdd.v[k] -= gravity[k];
+  for (int32_t p = 0; p < n; p++, row += 3, weight += 3) {
+    moving force;
+    for (int k = 0; k < 3; k++) {
+      force.v[k] = in->system->row_scale[row[k]] * in->now.lam[row[k]];
+      force.d[k] = in->system->row_scale[row[k]] * in->tangent.lam[row[k]];
+    }
+    for (int i = 0; i < 3; i++) sum += weight[i] * dot_change(&axis[i], &force);
+  }
+  for (int i = 0; i < 3; i++) sum += weight[i] * dot_change(&axis[i], &rdd);
+  weight += 3;
+  for (int j = 0; j < 3; j++) {
+    const moving add = vector(in, v + 4 + 3 * j, 2, 3);
+    for (int i = 0; i < 3; i++) sum += weight[3 * i + j] * dot_change(&axis[i], &add);
+  }
+  return sum;
+}
+
 static double change(const ali3_instance *in, int32_t type, const int32_t *v, const double *real, const double *p) {
   const ali3_vectors *d = &in->tangent;
   switch (type) {
@@ -152,8 +195,10 @@ static double change(const ali3_instance *in, int32_t type, const int32_t *v, co
     return norm(in, v);
   case 15:
     return direction(in, v);
-  default:
+  case 16:
     return angle_about(in, v);
+  default:
+    return quasi_static(in, v, real);
   }
 }
 

@@ -70,11 +70,11 @@ void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]) {
 static double energy(const ali3_instance *in, int32_t kind) {
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = S->gravity_const[0], elastic = 0.0;
+  ali3_flexible_prepare(in, in->now.q);
+  ali3_flexible_energy(in, in->now.q, &gravity, &elastic);
+  ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    double momentum = 0.0;
-    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++)
-      momentum += S->mass_val[k] * in->now.qd[S->mass_col[k]];
-    kinetic += 0.5 * momentum * in->now.qd[i];
+    kinetic += 0.5 * in->x[i] * in->now.qd[i];
     gravity -= S->gravity_force[i] * in->now.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->now.potential[e];
@@ -119,6 +119,28 @@ static double angle_about(const ali3_instance *in, const int32_t *v) {
   return ali3_atan2(dot(cross, c), dot(a, b));
 }
 
+/* Forces at the ports, specific acceleration and spin of the origin in body axes, times constant weights. */
+static double quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
+  const int32_t n = v[0], *row = v + 13;
+  const double *gravity = real, *weight = real + 3;
+  double axis[3][3], rdd[3], add[3], sum = 0.0;
+  for (int i = 0; i < 3; i++) vector(in, v + 4 + 3 * i, 0, axis[i]);
+  vector(in, v + 1, 2, rdd);
+  for (int k = 0; k < 3; k++) rdd[k] -= gravity[k];
+  for (int32_t p = 0; p < n; p++, row += 3, weight += 3) {
+    double force[3];
+    for (int k = 0; k < 3; k++) force[k] = in->system->row_scale[row[k]] * in->now.lam[row[k]];
+    for (int i = 0; i < 3; i++) sum += weight[i] * dot(axis[i], force);
+  }
+  for (int i = 0; i < 3; i++) sum += weight[i] * dot(axis[i], rdd);
+  weight += 3;
+  for (int j = 0; j < 3; j++) {
+    vector(in, v + 4 + 3 * j, 2, add);
+    for (int i = 0; i < 3; i++) sum += weight[3 * i + j] * dot(axis[i], add);
+  }
+  return sum;
+}
+
 static double value(const ali3_instance *in, int32_t type, const int32_t *v, const double *real) {
   const ali3_vectors *now = &in->now;
   double n[4];
@@ -154,8 +176,10 @@ static double value(const ali3_instance *in, int32_t type, const int32_t *v, con
     return norm(in, v);
   case 15:
     return direction(in, v);
-  default:
+  case 16:
     return angle_about(in, v);
+  default:
+    return quasi_static(in, v, real);
   }
 }
 

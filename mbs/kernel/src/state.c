@@ -17,7 +17,7 @@ enum { CHECKED_FROM = 28 }; /* the checksum covers what follows it */
 
 size_t ali3_state_size(const ali3_system *s) {
   if (s == NULL) return 0;
-  const size_t numbers = 2 + ali3_vector_count(&s->size) + (size_t)s->size.nu + (size_t)s->size.np;
+  const size_t numbers = 2 + ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np;
   return sizeof(ali3_state_header) + sizeof(ali3_settings) + sizeof(ali3_report) + numbers * sizeof(double);
 }
 

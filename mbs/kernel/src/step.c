@@ -9,6 +9,7 @@ enum { MAX_SWEEPS = 3 };
 /* Relative violations at which projections end: velocities at round-off; accelerations only steer the next
  * prediction. */
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
+static const double MOST_STIFF = 100.0; /* a higher penalty would only bring round-off */
 
 bool ali3_finite(const double *v, int64_t n) {
   double sum = 0.0; /* x - x is 0 for finite x, NaN else */
@@ -16,16 +17,23 @@ bool ali3_finite(const double *v, int64_t n) {
   return sum == 0.0;
 }
 
-void ali3_mass_times(const ali3_system *S, const double *x, double *out) {
+void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
+  const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.nq; i++) {
     double sum = 0.0;
     for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += S->mass_val[k] * x[S->mass_col[k]];
     out[i] = sum;
   }
+  if (S->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
 }
 
-/* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. */
-double ali3_penalty(const ali3_settings *s, double h) { return s->alpha > 0.0 ? s->alpha : 1.0 / (s->eps_rel * h * h); }
+/* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
+ * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as fast. */
+double ali3_penalty(const ali3_instance *in, double h) {
+  const ali3_settings *s = &in->settings;
+  const double stiff = 0.25 * h * h * in->system->flex_rate;
+  return s->alpha > 0.0 ? s->alpha : (1.0 + (stiff < MOST_STIFF ? stiff : MOST_STIFF)) / (s->eps_rel * h * h);
+}
 
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   double largest = 0.0;
@@ -89,7 +97,7 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
   const ali3_force_call call = {to->q,   to->qd, in->now.y, h,       in->rule.wC,  c,
                                 tangent, in->Q,  to->y,     to->out, to->potential};
   ali3_forces(in, &call);
-  ali3_mass_times(S, in->w, in->r);
+  ali3_mass_times(in, in->w, in->r);
   for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
 }
 
@@ -206,18 +214,18 @@ static void algorithmic_acceleration(ali3_instance *in, double h) {
 static ali3_status attempt(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double alpha = ali3_penalty(&in->settings, h);
+  const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
   const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA;
   int32_t iterations = 0;
   ali3_guides_step(in, from, to, t, h);
   ali3_switch_carry(in);
+  ali3_predict(in, h);
   if (is_alpha)
     generalised_alpha(in, h);
   else
     trapezoidal(in, h);
   const double c = in->rule.c;
-  for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * from->qdd[i];
   memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
@@ -234,6 +242,7 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
     to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_ALI3P;
   const ali3_force_call call = {to->q, to->qd, from->y, h, in->rule.wC, c, false, in->Q, to->y, to->out, to->potential};
   ali3_forces_accept(in, &call);
+  ali3_predict_accept(in, h);
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);

@@ -38,7 +38,8 @@ void ali3_switch_carry(ali3_instance *in) {
 
 static double kinetic_energy(ali3_instance *in) {
   double twice = 0.0;
-  ali3_mass_times(in->system, in->now.qd, in->w);
+  ali3_flexible_prepare(in, in->now.q);
+  ali3_mass_times(in, in->now.qd, in->w);
   for (int32_t i = 0; i < in->system->size.nq; i++) twice += in->w[i] * in->now.qd[i];
   return 0.5 * twice;
 }

@@ -173,6 +173,7 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(check_parameters(s, m));
   CHECK(ali3_check_fronts(s, m));
   CHECK(ali3_check_rows(s, m));
+  CHECK(ali3_check_flexible(s, m));
   CHECK(ali3_check_elements(s, m));
   s->size.nout = s->size.ne > 0 ? s->el_out_ptr[s->size.ne] : 0;
   if (s->size.nout > MAX_OUTPUTS) return ali3_bad(m, "%d element outputs", (int)s->size.nout);

@@ -48,6 +48,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_coordinate_ptr = take(p, ne + 1, sizeof(int32_t));
   s->el_coordinate_loc = take(p, n_entry, sizeof(int32_t));
   s->active_signal = take(p, (size_t)s->size.nsig, sizeof(int32_t));
+  s->flex_square = take(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
 }
 
 /* Front storage index of the product of entries i >= j of the Jacobian in row k. */
@@ -165,6 +166,20 @@ static void derive_mass(ali3_system *s) {
   }
 }
 
+static void derive_flexible(ali3_system *s) {
+  s->flex_square[0] = 0;
+  for (int32_t b = 0; b < s->n_flexible; b++) {
+    const int32_t n = s->flex_mode_ptr[b + 1] - s->flex_mode_ptr[b];
+    s->flex_square[b + 1] = s->flex_square[b] + n * n;
+    if (n > s->max_modes) s->max_modes = n;
+    for (int32_t j = 0; j < n; j++) {
+      const double mass = s->front_mass[s->diagonal_pos[s->flex_mode[s->flex_mode_ptr[b] + j]]];
+      const double rate = mass > 0.0 ? s->flex_K[s->flex_square[b] + (int64_t)j * (n + 1)] / mass : 0.0;
+      if (rate > s->flex_rate) s->flex_rate = rate;
+    }
+  }
+}
+
 static int compare_int32(const void *a, const void *b) {
   const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
   return (x > y) - (x < y);
@@ -233,6 +248,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_hessian(s);
   derive_mass(s);
   derive_elements(s);
+  derive_flexible(s);
   s->shift_x = s->shift_y = s->shift_z = -1;
   if (s->size.has_pose) {
     s->shift_x = first_nonzero(s->pose_x, s->size.nq);

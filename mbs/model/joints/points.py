@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike
 from mbs.affine import Affine
 from mbs.errors import ModelError
 from mbs.model.body import Body
-from mbs.model.checks import direction
+from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
+from mbs.model.flexible import bends, located
 from mbs.model.joints.joint import Joint, equal_vectors, point_pair
 
 _BIG = 1.0 - 1e-12
@@ -25,9 +26,25 @@ def shared_point(model: ModelCore, name: str, body_1: Body, body_2: Body, point:
 
 
 def shared_axis(model: ModelCore, name: str, body_1: Body, body_2: Body, axis: Any, what: str) -> list[Equation]:
-    """The unit vector of body 1 is the unit vector of body 2."""
+    """The unit vector of body 1 is the unit vector of body 2; of nodes that bend, their directions are the same."""
     a1, a2 = point_pair(axis, model.dimension, what)
-    return equal_vectors(name, "axis", model.anchor_axis(body_1, a1, what), model.anchor_axis(body_2, a2, what))
+    if may_share(body_1, body_2):
+        return equal_vectors(name, "axis", model.anchor_axis(body_1, a1, what), model.anchor_axis(body_2, a2, what))
+    if bends(body_2) and not bends(body_1):
+        body_1, body_2, a1, a2 = body_2, body_1, a2, a1
+    along = model.anchor_axis(body_1, a1, what)
+    across = perpendicular(direction(a2, 3, f"the axis of {what} on body '{body_2.name}'"))
+    return [Equation(name, "axis", dot_products(along, model.anchor_axis(body_2, e, what))) for e in across]
+
+
+def may_share(body_1: Body, body_2: Body) -> bool:
+    """Whether vectors of one body may become those of the other: not where a node bends or a flexible frame meets the
+    ground or another one, because their unit length, which stays a condition of its own, would be stated twice.
+    """
+    if not (body_1.is_flexible or body_2.is_flexible):
+        return True
+    rigid = body_2 if body_1.is_flexible else body_1
+    return not (bends(body_1) or bends(body_2) or rigid.is_ground or rigid.is_flexible)
 
 
 def different(body_1: Body, body_2: Body, what: str) -> None:
@@ -40,6 +57,8 @@ def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     """Shared point (spatial: ball joint)."""
     what = f"spherical joint '{name}'"
     different(body_1, body_2, what)
+    p1, p2 = point_pair(point, model.dimension, what)
+    body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     return Joint(name, "spherical", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
 
 
@@ -47,6 +66,8 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
     """Shared point and, in space, shared axis: all equations are linear."""
     what = f"revolute joint '{name}'"
     different(body_1, body_2, what)
+    p1, p2 = point_pair(point, model.dimension, what)
+    body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
     if model.dimension == 3:
         if axis is None:
@@ -65,6 +86,8 @@ def universal(
     if model.dimension == 2:
         raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
     different(body_1, body_2, what)
+    p1, p2 = point_pair(point, model.dimension, what)
+    body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     u1, u2 = direction(axis_1, 3, f"axis_1 of {what}"), direction(axis_2, 3, f"axis_2 of {what}")
     cosine = float(np.dot(u1, u2))
     if abs(cosine) > _BIG:

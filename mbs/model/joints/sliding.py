@@ -13,8 +13,9 @@ from mbs.model.body import Body
 from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
+from mbs.model.flexible import Interface, bends, located
 from mbs.model.joints.joint import Joint, equal_vectors, point_pair
-from mbs.model.joints.points import different, shared_axis, shared_point
+from mbs.model.joints.points import different, may_share, shared_axis, shared_point
 
 
 def _normals(model: ModelCore, body: Body, axis: ArrayLike, what: str) -> list[AffineVector]:
@@ -40,12 +41,19 @@ def on_line(
 
 
 def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, what: str) -> list[Equation]:
-    """Body 1 does not turn against body 2: all axes are shared (linear)."""
+    """Body 1 does not turn against body 2: all axes are shared (linear); of nodes that bend, their directions."""
     axes = np.eye(model.dimension)[: 1 if model.dimension == 2 else 3]
     for body in (body_1, body_2):
         if model.owned(body, f"The {what}").is_point:
             raise ModelError(f"The {what} needs bodies with axes; '{body.name}' is a point mass.")
-    return [e for u in axes for e in equal_vectors(name, "axis", body_1.vector(u), body_2.vector(u))]
+    if may_share(body_1, body_2):
+        return [e for u in axes for e in equal_vectors(name, "axis", body_1.vector(u), body_2.vector(u))]
+    if bends(body_2) and not bends(body_1):
+        body_1, body_2 = body_2, body_1
+    first = [model.anchor_axis(body_1, u, what) for u in axes[:2]]
+    second = [model.anchor_axis(body_2, u, what) for u in axes[1:]]
+    pairs = ((first[0], second[0]), (first[0], second[1]), (first[1], second[1]))
+    return [Equation(name, "axis", dot_products(u, v)) for u, v in pairs]
 
 
 def point_on_line(
@@ -65,6 +73,7 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
         raise ModelError(f"The {what} needs a spatial model; in the plane use point_on_line.")
     different(body_1, body_2, what)
     p1, p2 = point_pair(point, 3, what)
+    body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_axis(model, name, body_1, body_2, axis, what)
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
     return Joint(name, "cylindrical", equations + line, normals=normals)
@@ -88,7 +97,7 @@ def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
     """Both bodies move as one; all equations are linear."""
     what = f"weld '{name}'"
     different(body_1, body_2, what)
-    point = body_2.com if body_1.is_ground else body_1.com
+    point = body_2.com if body_1.is_ground or isinstance(body_2, Interface) else body_1.com
     if body_1.is_point or body_2.is_point:
         point = body_1.com if body_1.is_point else body_2.com
         return Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)

@@ -1,15 +1,20 @@
-"""The prototype car of the paper (section 3.4), rigid: 14 degrees of freedom, steering, throttle and brake."""
+"""The prototype car of the paper (sections 3.4 and 4), rigid or with a flexible chassis: steering, throttle, brake."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.model import Model
+from mbs.model.guides import Guide
 from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.chassis import chassis as chassis_of
+from mbs.scenes.prototype_car.chassis import stress_outputs
 from mbs.scenes.prototype_car.front_suspension import front_suspension
 from mbs.scenes.prototype_car.outputs import chassis_outputs, control_outputs, health_outputs, wheel_outputs
 from mbs.scenes.prototype_car.rear_suspension import rear_suspension
@@ -25,7 +30,7 @@ FOOTPRINT = (
 )  # m, x and y of the car as drawn, from the rear edge of its wheels to the front one
 
 
-def build(road: Road | None = None) -> Model:
+def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Model], Guide] | None = None) -> Model:
     """The car at rest in static equilibrium, its front axle over the origin.
 
     Where the road under it is not level nothing but the brakes could hold it: there it starts as drawn, level, and
@@ -36,6 +41,11 @@ def build(road: Road | None = None) -> Model:
     road : Road, optional
         By default level ground with a kerb, down by `road.kerb_height` at `road.kerb_x` (parameters; far away unless
         set), and the friction `road.friction`.
+    fidelity : int or str
+        Rung of the ladder: 0 rigid, 1 rigid with quasi-static stresses, 2 flexible with the static modes of the load
+        paths, 3 with static, inertia and 5 dynamic modes, 4 with many modes; "paper": 60 static and 5 dynamic modes.
+    guide : callable, optional
+        Makes the guide of the x coordinate of the floor's centre, m; the selector is then in neutral.
     """
     m = Model("prototype car", gravity=(0.0, 0.0, -car_data.GRAVITY))
     m.floating = True
@@ -50,15 +60,15 @@ def build(road: Road | None = None) -> Model:
     )
     ground = m.road(road or KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", FRICTION))
 
-    chassis = m.body("chassis", **car_data.CHASSIS)
+    parts = chassis_of(m, fidelity)
+    chassis = parts.frame
     spins = {}
     for side in FRONT_SIDES:
-        spins[side.wheel] = wheel(m, front_suspension(m, chassis, side, rack), side, ground, pedal)
+        spins[side.wheel] = wheel(m, front_suspension(m, parts.body, side, rack), side, ground, pedal)
     for side in REAR_SIDES:
-        spins[side.wheel] = wheel(m, rear_suspension(m, chassis, side), side, ground, pedal)
-    # x and z of the chassis: the reaction of the drive is about its lateral axis (z cross x = y)
-    z, x = chassis.vector((0.0, 0.0, 1.0)), chassis.vector((1.0, 0.0, 0.0))
-    drive = AutomaticDrive(**car_data.DRIVELINE)
+        spins[side.wheel] = wheel(m, rear_suspension(m, parts.body, side), side, ground, pedal)
+    z, x = parts.drive_axes  # the reaction of the drive is about the lateral axis of the chassis (z cross x = y)
+    drive = AutomaticDrive(**(car_data.DRIVELINE if guide is None else car_data.DRIVELINE | {"creep_torque": 0.0}))
     m.add(drive.record("drive", spins["RL"].coordinate, spins["RR"].coordinate, z, x, throttle.index))
     m.drag("drag", chassis, car_data.REFERENCE_POINT, drag_area=car_data.DRAG_AREA, air_density=car_data.AIR_DENSITY)
 
@@ -73,14 +83,20 @@ def build(road: Road | None = None) -> Model:
     )
     m.equilibrium_parameters = {"drive.creep_torque": 0.0}
     _road_parameters(m, road, ground)
-    chassis_outputs(m, chassis)
+    chassis_outputs(m, chassis, parts.accelerated)
     control_outputs(m, rack, [steering, throttle, pedal])
     for w, spin in spins.items():
         wheel_outputs(m, chassis, spin, w)
     health_outputs(m)
+    stress_outputs(m, parts, fidelity)
+    if guide is not None:
+        m.drive("guided way", chassis.point(parts.origin)[0], guide(m))
     return m
 
 
+def variants() -> dict[int, Callable[[], Model]]:
+    """The rungs an FMU offers by its parameter `fidelity`."""
+    return {k: partial(build, None, k) for k in range(4)}
 def _level_under_the_car(road: Road | None) -> bool:
     if isinstance(road, PlaneRoad):
         return road.grade_x == 0.0 and road.grade_y == 0.0
@@ -127,4 +143,4 @@ def _road_parameters(m: Model, road: Road | None, ground: int) -> None:
         )
 
 
-__all__ = ["build"]
+__all__ = ["build", "variants"]

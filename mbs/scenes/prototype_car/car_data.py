@@ -18,6 +18,8 @@ TOTAL_MASS = 597.0  # [P]
 WHEELBASE = 2.300  # [A]
 REFERENCE_POINT = (-1.3046, 0.0, 0.3530)  # centre of mass of the whole car, origin of the vehicle axes [A]
 
+FLOOR_CENTRE = (-1.100, 0.0, 0.160)  # node of the frame that carries the floating frame [A]
+
 CHASSIS: dict[str, Any] = {  # frame, engine, driver, equipment [A]
     "mass": 476.0,
     "com": (-1.3321, 0.0, 0.3769),

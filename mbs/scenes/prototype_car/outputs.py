@@ -17,8 +17,8 @@ from mbs.scenes.prototype_car.car_data import ACCELEROMETERS, RACK_PER_TURN, REF
 FORWARD, LEFT, UP = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
-def chassis_outputs(m: Model, chassis: Body) -> None:
-    """Pose, velocity and acceleration of the reference point, in earth and vehicle axes."""
+def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
+    """Pose, velocity and acceleration of the reference point; accelerometers on `accelerated`."""
     for c in "xyz":
         m.sense_position(
             f"chassis.{c}",
@@ -53,7 +53,7 @@ def chassis_outputs(m: Model, chassis: Body) -> None:
         for c in "xyz":
             m.sense_acceleration(
                 f"accelerometer_{corner}.a{c}",
-                chassis,
+                accelerated,
                 point,
                 c,
                 chassis,

@@ -1,0 +1,132 @@
+"""Forces of the suspension on the frame of the prototype car at rest, from the equilibrium of each corner alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from mbs.scenes.prototype_car.car_data import (
+    FRONT,
+    FRONT_BODIES,
+    FRONT_WHEEL,
+    GRAVITY,
+    REAR,
+    REAR_BODIES,
+    REAR_WHEEL,
+    REFERENCE_POINT,
+    TOTAL_MASS,
+    WHEELBASE,
+)
+
+# interface node of the frame (without its side) to the point of the suspension
+FRONT_NODES = {
+    "LF": "lower_pivot_front",
+    "LR": "lower_pivot_rear",
+    "UF": "upper_pivot_front",
+    "UR": "upper_pivot_rear",
+    "RK": "tie_rod_inner",
+    "TF": "spring_upper",
+}
+REAR_NODES = {"AF": "lower_pivot_front", "AR": "lower_pivot_rear", "TL": "toe_link_inner", "TR": "strut_top"}
+
+
+def wheel_loads() -> tuple[float, float]:
+    """Front and rear vertical wheel load, N."""
+    weight = TOTAL_MASS * GRAVITY
+    front = weight * (WHEELBASE + REFERENCE_POINT[0]) / WHEELBASE / 2
+    return front, weight / 2 - front
+
+
+class _Corner:
+    """Equilibrium of several bodies: joints push along given directions at given points."""
+
+    def __init__(self, bodies: list[str]) -> None:
+        self.bodies = bodies
+        self.columns: list[np.ndarray] = []
+        self.names: list[tuple[str, np.ndarray]] = []
+        self.load = np.zeros(6 * len(bodies))
+
+    def _wrench(self, body: str, force: np.ndarray, point: np.ndarray) -> np.ndarray:
+        w = np.zeros(6 * len(self.bodies))
+        if body in self.bodies:
+            at = 6 * self.bodies.index(body)
+            w[at : at + 3], w[at + 3 : at + 6] = force, np.cross(point, force)
+        return w
+
+    def unknown(
+        self, name: str, first: str, second: str, directions: np.ndarray, p1: np.ndarray, p2: np.ndarray
+    ) -> None:
+        """A force on body `first` at p1 along each direction, and its opposite on `second` at p2."""
+        for d in directions:
+            self.columns.append(self._wrench(first, d, p1) - self._wrench(second, d, p2))
+            self.names.append((name, d))
+
+    def known(self, body: str, force: np.ndarray, point: np.ndarray) -> None:
+        self.load += self._wrench(body, force, point)
+
+    def solve(self) -> dict[str, np.ndarray]:
+        """Least-norm solution: hinges share an axial force equally."""
+        G = np.array(self.columns).T
+        x, *_ = np.linalg.lstsq(G, -self.load, rcond=1e-10)
+        if not np.allclose(G @ x, -self.load, atol=1e-8 * np.abs(self.load).max()):
+            raise RuntimeError(f"The bodies {', '.join(self.bodies)} cannot be in equilibrium.")
+        forces: dict[str, np.ndarray] = {}
+        for (name, d), value in zip(self.names, x, strict=True):
+            forces[name] = forces.get(name, np.zeros(3)) + value * d
+        return forces
+
+
+def _weigh(c: _Corner, body: str, data: dict[str, Any]) -> None:
+    c.known(body, np.array([0.0, 0.0, -data["mass"] * GRAVITY]), np.array(data["com"]))
+
+
+def front_forces() -> dict[str, np.ndarray]:
+    """Forces on the left front interfaces of the frame, N."""
+    p = {k: np.array(v) for k, v in FRONT.items()}
+    c = _Corner(["lower", "upper", "upright"])
+    axes = np.eye(3)
+    for end, node in (("front", "F"), ("rear", "R")):
+        for arm, letter in (("lower", "L"), ("upper", "U")):
+            at = p[f"{arm}_pivot_{end}"]
+            c.unknown(letter + node, "frame", arm, axes, at, at)
+    for arm in ("lower", "upper"):
+        at = p[f"{arm}_ball_joint"]
+        c.unknown(f"ball {arm}", arm, "upright", axes, at, at)
+    spring = p["spring_upper"] - p["spring_lower"]
+    c.unknown("TF", "frame", "lower", (spring / np.linalg.norm(spring))[None], p["spring_upper"], p["spring_lower"])
+    rod = p["tie_rod_inner"] - p["tie_rod_outer"]
+    c.unknown("RK", "frame", "upright", (rod / np.linalg.norm(rod))[None], p["tie_rod_inner"], p["tie_rod_outer"])
+    for body, name in (("lower", "lower_wishbone"), ("upper", "upper_wishbone"), ("upright", "upright")):
+        _weigh(c, body, FRONT_BODIES[name])
+    up = wheel_loads()[0] - FRONT_WHEEL["mass"] * GRAVITY
+    c.known("upright", np.array([0.0, 0.0, up]), p["wheel_centre"])
+    solution = c.solve()
+    return {n: solution[n] for n in FRONT_NODES}
+
+
+def rear_forces() -> dict[str, np.ndarray]:
+    """Forces on the left rear interfaces of the frame, N."""
+    p = {k: np.array(v) for k, v in REAR.items()}
+    c = _Corner(["arm", "upright"])
+    axes = np.eye(3)
+    for end, node in (("front", "AF"), ("rear", "AR")):
+        c.unknown(node, "frame", "arm", axes, p[f"lower_pivot_{end}"], p[f"lower_pivot_{end}"])
+    c.unknown("ball", "arm", "upright", axes, p["lower_ball_joint"], p["lower_ball_joint"])
+    c.unknown("TR", "frame", "upright", axes, p["strut_top"], p["strut_top"])
+    rod = p["toe_link_inner"] - p["toe_link_outer"]
+    c.unknown("TL", "frame", "upright", (rod / np.linalg.norm(rod))[None], p["toe_link_inner"], p["toe_link_outer"])
+    _weigh(c, "arm", REAR_BODIES["lower_arm"])
+    _weigh(c, "upright", REAR_BODIES["upright"])
+    up = wheel_loads()[1] - REAR_WHEEL["mass"] * GRAVITY
+    c.known("upright", np.array([0.0, 0.0, up]), p["wheel_centre"])
+    solution = c.solve()
+    return {n: solution[n] for n in REAR_NODES}
+
+
+def interface_forces(names: Sequence[str], front_factor: float = 1.0, rear_factor: float = 1.0) -> np.ndarray:
+    """Forces on all interfaces in the order of `names` (node names with side), shape (3 n,), N."""
+    left = {n: front_factor * f for n, f in front_forces().items()}
+    left |= {n: rear_factor * f for n, f in rear_forces().items()}
+    return np.concatenate([left[n[:-1]] * (np.array([1, -1, 1]) if n[-1] == "R" else 1) for n in names])

@@ -1,0 +1,82 @@
+/* The Systems an FMU offers by its parameter fidelity, one file each; an instance has one of them loaded. */
+#include <stdio.h>
+#include <string.h>
+
+#include "slave.h"
+
+/* Whether the table and the System speak of the same things. */
+static bool table_fits(const ali3_system *system, size_t fidelity) {
+  const slave_table *t = &slave_the_table;
+  const ali3_sizes z = ali3_system_sizes(system);
+  if (t->n_variables != t->n_known + (size_t)z.ns) return false;
+  if (t->first_row[fidelity + 1] - t->first_row[fidelity] != (size_t)z.nc) return false;
+  for (size_t i = 0; i < t->n_variables; i++) {
+    const slave_variable *v = &t->variable[i];
+    const int32_t limit[] = {z.nu, z.np, z.has_pose ? 5 : 0, 1, 1, z.ns};
+    if (v->index < 0 || v->index >= limit[v->source]) return false;
+  }
+  return true;
+}
+
+void slave_rung_free(const slave *s, slave_rung *rung) {
+  if (rung->saved != NULL) s->memory.release(rung->saved);
+  if (rung->kernel != NULL) ali3_instance_free(rung->kernel);
+  if (rung->system != NULL) ali3_system_free(rung->system);
+  memset(rung, 0, sizeof *rung);
+}
+
+/* False, and said, if it cannot be loaded; then the rung is empty. */
+bool slave_rung_load(slave *s, size_t fidelity, slave_rung *rung) {
+  char file[32], message[256] = "";
+  size_t size = 0;
+  memset(rung, 0, sizeof *rung);
+  snprintf(file, sizeof file, "system_%u.ali3", (unsigned)fidelity);
+  if (fidelity >= slave_the_table.n_systems) {
+    slave_say(s, SLAVE_ERROR, "There is no fidelity %u in this FMU.", (unsigned)fidelity);
+    return false;
+  }
+  unsigned char *bytes = slave_read(s->resources, file, &s->memory, &size);
+  if (bytes == NULL) {
+    slave_say(s, SLAVE_ERROR, "The file %s of the FMU cannot be read in %s.", file, s->resources);
+    return false;
+  }
+  ali3_status status = ali3_system_load_with(bytes, size, &s->memory, &rung->system, message, sizeof message);
+  s->memory.release(bytes);
+  if (status == ALI3_OK && !table_fits(rung->system, fidelity)) {
+    slave_say(s, SLAVE_ERROR, "The file %s does not belong to this FMU.", file);
+    slave_rung_free(s, rung);
+    return false;
+  }
+  if (status == ALI3_OK) status = ali3_instance_new(rung->system, &rung->kernel);
+  if (status == ALI3_OK) {
+    rung->saved = s->memory.allocate(1, ali3_state_size(rung->system));
+    if (rung->saved == NULL) status = ALI3_NO_MEMORY;
+  }
+  if (status != ALI3_OK) {
+    slave_say(s, SLAVE_ERROR, "The file %s was refused: %s%s%s.", file, ali3_status_text(status),
+              message[0] != 0 ? ": " : "", message);
+    slave_rung_free(s, rung);
+    return false;
+  }
+  rung->fidelity = fidelity;
+  const ali3_sizes z = ali3_system_sizes(rung->system);
+  slave_say(s, SLAVE_OK, "System loaded: %d coordinates, %d rows, %d inputs, %d outputs.", (int)z.nq, (int)z.nc,
+            (int)z.nu, (int)z.ns);
+  return true;
+}
+
+void slave_rung_take(slave *s, const slave_rung *rung) {
+  slave_rung_free(s, &s->rung);
+  s->rung = *rung;
+}
+
+/* The System of the fidelity among the values. */
+bool slave_rung_choose(slave *s) {
+  slave_rung rung;
+  if (s->fidelity_reference == slave_the_table.n_variables) return true;
+  const size_t wanted = (size_t)s->value[s->fidelity_reference];
+  if (wanted == s->rung.fidelity) return true;
+  if (!slave_rung_load(s, wanted, &rung)) return false;
+  slave_rung_take(s, &rung);
+  return true;
+}

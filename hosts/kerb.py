@@ -1,0 +1,133 @@
+"""The paper's test in one picture: ``python -m hosts.kerb [FMU] [--fidelity N] [--step H] [--out DIR]``.
+
+Runs the FMU of the scene kerb_test for 15 s and draws the bending moments at the gauges, unfiltered and after a
+low-pass of 10 Hz, with the three intervals of the paper's Figure 8 marked. All through FMI.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt
+
+from hosts.drive import write_csv
+from hosts.errors import HostError
+from hosts.fmu import Fmu
+from hosts.low_pass import low_pass
+from hosts.manoeuvre import Manoeuvre
+from hosts.plot_page import BLACK, BLUE, RED
+from hosts.run import Result, run
+
+DEFAULT_FMU = Path("dist", "KerbTestPython.fmu")
+DURATION = 15.0  # s
+INTERVALS = ((0.0, 5.0, "at rest"), (5.0, 10.0, "moving"), (10.0, 15.0, "at rest"))  # s
+GAUGES = ("SG1", "SG2", "SG3", "SG4")
+PLACES = {"SG1": "front left", "SG2": "front right", "SG3": "rear left", "SG4": "rear right"}
+FREQUENCY = 10.0  # Hz
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; 0 if every step was accepted."""
+    parser = argparse.ArgumentParser(
+        prog="python -m hosts.kerb", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("fmu", nargs="?", type=Path, default=DEFAULT_FMU, metavar="FMU", help=f"default: {DEFAULT_FMU}")
+    parser.add_argument("--fidelity", type=float, metavar="N", help="1 to 3; default: that of the FMU")
+    parser.add_argument("--step", type=float, default=0.01, metavar="H", help="communication step, s; default: 0.01")
+    parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
+    options = parser.parse_args(arguments)
+    try:
+        return _kerb(options.fmu, options.fidelity, options.step, options.out)
+    except HostError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+
+
+def _kerb(path: Path, fidelity: float | None, step: float, out: Path) -> int:
+    if not 0.0 < step < 0.5 / FREQUENCY:
+        raise HostError(f"The step is {step} s; it must be positive and below {0.5 / FREQUENCY:g} s for the filter.")
+    if not path.is_file() and path == DEFAULT_FMU:
+        raise HostError(f"There is no file {path}. Build it with: python build_fmu.py --scene kerb_test")
+    start = {} if fidelity is None else {"fidelity": fidelity}
+    with Fmu(path) as fmu:
+        missing = [f"bending_moment.{g}" for g in GAUGES if f"bending_moment.{g}" not in fmu.variables]
+        if missing:
+            raise HostError(f"{path} has no {missing[0]}; build the scene of this test: build_fmu.py --scene kerb_test")
+        result = run(fmu, Manoeuvre("kerb_test", np.zeros(0), {}, DURATION, start), step)
+    if result["stress.computed"][0] != 1.0:
+        raise HostError("At this fidelity the moments are not computed (stress.computed is 0); take 1, 2 or 3.")
+    out.mkdir(parents=True, exist_ok=True)
+    table, picture = out / "kerb_test.csv", out / "kerb_test.png"
+    write_csv(result, table)
+    rows = moments(result, step)
+    draw(result, step, picture)
+    print(f"{'gauge':<6}{'rest':>9}{'range':>18}{'filtered range':>18}{'end - rest':>12}   N m")
+    for row in rows:
+        print(
+            f"{row['gauge']:<6}{row['rest']:>9.3f}{row['low']:>9.2f}{row['high']:>9.2f}"
+            f"{row['filtered_low']:>9.2f}{row['filtered_high']:>9.2f}{row['left']:>12.3f}"
+        )
+    n = result["solver.iterations"][1:]
+    print(
+        f"Newton iterations {n.mean():.2f} a step, {n.max():.0f} at most; real-time factor {DURATION / result.wall:.1f}"
+    )
+    for message in dict.fromkeys(result.messages):
+        print(f"FMU: {message}")
+    print(f"written: {table}, {picture}")
+    return 1 if result.failed_steps else 0
+
+
+def moments(result: Result, step: float) -> list[dict[str, float | str]]:
+    """Per gauge: value at rest, range before and after the filter as differences from it, what is left at the end."""
+    rows: list[dict[str, float | str]] = []
+    for gauge in GAUGES:
+        x = result[f"bending_moment.{gauge}"]
+        change = x - x[0]
+        filtered = low_pass(change, step, FREQUENCY)
+        rows.append(
+            {
+                "gauge": gauge,
+                "rest": float(x[0]),
+                "low": float(change.min()),
+                "high": float(change.max()),
+                "filtered_low": float(filtered.min()),
+                "filtered_high": float(filtered.max()),
+                "left": float(change[-1]),
+            }
+        )
+    return rows
+
+
+def draw(result: Result, step: float, file: Path) -> None:
+    """Moments as differences from rest, as gauges measure them."""
+    figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")
+    for axes, gauge in zip(panels.T.flat, ("SG1", "SG2", "SG3", "SG4"), strict=True):
+        x = result[f"bending_moment.{gauge}"]
+        axes.plot(result.time, x - x[0], color=BLUE, linewidth=0.9, label="unfiltered")
+        axes.plot(result.time, low_pass(x - x[0], step, FREQUENCY), color=RED, linewidth=1.8, label="low-pass 10 Hz")
+        for begin, end, label in INTERVALS:
+            if label == "moving":
+                axes.axvspan(begin, end, color="#f2f2f2", zorder=0)
+            axes.text(0.5 * (begin + end), 1.0, label, transform=axes.get_xaxis_transform(), ha="center", va="bottom")
+        axes.axhline(0.0, color=BLACK, linewidth=0.6)
+        axes.set_title(f"{gauge}, {PLACES[gauge]} (at rest {x[0]:.2f} N m)", loc="left", pad=16, fontsize=11)
+        axes.set_ylabel("bending moment less that at rest, N m")
+        axes.grid(True, alpha=0.3)
+        axes.margins(x=0)
+    panels[0, 0].legend(loc="upper left")
+    for axes in panels[-1]:
+        axes.set_xlabel("time, s")
+    figure.suptitle("Prototype car down a kerb of 8 cm: the setting of the paper's Figure 8", fontsize=14)
+    figure.savefig(file, dpi=110)
+    plt.close(figure)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

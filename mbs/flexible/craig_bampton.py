@@ -1,0 +1,159 @@
+"""Craig-Bampton reduction with the floating frame clamped at a reference node."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.linalg import eigh
+
+from mbs.errors import ModelError
+from mbs.flexible.damping import RayleighDamping
+from mbs.flexible.fe_model import FiniteElementModel, Reference
+from mbs.flexible.fixed_interface import FixedInterface, Interface
+from mbs.flexible.frequencies import natural_modes
+from mbs.flexible.reduced_body import InterfaceModes, ReducedBody
+
+DEPENDENT = 1e-10  # of the mass norm: inertia modes that add nothing new are left out
+FIRST_BATCH = 20  # modes looked at first when they are chosen by frequency
+
+
+def craig_bampton(
+    model: FiniteElementModel,
+    reference: Reference,
+    interfaces: Sequence[Interface | str | int],
+    dynamic_modes: int | Sequence[int] = 0,
+    *,
+    up_to: float | None = None,
+    inertia_modes: bool = False,
+    damping: RayleighDamping | None = None,
+) -> ReducedBody:
+    """Static modes of the interfaces and dynamic modes with fixed interfaces (the paper's equation (9)).
+
+    Parameters
+    ----------
+    model : FiniteElementModel
+        Free model.
+    reference : str, int or three of them
+        Node of the floating frame: it does not move in any mode.
+    interfaces : sequence of Interface, str or int
+        Nodes of joints and forces. Static mode j is a unit motion of one interface coordinate, all others held.
+    dynamic_modes : int or sequence of int
+        How many of the lowest, or which (0 is the lowest).
+    up_to : float, optional
+        Take instead all dynamic modes up to this frequency, Hz.
+    inertia_modes : bool
+        Add the deformations under the inertia of the six rigid accelerations with the interfaces held: then static
+        loads, gravity and steady accelerations deform the reduced body exactly like the full one.
+    damping : RayleighDamping, optional
+        None: no damping.
+
+    Returns
+    -------
+    ReducedBody
+        In the unit-interface basis: dynamic modes are mass-normalised and zero at the interfaces.
+    """
+    fixed = FixedInterface(model, reference, interfaces)
+    static = fixed.static_modes()
+    hertz, dynamic = _dynamic_modes(fixed, dynamic_modes, up_to)
+    names = _static_names(fixed)
+    dynamic_names = [f"dynamic {i + 1}" for i in range(hertz.size)]
+    if inertia_modes:
+        hertz, dynamic = _with_inertia_modes(fixed, dynamic)
+        dynamic_names = [f"dynamic and inertia {i + 1}" for i in range(hertz.size)]
+    modes = np.hstack([static, dynamic])
+    n_static, m = static.shape[1], modes.shape[1]
+    if m == 0:
+        raise ModelError("A reduction without interfaces and without dynamic modes leaves a rigid body.")
+
+    K = np.zeros((m, m))
+    K[:n_static, :n_static] = _symmetric(static.T @ (model.K @ static))
+    K[range(n_static, m), range(n_static, m)] = (2 * np.pi * hertz) ** 2
+    origin = model.origin(reference)
+    mass_shapes = np.asarray(model.mass.interpolation @ modes).reshape(-1, 3, m)
+    weighted = (np.sqrt(model.mass.masses)[:, None, None] * mass_shapes).reshape(-1, m)
+    M = _symmetric(weighted.T @ weighted)
+    rotations = np.where(model.dof[:, 3:, None] >= 0, modes[model.dof[:, 3:]], 0.0)
+    return ReducedBody(
+        origin=origin,
+        node_names=model.names,
+        node_positions=model.positions - origin,
+        node_translations=modes[model.dof[:, :3]],
+        node_rotations=rotations,
+        modes=modes,
+        mass_positions=model.mass.positions - origin,
+        masses=model.mass.masses,
+        mass_shapes=mass_shapes,
+        K=K,
+        M=M,
+        C=damping.matrix(M, K) if damping else np.zeros((m, m)),
+        mode_names=(*names, *dynamic_names),
+        interfaces=_interface_modes(fixed, origin),
+        n_static=n_static,
+        frequencies=hertz,
+    )
+
+
+def _dynamic_modes(
+    fixed: FixedInterface, wanted: int | Sequence[int], up_to: float | None
+) -> tuple[np.ndarray, np.ndarray]:
+    held = fixed.held_numbers()
+    if up_to is not None:
+        if wanted != 0:
+            raise ModelError("Dynamic modes are chosen by number or by frequency, not by both.")
+        available = fixed.model.n_dof - held.size
+        massive = int((fixed.model.mass_matrix().diagonal()[fixed.inner] > 0).sum())
+        count = min(FIRST_BATCH, massive, available)
+        hertz, shapes = natural_modes(fixed.model, count, held)
+        while hertz.size and hertz[-1] <= up_to and count < massive:
+            count = min(2 * count, massive)
+            hertz, shapes = natural_modes(fixed.model, count, held)
+        chosen = np.flatnonzero(hertz <= up_to)
+    else:
+        chosen = np.arange(wanted) if isinstance(wanted, int) else np.asarray(wanted, int)
+        if chosen.size and (chosen.min() < 0 or np.unique(chosen).size != chosen.size):
+            raise ModelError(f"Dynamic modes are different numbers from 0 up, not {chosen.tolist()}.")
+        hertz, shapes = natural_modes(fixed.model, int(chosen.max(initial=-1)) + 1, held)
+    return hertz[chosen], shapes[:, chosen]
+
+
+def _with_inertia_modes(fixed: FixedInterface, dynamic: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Ritz vectors of the dynamic modes and the deformations under the inertia of rigid accelerations."""
+    model = fixed.model
+    M = model.mass_matrix()
+    sag = fixed.solve(np.asarray(M @ model.rigid_motions(model.origin(fixed.reference))))
+    sag -= dynamic @ (dynamic.T @ (M @ sag))
+    sag /= np.sqrt(np.einsum("ij,ij->j", sag, M @ sag))
+    weights, directions = np.linalg.eigh(sag.T @ (M @ sag))
+    sag = sag @ directions[:, weights > DEPENDENT] / np.sqrt(weights[weights > DEPENDENT])
+    basis = np.hstack([dynamic, sag])
+    squares, V = eigh(_symmetric(basis.T @ (model.K @ basis)), _symmetric(basis.T @ (M @ basis)))
+    shapes = basis @ V
+    top = shapes[np.abs(shapes).argmax(axis=0), np.arange(shapes.shape[1])]
+    return np.sqrt(squares) / (2 * np.pi), shapes * np.sign(top)
+
+
+def _static_names(fixed: FixedInterface) -> list[str]:
+    names = []
+    for interface in fixed.interfaces:
+        node = fixed.model.names[fixed.model.node(interface.node)]
+        axes = ["x", "y", "z"] * interface.translations + ["rx", "ry", "rz"] * interface.rotations
+        names += [f"{node} {axis}" for axis in axes]
+    return names
+
+
+def _interface_modes(fixed: FixedInterface, origin: np.ndarray) -> dict[str, InterfaceModes]:
+    found, column = {}, 0
+    for interface in fixed.interfaces:
+        node = fixed.model.node(interface.node)
+        translation = column + np.arange(3) if interface.translations else None
+        column += 3 * interface.translations
+        rotation = column + np.arange(3) if interface.rotations else None
+        column += 3 * interface.rotations
+        position = fixed.model.positions[node] - origin
+        found[fixed.model.names[node]] = InterfaceModes(node, position, translation, rotation)
+    return found
+
+
+def _symmetric(X: np.ndarray) -> np.ndarray:
+    return np.asarray((X + X.T) / 2)

@@ -1,0 +1,31 @@
+"""Proportional damping from a modal ratio."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbs.errors import ModelError
+
+
+@dataclass(frozen=True)
+class RayleighDamping:
+    """``C = alpha M + beta K``; modal ratio alpha / (2 w) + beta w / 2. `alpha` in 1/s, `beta` in s."""
+
+    alpha: float
+    beta: float
+
+    @classmethod
+    def fitted(cls, ratio: float, low: float, high: float) -> RayleighDamping:
+        """The damping with modal ratio `ratio` at the two frequencies `low` and `high`, Hz."""
+        if ratio < 0:
+            raise ModelError(f"The modal damping ratio is {ratio:g}; it cannot be negative.")
+        if not 0 < low < high:
+            raise ModelError(f"The frequencies of the fit are {low:g} and {high:g} Hz; 0 < first < second is needed.")
+        w1, w2 = 2 * np.pi * low, 2 * np.pi * high
+        return cls(2 * ratio * w1 * w2 / (w1 + w2), 2 * ratio / (w1 + w2))
+
+    def matrix(self, M: np.ndarray, K: np.ndarray) -> np.ndarray:
+        """Damping matrix of the shape of `M` and `K`."""
+        return self.alpha * M + self.beta * K

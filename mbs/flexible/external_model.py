@@ -1,0 +1,116 @@
+"""Finite-element models of other programs, given as matrices and nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import ArrayLike
+
+from mbs.errors import ModelError
+from mbs.flexible.checks import check_free, check_masses, check_symmetric, check_units
+from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.lumping import lumped_masses
+from mbs.flexible.mass_points import nodal_mass_points
+from mbs.flexible.sparse import Sparse
+
+
+def external_model(
+    stiffness: np.ndarray | Sparse,
+    mass: np.ndarray | Sparse,
+    positions: ArrayLike,
+    names: Sequence[str] | None = None,
+    dof: ArrayLike | None = None,
+) -> FiniteElementModel:
+    """Model from matrices in SI units, free of supports.
+
+    Parameters
+    ----------
+    stiffness : ndarray or sparse array, shape (n_dof, n_dof)
+        Symmetric.
+    mass : ndarray or sparse array, shape (n_dof, n_dof) or (n,)
+        Mass matrix, lumped at the nodes by `lumped_masses`; or one mass per node, kg.
+    positions : array_like, shape (n, 3)
+        Nodes, m.
+    names : sequence of str, optional
+        By default the node numbers from 0.
+    dof : array_like of int, shape (n, 6), optional
+        Number of each freedom, -1 for none. By default node after node with the six freedoms x, y, z, rx, ry, rz, or
+        with x, y, z when the matrices have three freedoms per node.
+    """
+    x = np.array(positions, float)
+    if x.ndim != 2 or x.shape[1] != 3 or not np.isfinite(x).all():
+        raise ModelError(f"Node positions have shape {x.shape}; finite numbers of shape (n, 3) are needed.")
+    n = len(x)
+    labels = tuple(names) if names is not None else tuple(str(i) for i in range(n))
+    if len(labels) != n or len(set(labels)) != n:
+        raise ModelError(f"{n} nodes need {n} different names, not {len(set(labels))}.")
+    K = sp.csc_array(stiffness)
+    check_symmetric(K, "stiffness")
+    table = _freedom_table(dof, n, int(K.shape[0]))
+    K = sp.csc_array((K + K.T) / 2)
+    if sp.issparse(mass) or np.ndim(mass) == 2:
+        M = sp.csc_array(mass)
+        check_symmetric(M, "mass")
+        if M.shape != K.shape:
+            raise ModelError(f"The mass matrix is {M.shape[0]} and the stiffness matrix {K.shape[0]} wide.")
+        points = lumped_masses(sp.csc_array((M + M.T) / 2), x, table)
+    else:
+        masses = np.array(mass, float)
+        if masses.shape != (n,):
+            raise ModelError(f"Node masses have shape {masses.shape}; one number for each of {n} nodes is needed.")
+        check_masses(masses, labels)
+        points = nodal_mass_points(x, masses, table[:, :3], int(K.shape[0]))
+    model = FiniteElementModel(x, labels, table, K, points)
+    check_units(model)
+    check_free(model)
+    return model
+
+
+def read_matrix(path: str | Path) -> sp.csc_array:
+    """Sparse matrix from Matrix Market (``.mtx``, ``.mtx.gz``) or SciPy's ``.npz``."""
+    path = Path(path)
+    if not path.is_file():
+        raise ModelError(f"There is no file {path}.")
+    if path.suffix == ".npz":
+        from scipy.sparse import load_npz
+
+        return sp.csc_array(load_npz(path))
+    if path.name.endswith((".mtx", ".mtx.gz")):
+        from scipy.io import mmread
+
+        return sp.csc_array(mmread(path))
+    raise ModelError(f"{path.name} is neither Matrix Market (.mtx, .mtx.gz) nor a SciPy matrix (.npz).")
+
+
+def read_model(stiffness: str | Path, mass: str | Path, nodes: str | Path) -> FiniteElementModel:
+    """Model from two matrix files and a CSV file of nodes with the columns ``name,x,y,z`` (a line of titles first)."""
+    names, positions = [], []
+    for line in Path(nodes).read_text(encoding="utf-8").splitlines()[1:]:
+        if not line.strip() or line.startswith("#"):
+            continue
+        fields = line.split(",")
+        if len(fields) != 4:
+            raise ModelError(f"The line {line!r} of {Path(nodes).name} is not name,x,y,z.")
+        names.append(fields[0].strip())
+        positions.append([float(v) for v in fields[1:]])
+    return external_model(read_matrix(stiffness), read_matrix(mass), positions, names)
+
+
+def _freedom_table(dof: ArrayLike | None, n: int, size: int) -> np.ndarray:
+    if dof is None:
+        if size not in (3 * n, 6 * n):
+            raise ModelError(f"The stiffness matrix has {size} rows; {n} nodes have {3 * n} or {6 * n} freedoms.")
+        table = np.full((n, 6), -1)
+        per_node = size // n
+        table[:, :per_node] = np.arange(size).reshape(n, per_node)
+        return table
+    table = np.array(dof, int)
+    if table.shape != (n, 6) or (table[:, :3] < 0).any():
+        raise ModelError(f"The freedoms have shape {table.shape}; ({n}, 6) with all translations is needed.")
+    used = np.sort(table[table >= 0])
+    if not np.array_equal(used, np.arange(size)):
+        raise ModelError(f"The freedoms must number each of the {size} rows of the matrices once.")
+    return table

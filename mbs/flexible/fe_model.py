@@ -1,0 +1,107 @@
+"""A free linear finite-element model: nodes, stiffness, and mass as points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.linalg import qr
+
+from mbs.errors import ModelError
+from mbs.flexible.mass_points import MassPoints
+
+ON_ONE_LINE = 1e-6  # of the extent of the three reference nodes
+Reference = str | int | Sequence[str | int]
+
+
+@dataclass(frozen=True)
+class FiniteElementModel:
+    """Linear model in its own axes, which become the axes of the floating frame; SI units.
+
+    Parameters
+    ----------
+    positions : ndarray, shape (n, 3)
+        Nodes, m.
+    names : tuple of str
+        One per node.
+    dof : ndarray of int, shape (n, 6)
+        Number of each displacement x, y, z and rotation rx, ry, rz (rad) in the matrices; -1 where a node has none
+        (nodes of solid elements have no rotations).
+    K : sparse array, shape (n_dof, n_dof)
+        Stiffness, symmetric, of the free model: six rigid motions and nothing else cost no energy.
+    mass : MassPoints
+        Mass.
+    """
+
+    positions: np.ndarray
+    names: tuple[str, ...]
+    dof: np.ndarray
+    K: sp.csc_array
+    mass: MassPoints
+
+    @property
+    def n_dof(self) -> int:
+        """Number of degrees of freedom."""
+        return int(self.K.shape[0])
+
+    def mass_matrix(self) -> sp.csc_array:
+        """Mass matrix of the points, shape (n_dof, n_dof)."""
+        return self.mass.mass_matrix()
+
+    def rigid_motions(self, origin: np.ndarray | None = None) -> np.ndarray:
+        """Displacements for unit translations and unit small rotations about `origin`, shape (n_dof, 6)."""
+        x = self.positions - (np.zeros(3) if origin is None else origin)
+        R = np.zeros((self.n_dof, 6))
+        for axis in range(3):
+            R[self.dof[:, axis], axis] = 1.0
+            spin = np.zeros(3)
+            spin[axis] = 1.0
+            R[self.dof[:, :3], 3 + axis] = np.cross(spin, x)
+            turning = self.dof[:, 3 + axis] >= 0
+            R[self.dof[turning, 3 + axis], 3 + axis] = 1.0
+        return R
+
+    def node(self, which: str | int) -> int:
+        """Number of a node from its name or number."""
+        if isinstance(which, str):
+            if which not in self.names:
+                raise ModelError(f"There is no node {which!r} among the {len(self.names)} nodes of the model.")
+            return self.names.index(which)
+        if not 0 <= which < len(self.names):
+            raise ModelError(f"There is no node number {which}: the model has the nodes 0 to {len(self.names) - 1}.")
+        return int(which)
+
+    def freedoms(self, which: str | int, rotations: bool = False) -> np.ndarray:
+        """Numbers of the three translations, or of the three rotations, of a node, shape (3,)."""
+        node = self.node(which)
+        numbers = self.dof[node, 3:] if rotations else self.dof[node, :3]
+        if (numbers < 0).any():
+            raise ModelError(f"Node {self.names[node]!r} has no rotations: only nodes of beams and shells have them.")
+        return numbers
+
+    def reference_freedoms(self, reference: Reference) -> np.ndarray:
+        """Six degrees of freedom that hold the model: those of one node, or six of three nodes of solid elements.
+
+        Of three nodes the first is held, and of the others the three translations that best resist rotations about it
+        (rank-revealing QR).
+        """
+        if isinstance(reference, str | int):
+            return np.concatenate([self.freedoms(reference), self.freedoms(reference, rotations=True)])
+        if len(reference) != 3:
+            raise ModelError(f"The reference is one node with rotations or three nodes, not {len(reference)} nodes.")
+        first, *others = (self.freedoms(node) for node in reference)
+        numbers = np.concatenate(others)
+        places = self.positions[[self.node(node) for node in reference]]
+        size = max(float(np.ptp(places, axis=0).max()), np.finfo(float).tiny)
+        turns = self.rigid_motions(places[0])[numbers, 3:] / size
+        _, triangle, order = qr(turns.T, pivoting=True)
+        if abs(triangle[2, 2]) < ON_ONE_LINE:
+            raise ModelError(f"The three reference nodes {list(reference)} lie on one line; they must span a triangle.")
+        return np.concatenate([first, np.sort(numbers[order[:3]])])
+
+    def origin(self, reference: Reference) -> np.ndarray:
+        """Origin of the floating frame: the reference node, or the first of three, shape (3,)."""
+        first = reference if isinstance(reference, str | int) else reference[0]
+        return np.array(self.positions[self.node(first)])

@@ -1,0 +1,88 @@
+"""A finite-element model with its reference and interfaces held: what Craig and Bampton reduce from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import SuperLU, splu
+
+from mbs.errors import ModelError
+from mbs.flexible.checks import check_connected
+from mbs.flexible.fe_model import FiniteElementModel, Reference
+
+
+@dataclass(frozen=True)
+class Interface:
+    """A node where joints or forces act: its translations become static modes, and its rotations if asked for."""
+
+    node: str | int
+    translations: bool = True
+    rotations: bool = False
+
+
+class FixedInterface:
+    """Model with the reference and the interface degrees of freedom held; the inner stiffness is factorised once.
+
+    Parameters
+    ----------
+    model : FiniteElementModel
+    reference : str, int or three of them
+        Node that carries the floating frame, or three nodes where nodes have no rotations.
+    interfaces : sequence of Interface, str or int
+        A plain node stands for its translations.
+
+    Attributes
+    ----------
+    held, boundary, inner : ndarray of int
+        Degrees of freedom of the reference (6), of the interfaces (one per static mode, in order), and the others.
+    """
+
+    def __init__(
+        self, model: FiniteElementModel, reference: Reference, interfaces: Sequence[Interface | str | int]
+    ) -> None:
+        self.model, self.reference = model, reference
+        self.interfaces = tuple(i if isinstance(i, Interface) else Interface(i) for i in interfaces)
+        self.held = model.reference_freedoms(reference)
+        numbers: list[np.ndarray] = []
+        seen: set[int] = set()
+        for interface in self.interfaces:
+            node = model.node(interface.node)
+            if node in seen:
+                raise ModelError(f"Node {model.names[node]!r} is named twice among the interfaces.")
+            seen.add(node)
+            if not (interface.translations or interface.rotations):
+                raise ModelError(f"Interface {model.names[node]!r} has neither translations nor rotations.")
+            parts = [model.freedoms(node, rotations=True)] if interface.rotations else []
+            if interface.translations:
+                parts.insert(0, model.freedoms(node))
+            for part in parts:
+                if np.isin(part, self.held).any():
+                    raise ModelError(f"The reference node {model.names[node]!r} does not move: it is no interface.")
+            numbers.extend(parts)
+        self.boundary = np.concatenate(numbers) if numbers else np.zeros(0, int)
+        check_connected(model, reference)
+        self.inner = np.setdiff1d(np.arange(model.n_dof), np.concatenate([self.held, self.boundary]))
+        self._factor: SuperLU | None = None
+
+    def solve(self, forces: np.ndarray) -> np.ndarray:
+        """Displacements under nodal forces with everything held, shape (n_dof, k) from (n_dof, k)."""
+        if self._factor is None:
+            self._factor = splu(sp.csc_matrix(self.model.K[self.inner][:, self.inner]))
+        u = np.zeros_like(forces)
+        u[self.inner] = self._factor.solve(np.ascontiguousarray(forces[self.inner]))
+        return u
+
+    def static_modes(self) -> np.ndarray:
+        """Displacements for unit motions of the interfaces, one after the other, shape (n_dof, n_static)."""
+        unit = np.zeros((self.model.n_dof, self.boundary.size))
+        unit[self.boundary, np.arange(self.boundary.size)] = 1.0
+        if self.boundary.size == 0:
+            return unit
+        return np.asarray(unit - self.solve(np.asarray(self.model.K @ unit)))
+
+    def held_numbers(self) -> np.ndarray:
+        """All degrees of freedom that are held for the dynamic modes."""
+        return np.concatenate([self.held, self.boundary])

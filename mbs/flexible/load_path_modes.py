@@ -1,0 +1,98 @@
+"""Only those deformations that the forces of the interfaces can excite."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import eigh
+
+from mbs.errors import ModelError
+from mbs.flexible.reduced_body import ReducedBody
+
+
+def interface_loads(body: ReducedBody, directions: dict[str, np.ndarray]) -> np.ndarray:
+    """Unit forces at interfaces, shape (3 n_interfaces, n_loads), stacked in the order of `ReducedBody.interfaces`.
+
+    Parameters
+    ----------
+    directions : dict of str to ndarray, shape (k, 3)
+        Per interface the directions in which its joint can push, body axes: one along a rod or a spring, three at a
+        spherical joint.
+    """
+    order = list(body.interfaces)
+    columns = []
+    for name, vectors in directions.items():
+        body.interface(name)
+        for v in np.atleast_2d(np.asarray(vectors, float)):
+            column = np.zeros((len(order), 3))
+            column[order.index(name)] = v
+            columns.append(column.ravel())
+    if not columns:
+        raise ModelError("No direction of any force was given: there is nothing that deforms the body.")
+    return np.array(columns).T
+
+
+def load_path_modes(
+    body: ReducedBody, loads: np.ndarray, tolerance: float = 1e-6, frame_loads: np.ndarray | None = None
+) -> ReducedBody:
+    """Body with the deformations under given loads and the inertia that balances them, and no others.
+
+    Each load is put in balance by the inertia of the rigid motion it causes and the deformation is solved for in the
+    modes of `body` (give it the inertia modes: then the deformations are those of the full model). A singular value
+    decomposition in the energy norm orders the combinations of loads, and those with little energy are left out. The
+    result is in modes of its own that are orthogonal in stiffness and mass.
+
+    Parameters
+    ----------
+    loads : ndarray, shape (3 n_interfaces, n_loads)
+        Forces at the interfaces, of `interface_loads` or snapshots of a simulation.
+    tolerance : float
+        Square root of the energy, as a fraction of the largest, below which a combination of loads is left out.
+    frame_loads : ndarray, shape (6, n_loads), optional
+        Forces and moments on the floating frame that act together with the loads (drag, a guide), N and N m.
+    """
+    deformation = load_path_deformations(body, loads, frame_loads)
+    energy = deformation.T @ body.K @ deformation
+    values, vectors = np.linalg.eigh((energy + energy.T) / 2)
+    keep = values > tolerance**2 * values[-1]
+    basis = deformation @ (vectors[:, keep] / np.sqrt(values[keep]))
+    squares, V = eigh(basis.T @ body.K @ basis, basis.T @ body.M @ basis)
+    names = tuple(f"load path {i + 1}" for i in range(squares.size))
+    return body.transformed(basis @ V, names, np.sqrt(squares) / (2 * np.pi))
+
+
+def load_path_deformations(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None = None) -> np.ndarray:
+    """Amplitudes under interface forces and the inertia that balances them, shape (n_modes, n_loads)."""
+    if loads.ndim != 2 or loads.shape[0] != 3 * len(body.interfaces):
+        raise ModelError(f"The loads have shape {loads.shape}; {3 * len(body.interfaces)} rows are needed.")
+    shapes = np.concatenate([body.interface_translation(name) for name in body.interfaces])
+    return np.linalg.solve(body.K, shapes.T @ loads - _balancing_inertia(body, loads, frame_loads))
+
+
+def reduced_eigenmodes(body: ReducedBody, up_to: float = np.inf) -> ReducedBody:
+    """Body in its own eigenmodes with the reference held, up to a frequency in Hz; K and M become diagonal."""
+    squares, V = eigh(body.K, body.M)
+    hertz = np.sqrt(squares) / (2 * np.pi)
+    keep = hertz <= up_to
+    if not keep.any():
+        raise ModelError(f"The lowest mode of the body has {hertz[0]:.4g} Hz: none lies below {up_to:g} Hz.")
+    return body.transformed(V[:, keep], tuple(f"eigenmode {i + 1}" for i in range(int(keep.sum()))), hertz[keep])
+
+
+def _balancing_inertia(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None) -> np.ndarray:
+    """Modal forces of the inertia of the rigid motion that each load causes, shape (n_modes, n_loads)."""
+    places = np.array([interface.position for interface in body.interfaces.values()])
+    fields, moves = _rigid_field(body.mass_positions), _rigid_field(places)
+    rigid_mass = np.einsum("k,kia,kib->ab", body.masses, fields, fields)
+    coupling = np.einsum("k,kij,kia->ja", body.masses, body.mass_shapes, fields)
+    total = moves.reshape(-1, 6).T @ loads + (0.0 if frame_loads is None else frame_loads)
+    acceleration = np.linalg.solve(rigid_mass, total)
+    return np.asarray(coupling @ acceleration)
+
+
+def _rigid_field(points: np.ndarray) -> np.ndarray:
+    """Motion of points for unit rigid translations and rotations, shape (p, 3, 6)."""
+    field = np.zeros((len(points), 3, 6))
+    for axis in range(3):
+        field[:, axis, axis] = 1.0
+        field[:, :, 3 + axis] = np.cross(np.eye(3)[axis], points)
+    return field

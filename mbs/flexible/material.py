@@ -1,0 +1,37 @@
+"""Isotropic linear elastic material."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbs.errors import ModelError
+
+# from foam and wood to tungsten and diamond, SI
+YOUNG_RANGE = (1e5, 2e12)
+DENSITY_RANGE = (1.0, 3e4)
+
+
+@dataclass(frozen=True)
+class Material:
+    """Young's modulus `E` (Pa), Poisson ratio `nu` and density `rho` (kg/m3)."""
+
+    E: float
+    nu: float
+    rho: float
+
+    def __post_init__(self) -> None:
+        if not np.isfinite([self.E, self.nu, self.rho]).all():
+            raise ModelError(f"A material has E {self.E}, nu {self.nu}, rho {self.rho}; all must be finite.")
+        if not YOUNG_RANGE[0] <= self.E <= YOUNG_RANGE[1]:
+            raise ModelError(f"Young's modulus {self.E:g} does not look like pascals (steel has 2.1e11 Pa).")
+        if not -1.0 < self.nu <= 0.5:
+            raise ModelError(f"The Poisson ratio {self.nu:g} is not possible: it lies between -1 and 0.5.")
+        if not DENSITY_RANGE[0] <= self.rho <= DENSITY_RANGE[1]:
+            raise ModelError(f"The density {self.rho:g} does not look like kg/m3 (steel has 7850 kg/m3).")
+
+    @property
+    def G(self) -> float:
+        """Shear modulus, Pa."""
+        return self.E / (2 * (1 + self.nu))

@@ -1,0 +1,102 @@
+"""How many dynamic modes a named output needs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbs.errors import ModelError
+from mbs.flexible.fe_model import FiniteElementModel, Reference
+from mbs.flexible.fixed_interface import FixedInterface, Interface
+from mbs.flexible.frequencies import natural_modes
+from mbs.flexible.sparse import Sparse
+
+RESONANT = 1.5  # modes below this multiple of the frequency that matters are always taken
+
+
+@dataclass(frozen=True)
+class ModeChoice:
+    """Chosen fixed-interface modes and what they leave out.
+
+    Parameters
+    ----------
+    modes : tuple of int
+        Numbers of the modes (0 is the lowest), ascending; for `craig_bampton`.
+    left_out : float
+        Largest error of the output over the accelerations looked at, as a fraction of its largest value.
+    frequencies : ndarray
+        Of the chosen modes, Hz.
+    """
+
+    modes: tuple[int, ...]
+    left_out: float
+    frequencies: np.ndarray
+
+
+def modes_for_output(
+    model: FiniteElementModel,
+    reference: Reference,
+    interfaces: Sequence[Interface | str | int],
+    rows: np.ndarray | Sparse,
+    tolerance: float,
+    candidates: int = 100,
+    frequency: float = 0.0,
+    inertia_modes: bool = False,
+) -> ModeChoice:
+    """Fewest modes with which the outputs under rigid accelerations are right to a tolerance.
+
+    With the interfaces held the output under the inertia of each unit acceleration (three along the axes, three
+    about them) is known exactly; a mode contributes ``row psi (psi' M R) / w2``, and at a frequency W of the
+    accelerations w2 / (w2 - W2) times that. With the inertia modes the steady part is exact whatever is chosen, and a
+    mode contributes the rest, W2 / (w2 - W2). Modes below 1.5 W are always taken, then the others in the order of
+    their largest contribution until every output misses less than `tolerance` of its largest steady value.
+
+    Parameters
+    ----------
+    rows : ndarray or sparse array, shape (n_outputs, n_dof)
+        Outputs per unit nodal displacement.
+    tolerance : float
+        Fraction of each output's largest value over the six accelerations.
+    candidates : int
+        Lowest modes that are looked at.
+    frequency : float
+        Highest frequency of the accelerations that matters, Hz; 0 for steady ones.
+    inertia_modes : bool
+        Whether the reduction will have the inertia modes.
+    """
+    if not 0 < tolerance < 1:
+        raise ModelError(f"The tolerance on an output is {tolerance:g}; a fraction between 0 and 1 is needed.")
+    fixed = FixedInterface(model, reference, interfaces)
+    hertz, modes = natural_modes(model, candidates, fixed.held_numbers())
+    load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(reference)))
+    # accelerations about the axes count over the size of the model, to compare with those along them
+    load[:, 3:] /= float(np.ptp(model.positions, axis=0).max())
+    exact = np.asarray(rows @ fixed.solve(load))
+    scale = np.abs(exact).max(axis=1, keepdims=True)
+    if (scale == 0).any():
+        raise ModelError(f"Output {int(np.flatnonzero(scale == 0)[0])} does not see any deformation of the model.")
+    participation = (modes.T @ load) / ((2 * np.pi * hertz) ** 2)[:, None]
+    parts = np.asarray(rows @ modes)[:, :, None] * participation[None] / scale[:, :, None]
+    resonant = hertz < RESONANT * frequency
+    # at resonance only damping bounds the response: these modes are taken whatever they contribute
+    ratio = np.where(resonant, 0.0, frequency / np.where(resonant, 1.0, hertz)) ** 2
+    rest = parts * (ratio / (1 - ratio))[None, :, None]
+    missing = rest.sum(axis=1) + (0.0 if inertia_modes else exact / scale)
+    parts = rest if inertia_modes else parts + rest
+    order = np.argsort(np.where(resonant, -np.inf, -np.abs(parts).max(axis=(0, 2))), kind="stable")
+    chosen: list[int] = []
+    for mode in order:
+        if np.abs(missing).max() <= tolerance and not resonant[mode]:
+            break
+        missing = missing - parts[:, mode]
+        chosen.append(int(mode))
+    error = float(np.abs(missing).max())
+    if error > tolerance:
+        raise ModelError(
+            f"The lowest {candidates} modes leave an error of {error:.2g} of the output; look at more candidates or "
+            "take the inertia modes, which make steady accelerations exact."
+        )
+    chosen.sort()
+    return ModeChoice(tuple(chosen), error, hertz[chosen])

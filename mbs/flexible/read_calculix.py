@@ -1,0 +1,90 @@
+"""Models written by CalculiX with ``*FREQUENCY, SOLVER=MATRIXSTORAGE`` (mesh reader: meshio, extra `fem`)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import spsolve
+
+from mbs.errors import ModelError
+from mbs.flexible.external_model import external_model
+from mbs.flexible.fe_model import FiniteElementModel
+
+
+def read_calculix(deck: str | Path) -> FiniteElementModel:
+    """Model of solid elements from ``name.inp`` and the files ``name.sti``, ``.mas`` and ``.dof`` beside it.
+
+    The deck must have no supports and SI units; nodes keep their numbers as names and have three translations.
+
+    Parameters
+    ----------
+    deck : str or Path
+        Input deck.
+    """
+    K, M, positions, numbers = calculix_matrices(deck)
+    return external_model(K, M, positions, [str(number) for number in numbers])
+
+
+def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.ndarray, list[int]]:
+    """Stiffness and mass over x, y, z of node after node, positions (n, 3), and the numbers of the nodes."""
+    try:
+        import meshio
+    except ImportError as error:
+        raise ModelError("CalculiX decks are read with meshio: install it with pip install 'ali3[fem]'.") from error
+    deck = Path(deck)
+    files = [deck, *(deck.with_suffix(suffix) for suffix in (".sti", ".mas", ".dof"))]
+    for path in files:
+        if not path.is_file():
+            raise ModelError(f"There is no file {path}; *FREQUENCY, SOLVER=MATRIXSTORAGE writes it.")
+    points = np.asarray(meshio.read(deck, file_format="abaqus").points, float)
+    numbers = _node_numbers(deck)
+    if len(numbers) != len(points):
+        raise ModelError(f"{deck.name} has {len(numbers)} node lines but {len(points)} nodes.")
+    row = {number: i for i, number in enumerate(numbers)}
+    freedoms = [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in files[3].read_text().split())]
+    table = np.full((len(numbers), 3), -1)
+    for k, (node, axis) in enumerate(freedoms):
+        if node in row and axis < 3:
+            table[row[node], axis] = k
+    used = (table >= 0).all(axis=1)
+    held = np.flatnonzero(~used & (table >= 0).any(axis=1))
+    if held.size or not used.any():
+        node = numbers[int(held[0])] if held.size else numbers[0]
+        raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
+    K, M = (_triangle(path, len(freedoms)) for path in files[1:3])
+    K, M = _condensed(K, M, table[used].ravel())
+    return K, M, points[used], [numbers[int(i)] for i in np.flatnonzero(used)]
+
+
+def _condensed(K: sp.csc_array, M: sp.csc_array, keep: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
+    """Static condensation on freedoms `keep`: the others are inner ones of elements (incompatible modes)."""
+    drop = np.setdiff1d(np.arange(K.shape[0]), keep)
+    if not drop.size:
+        return K[keep][:, keep], M[keep][:, keep]
+    follow = -sp.csc_array(spsolve(sp.csc_matrix(K[drop][:, drop]), sp.csc_matrix(K[drop][:, keep])))
+    T = sp.csc_array(sp.vstack([sp.identity(keep.size), follow]))
+    order = np.concatenate([keep, drop])
+    K, M = (sp.csc_array(T.T @ X[order][:, order] @ T) for X in (K, M))
+    return K, M
+
+
+def _triangle(path: Path, size: int) -> sp.csc_array:
+    """Symmetric matrix from lines ``row column value`` (from 1) of one triangle."""
+    i, j, value = np.loadtxt(path, unpack=True, ndmin=2)
+    one = sp.coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=(size, size)).tocsc()
+    return sp.csc_array(one + one.T - sp.diags(one.diagonal()))
+
+
+def _node_numbers(deck: Path) -> list[int]:
+    """Node numbers of the deck in the order of its lines, which meshio keeps for the points."""
+    numbers, inside = [], False
+    for line in deck.read_text(encoding="latin-1").splitlines():
+        if line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            inside = line.split(",")[0].strip().upper() == "*NODE"
+        elif inside and line.strip():
+            numbers.append(int(line.split(",")[0]))
+    return numbers

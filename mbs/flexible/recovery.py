@@ -1,0 +1,136 @@
+"""Section forces and stresses of a frame as constant rows on its nodal displacements."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from mbs.errors import ModelError
+from mbs.flexible.frame import Frame
+
+FORCES = ("N", "Vy", "Vz", "T", "My", "Mz")
+
+
+def end_forces(frame: Frame, element: int) -> np.ndarray:
+    """Forces and moments on the two ends of a beam in its local axes, shape (12, 12) on its local freedoms' globals.
+
+    Columns are the twelve degrees of freedom `Frame.element_freedoms`.
+    """
+    T = np.kron(np.eye(4), frame.element_axes(element)[1])
+    return frame.element_stiffness(element) @ T
+
+
+def section_forces(frame: Frame, element: int, xi: float) -> sp.csr_array:
+    """Section forces at ``x = xi * length`` per unit nodal displacement.
+
+    They act on the face whose normal is +x: N pulls, T twists about x, positive My stretches the fibres at +z,
+    positive Mz those at -y. Loads between the ends of the element (its own weight) are not counted.
+
+    Returns
+    -------
+    sparse array, shape (6, n_dof)
+        Rows N, Vy, Vz (N), T, My, Mz (N m).
+    """
+    if not 0.0 <= xi <= 1.0:
+        raise ModelError(f"The place {xi:g} on beam {element} is outside the beam: 0 is its start and 1 its end.")
+    length, _ = frame.element_axes(element)
+    end = end_forces(frame, element)[6:]
+    shift = np.eye(6)
+    arm = (1 - xi) * length  # moment about the section: M_j + arm e_x cross F_j
+    shift[4, 2], shift[5, 1] = -arm, arm
+    rows = shift @ end
+    dof = frame.element_freedoms(element)
+    indices = (np.repeat(np.arange(6), 12), np.tile(dof, 6))
+    return sp.csr_array(sp.coo_array((rows.ravel(), indices), shape=(6, 6 * len(frame.positions))))
+
+
+def fibre_stresses(frame: Frame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
+    """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, n_dof), Pa per m and rad.
+
+    Parameters
+    ----------
+    fibres : ndarray, shape (n_fibres, 2), optional
+        Points (y, z) of the section, m; by default those of `Section.fibres` (highest and lowest first).
+    """
+    section = frame.beams[element].section
+    points = np.array(section.fibres if fibres is None else fibres, float).reshape(-1, 2)
+    factors = np.zeros((len(points), 6))
+    factors[:, 0] = 1 / section.area
+    factors[:, 4] = points[:, 1] / section.Iy
+    factors[:, 5] = -points[:, 0] / section.Iz
+    return sp.csr_array(sp.csr_array(factors) @ section_forces(frame, element, xi))
+
+
+@dataclass(frozen=True)
+class StrainGauge:
+    """A half-bridge: strain gauges on the upper and the lower fibre of a beam, at ``xi`` of its length."""
+
+    name: str
+    element: int
+    xi: float = 0.5
+
+    def bending_moment(self, frame: Frame) -> sp.csr_array:
+        """My, positive when the upper fibre is stretched, shape (1, n_dof), N m per m and rad."""
+        return sp.csr_array(section_forces(frame, self.element, self.xi)[[4]])
+
+    def half_bridge(self, frame: Frame) -> sp.csr_array:
+        """Stress of the upper minus that of the lower fibre, shape (1, n_dof), Pa per m and rad."""
+        both = fibre_stresses(frame, self.element, self.xi)
+        return sp.csr_array(both[[0]] - both[[1]])
+
+    def fibre_stress(self, frame: Frame) -> sp.csr_array:
+        """Bending stress of the upper fibre, half of the half-bridge, shape (1, n_dof), Pa per m and rad."""
+        return sp.csr_array(self.half_bridge(frame) * 0.5)
+
+
+def gauge_rows(frame: Frame, gauges: tuple[StrainGauge, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Bending moments and half-bridge stresses of several gauges, each shape (n_gauges, n_dof)."""
+    moments = np.vstack([g.bending_moment(frame).toarray() for g in gauges])
+    bridges = np.vstack([g.half_bridge(frame).toarray() for g in gauges])
+    return moments, bridges
+
+
+def section_force_field(frame: Frame) -> sp.csr_array:
+    """Section forces at both ends of every element, shape (12 n_elements, n_dof): six at the start, six at the end."""
+    parts = [section_forces(frame, e, xi) for e in range(len(frame.beams)) for xi in (0.0, 1.0)]
+    return sp.csr_array(sp.vstack(parts))
+
+
+def stress_field(frame: Frame) -> tuple[sp.csr_array, np.ndarray]:
+    """Fibre stresses at both ends of every element as one constant matrix.
+
+    Returns
+    -------
+    rows : sparse array, shape (n_points, n_dof)
+        Pa per m and rad.
+    where : ndarray of int, shape (n_points, 3)
+        Element, end (0 or 1) and number of the fibre of each row.
+    """
+    parts, where = [], []
+    for e, beam in enumerate(frame.beams):
+        for end in (0, 1):
+            parts.append(fibre_stresses(frame, e, float(end)))
+            where += [(e, end, f) for f in range(len(beam.section.fibres))]
+    return sp.csr_array(sp.vstack(parts)), np.array(where)
+
+
+def peak_tube_stress(frame: Frame, forces: np.ndarray) -> np.ndarray:
+    """Largest |normal stress| round each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
+
+    Parameters
+    ----------
+    forces : ndarray, shape (12 n_elements,)
+        Of `section_force_field`.
+
+    Returns
+    -------
+    ndarray, shape (n_elements, 2)
+        At the start and at the end of each element.
+    """
+    f = np.asarray(forces).reshape(len(frame.beams), 2, 6)
+    area = np.array([b.section.area for b in frame.beams])[:, None]
+    second = np.array([b.section.Iy for b in frame.beams])[:, None]
+    radius = np.array([b.section.fibres[0][1] for b in frame.beams])[:, None]
+    return np.asarray(np.abs(f[..., 0]) / area + radius * np.hypot(f[..., 4], f[..., 5]) / second)

@@ -1,0 +1,137 @@
+"""A flexible body after reduction: all the engine, the stress recovery and the pictures need."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbs.errors import ModelError
+
+
+@dataclass(frozen=True)
+class InterfaceModes:
+    """Where an interface node is and which modal amplitudes are its displacements.
+
+    Parameters
+    ----------
+    node : int
+        Number of the node.
+    position : ndarray, shape (3,)
+        Undeformed, from the reference node in body axes, m.
+    translation : ndarray of int, shape (3,), optional
+        Modes whose amplitudes are the displacements x, y, z of the node, m; None if the node has no such modes.
+    rotation : ndarray of int, shape (3,), optional
+        Modes whose amplitudes are the rotations of the node, rad.
+    """
+
+    node: int
+    position: np.ndarray
+    translation: np.ndarray | None
+    rotation: np.ndarray | None
+
+
+@dataclass(frozen=True)
+class ReducedBody:
+    """Modes of a flexible body in its floating frame: origin at the reference node, axes of the finite-element model.
+
+    ``m`` modes, ``n`` nodes, ``p`` mass points, ``d`` degrees of freedom of the finite-element model.
+
+    Parameters
+    ----------
+    origin : ndarray, shape (3,)
+        Reference node in the axes of the finite-element model, m.
+    node_names : tuple of str
+    node_positions : ndarray, shape (n, 3)
+        Undeformed, from the reference node, m.
+    node_translations, node_rotations : ndarray, shape (n, 3, m)
+        Displacement and rotation of every node per unit amplitude; zero rotations where a node has none.
+    modes : ndarray, shape (d, m)
+        The same over the degrees of freedom of the finite-element model.
+    mass_positions : ndarray, shape (p, 3)
+        Mass points from the reference node, m.
+    masses : ndarray, shape (p,)
+        kg.
+    mass_shapes : ndarray, shape (p, 3, m)
+        Displacement of every mass point per unit amplitude.
+    K, M, C : ndarray, shape (m, m)
+        Modal stiffness, mass and damping; ``K`` has no entries between static and dynamic modes.
+    mode_names : tuple of str
+    interfaces : mapping of str to InterfaceModes
+        By name of the node.
+    n_static : int
+        The first modes are the static ones.
+    frequencies : ndarray, shape (m - n_static,)
+        Fixed-interface frequencies of the dynamic modes, Hz.
+    """
+
+    origin: np.ndarray
+    node_names: tuple[str, ...]
+    node_positions: np.ndarray
+    node_translations: np.ndarray
+    node_rotations: np.ndarray
+    modes: np.ndarray
+    mass_positions: np.ndarray
+    masses: np.ndarray
+    mass_shapes: np.ndarray
+    K: np.ndarray
+    M: np.ndarray
+    C: np.ndarray
+    mode_names: tuple[str, ...]
+    interfaces: Mapping[str, InterfaceModes]
+    n_static: int
+    frequencies: np.ndarray
+
+    @property
+    def n_modes(self) -> int:
+        """Number of modes."""
+        return int(self.K.shape[0])
+
+    def interface(self, name: str) -> InterfaceModes:
+        """Interface by the name of its node."""
+        if name not in self.interfaces:
+            raise ModelError(f"Node {name!r} is not an interface; these are: {', '.join(self.interfaces)}.")
+        return self.interfaces[name]
+
+    def interface_translation(self, name: str) -> np.ndarray:
+        """Displacement of an interface node per unit amplitude, shape (3, m): unit columns in the default basis."""
+        return np.asarray(self.node_translations[self.interface(name).node])
+
+    def interface_rotation(self, name: str) -> np.ndarray:
+        """Rotation of an interface node per unit amplitude, shape (3, m)."""
+        return np.asarray(self.node_rotations[self.interface(name).node])
+
+    def recovery(self, rows: np.ndarray) -> np.ndarray:
+        """Outputs per unit amplitude from outputs per nodal displacement: shape (k, d) to (k, m)."""
+        return np.asarray(rows @ self.modes)
+
+    def transformed(self, V: np.ndarray, names: tuple[str, ...], frequencies: np.ndarray) -> ReducedBody:
+        """The body in the amplitudes zeta of eta = V zeta, all counted as dynamic modes.
+
+        Interfaces then have no modes of their own: their displacements are `interface_translation` times zeta.
+
+        Parameters
+        ----------
+        V : ndarray, shape (m, r)
+        names : tuple of str
+            r names.
+        frequencies : ndarray, shape (r,)
+            Hz.
+        """
+        interfaces = {k: replace(i, translation=None, rotation=None) for k, i in self.interfaces.items()}
+        K, M, C = ((X + X.T) / 2 for X in (V.T @ self.K @ V, V.T @ self.M @ V, V.T @ self.C @ V))
+        return replace(
+            self,
+            node_translations=self.node_translations @ V,
+            node_rotations=self.node_rotations @ V,
+            modes=self.modes @ V,
+            mass_shapes=self.mass_shapes @ V,
+            K=K,
+            M=M,
+            C=C,
+            mode_names=names,
+            interfaces=interfaces,
+            n_static=0,
+            frequencies=frequencies,
+        )

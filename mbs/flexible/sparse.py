@@ -1,0 +1,9 @@
+"""The kinds of sparse matrices that are taken."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import scipy.sparse as sp
+
+Sparse: TypeAlias = "sp.csc_array[Any] | sp.csr_array[Any] | sp.coo_array[Any]"

@@ -1,0 +1,290 @@
+"""Flexible bodies: a floating frame, modal amplitudes, and interfaces that joints and forces take like bodies.
+
+The full coordinates are the origin r_o at the reference node, the axes a, b, c (the earth axes in the reference
+configuration) and the amplitudes eta (the paper's equations (1) to (3), (9)). A node is at
+``r_o + A (x + Phi eta)``: bilinear, so that a joint or force there brings three coordinates without mass and three
+rows.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.affine import Affine, AffineVector, sum_affine
+from mbs.errors import ModelError
+from mbs.flexible.reduced_body import ReducedBody
+from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals
+from mbs.model.body import Body
+from mbs.model.checks import Vector, vector
+from mbs.model.equation import Equation, Product
+from mbs.model.joints.joint import Joint
+
+if TYPE_CHECKING:
+    from mbs.model.core import ModelCore
+
+SAME_PLACE = 1e-6
+"""A point belongs to a node if it is no farther from it, m."""
+NO_MOTION = 1e-12
+"""Displacements per unit amplitude below this part of the largest are round-off."""
+
+
+class FlexibleBody(Body):
+    """A body that bends; made by `Model.flexible_body`.
+
+    Attributes
+    ----------
+    reduced : ReducedBody
+        Modes and matrices in the axes of the finite-element model.
+    axes : ndarray, shape (3, 3)
+        Columns are those axes in the earth in the reference configuration.
+    com : ndarray, shape (3,)
+        Origin of the floating frame there, m (not the centre of mass, see `centre_of_mass`).
+    integrals : ShapeIntegrals
+        In earth axes of the reference configuration.
+    """
+
+    is_flexible = True
+
+    def __init__(
+        self, model: ModelCore, name: str, reduced: ReducedBody, origin: Vector, axes: NDArray[np.float64], start: int
+    ) -> None:
+        super().__init__(model, name, origin + axes @ reduced.origin, start)
+        self.reduced = reduced
+        self.axes = axes
+        self.integrals = _turned(shape_integrals(reduced), axes)
+        self.mass = self.integrals.mass
+        self.first_moment = self.integrals.S0
+        self.second_moment = self.integrals.J0
+        self._interfaces: dict[int, Interface] = {}
+
+    @property
+    def n_modes(self) -> int:
+        """Number of amplitudes."""
+        return self.reduced.n_modes
+
+    @property
+    def size(self) -> int:
+        """Number of its full coordinates."""
+        return 12 + self.n_modes
+
+    @property
+    def centre_of_mass(self) -> Vector:
+        """Centre of mass in earth axes in the reference configuration, m."""
+        return np.asarray(self.com + self.first_moment / self.mass)
+
+    @property
+    def node_positions(self) -> NDArray[np.float64]:
+        """Nodes in earth axes in the reference configuration, shape (n, 3), m."""
+        return np.asarray(self.com + self.reduced.node_positions @ self.axes.T)
+
+    def amplitude(self, mode: int | str) -> Affine:
+        """An amplitude by its number or name as an expression (of static modes m or rad)."""
+        names = self.reduced.mode_names
+        if isinstance(mode, str):
+            if mode not in names:
+                raise ModelError(f"Flexible body '{self.name}' has no mode '{mode}'; it has: {', '.join(names)}.")
+            mode = names.index(mode)
+        if not 0 <= mode < self.n_modes:
+            raise ModelError(f"Flexible body '{self.name}' has the modes 0 to {self.n_modes - 1}, not {mode}.")
+        return Affine({self.start + 12 + mode: 1.0})
+
+    def combination(self, weights: ArrayLike) -> Affine:
+        """``weights . eta``: what `ReducedBody.recovery` gives per unit amplitude, such as a bending moment."""
+        w = vector(weights, self.n_modes, f"the weights of the modes of flexible body '{self.name}'")
+        return Affine({self.start + 12 + j: float(v) for j, v in enumerate(w) if v != 0.0})
+
+    @property
+    def frame(self) -> Body:
+        """The floating frame in the part of a rigid body: its points do not take part in the deformation."""
+        return Body(self.model, f"{self.name}.frame", self.com, self.start)
+
+    def interface(self, node: str | int) -> Interface:
+        """A node as something that joints, forces and sensors take like a body."""
+        number = self._node_number(node)
+        if number not in self._interfaces:
+            self._interfaces[number] = Interface(self, number)
+        return self._interfaces[number]
+
+    def interface_at(self, position: ArrayLike, what: str) -> Interface:
+        """The node at a place (earth axes, reference configuration, m)."""
+        place = vector(position, 3, f"the point of {what} on flexible body '{self.name}'")
+        gaps = np.linalg.norm(self.node_positions - place, axis=1)
+        near = [*self._named(), int(np.argmin(gaps))]  # nodes may coincide: interfaces first
+        best = min(near, key=lambda k: (gaps[k] > SAME_PLACE, near.index(k) if gaps[k] <= SAME_PLACE else gaps[k]))
+        if gaps[best] > SAME_PLACE:
+            raise ModelError(
+                f"Flexible body '{self.name}' has no node at {place.tolist()} for {what}; "
+                f"the nearest is '{self.reduced.node_names[best]}', {gaps[best]:.3g} m away."
+            )
+        return self.interface(best)
+
+    def point(self, position: ArrayLike) -> AffineVector:
+        """The node at `position` (earth axes, reference configuration, m)."""
+        place = np.asarray(position, dtype=float)
+        if place.shape == (3,) and np.linalg.norm(place - self.com) <= SAME_PLACE:
+            return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(3)))
+        return self.interface_at(position, "a point").point()
+
+    def node(self, node: str | int) -> AffineVector:
+        """A node by name or number; brings three coordinates and rows unless it is there already."""
+        return self.interface(node).point()
+
+    def mass_block(self) -> NDArray[np.float64]:
+        """Constant part of the mass matrix of its full coordinates; what depends on the position is the kernel's."""
+        block = np.zeros((self.size, self.size))
+        block[:12, :12] = super().mass_block()
+        block[12:, 12:] = self.integrals.modal_mass()
+        return block
+
+    def reference(self) -> NDArray[np.float64]:
+        """Full coordinates in the reference configuration."""
+        return np.concatenate([super().reference(), np.zeros(self.n_modes)])
+
+    def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Rates of the full coordinates for a velocity of the centre of mass and an angular velocity, undeformed."""
+        arm = position[3:12].reshape(3, 3).T @ self.first_moment / self.mass
+        rigid = super().velocity(linear - np.cross(angular, arm), angular, position)
+        return np.concatenate([rigid, np.zeros(self.n_modes)])
+
+    def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
+        """Refused: masses belong to the nodes of the finite-element model."""
+        raise ModelError(
+            f"Flexible body '{self.name}' cannot take a mass of {mass:g} kg; give it to a node of its model."
+        )
+
+    def _node_number(self, node: str | int) -> int:
+        names = self.reduced.node_names
+        if isinstance(node, str):
+            if node not in names:
+                known = ", ".join(self.reduced.interfaces) or "none"
+                raise ModelError(f"Flexible body '{self.name}' has no node '{node}'; its interfaces are: {known}.")
+            return names.index(node)
+        if not 0 <= node < len(names):
+            raise ModelError(f"Flexible body '{self.name}' has the nodes 0 to {len(names) - 1}, not {node}.")
+        return int(node)
+
+    def _named(self) -> list[int]:
+        return [i.node for i in self.reduced.interfaces.values()]
+
+
+class Interface(Body):
+    """A node of a flexible body in the part of a body: joints, springs and sensors take it.
+
+    Its points are fixed to the node as by rigid arms, its vectors turn with the node. Coordinates and rows come with
+    the first use: three for the node, three for its rotation, three for each vector.
+    """
+
+    is_flexible = True
+
+    def __init__(self, owner: FlexibleBody, node: int) -> None:
+        name = f"{owner.name}.{owner.reduced.node_names[node]}"
+        super().__init__(owner.model, name, np.asarray(owner.node_positions[node]), owner.start)
+        self.owner = owner
+        self.node = node
+        R, reduced = owner.axes, owner.reduced
+        self.translation = _without_round_off(R @ reduced.node_translations[node])  # (3, modes), m per amplitude
+        self.rotation = _without_round_off(R @ reduced.node_rotations[node])  # (3, modes), rad per amplitude
+        self._point: AffineVector | None = None
+        self._turn: AffineVector | None = None  # rotation against the frame, earth axes, rad
+        self._vectors: dict[tuple[float, ...], AffineVector] = {}
+
+    @property
+    def bends(self) -> bool:
+        """Whether it turns against the floating frame."""
+        return bool(np.any(self.rotation))
+
+    def point(self, position: ArrayLike | None = None) -> AffineVector:
+        """The node, or a point fixed to it by a rigid arm (earth axes, reference configuration, m)."""
+        if self._point is None:
+            # from the origin of the frame, so that the rows lose no digits far from that of the earth
+            origin = AffineVector(tuple(Affine({self.owner.start + k: 1.0}) for k in range(3)))
+            self._point = origin + self._moved("", self.com - self.owner.com, self.translation)
+        arm = np.zeros(3) if position is None else vector(position, 3, f"a point of interface '{self.name}'") - self.com
+        return self._point if np.linalg.norm(arm) <= SAME_PLACE else self._point + self.vector(arm)
+
+    def vector(self, components: ArrayLike) -> AffineVector:
+        """The vector that turns with the node and is `components` (earth axes) in the reference configuration.
+
+        The node turns against the frame by ``theta = Theta eta`` (equation (9) for unit vectors). With t = A theta, the
+        vector V is A v turned by Cayley's rotation, ``V - A v = t x (A v + V) / 2``: bilinear, and V keeps its length.
+        """
+        v = vector(components, 3, f"a vector of interface '{self.name}'")
+        carried = self.owner.vector(v)
+        if not self.bends:
+            return carried
+        if self._turn is None:
+            self._turn = self._moved(".rotation", np.zeros(3), self.rotation)
+        key = tuple(np.round(v, 12).tolist())
+        if key not in self._vectors:
+            what = f"{self.name}.vector {len(self._vectors) + 1}"
+            new = self._new(what, "vector", v)
+            middle = (carried + new) * 0.5
+            rows = []
+            for k in range(3):
+                i, j = (k + 1) % 3, (k + 2) % 3
+                products: list[Product] = [(-1.0, self._turn[i], middle[j]), (1.0, self._turn[j], middle[i])]
+                rows.append(Equation(what, "interface", products, new[k] - carried[k]))
+            self.model.joints.append(Joint(what, "interface", rows))
+            self._vectors[key] = new
+        return self._vectors[key]
+
+    def _moved(self, part: str, local: Vector, motion: NDArray[np.float64]) -> AffineVector:
+        """``A (local + motion eta)``; new coordinates and rows where eta takes part."""
+        owner, frame = self.owner, self.owner.start
+        if not np.any(motion):
+            return owner.vector(local)
+        what = f"{self.name}{part}"
+        new = self._new(what, "vector", local)
+        eta = frame + 12
+        bent = [
+            Affine({eta + int(j): float(motion[i, j]) for j in np.flatnonzero(motion[i])}, float(local[i]))
+            for i in range(3)
+        ]
+        rows = []
+        for k in range(3):
+            products = [(-1.0, Affine({frame + 3 + 3 * i + k: 1.0}), bent[i]) for i in range(3)]
+            rows.append(Equation(what, "interface", products, new[k]))
+        self.model.joints.append(Joint(what, "interface", rows))
+        return new
+
+    def _new(self, what: str, kind: str, drawn: Vector) -> AffineVector:
+        """Three coordinates without mass."""
+        self.model.unique("joint", what)
+        numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", kind, float(drawn[k]), k) for k in range(3)]
+        return AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
+
+
+def located(body: Body, position: ArrayLike, what: str) -> Body:
+    """The body a joint at `position` acts on: of a flexible body its node there."""
+    return body.interface_at(position, what) if isinstance(body, FlexibleBody) else body
+
+
+def bends(body: Body) -> bool:
+    """Whether vectors of the body turn with its deformation."""
+    return isinstance(body, Interface) and body.bends
+
+
+def node_displacement(body: FlexibleBody, node: str | int, direction: ArrayLike) -> Affine:
+    """Displacement of a node in the floating frame along a direction (earth axes, reference configuration), m."""
+    d = vector(direction, 3, f"the direction at node {node!r} of flexible body '{body.name}'")
+    motion = body.interface(node).translation
+    return sum_affine(body.amplitude(int(j)) * float(d @ motion[:, j]) for j in np.flatnonzero(d @ motion))
+
+
+def _without_round_off(X: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.where(np.abs(X) > NO_MOTION * np.max(np.abs(X), initial=0.0), X, 0.0)
+
+
+def _turned(s: ShapeIntegrals, R: NDArray[np.float64]) -> ShapeIntegrals:
+    """The integrals in other axes."""
+    return ShapeIntegrals(
+        mass=s.mass,
+        S0=R @ s.S0,
+        P=R @ s.P,
+        J0=R @ s.J0 @ R.T,
+        c=np.einsum("ia,ajb,kb->ijk", R, s.c, R),
+        T=np.einsum("ia,jlab,kb->jlik", R, s.T, R),
+    )

@@ -1,0 +1,53 @@
+"""A rigid body whose points are joined to by rows of their own, so that the forces there can be read.
+
+Joints and springs at a port share three coordinates without mass, which three linear rows tie to the body. Their
+multipliers are the whole force on the body at the port, whatever acts there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import Affine, AffineVector
+from mbs.model.body import Body
+from mbs.model.checks import Vector, vector
+from mbs.model.joints.joint import Joint, equal_vectors
+
+SAME_PLACE = 1e-6
+"""A point belongs to a port if it is no farther from it, m."""
+
+
+class PortedBody(Body):
+    """A rigid body in the part of one with ports; made by `Model.ported`.
+
+    Attributes
+    ----------
+    ports : dict of str to Joint
+        The rows of each port; force on the body: plus the multipliers, earth axes, N.
+    """
+
+    def __init__(self, owner: Body, places: Mapping[str, Vector]) -> None:
+        super().__init__(owner.model, f"{owner.name} with ports", owner.com, owner.start)
+        self.ports: dict[str, Joint] = {}
+        self._points: list[tuple[Vector, AffineVector]] = []
+        for name, place in places.items():
+            what = f"{owner.name}.{name}"
+            numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", "point", float(place[k]), k) for k in range(3)]
+            free = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
+            joint = Joint(what, "port", equal_vectors(what, "point", free, owner.point(place)), rows_weight=1.0)
+            joint.keep = True
+            self.model.unique("joint", what)
+            self.model.joints.append(joint)
+            self.ports[name] = joint
+            self._points.append((place, free))
+
+    def point(self, position: ArrayLike) -> AffineVector:
+        """The port at `position` (earth axes, reference configuration, m), else the point of the body."""
+        p = vector(position, self.dimension, f"a point of body '{self.name}'")
+        for place, free in self._points:
+            if np.linalg.norm(p - place) <= SAME_PLACE:
+                return free
+        return super().point(p)

@@ -1,0 +1,94 @@
+"""The paper's test (section 4): the prototype car rolls from rest to 5 m/s, down a kerb of 8 cm, and to rest, in 15 s.
+
+The forward motion of the chassis is guided in time, as the paper guides it by what was measured. Kerb, duration, top
+speed and the three intervals are the paper's; the times within them and where the kerb lies are assumed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from numpy.polynomial import Polynomial
+from scipy.interpolate import PPoly
+
+from mbs.elements.road import KerbRoad
+from mbs.model import Model
+from mbs.model.guides import Guide
+from mbs.scenes import prototype_car
+from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.tyre_data import FRICTION
+
+SPEED = 5.0  # m/s
+ACCELERATE, BRAKE = (5.0, 7.4), (8.2, 10.0)  # s; between them the speed is constant
+DURATION, STEP = 15.0, 0.01  # s
+EDGE = 7.5  # m from the front axle at rest to the kerb; a wheel is over it at 7.70 s in front, 8.16 s behind
+HEIGHT = 0.08  # m
+PIECE = 0.1  # s, of the guide's polynomials
+FIDELITIES = (0, 1, 2, 3)
+
+
+def build(fidelity: int | str = 3) -> Model:
+    """The car before the kerb, in equilibrium; rungs as in `prototype_car.build`."""
+    road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", FRICTION)
+    m = prototype_car.build(road, fidelity, guide)
+    m.stop_time, m.step = DURATION, STEP
+    return m
+
+
+def variants() -> dict[int, Callable[[], Model]]:
+    """The rungs an FMU offers by its parameter `fidelity`."""
+    return {k: partial(build, k) for k in FIDELITIES}
+
+
+def speed(t: float | np.ndarray) -> np.ndarray:
+    """Guided speed, m/s."""
+    s5 = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0])
+    up, down = (np.clip((np.asarray(t) - a) / (b - a), 0.0, 1.0) for a, b in (ACCELERATE, BRAKE))
+    return np.asarray(SPEED * (s5(up) - s5(down)))
+
+
+def way(t: float | np.ndarray) -> np.ndarray:
+    """Guided way from rest, m: the integral of `speed`."""
+    integral = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0]).integ()
+    total = np.zeros(np.shape(t))
+    for sign, (a, b) in ((1.0, ACCELERATE), (-1.0, BRAKE)):
+        u = (np.asarray(t) - a) / (b - a)
+        total += sign * SPEED * (b - a) * (integral(np.clip(u, 0.0, 1.0)) + np.maximum(u - 1.0, 0.0))
+    return total
+
+
+def guide(m: Model) -> Guide:
+    """x of the floor's centre: pieces of fifth degree that share place, speed and acceleration with `way`."""
+    breaks = np.concatenate(
+        [[0.0], *(np.arange(a, b + 0.5 * PIECE, PIECE) for a, b in (ACCELERATE, BRAKE)), [DURATION]]
+    )
+    v, rate = speed(breaks), _acceleration(breaks)
+    x = car_data.FLOOR_CENTRE[0] + way(breaks)
+    coefficients = []
+    for k, h in enumerate(np.diff(breaks)):
+        low = [x[k], v[k], rate[k] / 2.0]
+        A = np.array(
+            [
+                [h**n for n in (3, 4, 5)],
+                [n * h ** (n - 1) for n in (3, 4, 5)],
+                [n * (n - 1) * h ** (n - 2) for n in (3, 4, 5)],
+            ]
+        )
+        rest = np.array(
+            [
+                x[k + 1] - low[0] - low[1] * h - low[2] * h * h,
+                v[k + 1] - low[1] - 2 * low[2] * h,
+                rate[k + 1] - 2 * low[2],
+            ]
+        )
+        coefficients.append([*low, *np.linalg.solve(A, rest)])
+    motion = PPoly(np.array(coefficients).T[::-1], breaks)
+    return m.guide_time("way of the chassis", motion, unit="m")
+
+
+def _acceleration(t: np.ndarray) -> np.ndarray:
+    slope = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0]).deriv()
+    parts = [slope(np.clip((t - a) / (b - a), 0.0, 1.0)) / (b - a) for a, b in (ACCELERATE, BRAKE)]
+    return np.asarray(SPEED * (parts[0] - parts[1]))

@@ -1,0 +1,226 @@
+"""The chassis on every rung of the ladder, with the same outputs: rigid, with quasi-static stresses, or flexible."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from mbs.affine import AffineVector
+from mbs.errors import ModelError
+from mbs.flexible import (
+    FiniteElementModel,
+    InertiaRelief,
+    ReducedBody,
+    craig_bampton,
+    gauge_rows,
+    inertia_relief,
+    load_path_modes,
+)
+from mbs.flexible.load_path_modes import load_path_deformations
+from mbs.flexible.recovery import StrainGauge
+from mbs.model import Model
+from mbs.model.body import Body
+from mbs.model.flexible import FlexibleBody
+from mbs.model.ports import PortedBody
+from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.frame import (
+    DAMPING,
+    DYNAMIC_MODES,
+    GAUGES,
+    INTERFACES,
+    REFERENCE,
+    prototype_frame,
+    strain_gauges,
+)
+
+RIGID, QUASI_STATIC, LOAD_PATHS, DYNAMIC, REFERENCE_MODES = range(5)
+FIDELITIES = (
+    "rigid, stresses not computed",
+    "rigid, quasi-static stresses by inertia relief",
+    "flexible, static modes of the load paths",
+    "flexible, static, inertia and 5 dynamic modes",
+    "flexible, static, inertia and many dynamic modes",
+)
+PAPER_MODES = "paper"
+"""In place of a number: the 60 static and 5 dynamic modes of the paper, without the inertia modes."""
+MANY_MODES = 40
+LOAD_FILE = Path(__file__).parent / "frame" / "loads.csv"
+LOAD_PATH_TOLERANCE = 5e-3
+"""Load paths whose deformation has less than this part of the largest, in the energy norm, are left out."""
+GUIDING_FORCE = 2e3  # N, along the car at the origin of the floating frame
+# wishbones hold the distance of their two pivots: no load stretches the frame between them
+STIFF_PAIRS = tuple((f"{a}{s}", f"{b}{s}") for a, b in (("LF", "LR"), ("UF", "UR"), ("AF", "AR")) for s in "LR")
+
+
+@dataclass(frozen=True)
+class Chassis:
+    """What the rest of the car needs of the chassis.
+
+    Attributes
+    ----------
+    body : Body
+        What joints and springs take.
+    frame : Body
+        Rigid body, or floating frame: axes and points that do not deform.
+    origin : tuple of float
+        The reference node in the drawing, m.
+    accelerated : Body
+        Where accelerometers sit.
+    drive_axes : tuple of AffineVector
+        z and x axes that take the reaction of the final drive.
+    """
+
+    body: Body
+    frame: Body
+    accelerated: Body
+    origin: tuple[float, float, float]
+    drive_axes: tuple[AffineVector, AffineVector]
+
+
+@cache
+def _finite_elements() -> tuple[FiniteElementModel, tuple[StrainGauge, ...], np.ndarray]:
+    """Model, gauges, and rows of the four moments, then of the four half-bridges."""
+    frame, tubes = prototype_frame()
+    gauges = strain_gauges(tubes)
+    return frame.finite_element_model(), gauges, np.vstack(gauge_rows(frame, gauges))
+
+
+@cache
+def reduced_chassis(fidelity: int | str) -> ReducedBody:
+    """The frame with the modes of a rung (2 to 4), or those of the paper."""
+    model, _, _ = _finite_elements()
+    if fidelity == PAPER_MODES:
+        return craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES, damping=DAMPING)
+    count = {LOAD_PATHS: 0, DYNAMIC: DYNAMIC_MODES, REFERENCE_MODES: MANY_MODES}[int(fidelity)]
+    body = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=True, damping=DAMPING)
+    if fidelity != LOAD_PATHS:
+        return body
+    # without the stretch between the pivots of a wishbone the frame could not follow its fixed length
+    loads, pairs = recorded_loads(), _relief_with_stretch()[1]
+    sizes = [np.sqrt(np.diag(deformation_energy(f))) for f in (loads, pairs)]
+    every = np.hstack([loads, pairs * (sizes[0].max() / sizes[1]), np.zeros((len(loads), 1))])
+    guided = np.zeros((6, every.shape[1]))
+    guided[0, -1] = GUIDING_FORCE
+    return load_path_modes(body, every, LOAD_PATH_TOLERANCE, guided)
+
+
+def recorded_loads() -> np.ndarray:
+    """Principal combinations of the interface forces in driving, shape (60, n), N; see the head of the file."""
+    with LOAD_FILE.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(line for line in file if not line.startswith("#")))
+    return np.array([[float(v) for v in row[2:]] for row in rows[1:]])
+
+
+def settled_loads(forces: np.ndarray) -> np.ndarray:
+    """Interface forces, shape (60, n), N, with the wishbones' axial forces that keep their pivots apart."""
+    relief, pairs, n = _relief_with_stretch()
+    return np.asarray(forces - pairs @ np.linalg.solve(relief.forces[n:] @ pairs, relief.balanced[n:] @ forces))
+
+
+def deformation_energy(forces: np.ndarray) -> np.ndarray:
+    """Products of the deformations under interface forces, freely accelerated, in the energy norm, shape (n, n), J."""
+    body = craig_bampton(_finite_elements()[0], REFERENCE, INTERFACES, 0, inertia_modes=True)
+    deformation = load_path_deformations(body, forces)
+    return np.asarray(deformation.T @ body.K @ deformation)
+
+
+@cache
+def _relief_with_stretch() -> tuple[InertiaRelief, np.ndarray, int]:
+    """From loads to the gauges and to the stretch between pivots; forces per axial force; number of gauge rows."""
+    model, _, outputs = _finite_elements()
+    stretch = np.zeros((len(STIFF_PAIRS), model.n_dof))
+    pairs = np.zeros((3 * len(INTERFACES), len(STIFF_PAIRS)))
+    for k, pair in enumerate(STIFF_PAIRS):
+        a, b = (model.node(name) for name in pair)
+        along = model.positions[a] - model.positions[b]
+        along /= np.linalg.norm(along)
+        for node, name, sign in ((a, pair[0], 1.0), (b, pair[1], -1.0)):
+            stretch[k, model.freedoms(node)[:3]] = sign * along
+            start = 3 * INTERFACES.index(name)
+            pairs[start : start + 3, k] = sign * along
+    relief = inertia_relief(model, REFERENCE, INTERFACES, np.vstack([outputs, stretch]))
+    return relief, pairs, len(outputs)
+
+
+@cache
+def quasi_static() -> InertiaRelief:
+    """From interface forces and motion to the moments and half-bridges; wishbones keep their pivots apart."""
+    relief, pairs, n = _relief_with_stretch()
+    # forces of each wishbone along its axis that undo the stretch
+    undo = -relief.forces[:n] @ pairs @ np.linalg.inv(relief.forces[n:] @ pairs)
+
+    def mixed(part: np.ndarray) -> np.ndarray:
+        return np.asarray(part[:n] + undo @ part[n:])
+
+    return InertiaRelief(
+        mixed(relief.forces),
+        mixed(relief.acceleration),
+        mixed(relief.rotation),
+        mixed(relief.balanced),
+        relief.acceleration_of_forces,
+    )
+
+
+def chassis(m: Model, fidelity: int | str) -> Chassis:
+    """Add the chassis."""
+    if fidelity != PAPER_MODES and (isinstance(fidelity, bool) or fidelity not in range(len(FIDELITIES))):
+        names = "; ".join(f"{k} {text}" for k, text in enumerate(FIDELITIES))
+        raise ModelError(f"The fidelity of the car is {fidelity!r}; it must be one of: {names}.")
+    if fidelity in (RIGID, QUASI_STATIC):
+        rigid = m.body("chassis", **car_data.CHASSIS)
+        if fidelity == RIGID:
+            axes = rigid.vector((0.0, 0.0, 1.0)), rigid.vector((1.0, 0.0, 0.0))
+            return Chassis(rigid, rigid, rigid, car_data.FLOOR_CENTRE, axes)
+        model, _, _ = _finite_elements()
+        ports = m.ported(rigid, {name: model.positions[model.node(name)] for name in INTERFACES})
+        return Chassis(ports, rigid, rigid, car_data.FLOOR_CENTRE, _rear_axes(ports))
+    flexible = m.flexible_body("chassis", reduced_chassis(fidelity))
+    return Chassis(flexible, flexible.frame, flexible, car_data.FLOOR_CENTRE, _rear_axes(flexible))
+
+
+def _rear_axes(body: Body) -> tuple[AffineVector, AffineVector]:
+    """z and x axes through the rear suspension's joints, where the final drive hangs: its torque loads them in pairs.
+
+    At the origin of the floating frame, a node without rotary inertia of its own, it would shake the frame.
+    """
+    front, rear, top = (
+        [body.point(np.array(car_data.REAR[name]) * (1.0, sign, 1.0)) for sign in (1.0, -1.0)]
+        for name in ("lower_pivot_front", "lower_pivot_rear", "strut_top")
+    )
+    x_front, x_rear, x_top = (car_data.REAR[name][0] for name in ("lower_pivot_front", "lower_pivot_rear", "strut_top"))
+    share = (x_top - x_rear) / (x_front - x_rear)  # of the front pivots in the place under the strut tops
+    x = (front[0] + front[1] - rear[0] - rear[1]) * (0.5 / (x_front - x_rear))
+    below = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
+    height = car_data.REAR["strut_top"][2] - car_data.REAR["lower_pivot_front"][2]
+    return ((top[0] + top[1]) * 0.5 - below) * (1.0 / height), x
+
+
+def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
+    """Moments and stresses at the gauges; zero on the rigid rung, where `stress.computed` says so."""
+    _, _, rows = _finite_elements() if fidelity != RIGID else (None, None, None)
+    note = "; zero where stress.computed is 0"
+    names = list(GAUGES)
+    outputs = [
+        (f"bending_moment.{g}", "N.m", f"bending moment at gauge {g}, positive: upper fibre pulled") for g in names
+    ]
+    outputs += [(f"stress.{g}", "Pa", f"half-bridge {g}, upper minus lower fibre") for g in names]
+    for k, (name, unit, text) in enumerate(outputs):
+        if fidelity == RIGID:
+            m.sense_constant(name, 0.0, unit, text + note)
+        elif isinstance(chassis.body, PortedBody):
+            m.sense_quasi_static(name, chassis.body, quasi_static(), k, chassis.origin, unit, text + note)
+        else:
+            body = chassis.body
+            assert isinstance(body, FlexibleBody)
+            assert rows is not None
+            m.sense_recovery(name, body, body.reduced.recovery(rows[k : k + 1])[0], unit, text + note)
+    m.sense_constant(
+        "stress.computed", float(fidelity != RIGID), "1", "1 where moments and stresses are computed; 0: they read zero"
+    )
+
+
+__all__ = ["FIDELITIES", "Chassis", "chassis", "quasi_static", "reduced_chassis", "stress_outputs"]

@@ -1,0 +1,21 @@
+"""The command of the four-bar with assembly defect writes the rows it promises, a table and a chart."""
+
+from __future__ import annotations
+
+import json
+
+from matplotlib import image
+
+from benchmarks import assembly_defect
+
+
+def test_quick_run(tmp_path, capsys):
+    file, chart = tmp_path / "rows.json", tmp_path / "chart.png"
+    assert assembly_defect.main(["--quick", "--json", str(file), "--chart", str(chart)]) == 0
+    printed = capsys.readouterr().out
+    assert "geometrically exact" in printed or "ObjectBeamGeometricallyExact" in printed
+    assert "is locked" in printed
+    (row,) = json.loads(file.read_text(encoding="utf-8"))["rows"]
+    assert set(row) >= set(assembly_defect.TABLE)
+    assert row["largest_of_moment"] < assembly_defect.GOAL
+    assert image.imread(chart).std() > 0.05

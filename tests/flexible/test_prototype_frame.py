@@ -1,0 +1,191 @@
+"""The frame of the prototype car against the figures its layout was published with in the project."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from scipy.linalg import eigh
+from scipy.sparse.linalg import spsolve
+
+from benchmarks.car_statics import interface_forces
+from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.frequencies import natural_modes
+from mbs.flexible.inertia_relief import inertia_relief
+from mbs.flexible.load_path_modes import interface_loads, load_path_modes
+from mbs.flexible.recovery import gauge_rows, peak_tube_stress, section_force_field
+from mbs.flexible.shape_integrals import shape_integrals
+from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.frame import (
+    DAMPING,
+    DYNAMIC_MODES,
+    GAUGES,
+    INTERFACES,
+    REFERENCE,
+    prototype_frame,
+    strain_gauges,
+)
+
+# project data: computed once from the same layout by an independent script (dense numpy, own elements)
+LOADED_HZ = [15.20, 23.56, 27.45, 28.23, 28.81, 30.50, 32.44, 34.29, 34.79, 42.60, 46.27, 47.91, 53.06, 56.52, 61.03]
+BARE_HZ = [36.38, 59.40, 66.11, 73.49]
+FIXED_HZ = [27.25, 27.52, 31.68, 33.91, 35.64, 40.61, 45.36, 47.64, 57.16, 60.96]
+REDUCED_ERROR_PERCENT = {5: [1.0, 5.7, 2.9, 0.1, 0.3, 0.2], 10: [0.5, 0.6, 0.8, 0.1, 0.1, 0.1]}
+TORSION = 2370.0  # N m/deg
+STATIC_MOMENTS = {(1, 1): [3.70, -3.84], (2, 1): [7.13, -4.23], (1, 2): [3.97, -7.28]}  # N m at SG1/2 and SG3/4
+PEAK_STRESS, SAG = 26.5e6, [0.35e-3, 0.30e-3]
+FIGURES = 4e-4  # two digits after the point, and no rotary inertia of bending in them
+MOMENT_DIGITS = 5e-3
+
+
+@pytest.fixture(scope="module")
+def model() -> FiniteElementModel:
+    return prototype_frame()[0].finite_element_model()
+
+
+def test_size_mass_and_inertia(model: FiniteElementModel) -> None:
+    frame, tubes = prototype_frame()
+    assert (len(frame.positions), model.n_dof, len(frame.beams), len(tubes)) == (211, 1266, 282, 129)
+    assert frame.structural_mass() == pytest.approx(73.67, abs=0.005)
+    chassis = car_data.CHASSIS
+    assert model.mass.masses.sum() == pytest.approx(chassis["mass"], abs=1e-3)
+    x = model.mass.positions - np.array(chassis["com"])
+    np.testing.assert_allclose(model.mass.masses @ x / model.mass.masses.sum(), 0.0, atol=5e-5)
+    J = (model.mass.masses[:, None] * x).T @ x
+    np.testing.assert_allclose(np.trace(J) * np.eye(3) - J, chassis["inertia"], atol=0.051)
+
+
+def test_every_interface_is_a_hardpoint_of_the_car() -> None:
+    frame, _ = prototype_frame()
+    points = dict(zip(frame.names, frame.positions, strict=True))
+    for node, name in {
+        "LF": "lower_pivot_front", "LR": "lower_pivot_rear", "UF": "upper_pivot_front",
+        "UR": "upper_pivot_rear", "RK": "tie_rod_inner", "TF": "spring_upper",
+    }.items():  # fmt: skip
+        np.testing.assert_array_equal(points[node + "L"], car_data.FRONT[name])
+    for node, name in {
+        "AF": "lower_pivot_front", "AR": "lower_pivot_rear", "TL": "toe_link_inner", "TR": "strut_top"
+    }.items():  # fmt: skip
+        np.testing.assert_array_equal(points[node + "L"], car_data.REAR[name])
+    assert len(INTERFACES) == 20
+
+
+def test_free_frequencies_loaded_and_bare(model: FiniteElementModel) -> None:
+    hertz, _ = natural_modes(model, 21)
+    assert hertz[:6].max() < 1e-2
+    np.testing.assert_allclose(hertz[6:], LOADED_HZ, rtol=FIGURES)
+    bare, _ = natural_modes(prototype_frame(carried_masses=False)[0].finite_element_model(), 10)
+    np.testing.assert_allclose(bare[6:], BARE_HZ, rtol=FIGURES)
+
+
+def test_lumped_masses_and_rotary_inertia_are_negligible_for_the_frame(model: FiniteElementModel) -> None:
+    consistent = natural_modes(model, 21)[0][6:]
+    frame = prototype_frame()[0]
+    without_rotary = natural_modes(frame.finite_element_model("consistent", rotary=False), 21)[0][6:]
+    lumped = natural_modes(frame.finite_element_model("lumped", rotary=False), 21)[0][6:]
+    assert 0 < (without_rotary / consistent - 1).max() < 3e-4
+    assert 5e-4 < np.abs(lumped / consistent - 1)[:5].max() < 2e-3
+    assert np.abs(lumped / consistent - 1).max() < 6e-3
+
+
+def test_torsional_stiffness_between_the_towers(model: FiniteElementModel) -> None:
+    held = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
+    free = np.setdiff1d(np.arange(model.n_dof), held)
+    left, right = (model.freedoms(n)[2] for n in ("TFL", "TFR"))
+    F = np.zeros(model.n_dof)
+    F[left], F[right] = 1000.0, -1000.0
+    u = np.zeros(model.n_dof)
+    u[free] = spsolve(sp.csc_matrix(model.K[free][:, free]), F[free])
+    base = 2 * model.positions[model.node("TFL")][1]
+    assert 1000.0 * base / np.degrees((u[left] - u[right]) / base) == pytest.approx(TORSION, rel=5e-4)
+
+
+@pytest.mark.parametrize("count", [5, 10])
+def test_craig_bampton_has_the_frequencies_and_the_errors_of_the_data(model: FiniteElementModel, count: int) -> None:
+    body = craig_bampton(model, REFERENCE, INTERFACES, count, damping=DAMPING)
+    assert body.n_static == 60
+    assert body.n_modes == 60 + count
+    np.testing.assert_allclose(body.frequencies, FIXED_HZ[:count], rtol=FIGURES)
+    V = np.hstack([model.rigid_motions(), body.modes])
+    squares = eigh(V.T @ (model.K @ V), V.T @ (model.mass_matrix() @ V), eigvals_only=True)
+    full = natural_modes(model, 12)[0][6:]
+    error = 100 * (np.sqrt(squares[6:12]) / (2 * np.pi) / full - 1)
+    np.testing.assert_allclose(error, REDUCED_ERROR_PERCENT[count], atol=0.051)
+    integrals = shape_integrals(body)
+    assert integrals.T.shape == (60 + count, 60 + count, 3, 3)
+    np.testing.assert_allclose(integrals.modal_mass(), body.M, atol=1e-10 * body.M.max())
+
+
+def test_damping_is_the_fit_of_the_data() -> None:
+    assert DAMPING.alpha == pytest.approx(3.02, abs=0.005)
+    assert DAMPING.beta == pytest.approx(8.49e-5, abs=5e-8)
+    assert DYNAMIC_MODES == 5
+
+
+def test_gauges_sit_where_the_data_puts_them_at_every_refinement() -> None:
+    places = {"SG1": (-0.25, 0.345), "SG2": (-0.25, -0.345), "SG3": (-1.7875, 0.425), "SG4": (-1.7875, -0.425)}
+    for refinement in (1, 2, 3):
+        frame, tubes = prototype_frame(refinement=refinement)
+        for gauge in strain_gauges(tubes):
+            beam = frame.beams[gauge.element]
+            place = (1 - gauge.xi) * frame.positions[beam.i] + gauge.xi * frame.positions[beam.j]
+            np.testing.assert_allclose(place[:2], places[gauge.name], atol=1e-12)
+    frame, tubes = prototype_frame()
+    assert [g.element for g in strain_gauges(tubes)] == [38, 40, 127, 129]
+    assert list(GAUGES) == ["SG1", "SG2", "SG3", "SG4"]
+
+
+@pytest.mark.parametrize("factors", list(STATIC_MOMENTS))
+def test_gauge_moments_by_inertia_relief(model: FiniteElementModel, factors: tuple[int, int]) -> None:
+    frame, tubes = prototype_frame()
+    moments, bridges = gauge_rows(frame, strain_gauges(tubes))
+    forces = interface_forces(INTERFACES, *factors)
+    relief = inertia_relief(model, REFERENCE, INTERFACES, moments)
+    found = relief.balanced @ forces
+    front, rear = STATIC_MOMENTS[factors]
+    np.testing.assert_allclose(found, [front, front, rear, rear], rtol=MOMENT_DIGITS)
+    if factors == (1, 1):
+        np.testing.assert_allclose(relief.acceleration_of_forces @ forces, [0, 0, 9.81, 0, 0, 0], atol=5e-4)
+    # half-bridge: upper minus lower fibre = 2 M r / I
+    stress = inertia_relief(model, REFERENCE, INTERFACES, bridges).balanced @ forces
+    tube = frame.beams[strain_gauges(tubes)[0].element].section
+    np.testing.assert_allclose(stress, 2 * found * 0.020 / tube.Iy, rtol=1e-9)
+
+
+def test_largest_stress_and_sag_at_rest(model: FiniteElementModel) -> None:
+    frame, _ = prototype_frame()
+    forces = interface_forces(INTERFACES)
+    field = inertia_relief(model, REFERENCE, INTERFACES, section_force_field(frame)).balanced @ forces
+    assert peak_tube_stress(frame, field).max() == pytest.approx(PEAK_STRESS, abs=0.05e6)
+    towers = np.zeros((2, model.n_dof))
+    for row, name in enumerate(("TFL", "TRL")):
+        towers[row, model.freedoms(name)[2]] = 1.0
+    sag = inertia_relief(model, REFERENCE, INTERFACES, towers).balanced @ forces
+    np.testing.assert_allclose(sag, SAG, atol=0.005e-3)
+
+
+def test_static_and_dynamic_modes_need_inertia_modes_for_the_moments_at_rest(model: FiniteElementModel) -> None:
+    """60 + 5 modes carry a third to a half less than the moment at rest; with the inertia modes all of it."""
+    frame, tubes = prototype_frame()
+    rows, _ = gauge_rows(frame, strain_gauges(tubes))
+    forces = interface_forces(INTERFACES)
+    relief = inertia_relief(model, REFERENCE, INTERFACES, rows)
+    exact = relief.balanced @ forces
+    weight = (
+        -model.mass_matrix() @ model.rigid_motions(model.origin(REFERENCE)) @ (relief.acceleration_of_forces @ forces)
+    )
+    load = weight.copy()
+    load[np.concatenate([model.freedoms(n) for n in INTERFACES])] += forces
+    errors = {}
+    plain = craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES)
+    full = craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES, inertia_modes=True)
+    paths = load_path_modes(full, interface_loads(full, {n: np.eye(3) for n in INTERFACES}))
+    for name, body in (("plain", plain), ("inertia", full), ("paths", paths)):
+        eta = np.linalg.solve(body.K, body.modes.T @ load)
+        errors[name] = np.abs(body.recovery(rows) @ eta / exact - 1).max()
+    assert full.n_modes == 71
+    assert paths.n_modes == 60, "one for each force"
+    assert errors["inertia"] < 1e-6
+    assert errors["paths"] < 1e-4
+    assert 0.3 < errors["plain"] < 0.7

@@ -1,0 +1,134 @@
+"""What linear elasticity in the floating frame costs, and how welded parts buy it back: spinning and falling beams.
+
+References: geometrically exact beams of an independent program (`benchmarks/exudyn_beams.py`) and closed forms.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicHermiteSpline, PPoly
+
+from mbs import linearise, simulate
+from mbs.compile import compile
+from mbs.flexible.damping import RayleighDamping
+from mbs.flexible.material import Material
+from mbs.flexible.section import Section, round_bar
+from mbs.model import Model
+from mbs.simulation import Simulation
+from tests.flexible_engine.bodies import chain
+
+REFERENCE = Path(__file__).parent.parent / "data" / "reference"
+# Simo and Vu-Quoc 1986: E A 2.8e7 N, E I 1.4e4 N m2, rho A 1.2 kg/m, 10 m; shear left stiff
+SPINNING = Section(1.2e-3, 6e-7, 6e-7, 1.2e-6, (1.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.0, 0.0), ())
+SPIN_MATERIAL = Material(2.8e7 / 1.2e-3, 0.3, 1000.0)
+
+
+def _stored(name: str) -> np.ndarray:
+    return np.loadtxt(REFERENCE / f"{name}.csv", delimiter=",", skiprows=2)
+
+
+def spin_angle() -> CubicHermiteSpline:
+    """To 6 rad/s within 15 s."""
+    t = np.linspace(0.0, 15.0, 301)
+    w = 2 * np.pi / 15
+    angle = 0.4 * (t**2 / 2 + (np.cos(w * t) - 1) / w**2)
+    return CubicHermiteSpline([*t, 20.0], [*angle, 75.0], [*(0.4 * (t - np.sin(w * t) / w)), 6.0])
+
+
+def _spin_up(parts: int) -> Model:
+    m = Model("spin-up", gravity=(0, 0, 0))
+    beam = chain(m, (0, 0, 0), (10, 0, 0), SPINNING, SPIN_MATERIAL, parts=parts)
+    m.revolute("hub", m.ground, beam[0].interface(0), point=(0, 0, 0), axis=(0, 0, 1))
+    angle = m.relative_angle("angle", m.ground, beam[0].interface(0), axis=(0, 0, 1))
+    motion = spin_angle()
+    m.drive("motor", angle, m.guide_time("spin", PPoly(motion.c, motion.x), unit="rad"))
+    for k in "xy":
+        m.sense_position(k, beam[-1].interface(2), (10, 0, 0), k)
+    return m
+
+
+def _spin_run(parts: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    run = simulate(compile(_spin_up(parts)), 20.0, 0.01, progress=False)
+    angle = spin_angle()(run.t)
+    x, y = run["x"], run["y"]
+    return run.t, np.cos(angle) * x + np.sin(angle) * y - 10.0, np.cos(angle) * y - np.sin(angle) * x
+
+
+def test_spin_up_converges_with_the_parts() -> None:
+    """One floating frame misses the stiffening by the centrifugal tension and cannot pass the speed at which the beam
+    would seem to lose its stiffness; parts of it do, with errors that fall with the square of their number.
+    """
+    t_ref, _, deflection_ref = _stored("spin_up_beam").T
+    errors = []
+    for parts in (2, 4, 8):
+        t, extension, deflection = _spin_run(parts)
+        errors.append(np.max(np.abs(np.interp(t_ref, t, deflection) - deflection_ref)))
+        steady = np.mean(extension[t > 16.0])
+        assert steady == pytest.approx(1.2 * 36.0 * 10.0**3 / (3 * 2.8e7), rel=2e-3)  # rho A w^2 L^3 / 3 E A
+    assert errors[0] < 0.12 * 0.573
+    assert errors[1] < 0.03 * 0.573
+    assert errors[2] < 0.01 * 0.573
+
+
+def test_spin_up_in_one_part_buckles() -> None:
+    """With one floating frame the tension never arises: the tip leaves the beam's axis by metres."""
+    assert np.max(np.abs(_spin_run(1)[2])) > 1.0
+
+
+@pytest.mark.parametrize(("parts", "most"), [(1, 0.012), (4, 0.003)])
+def test_falling_flexible_pendulum(parts: int, most: float) -> None:
+    """A soft bar of 1 m falls from the horizontal for 2 s; its tip against the reference, m."""
+    m = Model("pendulum", gravity=(0, -9.81, 0))
+    bar = chain(m, (0, 0, 0), (1, 0, 0), round_bar(0.02), Material(5e8, 0.3, 2000.0), parts=parts, elements=4)
+    m.revolute("pin", m.ground, bar[0].interface(0), point=(0, 0, 0), axis=(0, 0, 1))
+    for k in "xy":
+        m.sense_position(k, bar[-1].interface(4), (1, 0, 0), k)
+    run = simulate(compile(m), 2.0, 0.0025, every=4, progress=False)
+    reference = _stored("falling_flexible_pendulum")
+    gap = np.hypot(run["x"] - reference[:, 1], run["y"] - reference[:, 2])
+    assert np.max(gap) < most
+
+
+def flapping_frequency(parts: int, speed: float) -> tuple[float, float]:
+    """First flapping frequency, rad/s, of a rotor blade at `speed`, from the linear model about the steady rotation,
+    and the one at rest. (Only flapping: in the plane the linear model is that of a moment, not of a rotating frame.)
+    """
+    E, rho, radius, length = 7e10, 3000.0, 0.005, 1.0
+    m = Model("blade", gravity=(0, 0, 0))
+    blade = chain(
+        m,
+        (0, 0, 0),
+        (length, 0, 0),
+        round_bar(2 * radius),
+        Material(E, 0.33, rho),
+        parts=parts,
+        damping=RayleighDamping(alpha=3.0, beta=1e-4),
+    )
+    m.revolute("hub", m.ground, blade[0].interface(0), point=(0, 0, 0), axis=(0, 0, 1))
+    angle = m.relative_angle("angle", m.ground, blade[0].interface(0), axis=(0, 0, 1))
+    m.drive("motor", angle, m.guide_time("spin", PPoly([[speed], [0.0]], [0.0, 100.0]), unit="rad"))
+    for part in blade:
+        m.initial_velocity(part, np.cross((0, 0, speed), part.centre_of_mass), (0, 0, speed))
+    system = compile(m)
+    simulation = Simulation(system)
+    simulation.step(0.002, 2000)
+    names = system.meta["coordinates"]
+    up, across = (names.index(f"part {parts - 1}.a{k}") for k in "zy")
+    modes = linearise(simulation).oscillating_modes()
+    found = [mode.frequency_hz for mode in modes if abs(mode.shape[up]) > abs(mode.shape[across])]
+    return 2 * np.pi * min(found), 1.8751041**2 * np.sqrt(E * radius**2 / 4 / rho) / length**2
+
+
+def test_rotating_beam_frequencies_approach_southwell() -> None:
+    """Flapping of a blade without hub radius: w^2 = w0^2 + 1.193 W^2 (Southwell). Tension acts between the parts."""
+    speed = 40.0
+    one, at_rest = flapping_frequency(1, speed)
+    southwell = np.sqrt(at_rest**2 + 1.193 * speed**2)
+    errors = [1 - w / southwell for w in (one, flapping_frequency(2, speed)[0], flapping_frequency(4, speed)[0])]
+    assert at_rest < one
+    assert 0.07 < errors[0] < 0.11
+    assert 0.02 < errors[1] < 0.04
+    assert abs(errors[2]) < 0.01

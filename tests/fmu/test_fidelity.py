@@ -1,0 +1,107 @@
+"""The parameter `fidelity` of an FMU: one table of variables, one System per rung."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from fmpy import extract, read_model_description
+from fmpy.validation import validate_fmu
+
+from fmu_src.build import build_fmu
+from fmu_src.platforms import PLATFORMS
+from fmu_src.scene_registry import SceneError, load_variants
+from fmu_src.variables import check_variants
+from hosts.errors import HostError
+from hosts.fmu import Fmu
+from mbs import Simulation, compile
+from mbs.kernel.build import host_target
+from mbs.scenes import kerb_test
+
+PLATFORM = PLATFORMS["windows" in host_target()]
+OUTPUTS = ("stress.computed", "bending_moment.SG1", "stress.SG3", "chassis.x")
+H = 0.01
+
+
+@pytest.fixture(scope="module")
+def kerb(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, systems, default = load_variants("kerb_test")
+    return build_fmu(systems, name, tmp_path_factory.mktemp("kerb"), [PLATFORM], fidelity=default)
+
+
+def values(fmu: Fmu, steps: int = 0, begin: int = 0) -> list[float]:
+    for k in range(begin, begin + steps):
+        fmu.step(k * H, H)
+    return fmu.getter(OUTPUTS)()
+
+
+def test_the_description_offers_the_rungs(kerb: Path) -> None:
+    assert validate_fmu(str(kerb)) == []
+    (v,) = (v for v in read_model_description(str(kerb)).modelVariables if v.name == "fidelity")
+    assert (v.causality, v.variability, v.start, v.min, v.max) == ("parameter", "fixed", "3.0", "0.0", "3.0")
+
+
+@pytest.mark.parametrize("fidelity", [0, 1, 2, 3])
+def test_every_rung_is_the_system_of_the_scene(kerb: Path, fidelity: int) -> None:
+    own = Simulation(compile(kerb_test.build(fidelity)))
+    own.step(H, 20)
+    with Fmu(kerb) as fmu:
+        fmu.initialise({"fidelity": float(fidelity)})
+        assert values(fmu, 20) == [own.sensors[name] for name in OUTPUTS]
+    assert own.sensors["stress.computed"] == (fidelity > 0)
+
+
+def test_the_default_is_that_of_the_scene(kerb: Path) -> None:
+    own = Simulation(compile(kerb_test.build()))
+    with Fmu(kerb) as fmu:
+        fmu.initialise({})
+        assert values(fmu) == [own.sensors[name] for name in OUTPUTS]
+
+
+@pytest.mark.parametrize(("value", "said"), [(1.5, "whole number"), (4.0, "outside its range"), (-1.0, "outside")])
+def test_other_values_are_refused(kerb: Path, value: float, said: str) -> None:
+    with Fmu(kerb) as fmu, pytest.raises(HostError, match=f"fidelity.*{said}"):
+        fmu.initialise({"fidelity": value})
+
+
+def test_a_state_brings_its_rung_along(kerb: Path) -> None:
+    with Fmu(kerb) as fmu, Fmu(kerb) as other:
+        fmu.initialise({"fidelity": 1.0})
+        values(fmu, 10)
+        state = fmu._slave.getFMUState()
+        saved = fmu._slave.serializeFMUState(state)
+        fmu._slave.freeFMUState(state)
+        other.initialise({"fidelity": 2.0})
+        values(other, 3)
+        copy = other._slave.deserializeFMUState(saved)
+        other._slave.setFMUState(copy)
+        other._slave.freeFMUState(copy)
+        assert values(other, 10, begin=10) == values(fmu, 10, begin=10)
+
+
+def test_a_file_per_rung(kerb: Path, tmp_path: Path) -> None:
+    folder = Path(extract(str(kerb), unzipdir=str(tmp_path)))
+    assert sorted(f.name for f in folder.glob("resources/*/system_*.ali3")) == [f"system_{k}.ali3" for k in range(4)]
+
+
+def test_rungs_with_other_variables_are_refused() -> None:
+    one = {"inputs": [], "parameters": [], "sensors": [{"name": "a", "unit": "m"}]}
+    other = {"inputs": [], "parameters": [], "sensors": [{"name": "b", "unit": "m"}]}
+    with pytest.raises(ValueError, match="Fidelity 1 has other sensors than fidelity 0, first 'b'"):
+        check_variants([one, other])
+
+
+def test_rungs_are_numbered_from_zero(tmp_path: Path) -> None:
+    file = tmp_path / "gap.py"
+    file.write_text(
+        "from mbs.scenes import pendulum\n"
+        "def build(fidelity=0): return pendulum.build()\n"
+        "def variants(): return {0: build, 2: build}\n"
+    )
+    with pytest.raises(SceneError, match=r"numbered \[0, 2\]"):
+        load_variants(f"{file}:build")
+
+
+def test_a_scene_without_rungs_has_one() -> None:
+    name, systems, default = load_variants("pendulum")
+    assert (name, len(systems), default) == ("pendulum", 1, 0)

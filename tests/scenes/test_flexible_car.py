@@ -1,0 +1,129 @@
+"""The prototype car with a flexible chassis: mass, rest, forces at the joints, and the limit of a stiff frame."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mbs import ModelError, Simulation, compile, simulate
+from mbs.flexible import shape_integrals
+from mbs.scenes import prototype_car
+from mbs.scenes.prototype_car import car_data, chassis
+from mbs.scenes.prototype_car.chassis import reduced_chassis
+from mbs.scenes.prototype_car.frame import GAUGES, INTERFACES
+
+NEUTRAL = {"drive.creep_torque": 0.0}
+FLEXIBLE = (2, 3, 4)
+REST = {"SG1": 3.70, "SG2": 3.70, "SG3": -3.84, "SG4": -3.84}  # N m, project data: weight by inertia relief
+SPRING_MOUNTS = {"TF": 1556.1, "TR": 1408.2}  # N, vertical, project data
+
+
+@cache
+def car(fidelity):
+    return compile(prototype_car.build(fidelity=fidelity))
+
+
+@cache
+def at_rest(fidelity):
+    return Simulation(car(fidelity), parameters=NEUTRAL)
+
+
+@pytest.mark.parametrize("fidelity", FLEXIBLE)
+def test_the_frame_has_the_mass_of_the_rigid_chassis(fidelity):
+    s = shape_integrals(reduced_chassis(fidelity))
+    centre = s.S0 / s.mass
+    second = s.J0 - s.mass * np.outer(centre, centre)
+    inertia = np.trace(second) * np.eye(3) - second
+    given = np.array(car_data.CHASSIS["inertia"])
+    assert s.mass == pytest.approx(car_data.CHASSIS["mass"], rel=1e-4)
+    np.testing.assert_allclose(centre + car_data.FLOOR_CENTRE, car_data.CHASSIS["com"], rtol=0, atol=2e-4)
+    np.testing.assert_allclose(inertia, given, rtol=0, atol=2e-3 * given.max())
+
+
+@pytest.mark.parametrize("fidelity", [1, *FLEXIBLE])
+def test_moments_at_rest_are_those_under_the_weight(fidelity):
+    sensors = at_rest(fidelity).sensors
+    for gauge, moment in REST.items():
+        assert sensors[f"bending_moment.{gauge}"] == pytest.approx(moment, rel=0.01)
+        section = 4.322e-8 / 0.040  # second moment over diameter of the main tubes, m3
+        assert sensors[f"stress.{gauge}"] == pytest.approx(moment / section, rel=0.01)
+    assert sensors["stress.computed"] == 1.0
+    assert sensors["bending_moment.SG1"] == pytest.approx(sensors["bending_moment.SG2"], rel=1e-4)
+
+
+def test_the_modes_of_the_paper_alone_miss_the_weight():
+    sensors = at_rest("paper").sensors
+    assert sensors["bending_moment.SG1"] < 0.7 * REST["SG1"]
+    assert abs(sensors["bending_moment.SG3"]) < 0.5 * abs(REST["SG3"])
+
+
+def test_the_rigid_rung_says_that_it_computes_no_stress():
+    sensors = at_rest(0).sensors
+    assert sensors["stress.computed"] == 0.0
+    assert all(sensors[f"{kind}.{g}"] == 0.0 for kind in ("bending_moment", "stress") for g in GAUGES)
+
+
+def test_all_rungs_have_the_same_inputs_parameters_and_sensors():
+    first = car(0).meta
+    for fidelity in (1, 2, 3, 4, "paper"):
+        meta = car(fidelity).meta
+        for kind in ("inputs", "parameters", "sensors"):
+            assert meta[kind] == first[kind]
+
+
+def test_forces_at_the_ports_carry_the_chassis():
+    simulation = at_rest(1)
+    names = [row["name"] for row in simulation.system.meta["rows"]]
+    lam = simulation.state.lam * simulation.system.arrays["row_scale"]
+    force = {n: lam[[k for k, row in enumerate(names) if row == f"chassis.{n}"]] for n in INTERFACES}
+    total = np.sum(list(force.values()), axis=0)
+    weight = car_data.CHASSIS["mass"] * car_data.GRAVITY
+    np.testing.assert_allclose(total, (0.0, 0.0, weight), rtol=0, atol=1e-4)
+    for mount, vertical in SPRING_MOUNTS.items():
+        for side in "LR":
+            assert force[f"{mount}{side}"][2] == pytest.approx(vertical, rel=0.01)
+
+
+def test_ports_do_not_change_the_motion():
+    inputs = {"steering": ([0.0, 0.5, 1.0, 3.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.3}
+    rigid, ported = (simulate(car(f), 3.0, 0.005, inputs, progress=False) for f in (0, 1))
+    for name in ("chassis.x", "chassis.y", "chassis.roll", "wheel_FL.Fz"):
+        size = np.abs(rigid[name]).max()
+        np.testing.assert_allclose(ported[name], rigid[name], rtol=0, atol=1e-6 * size)
+
+
+def test_a_stiff_frame_moves_like_a_rigid_body(monkeypatch):
+    body = reduced_chassis(3)
+    inputs = {"steering": ([0.0, 0.2, 0.6, 2.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.4}
+
+    def drive(system):
+        return simulate(system, 2.0, 0.005, inputs, progress=False)
+
+    monkeypatch.setattr(chassis, "reduced_chassis", lambda fidelity: replace(body, K=100.0 * body.K, C=100.0 * body.C))
+    stiff = compile(prototype_car.build(fidelity=3))
+    rigid, soft, hard = drive(car(0)), drive(car(3)), drive(stiff)
+    for name, least in (("chassis.roll", 1e-5), ("chassis.y", 1e-5), ("chassis.z", 1e-5)):
+        gap_soft, gap_hard = (np.abs(t[name] - rigid[name]).max() for t in (soft, hard))
+        assert gap_soft > least  # rad or m: the soft frame does move differently
+        assert gap_hard < 0.2 * gap_soft
+
+
+def test_in_a_steady_turn_the_flexible_and_the_quasi_static_rung_agree():
+    inputs = {"steering": ([0.0, 1.0, 3.0, 8.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.15}
+    quasi, flexible = (simulate(car(f), 8.0, 0.01, inputs, progress=False) for f in (1, 3))
+    last = quasi.t > 7.0
+    largest = 0.0
+    for gauge in GAUGES:
+        a, b = (t[f"bending_moment.{gauge}"][last] for t in (quasi, flexible))
+        assert np.abs(a - b).max() < 0.02 * abs(REST[gauge])
+        largest = max(largest, np.abs(a - REST[gauge]).max() / abs(REST[gauge]))
+    assert largest > 0.1  # the turn does load the gauges
+
+
+@pytest.mark.parametrize("fidelity", [5, -1, True, 2.5, "fine"])
+def test_an_unknown_fidelity_is_named(fidelity):
+    with pytest.raises(ModelError, match="fidelity of the car is .*it must be one of: 0 rigid"):
+        prototype_car.build(fidelity=fidelity)
