@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fmpy import extract, read_model_description
+from fmpy import extract, read_model_description, simulate_fmu
+from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
 from fmu_src.build import build_fmu
@@ -23,10 +24,14 @@ OUTPUTS = ("stress.computed", "bending_moment.SG1", "stress.SG3", "chassis.x")
 H = 0.01
 
 
-@pytest.fixture(scope="module")
-def kerb(tmp_path_factory: pytest.TempPathFactory) -> Path:
+@pytest.fixture(scope="module", params=["native", "python"])
+def kerb(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_kerb(request.param, tmp_path_factory)
+
+
+def build_kerb(kind: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     name, systems, default = load_variants("kerb_test")
-    return build_fmu(systems, name, tmp_path_factory.mktemp("kerb"), [PLATFORM], fidelity=default)
+    return build_fmu(systems, name, tmp_path_factory.mktemp("kerb"), [PLATFORM], kind=kind, fidelity=default)
 
 
 def values(fmu: Fmu, steps: int = 0, begin: int = 0) -> list[float]:
@@ -79,9 +84,60 @@ def test_a_state_brings_its_rung_along(kerb: Path) -> None:
         assert values(other, 10, begin=10) == values(fmu, 10, begin=10)
 
 
+def test_a_rung_may_change_until_initialisation_ends(kerb: Path) -> None:
+    with Fmu(kerb) as fmu, Fmu(kerb) as other:
+        references = fmu.references(["fidelity"])
+        fmu._slave.setupExperiment(startTime=0.0)
+        fmu._slave.enterInitializationMode()
+        for rung in (2.0, 0.0, 1.0):
+            fmu._slave.setReal(references, [rung])
+            assert fmu.getter(("stress.computed",))() == [float(rung > 0.0)]
+        fmu._slave.exitInitializationMode()
+        other.initialise({"fidelity": 1.0})
+        assert values(fmu, 5) == values(other, 5)
+        with pytest.raises(FMICallException):
+            fmu._slave.setReal(references, [2.0])
+
+
+def test_a_reset_goes_back_to_the_default(kerb: Path) -> None:
+    with Fmu(kerb) as fmu, Fmu(kerb) as other:
+        fmu.initialise({"fidelity": 0.0})
+        values(fmu, 3)
+        fmu._slave.reset()
+        fmu.initialise({})
+        other.initialise({})
+        assert values(fmu, 5) == values(other, 5)
+
+
+def test_fmi_3_has_the_rungs_too(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """The same bits as the engine on a flexible rung."""
+    file = build_kerb("fmi3", tmp_path_factory)
+    assert validate_fmu(str(file)) == []
+    steps = {"stop_time": 20 * H, "step_size": H, "output_interval": H}
+    rows = simulate_fmu(str(file), start_values={"fidelity": 2.0}, output=["stress.SG3"], **steps)
+    own = Simulation(compile(kerb_test.build(2)))
+    own.step(H, 20)
+    assert rows["stress.SG3"][-1] == own.sensors["stress.SG3"] != 0.0
+
+
+def test_a_lost_file_is_named(kerb: Path) -> None:
+    """A rung that cannot be loaded leaves the instance as it was."""
+    with Fmu(kerb) as fmu:
+        lost = next(fmu._folder.glob("resources/**/system_2.ali3"))
+        lost.unlink()
+        if lost.parent.name == "resources":
+            with pytest.raises(HostError, match=r"system_2\.ali3.* cannot be read"):
+                fmu.initialise({"fidelity": 2.0})
+            fmu._slave.reset()
+            fmu.initialise({"fidelity": 1.0})
+        else:  # in Python all are read at the beginning
+            fmu.initialise({"fidelity": 2.0})
+        values(fmu, 2)
+
+
 def test_a_file_per_rung(kerb: Path, tmp_path: Path) -> None:
     folder = Path(extract(str(kerb), unzipdir=str(tmp_path)))
-    assert sorted(f.name for f in folder.glob("resources/*/system_*.ali3")) == [f"system_{k}.ali3" for k in range(4)]
+    assert sorted(f.name for f in folder.glob("resources/**/system_*.ali3")) == [f"system_{k}.ali3" for k in range(4)]
 
 
 def test_rungs_with_other_variables_are_refused() -> None:

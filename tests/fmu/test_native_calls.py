@@ -245,7 +245,8 @@ def test_a_damaged_system_file_is_refused_with_a_reason(
 
 def test_the_system_of_another_fmu_is_refused(build: Callable[..., Path], host: HostMaker, tmp_path: Path) -> None:
     driven, other = host(build("crane", "native"), tmp_path / "a"), host(build("reach", "native"), tmp_path / "b")
-    (driven.folder / "resources" / "system_0.ali3").write_bytes((other.folder / "resources" / "system_0.ali3").read_bytes())
+    mine, theirs = (instance.folder / "resources" / "system_0.ali3" for instance in (driven, other))
+    mine.write_bytes(theirs.read_bytes())
     with pytest.raises(Exception, match="instantiate"):
         driven.instance()
     assert "does not belong" in driven.messages[-1]

@@ -18,7 +18,8 @@ REALS = {
 }  # fmt: skip
 INTS = {
     "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
-    "row_switch", "switch_start", "angle_row", "angle_theta", "angle_ptr", "angle_a", "angle_b", "gterm_row", "gterm_guide", "gterm_power",
+    "row_switch", "switch_start", "angle_row", "angle_theta", "angle_ptr", "angle_a", "angle_b",
+    "gterm_row", "gterm_guide", "gterm_power",
     "gterm_a", "gterm_b", "front_col", "front_ptr", "front_idx", "front_parent", "front_map", "front_off", "sig_ptr",
     "sig_col", "el_type", "el_sig_ptr", "el_sig", "el_real_ptr", "el_int_ptr", "el_int", "el_state_ptr", "el_out_ptr",
     "el_front", "el_loc_ptr", "el_loc", "guide_type", "guide_input", "guide_real_ptr", "road_type", "road_real_ptr",

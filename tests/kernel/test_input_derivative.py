@@ -16,12 +16,14 @@ from mbs.scenes import prototype_car
 # Differences over this part of an input, steps converged to this tolerance.
 PART, TIGHT = 1e-3, 1e-13
 ERROR, RATE_ERROR = 2e-4, 2e-3
+# Beyond the flexible rungs' vibrations, which the projected accelerations do not have, the derivative is no better.
+FLEXIBLE_ERROR = 2e-3
 H, RATE_STEP = 0.002, 1e-5
 NAMES = ("steering", "throttle", "brake")
 
 
-def prepared(u: Sequence[float]) -> tuple[mbs.System, binding.Instance]:
-    system = mbs.compile(prototype_car.build())
+def prepared(u: Sequence[float], fidelity: int = 0) -> tuple[mbs.System, binding.Instance]:
+    system = mbs.compile(prototype_car.build(fidelity=fidelity))
     instance = binding.Instance(binding.LoadedSystem(system.to_bytes()))
     for i, value in enumerate(u):
         instance.set_input(i, value)
@@ -41,10 +43,11 @@ def derivative(instance: binding.Instance, direction: Sequence[float]) -> tuple[
     return int(status), np.array(out[:])
 
 
+@pytest.mark.parametrize("fidelity", [0, 1, 2, 3])
 @pytest.mark.parametrize("which", range(3), ids=NAMES)
-def test_of_a_step_of_the_car(which: int) -> None:
+def test_of_a_step_of_the_car(which: int, fidelity: int) -> None:
     u = [0.2, 0.3, 0.1]
-    system, instance = prepared(u)
+    system, instance = prepared(u, fidelity)
     before, ends = instance.save(), []
     for sign in (1.0, -1.0, 0.0):
         instance.restore(before)
@@ -57,12 +60,13 @@ def test_of_a_step_of_the_car(which: int) -> None:
     status, found = derivative(instance, direction)
     assert status == 0
     assert instance.save() == present
+    error = FLEXIBLE_ERROR if fidelity > 1 else ERROR
     smooth = np.array([not s["name"].startswith("solver") for s in system.meta["sensors"]])
     units = np.array([s["unit"] for s in system.meta["sensors"]])
     for unit in set(units):
         same = smooth & (units == unit)
         scale = np.max(np.abs(expected[same]), initial=0.0)
-        assert np.all(np.abs(found - expected)[same] <= ERROR * scale + 1e-9), unit
+        assert np.all(np.abs(found - expected)[same] <= error * scale + 1e-9), unit
     assert np.max(np.abs(expected[smooth])) > 10.0
     _, twice = derivative(instance, [-2.0 * d for d in direction])
     assert np.allclose(twice, -2.0 * found, rtol=1e-5, atol=1e-8 * np.max(np.abs(found)))

@@ -125,7 +125,7 @@ static double correct(ali3_instance *in, const linear_step *step) {
   return size > 0.0 ? last / size : 0.0;
 }
 
-/* The projection of a rate, linearised. */
+/* The projection of a rate, linearised; accelerations take the multipliers along, as in ali3_project. */
 static void project(ali3_instance *in, const linear_step *step, double *rate, int stage) {
   const ali3_system *S = in->system;
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
@@ -134,6 +134,9 @@ static void project(ali3_instance *in, const linear_step *step, double *rate, in
     ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
     ali3_solve(in, in->F, in->x);
     for (int32_t i = 0; i < S->size.nq; i++) rate[i] -= in->x[i];
+    if (stage != ACCELERATION) continue;
+    ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
+    for (int32_t k = 0; k < S->size.nc; k++) in->tangent.lam[k] += in->mu[k] - step->c * step->alpha * in->gamma[k];
   }
 }
 

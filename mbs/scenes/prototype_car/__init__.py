@@ -97,6 +97,8 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
 def variants() -> dict[int, Callable[[], Model]]:
     """The rungs an FMU offers by its parameter `fidelity`."""
     return {k: partial(build, None, k) for k in range(4)}
+
+
 def _level_under_the_car(road: Road | None) -> bool:
     if isinstance(road, PlaneRoad):
         return road.grade_x == 0.0 and road.grade_y == 0.0

@@ -1,0 +1,106 @@
+"""Every method with flexible bodies, whose mass matrix moves: order of convergence, what is refused, states, rates."""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+import pytest
+
+from mbs import Settings, compile, simulate
+from mbs.kernel import binding
+from mbs.model import Model
+from mbs.settings import METHODS
+from mbs.simulation import SimulationError
+from mbs.system import System
+from tests.flexible_engine.bodies import cloud
+
+TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13}
+END = 0.2
+NAMES = [f"tip.{k}" for k in "xyz"]
+RATE_STEP, RATE_ERROR = 1e-6, 1e-4
+EXTRAPOLATED = 2e-3  # of the reported energy of the energy-momentum step
+
+
+def swinging(damping: float) -> System:
+    """A cloud of mass points that deforms by as much as they are apart, on a ball joint."""
+    m = Model("swinging")
+    body = m.flexible_body("cloud", cloud(damping=damping))
+    m.spherical("top", m.ground, body, point=body.node_positions[1])
+    m.initial_velocity(body, (0.1, 0.2, 0.3), (1.0, 3.0, 2.0))
+    for kind in ("kinetic", "gravity", "elastic", "total"):
+        m.sense_energy(kind, kind)
+    for k in "xyz":
+        m.sense_position(f"tip.{k}", body, body.node_positions[3], k)
+    return compile(m)
+
+
+def end_of(system: System, h: float, settings: Settings) -> np.ndarray:
+    run = simulate(system, END, h, settings=settings, every=round(END / h), progress=False)
+    return np.array([run[n][-1] for n in NAMES])
+
+
+@pytest.mark.parametrize(
+    ("method", "damping", "order", "coarsest"),
+    [
+        ("ali3p", 1.0, 2, 20),
+        ("ali3p_generalised_alpha", 1.0, 2, 20),
+        ("energy_momentum", 1.0, 2, 20),
+        ("energy_momentum_4", 0.0, 4, 10),
+    ],
+)
+def test_all_methods_go_to_the_same_motion_at_their_order(
+    method: str, damping: float, order: int, coarsest: int
+) -> None:
+    system, steps = swinging(damping), END / (coarsest * 2.0 ** np.arange(3))
+    reference = end_of(system, END / 200, Settings(method="runge_kutta_8", **TIGHT))
+    settings = Settings(method=method, **TIGHT)
+    errors = [float(np.linalg.norm(end_of(system, h, settings) - reference)) for h in steps]
+    assert np.polyfit(np.log(steps), np.log(errors), 1)[0] == pytest.approx(order, abs=0.3)
+    assert errors[0] > 1e3 * 1e-13
+
+
+def test_the_energy_of_the_energy_momentum_step_stays_near() -> None:
+    run = simulate(swinging(0.0), 2.0, 0.002, settings=Settings(method="energy_momentum"), progress=False)
+    assert np.ptp(run["elastic"]) > 0.1 * np.ptp(run["kinetic"])
+    assert np.ptp(run["total"]) < EXTRAPOLATED * np.ptp(run["kinetic"])
+
+
+def test_damped_bodies_cannot_step_backwards() -> None:
+    with pytest.raises(SimulationError, match="no damping"):
+        simulate(swinging(1.0), 0.1, 0.01, settings=Settings(method="energy_momentum_4"), progress=False)
+
+
+@pytest.mark.parametrize("method", ["energy_momentum", "runge_kutta_8", "ali3p_generalised_alpha"])
+def test_a_restored_state_goes_on_alike_after_the_method_changed(method: str) -> None:
+    loaded = binding.LoadedSystem(swinging(1.0).to_bytes())
+    first, second = binding.Instance(loaded), binding.Instance(loaded)
+    first.initialise()
+    first.run(0.01, 5)
+    first.set_settings(**METHODS[method])
+    first.run(0.01, 3)
+    first.set_settings(**METHODS["ali3p"])
+    second.restore(first.save())
+    for instance in (first, second):
+        instance.run(0.01, 5)
+    assert first.sensors()[:] == second.sensors()[:]
+
+
+def test_rates_of_energies() -> None:
+    system = swinging(1.0)
+    instance = binding.Instance(binding.LoadedSystem(system.to_bytes()))
+    instance.initialise()
+    instance.set_settings(**METHODS["runge_kutta_8"])  # its accelerations are those of the state
+    instance.run(0.002, 50)
+    ns = instance.system.sizes.ns
+    rates, known = (ctypes.c_double * ns)(), ctypes.create_string_buffer(ns)
+    assert instance._library.ali3_sensor_rates(instance._handle, rates, known) == 0
+    first = np.array(instance.sensors()[:])
+    instance.step(RATE_STEP)
+    slopes = (np.array(instance.sensors()[:]) - first) / RATE_STEP
+    names = [s["name"] for s in system.meta["sensors"]]
+    chosen = np.frombuffer(known.raw[:ns], dtype=np.uint8) == 1
+    assert {"kinetic", "gravity", *NAMES} <= {n for n, k in zip(names, chosen, strict=True) if k}
+    found = np.array(rates[:])
+    assert np.allclose(found[chosen], slopes[chosen], rtol=RATE_ERROR, atol=RATE_ERROR * np.max(np.abs(slopes)))
+    assert np.max(np.abs(found[chosen])) > 1.0
