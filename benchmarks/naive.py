@@ -80,7 +80,7 @@ class NaiveModel(Model):
         angle = self.relative_angle(f"{name} angle", carrier, wheel, axis=axis)
         x, y = perpendicular(axis)
         vectors = [carrier.vector(v) for v in (axis, x, y)]
-        return Spin(name, angle.index, "rad", carrier, wheel.point(centre), *vectors, 0.0, 0.0, tuple(axis))
+        return Spin(angle.name, angle.index, "rad", carrier, wheel.point(centre), *vectors, 0.0, 0.0, tuple(axis))
 
 
 def spatial_four_bars(windows: int) -> Model:

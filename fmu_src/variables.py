@@ -14,10 +14,10 @@ from fmu_src.units import DISPLAY_UNITS, parse_unit
 
 _STRUCTURED_NAME = re.compile(r"[A-Za-z_]\w*(\[\d+(,\d+)*\])?(\.[A-Za-z_]\w*(\[\d+(,\d+)*\])?)*", re.ASCII)
 _POSE = (
-    ("initial.x", "m", "Initial position of the vehicle's origin along the earth's x axis"),
-    ("initial.y", "m", "Initial position of the vehicle's origin along the earth's y axis"),
-    ("initial.z", "m", "Initial height above the position of rest; positive drops the vehicle"),
-    ("initial.yaw", "rad", "Initial heading, positive to the left of the earth's x axis"),
+    ("initial.x", "m", "Where the origin of the scene's drawing starts along the earth's x axis"),
+    ("initial.y", "m", "Where the origin of the scene's drawing starts along the earth's y axis"),
+    ("initial.z", "m", "Initial height above the position as drawn or of rest; positive drops the scene"),
+    ("initial.yaw", "rad", "Initial turn about the origin of the drawing, positive to the left of the earth's x axis"),
     ("initial.speed", "m/s", "Initial speed along the heading, wheels rolling"),
 )
 STEP_SIZE = "step_size"

@@ -60,7 +60,10 @@ def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float
     course = driver.course if driver is not None else None
     outline = (driver.settings.vehicle_length, driver.settings.vehicle_width) if driver is not None else (0.0, 0.0)
     rows = summary(result, step, course, outline)
-    out.mkdir(parents=True, exist_ok=True)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise HostError(f"The folder {out} cannot be made: {error.strerror}.") from None
     stem = out / f"{_words(path.stem)}_{manoeuvre.name}"
     table, picture = stem.with_name(stem.name + ".csv"), stem.with_name(stem.name + ".png")
     write_csv(result, table)

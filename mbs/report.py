@@ -15,7 +15,9 @@ class Report:
     steps, iterations, factorizations, solves, halvings, failures : int
         Counts; a halving is a step split in two because it did not converge.
     last_iterations, max_iterations : int
-        Newton iterations of the last step, and the most any step took.
+        Newton iterations of the last attempt of a step, and the most any attempt took.
+    negative_pivots : int
+        Of the last factorization: above 0 the tangent was not positive definite.
     residual : float
         ``max |r_i| / m_i`` of the last step, coordinate units (m).
     violation : float
@@ -49,7 +51,7 @@ class Report:
 
     def __str__(self) -> str:
         return (
-            f"{self.steps} steps, {self.mean_iterations:.2f} Newton iterations each (at most {self.max_iterations}), "
-            f"{self.factorizations} factorizations, {self.halvings} halvings; "
+            f"{self.steps} steps, {self.mean_iterations:.2f} Newton iterations each "
+            f"(at most {self.max_iterations} a try), {self.factorizations} factorizations, {self.halvings} halvings; "
             f"last step: residual {self.residual:.1e} m, violation {self.violation:.1e} m"
         )

@@ -169,7 +169,9 @@ class Simulation:
     def step(self, h: float, n: int = 1) -> None:
         """Make `n` steps of `h` seconds with the inputs as they are."""
         _check_step(h)
-        for _ in range(n):
+        if n != int(n) or n < 0:
+            raise ValueError(f"n = {n}; it must be a whole number of steps.")
+        for _ in range(int(n)):
             self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
 
     def run(
@@ -263,6 +265,8 @@ class Simulation:
         report = self.instance.report()
         message = f"{what}: {error.message}"
         row, coordinate = int(report["worst_row"]), int(report["worst_coordinate"])
+        if not report["factorizations"]:  # refused before anything was solved
+            return SimulationError(message, self.time, error.status, trajectory)
         if row < len(self._meta["rows"]):
             message += f" Worst constraint: {self._meta['rows'][row]['name']!r}, open by {report['violation']:.3g} m."
         message += f" Worst balance: {self._meta['coordinates'][coordinate]!r}, residual {report['residual']:.3g}."

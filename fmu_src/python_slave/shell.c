@@ -1,8 +1,9 @@
 /* A thin shell around PythonFMU's export library, which lies beside it as <this library>-pythonfmu.
  *
- * PythonFMU knows OK, Discard and Fatal only, decodes nothing of the resource URI but %20, takes any GUID and needs the host to have
- * loaded Python. The shell passes every call on and
- * - answers with the worst status the slave logged during the call, so a refused value is fmi2Error and a clamped one fmi2Warning;
+ * PythonFMU knows OK, Discard and Fatal only, decodes nothing of the resource URI but %20, takes any GUID and needs
+ * the host to have loaded Python. The shell passes every call on and
+ * - answers with the worst status the slave logged during the call, so a refused value is fmi2Error and a clamped one
+ *   fmi2Warning;
  * - hands PythonFMU a decoded path;
  * - refuses a wrong GUID and null pointers;
  * - loads libpython for hosts that are no Python programs. */
@@ -115,7 +116,8 @@ static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTL
 
 static void *find(void *library, const char *name) { return dlsym(library, name); }
 
-/* PythonFMU's library leaves Python's symbols to the host; a host without them gets the newest libpython the loader finds. */
+/* PythonFMU's library leaves Python's symbols to the host; a host without them gets the newest libpython the loader
+ * finds. */
 static const char *ensure_python(void) {
   char name[32];
   if (dlsym(RTLD_DEFAULT, "Py_IsInitialized")) return NULL;

@@ -10,6 +10,7 @@ import json
 import math
 import struct
 import sys
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from .pythonfmu.fmi2slave import Fmi2Slave
 _HERE = Path(__file__).parent
 _STATE_MAGIC = b"ALI3FMU1"
 _STATE_HEAD = struct.Struct("<8s16sIId")
+_CHECKSUM = struct.Struct("<I")
 _INSTANTIATED, _INITIALISING, _STEPPING, _TERMINATED = range(4)
 _PHASE_NAMES = ("before initialisation", "in initialisation", "after initialisation", "after termination")
 # A host adds up its time in floating point; it may be this much off, s.
@@ -221,26 +223,31 @@ class Slave(Fmi2Slave):
             self._start_time,
         )
         kernel = self._kernel.save() if self._initialised else b""
-        return head + struct.pack(f"<{len(values)}d", *values) + bytes(flags) + kernel
+        content = head + struct.pack(f"<{len(values)}d", *values) + bytes(flags) + kernel
+        return content + _CHECKSUM.pack(zlib.crc32(content))
 
     def _set_fmu_state(self, state: bytes) -> None:
         n = len(self._values)
         size = _STATE_HEAD.size + 9 * n
-        if len(state) < size:
+        content = bytes(state[: -_CHECKSUM.size])
+        if len(content) < size:
             self._refuse("These bytes are not a state of this FMU: they are too short.")
             return
         magic, identity, word, count, start_time = _STATE_HEAD.unpack_from(state)
         if magic != _STATE_MAGIC or identity != self._identity or count != n or word >> 5:
             self._refuse("These bytes are not a state of this FMU; only states of the same build can be set.")
             return
-        values = list(struct.unpack_from(f"<{n}d", state, _STATE_HEAD.size))
-        flags = state[_STATE_HEAD.size + 8 * n : size]
+        if _CHECKSUM.unpack(state[-_CHECKSUM.size :])[0] != zlib.crc32(content):
+            self._refuse("The state was refused: it is damaged, its checksum does not fit.")
+            return
+        values = list(struct.unpack_from(f"<{n}d", content, _STATE_HEAD.size))
+        flags = content[_STATE_HEAD.size + 8 * n : size]
         initialised = bool(word >> 2 & 1)
         if initialised:
             try:
                 kernel, fidelity = self._kernel_of(values)
-                kernel.restore(bytes(state[size:]))
-            except binding.KernelError as error:
+                kernel.restore(content[size:])
+            except (binding.KernelError, IndexError, ValueError) as error:
                 self._refuse(f"The state was refused: {error}")
                 return
             self._kernel, self._fidelity = kernel, fidelity
@@ -347,7 +354,7 @@ class Slave(Fmi2Slave):
             self._refuse(f"There is no variable with value reference {vr}.")
             return None
         v = self._table[vr]
-        name, unit = v["name"], v["unit"]
+        name, unit = v["name"], "" if v["unit"] == "1" else f" {v['unit']}"
         if v["causality"] == "output":
             self._refuse(f"'{name}' is an output and cannot be set.")
             return None
@@ -357,7 +364,7 @@ class Slave(Fmi2Slave):
         if not math.isfinite(value):
             self._refuse(
                 f"'{name}' was set to {value}; a finite number is needed, "
-                f"the last value {self._values[vr]} {unit} is kept."
+                f"the last value {self._values[vr]}{unit} is kept."
             )
             return None
         if v["source"] == "fidelity" and value != math.floor(value):
@@ -369,14 +376,14 @@ class Slave(Fmi2Slave):
             return value
         if v["causality"] == "parameter":
             self._refuse(
-                f"'{name}' was set to {value} {unit}, outside its range {low} to {high}; it keeps {self._values[vr]}."
+                f"'{name}' was set to {value}{unit}, outside its range {low} to {high}; it keeps {self._values[vr]}."
             )
             return None
         clamped = min(max(value, low), high)
         if vr not in self._clamped:
             self._clamped.add(vr)
             self.log(
-                f"'{name}' was set to {value} {unit} and is held at {clamped}, the end of its range {low} to {high}. "
+                f"'{name}' was set to {value}{unit} and is held at {clamped}, the end of its range {low} to {high}. "
                 "This is said once.",
                 Fmi2Status.warning,
             )

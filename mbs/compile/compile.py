@@ -23,6 +23,7 @@ from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordin
 from mbs.compile.locked import check_motion
 from mbs.compile.metadata import metadata
 from mbs.compile.natural import natural_coordinates
+from mbs.compile.open_joints import joint_gaps, joints_of_bodies
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
 from mbs.compile.polynomial import RowTerms, row_terms
 from mbs.compile.pose import pose_arrays
@@ -57,7 +58,7 @@ def compile(model: Model) -> System:
     candidates = [row_terms(e, j, k, full) for j, k, e in others]
     candidates += left
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
-    rows, dependent = independent_rows(candidates)
+    rows, dependent = independent_rows(candidates, joints_of_bodies(model))
     if not kept:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
@@ -74,7 +75,7 @@ def compile(model: Model) -> System:
     guides, guide_rates = guide_start(model)
     stiffness = deformation_metric(model, full, new)
     reference = reference_position(model, natural, kept, T, z0, M_full)[order]
-    q = close_position(rows, arrays, mass, stiffness, reference, guides)
+    q = close_position(rows, arrays, mass, stiffness, reference, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
     qd = velocity(model, full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates)
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     check_motion(model, rows, Phiq, phi_t, qd, mass.diagonal())

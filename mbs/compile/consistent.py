@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,9 +52,10 @@ def close_position(
     stiffness: sparse.csr_matrix,
     q: Array,
     guides: Array,
+    joint_gaps: Callable[[Array], Mapping[str, float]],
 ) -> Array:
     """The assembled position next to `q` (Gauss-Newton in the metric of the mass and of the stiffness of flexible
-    bodies, kg), or a `ModelError` naming what stays open.
+    bodies, kg), or a `ModelError` naming what stays open; `joint_gaps` tells it of the eliminated joints.
     """
     if arrays.nc == 0:
         return q
@@ -77,13 +78,16 @@ def close_position(
         best, open_now, step = candidate, trial, min(1.0, 2.0 * step)
     if np.max(open_now) <= OPEN:
         return best
-    worst: dict[str, float] = {}
+    gaps = dict(joint_gaps(best))
     for row, value in zip(rows, open_now, strict=True):
-        if value > max(OPEN, 0.01 * float(np.max(open_now))):
-            worst[row.name] = max(worst.get(row.name, 0.0), float(value))
-    listed = sorted(worst.items(), key=lambda item: -item[1])[:6]
+        if row.joint >= 0:
+            gaps[row.name] = max(gaps.get(row.name, 0.0), float(value))
+    largest = max([OPEN, *gaps.values()])
+    listed = sorted((item for item in gaps.items() if item[1] > 0.01 * largest), key=lambda item: -item[1])[:6]
     raise ModelError(
-        "The assembly cannot be closed; open stay " + ", ".join(f"'{n}' by {v:.3g} m" for n, v in listed) + "."
+        "The assembly cannot be closed; open stay the joints "
+        + ", ".join(f"'{n}' by {v:.3g} m" for n, v in listed)
+        + "."
     )
 
 

@@ -7,6 +7,7 @@ dependent only at some positions stay: the method handles them.
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.linalg import qr
@@ -21,8 +22,11 @@ OWNED = 1e-3
 CONSTANT: Monomial = (-1, -1)
 
 
-def independent_rows(rows: list[RowTerms]) -> tuple[list[RowTerms], int]:
-    """The rows without those that follow from others, in the same order, and the number removed."""
+def independent_rows(rows: list[RowTerms], joints: Mapping[str, Sequence[str]]) -> tuple[list[RowTerms], int]:
+    """The rows without those that follow from others, in the same order, and the number removed.
+
+    `joints` are the names of the joints at each body, for the message where rows contradict each other.
+    """
     keep: set[int] = set()
     normal: dict[int, dict[Monomial, float]] = {}
     for i, row in enumerate(rows):
@@ -31,21 +35,25 @@ def independent_rows(rows: list[RowTerms]) -> tuple[list[RowTerms], int]:
             continue
         size = max((abs(v) for m, v in row.main.items() if m != CONSTANT), default=0.0)
         if size == 0.0:
-            _must_vanish([row], row.main.get(CONSTANT, 0.0))
+            _must_vanish([row], row.main.get(CONSTANT, 0.0), joints)
             continue
         normal[i] = {m: v / size for m, v in row.main.items()}
     remaining = _peel(normal, keep)
     for group in _groups(remaining, normal):
-        keep.update(_independent(group, normal, rows))
+        keep.update(_independent(group, normal, rows, joints))
     return [row for i, row in enumerate(rows) if i in keep], len(rows) - len(keep)
 
 
-def _must_vanish(rows: list[RowTerms], constant: float) -> None:
-    if abs(constant) > DEPENDENT:
-        names = ", ".join(sorted({f"'{r.name}' ({r.kind})" for r in rows}))
-        raise ModelError(
-            f"The conditions of {names} contradict each other by {abs(constant):.3g}; no position can satisfy them."
-        )
+def _must_vanish(rows: list[RowTerms], constant: float, joints: Mapping[str, Sequence[str]]) -> None:
+    if abs(constant) <= DEPENDENT:
+        return
+    bodies = sorted({r.name for r in rows if r.joint < 0})
+    names = sorted({r.name for r in rows if r.joint >= 0} | {j for body in bodies for j in joints.get(body, ())})
+    shape = f" and the shape of {', '.join(map(repr, bodies))}" if bodies else ""
+    raise ModelError(
+        f"The joints {', '.join(map(repr, names))}{shape} contradict each other by {abs(constant):.3g}; "
+        "no position can satisfy them."
+    )
 
 
 def _peel(normal: dict[int, dict[Monomial, float]], keep: set[int]) -> set[int]:
@@ -100,7 +108,12 @@ def _groups(remaining: set[int], normal: dict[int, dict[Monomial, float]]) -> li
     return groups
 
 
-def _independent(group: list[int], normal: dict[int, dict[Monomial, float]], rows: list[RowTerms]) -> list[int]:
+def _independent(
+    group: list[int],
+    normal: dict[int, dict[Monomial, float]],
+    rows: list[RowTerms],
+    joints: Mapping[str, Sequence[str]],
+) -> list[int]:
     """Independent rows of a connected group by a rank-revealing factorization; scaling prefers shorter rows."""
     monomials = sorted({m for i in group for m in normal[i] if m != CONSTANT})
     column = {m: k for k, m in enumerate(monomials)}
@@ -121,5 +134,5 @@ def _independent(group: list[int], normal: dict[int, dict[Monomial, float]], row
     for k in order[rank:]:
         weights, *_ = np.linalg.lstsq(A[chosen].T, A[k], rcond=None)
         parts = [rows[group[c]] for c, w in zip(chosen, weights, strict=True) if abs(w) > 1e-6]
-        _must_vanish([rows[group[k]], *parts], float(constants[k] - weights @ constants[chosen]))
+        _must_vanish([rows[group[k]], *parts], float(constants[k] - weights @ constants[chosen]), joints)
     return [group[k] for k in chosen]

@@ -32,7 +32,14 @@ def equilibrium(system: System, parameters: Mapping[str, float]) -> NDArray[np.f
             instance.set_parameter(names.index(name), value)
         instance.static_equilibrium(0.0, TOLERANCE, MAX_ITERATIONS)
     except KernelError as error:
-        raise ModelError(
-            f"The model '{system.meta['name']}' has no static equilibrium near its drawing: {error.message}"
-        ) from None
+        report, meta = instance.report(), system.meta
+        text = f"The model '{meta['name']}' has no static equilibrium near its drawing: "
+        if not report["factorizations"]:
+            raise ModelError(text + error.message) from None
+        text += (
+            f"'{meta['coordinates'][report['worst_coordinate']]}' stays out of balance by {report['residual']:.3g} N"
+        )
+        if report["violation"] > 0.0:
+            text += f", '{meta['rows'][report['worst_row']]['name']}' open by {report['violation']:.3g} m"
+        raise ModelError(text + ".") from None
     return np.array(instance.get_state()[0], float)

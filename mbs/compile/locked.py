@@ -22,10 +22,14 @@ IMPOSSIBLE = 1e-6
 def check_motion(
     model: Model, rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, phi_t: Array, qd: Array, mass_diagonal: Array
 ) -> None:
-    """Refuse a model that cannot move at its reference position, or whose drives ask for an impossible velocity."""
+    """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
+
+    A structure that stands, to which nothing gives a velocity, is a model too: its joint forces are what is wanted.
+    """
     nq = Phiq.shape[1]
     scleronomic = [i for i, row in enumerate(rows) if not row.guides]
-    if len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
+    asked = len(scleronomic) < len(rows) or bool(model.body_velocities or model.coordinate_rates)
+    if asked and len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
         raise ModelError(
             f"The model '{model.name}' is locked: its joints are {nq} independent conditions on {nq} coordinates, "
             "which leaves no motion; check the axes of its joints, or let a body bend."

@@ -24,7 +24,7 @@ class Body:
     """A rigid body; made by `Model.body`.
 
     Attributes
-    ---
+    ----------
     name : str
     com : ndarray, shape (dimension,)
         Centre of mass in earth axes in the reference configuration, m; origin of the body frame.

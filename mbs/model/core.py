@@ -57,7 +57,7 @@ class ModelCore:
     """Bodies and the register; `Model` adds the vocabulary.
 
     Parameters
-    ---
+    ----------
     name : str
     dimension : {2, 3}
     gravity : array_like, shape (dimension,)
@@ -143,6 +143,25 @@ class ModelCore:
         self.coordinates.append(CoordinateInfo(name, kind, component, reference))
         return len(self.coordinates) - 1
 
+    def owned_coordinate(self, coordinate: Coordinate, what: str) -> Coordinate:
+        """`coordinate` if it is one of this model."""
+        if not isinstance(coordinate, Coordinate):
+            raise ModelError(f"{what} needs a relative angle or a spin, got {coordinate!r}.")
+        i = coordinate.index
+        if i >= len(self.coordinates) or self.coordinates[i].name != coordinate.name:
+            raise ModelError(f"{what}: the coordinate '{coordinate.name}' is not one of model '{self.name}'.")
+        return coordinate
+
+    def expression(self, given: Coordinate | Affine, what: str) -> Affine:
+        """A coordinate of this model, or an expression of its coordinates, as an expression."""
+        if isinstance(given, Coordinate):
+            return self.owned_coordinate(given, what).affine
+        if not isinstance(given, Affine):
+            raise ModelError(f"{what} needs a coordinate or an expression, got {given!r}.")
+        if max(given.terms, default=0) >= len(self.coordinates):
+            raise ModelError(f"{what} has an expression of coordinates that model '{self.name}' does not have.")
+        return given
+
     def _register(self, body: Body) -> None:
         parts = ["r"] if body.is_point else ["r", "a", "b", "c"] if self.dimension == 3 else ["r", "a"]
         values = iter(body.reference())
@@ -161,7 +180,7 @@ class ModelCore:
         """A rigid body.
 
         Parameters
-        ---
+        ----------
         mass : float
             kg.
         com : array_like, shape (dimension,)
@@ -249,7 +268,8 @@ class ModelCore:
 
     def initial_rate(self, coordinate: Coordinate, rate: float) -> None:
         """Start rate of a relative angle or a spin, rad/s."""
-        self.coordinate_rates[coordinate.index] = number(rate, f"The initial rate of '{coordinate.name}'")
+        index = self.owned_coordinate(coordinate, "An initial rate").index
+        self.coordinate_rates[index] = number(rate, f"The initial rate of '{coordinate.name}'")
 
     def add(self, element: ElementRecord) -> ElementRecord:
         """Add a force element by its record."""

@@ -37,7 +37,7 @@ class Equation:
     """``sum c * A * B + linear + guide terms + angle part = 0``.
 
     Parameters
-    ---
+    ----------
     name : str
         Name of the joint, or of its part, for messages and the list of rows.
     kind : str

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import Affine, AffineVector
+from mbs.affine import AffineVector
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.drag import Drag
@@ -58,7 +58,7 @@ class ForceVocabulary(ModelCore):
         self, name: str, angle: Coordinate, *, stiffness: float, damping: float = 0.0, free_angle: float = 0.0
     ) -> ElementRecord:
         """Spring and damper on a relative angle; N m/rad, N m s/rad, rad."""
-        expression = self._expression(angle, f"torsional spring-damper '{name}'")
+        expression = self.expression(angle, f"The torsional spring-damper '{name}'")
         return self.add(ScalarSpringDamper(stiffness, damping, free_angle).record(name, expression))
 
     def force(
@@ -95,7 +95,7 @@ class ForceVocabulary(ModelCore):
     def torque_on(self, name: str, angle: Coordinate, *, input: Input, gain: float = 1.0) -> ElementRecord:
         """Torque ``gain * input``, N m, on a relative angle (its first body takes the reaction) or on a spin."""
         what = f"torque '{name}'"
-        expression = self._expression(angle, what)
+        expression = self.expression(angle, f"The {what}")
         channel = owned_input(self, input, f"The {what}")
         return self.add(InputForce(channel.index, (gain,)).record(name, [expression]))
 
@@ -118,12 +118,6 @@ class ForceVocabulary(ModelCore):
         except (TypeError, ValueError):
             raise ModelError(f"An end of {what} must be (body, point) or a point mass; got {end!r}.") from None
         return self.owned(body, f"The {what}").point(point)
-
-    def _expression(self, coordinate: Coordinate | Affine, what: str) -> Affine:
-        expression = coordinate.affine if isinstance(coordinate, Coordinate) else coordinate
-        if not isinstance(expression, Affine):
-            raise ModelError(f"The {what} needs a coordinate of the model, got {coordinate!r}.")
-        return expression
 
     def _numbers(self, inputs: Sequence[Input | None], count: int, what: str) -> list[int | None]:
         if len(inputs) != count:

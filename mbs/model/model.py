@@ -8,7 +8,6 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from mbs.errors import ModelError
 from mbs.model.angle import relative_angle
 from mbs.model.body import Body
 from mbs.model.checks import not_negative
@@ -36,7 +35,7 @@ class Model(ForceVocabulary, SensorVocabulary):
     assembly.
 
     Parameters
-    ---
+    ----------
     name : str
     dimension : {2, 3}
         Planar (x, y) or spatial.
@@ -44,7 +43,7 @@ class Model(ForceVocabulary, SensorVocabulary):
         m/s2; by default 9.81 along -y (planar) or -z (spatial).
 
     Examples
-    ---
+    --------
     >>> m = Model("pendulum", dimension=2)
     >>> rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=1.0 / 12.0)
     >>> joint = m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
@@ -109,8 +108,7 @@ class Model(ForceVocabulary, SensorVocabulary):
     def armature(self, name: str, coordinate: Coordinate, *, inertia: float) -> None:
         """Inertia, kg m2, that turns with a relative angle (a motor behind a gear, seen at the joint)."""
         self.unique("armature", name)
-        if not isinstance(coordinate, Coordinate):
-            raise ModelError(f"The armature '{name}' needs a relative angle, got {coordinate!r}.")
+        self.owned_coordinate(coordinate, f"The armature '{name}'")
         value = not_negative(inertia, f"The inertia of armature '{name}'")
         self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + value
 

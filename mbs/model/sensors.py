@@ -30,7 +30,7 @@ class Sensor:
     """One output.
 
     Parameters
-    ---
+    ----------
     type : int
         Sensor type of the System file.
     signals : sequence of Affine
@@ -179,9 +179,7 @@ class SensorVocabulary(ModelCore):
         """A coordinate (relative angle, spin) or any affine expression, its rate (order 1) or second rate (order 2)."""
         if order not in (0, 1, 2):
             raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0, 1 or 2.")
-        expression = coordinate.affine if isinstance(coordinate, Coordinate) else coordinate
-        if not isinstance(expression, Affine):
-            raise ModelError(f"The sensor '{name}' needs a coordinate or an expression, got {coordinate!r}.")
+        expression = self.expression(coordinate, f"The sensor '{name}'")
         if not unit:
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
         return self._sense(name, unit, description, order, [expression], reals=[scale])
@@ -294,8 +292,8 @@ class SensorVocabulary(ModelCore):
     def sense_joint_force(
         self, name: str, joint: Joint | str, component: str = "x", unit: str = "N", description: str = ""
     ) -> Sensor:
-        """Force of a joint on its first body: a component in earth axes at a shared point, or "tension" of a
-        distance; of a drive, "drive".
+        """Force of a joint on its first body: a component in earth axes at a shared point or from a line of the
+        ground, "tension" of a distance, "drive" of a drive.
 
         The equations of the joint stay rows of the System, so that the multipliers exist.
         """
@@ -305,20 +303,30 @@ class SensorVocabulary(ModelCore):
         rows = found.force_equations
         if not rows:
             raise ModelError(
-                f"The joint '{found.name}' ({found.type}) has no force reading; points, distances and drives have one."
+                f"The joint '{found.name}' ({found.type}) has no force reading; points, lines of the ground, distances "
+                "and driven coordinates have one."
             )
-        if found.type in ("distance", "drive"):
+        if found.normals:
+            k = component_number(component, self.dimension, f"sensor '{name}'")
+            if any(n[k].terms for n in found.normals):
+                raise ModelError(
+                    f"The line of joint '{found.name}' turns with its second body; "
+                    "only a line of the ground, as second body, has components in earth axes."
+                )
+            rows, weights = list(rows), [-n[k].constant for n in found.normals]
+        elif found.type in ("distance", "drive"):
             expected = "tension" if found.type == "distance" else "drive"
             if component not in (expected, "x"):
                 raise ModelError(
                     f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
                 )
-            row, weight = rows[0], found.rows_weight if found.type == "distance" else -found.rows_weight
+            rows, weights = rows[:1], [found.rows_weight if found.type == "distance" else -found.rows_weight]
         else:
-            row, weight = rows[component_number(component, self.dimension, f"sensor '{name}'")], -found.rows_weight
+            k = component_number(component, self.dimension, f"sensor '{name}'")
+            rows, weights = rows[k : k + 1], [-found.rows_weight]
         found.keep = True
         self.unique("sensor", name)
-        sensor = Sensor(name, unit, description, 9, integers=[row], reals=[weight], joint=found)
+        sensor = Sensor(name, unit, description, 9, integers=rows, reals=weights, joint=found)
         self.sensors.append(sensor)
         return sensor
 

@@ -13,7 +13,7 @@ class SlidingPoint:
     """``p(s) = start + s * direction`` with the guide s in m; an end of `Model.distance`.
 
     Attributes
-    ---
+    ----------
     start, direction : AffineVector
         Point and unit vector of the body.
     guide : int

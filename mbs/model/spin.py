@@ -23,7 +23,7 @@ class Spin(Coordinate):
     value has no meaning. Mass and diametral inertia are lumped on the carrier, with zero axial inertia.
 
     Attributes
-    ---
+    ----------
     centre, axis, f, g : AffineVector
         Wheel centre and unit vectors of the carrier with axis = f x g.
     rolling_radius : float

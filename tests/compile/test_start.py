@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from mbs import Model, ModelError, Simulation, compile
 from mbs.scenes import bricard, double_four_bar
 
 CLOSED = 1e-9
+LISTED = 0.02  # gaps are printed with three digits, those below a hundredth of the largest are left out
 
 
 def four_bar(coupler=2.0, gap=0.0):
@@ -39,8 +42,19 @@ def test_a_drawing_that_does_not_close_is_closed():
 def test_an_assembly_that_cannot_close_is_refused_with_names_and_amounts():
     with pytest.raises(ModelError, match="cannot be closed") as error:
         compile(four_bar(6.0))  # 6 m cannot span 2 m between 1 m and 1.5 m
-    assert "'coupler' by" in str(error.value)
-    assert " m" in str(error.value)
+    found = {name: float(gap) for name, gap in re.findall(r"'(\w+)' by ([\d.]+) m", str(error.value))}
+    assert {"B", "C"} <= set(found)
+    # the coupler is 6 m long, its ends reach 1 + 2 + 1.5 m at most: no less than 1.5 m can stay open
+    assert 1.5 * (1.0 - LISTED) < sum(found.values()) < 2.0
+
+
+def test_a_rod_that_cannot_reach_is_refused_by_name():
+    m = Model("rod", dimension=3)
+    body = m.body("bar", mass=1.0, com=(0.5, 0, 0), inertia=(0.1, 0.1, 0.1))
+    m.spherical("pin", m.ground, body, point=(0, 0, 0))
+    m.distance("rod", (m.ground, (4, 0, 0)), (body, (1, 0, 0)), length=1.0)
+    with pytest.raises(ModelError, match=r"open stay the joints .*'rod' by [\d.]+ m"):
+        compile(m)
 
 
 def test_a_rigid_contradiction_of_linear_joints_is_refused_by_name():
@@ -48,7 +62,7 @@ def test_a_rigid_contradiction_of_linear_joints_is_refused_by_name():
     body = m.body("bar", mass=1.0, com=(0.5, 0), inertia=0.1)
     m.revolute("left", m.ground, body, point=(0, 0))
     m.revolute("right", m.ground, body, point=((1.1, 0), (1.0, 0)))
-    with pytest.raises(ModelError, match="bar"):
+    with pytest.raises(ModelError, match="'left', 'right' and the shape of 'bar' contradict"):
         compile(m)
     m = Model("torn", dimension=2)
     bob = m.point_mass("bob", mass=1.0, position=(0, 0))
@@ -84,6 +98,14 @@ def test_a_model_that_cannot_move_or_has_no_bodies_is_refused():
     m = Model("fixed", dimension=2)
     m.weld("fixed", m.ground, m.body("block", mass=1.0, com=(0, 0), inertia=1.0))
     with pytest.raises(ModelError, match="cannot move"):
+        compile(m)
+
+
+def test_a_start_that_has_no_equilibrium_is_refused_by_name():
+    m = Model("falling", dimension=2)
+    m.body("stone", mass=2.0, com=(0, 0), inertia=1.0)
+    m.start_in_equilibrium = True
+    with pytest.raises(ModelError, match=r"'falling' has no static equilibrium .*'stone\.ry' .* by 19\.6 N"):
         compile(m)
 
 

@@ -1,4 +1,5 @@
-/* Calls one element or one road directly, with flat arguments: tests need neither a System nor the rest of the kernel. */
+/* Calls one element or one road directly, with flat arguments: tests need neither a System nor the rest of the
+ * kernel. */
 #include <string.h>
 
 #include "element.h"

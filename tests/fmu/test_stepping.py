@@ -123,7 +123,8 @@ def test_a_failing_step_is_discarded_and_the_last_state_kept(reach: Path, host: 
         "not converge" in m and "0.05 s is kept" in m and ("'rod'" in m or "'cable'" in m) for m in driven.messages
     )
     assert driven.set("pull", 0.0) == OK
-    assert driven.slave.serializeFMUstate(driven.slave.getFMUstate())[-200:] == state[-200:]
+    kernel = slice(-204, -4)  # before the checksum, which covers the solver's counters as well
+    assert driven.slave.serializeFMUstate(driven.slave.getFMUstate())[kernel] == state[kernel]
     assert driven.step(0.05, 0.2) == OK
     steady = host(reach).start()
     steady.run(5, 0.01)

@@ -115,6 +115,7 @@ def test_bad_files_are_named(fmus: dict[str, Path], turn: Path, tmp_path: Path) 
     (tmp_path / "s.csv").write_text("# start: initial.sped=1\n" + TURN)
     assert "no parameter or input 'initial.sped'" in drive(fmus["sledge"], "-m", tmp_path / "s.csv").stderr
     assert "must be positive" in drive(fmus["sledge"], "-m", turn, "--step", -1).stderr
+    assert "cannot be made" in drive(fmus["sledge"], "-m", turn, "--out", tmp_path / "u.csv" / "out").stderr
     assert "driver needs variables" in drive(fmus["motor_pendulum"], "-m", "double_lane_change").stderr
 
 

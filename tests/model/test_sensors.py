@@ -149,9 +149,59 @@ def test_impossible_sensors_are_refused(act, sentence):
     assert sentence in str(error.value)
 
 
+def test_coordinates_of_another_model_are_refused():
+    other, m = Model("other"), Model("mine")
+    bodies = [x.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1)) for x in (other, m)]
+    foreign = other.relative_angle("turn", other.ground, bodies[0], axis=(0, 0, 1))
+    for act in (
+        lambda: m.armature("rotor", foreign, inertia=1.0),
+        lambda: m.initial_rate(foreign, 1.0),
+        lambda: m.torsional_spring_damper("spring", foreign, stiffness=1.0),
+        lambda: m.sense_coordinate("angle", foreign),
+        lambda: m.drive("drive", foreign, m.guide_time("g", ([0.0, 1.0], [0.0, 1.0]))),
+    ):
+        with pytest.raises(ModelError, match="'turn' is not one of model 'mine'"):
+            act()
+    with pytest.raises(ModelError, match="does not have"):
+        m.sense_coordinate("angle", foreign.affine)
+    with pytest.raises(ModelError, match="needs a relative angle or a spin, got 'turn'"):
+        m.initial_rate("turn", 1.0)
+
+
 def test_a_joint_without_multipliers_of_a_force_is_refused():
     m = Model("refusal")
     body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
-    slider = m.prismatic("slider", body, m.ground, axis=(1, 0, 0))
+    angle = m.relative_angle("turn", m.ground, body, axis=(0, 0, 1))
     with pytest.raises(ModelError, match="no force reading"):
-        m.sense_joint_force("s", slider)
+        m.sense_joint_force("s", "turn")
+    carried = m.point_on_line("rail", (m.ground, (1, 0, 0)), (body, (0, 0, 0)), axis=(1, 0, 0))
+    with pytest.raises(ModelError, match="turns with its second body"):
+        m.sense_joint_force("s", carried, "y")
+    assert angle.name == "turn"
+
+
+def test_forces_of_lines_of_the_ground():
+    """A beam on a pin and a roller, and a block that slides down a slope without friction."""
+    m = Model("beam", dimension=2)
+    beam = m.body("beam", mass=10.0, com=(1.0, 0.0), inertia=3.3)
+    m.revolute("pin", m.ground, beam, point=(0.0, 0.0))
+    m.point_on_line("roller", (beam, (3.0, 0.0)), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
+    m.sense_joint_force("pin.y", "pin", "y")
+    m.sense_joint_force("roller.x", "roller", "x")
+    m.sense_joint_force("roller.y", "roller", "y")
+    s = Simulation(compile(m)).sensors
+    assert s["roller.y"] == pytest.approx(98.1 / 3.0, abs=EXACT)  # on the beam
+    assert s["pin.y"] == pytest.approx(-98.1 * 2.0 / 3.0, abs=EXACT)  # on the ground
+    assert s["roller.x"] == 0.0
+
+    m = Model("slope", dimension=3)
+    block = m.body("block", mass=2.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    slope = np.array([0.8, 0.0, -0.6])
+    m.prismatic("slide", block, m.ground, axis=slope)
+    for c in "xyz":
+        m.sense_joint_force(c, "slide", c)
+    t = Simulation(compile(m)).run(0.5, 0.01)
+    weight = np.array([0.0, 0.0, -2.0 * 9.81])
+    expected = slope * (weight @ slope) - weight  # what the slope adds to the weight
+    for c, value in zip("xyz", expected, strict=True):
+        np.testing.assert_allclose(t[c], value, rtol=0, atol=1e-6)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs import Pose, Simulation
+from mbs import Pose, Simulation, compile, simulate
+from mbs.elements import GridRoad
+from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car import car_data
 from tests.scenes.car import NEUTRAL, car, car_on_ice, drive
 
@@ -19,6 +21,19 @@ MOTION_RATIO = {"F": 0.640, "R": 0.944}  # - d(spring length)/d(wheel travel)
 WHEEL_RATE = {"F": 5065.0, "R": 9433.0}  # N/m
 CAMBER_GAIN = {"F": 25.3, "R": 19.8}  # deg/m
 STEER = {20.0: (9.14, 9.55), 40.0: (18.17, 20.06), 60.0: (27.3, 32.9)}  # rack mm: outer, inner wheel, deg
+
+
+def test_the_car_stands_on_a_grid_and_drives_over_bumps():
+    """A level grid gives the very start of the plane; on an uneven one the car starts as drawn and settles."""
+    level = compile(prototype_car.build(GridRoad((-20.0, -20.0), (0.5, 0.5), np.zeros((80, 80)), 0.9)))
+    np.testing.assert_array_equal(level.arrays["q0"], car().arrays["q0"])
+    bumps = np.random.default_rng(3).normal(0.0, 0.01, (80, 80))
+    rough = compile(prototype_car.build(GridRoad((-5.0, -20.0), (0.5, 0.5), bumps, 0.9)))
+    t = simulate(rough, 6.0, 0.01, {"throttle": 0.3}, pose=Pose(z=0.05), progress=False)
+    assert t.report.halvings == 0
+    assert t["chassis.x"][-1] > 20.0
+    assert np.ptp(t["chassis.z"][100:]) < 0.1
+    assert np.std(t["wheel_FL.Fz"][100:]) > 50.0  # N: it feels the bumps
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from mbs import Settings, Simulation, SimulationError, System, simulate
+from mbs import Pose, Settings, Simulation, SimulationError, System, simulate
 from tests.simulation.scenes import GRAVITY, LENGTH, MASS, free_mass, pendulum
 
 H = 0.01
@@ -210,6 +210,11 @@ class TestErrors:
         assert simulation.state.q.tolist() == before.q.tolist()
         assert simulation.report.failures == 1
 
+    def test_what_is_refused_before_solving_names_no_constraint(self, system):
+        with pytest.raises(SimulationError, match="starting pose was refused") as caught:
+            Simulation(system, pose=Pose(speed=1.0))  # tied to the ground
+        assert "Worst" not in str(caught.value)
+
     def test_a_failing_run_hands_over_what_it_recorded(self, system):
         def jolt(t):
             return 0.0 if t < 0.205 else 1e200
@@ -221,6 +226,11 @@ class TestErrors:
         assert part is not None
         assert part.t[-1] == pytest.approx(0.2, abs=ROUND_OFF)
         assert part["bob.x"].tolist() == reference["bob.x"][::2].tolist()
+
+    @pytest.mark.parametrize("n", [-1, 2.5])
+    def test_a_number_of_steps_that_is_none_is_refused(self, system, n):
+        with pytest.raises(ValueError, match="whole number of steps"):
+            Simulation(system).step(H, n)
 
     @pytest.mark.parametrize("h", [0.0, -0.01, float("nan"), float("inf")])
     def test_the_step_must_be_positive(self, system, h):

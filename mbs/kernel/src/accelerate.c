@@ -5,7 +5,7 @@
 #include "ali3_internal.h"
 
 static const double SLOW = 0.05; /* ratio of two corrections from which on convergence counts as linear */
-static const double LEAST = -4.0, MOST = 0.5; /* bounds of a mixing factor that two corrections may suggest */
+static const double LEAST = -100.0, MOST = 0.5; /* bounds of a mixing factor; -6 is a factor of 6/7 per iteration */
 
 /* in->x and in->lam hold the correction of D and of the multipliers; they become the step to take. */
 void ali3_accelerate(ali3_instance *in, int32_t iteration) {

@@ -1,11 +1,15 @@
-/* Engine, torque converter, automatic gears and open differential: equal torques on two wheels, reaction on the frame that carries them.
- * Signals: chi of the left and right wheel (absolute rates about the axis f x g), f (3), g (3) orthonormal on the frame.
+/* Engine, torque converter, automatic gears and open differential: equal torques on two wheels, reaction on the frame
+ * that carries them.
+ * Signals: chi of the left and right wheel (absolute rates about the axis f x g), f (3), g (3) orthonormal on the
+ * frame.
  * Reals: see the enum, then one total ratio per gear, tallest last. Integers: throttle input (0..1), number of gears.
- * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step. Outputs: engine speed rad/s, gear, torque per wheel N m, engine torque N m.
+ * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step. Outputs: engine
+ * speed rad/s, gear, torque per wheel N m, engine torque N m.
  *
- * There is no engine inertia: with turbine speed wt = ratio * W and stall speed ws (idle .. stall with the throttle) the engine turns at
- * sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over in RAMP seconds, so torque is continuous;
- * the clock of a shift starts where the wheel rate crossed the shift speed within the step, so its time does not depend on the step. */
+ * There is no engine inertia: with turbine speed wt = ratio * W and stall speed ws (idle .. stall with the throttle)
+ * the engine turns at sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over
+ * in RAMP seconds, so torque is continuous; the clock of a shift starts where the wheel rate crossed the shift speed
+ * within the step, so its time does not depend on the step. */
 #include "element.h"
 #include "element_math.h"
 

@@ -1,6 +1,7 @@
-/* Torque on a body from inputs, in earth or body axes. For orthonormal a, b, c the generalised forces (m x a)/2, (m x b)/2,
- * (m x c)/2 do the work m . dtheta, and no work on the conditions that keep the frame orthonormal.
- * Signals: a, b, c (9); in the plane a (2). Integers: three inputs (-1: none; in the plane only the third counts), 1 for body axes.
+/* Torque on a body from inputs, in earth or body axes. For orthonormal a, b, c the generalised forces (m x a)/2, (m x
+ * b)/2, (m x c)/2 do the work m . dtheta, and no work on the conditions that keep the frame orthonormal.
+ * Signals: a, b, c (9); in the plane a (2). Integers: three inputs (-1: none; in the plane only the third counts), 1
+ * for body axes.
  * Outputs: none. */
 #include "element.h"
 #include "element_math.h"

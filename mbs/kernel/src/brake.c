@@ -1,11 +1,15 @@
 /* Brake: elastoplastic friction torque between a wheel's spin and its carrier.
- * Signals: f (3), g (3) orthonormal on the carrier with f x g along the axis, chi with chi' = Omega the absolute rate about it.
- * Reals: largest torque N m, stick stiffness N m/rad, stick damping N m s/rad. Integers: input (0..1). States: wind-up z rad, z' rad/s.
+ * Signals: f (3), g (3) orthonormal on the carrier with f x g along the axis, chi with chi' = Omega the absolute rate
+ * about it.
+ * Reals: largest torque N m, stick stiffness N m/rad, stick damping N m s/rad. Integers: input (0..1). States: wind-up
+ * z rad, z' rad/s.
  * Outputs: torque on the wheel N m, 1 while sticking, relative rate w rad/s.
  *
- * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else tau is at the bound
- * and z' = (tau - k z)/c. With z = a + h z'/2 (trapezoidal rule) and D = c + h k/2: tau = clamp(k a + D w), z' = (tau - k a)/D.
- * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and a sticking brake returns to where it was: it does not creep. */
+ * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else
+ * tau is at the bound and z' = (tau - k z)/c. With z = a + h z'/2 (trapezoidal rule) and D = c + h k/2:
+ * tau = clamp(k a + D w), z' = (tau - k a)/D.
+ * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and a sticking brake returns to where it was: it does not
+ * creep. */
 #include "element.h"
 #include "element_math.h"
 

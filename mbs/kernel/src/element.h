@@ -1,7 +1,7 @@
 /* The interface every force element implements: one file per type, one function per file.
- * An element sees its affine signals u and their rates ud, never coordinates. It returns the generalised force f conjugate to u,
- * the symmetric part of its tangent wC*C + wK*K (C = -df/dud, K = -df/du, states condensed), and the slots of its state at the end of the step.
- */
+ * An element sees its affine signals u and their rates ud, never coordinates. It returns the generalised force f
+ * conjugate to u, the symmetric part of its tangent wC*C + wK*K (C = -df/dud, K = -df/du, states condensed), and the
+ * slots of its state at the end of the step. */
 #ifndef ALI3_ELEMENT_H
 #define ALI3_ELEMENT_H
 #include <stdint.h>

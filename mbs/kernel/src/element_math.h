@@ -4,8 +4,9 @@
 #include <math.h>
 #include <stdint.h>
 
-/* Friction saturates, and Newton's method with its true, flat tangent may jump between both signs for ever. The secant of friction
- * over rate majorises it: any tangent of more than half the secant makes every iteration a descent. This is the least share used. */
+/* Friction saturates, and Newton's method with its true, flat tangent may jump between both signs for ever. The secant
+ * of friction over rate majorises it: any tangent of more than half the secant makes every iteration a descent. This
+ * is the least share used. */
 #define ALI3_SECANT_SHARE 0.55
 
 static inline double ali3_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

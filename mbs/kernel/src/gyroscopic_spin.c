@@ -1,5 +1,6 @@
 /* Gyroscopic moment -I Omega d(f x g)/dt of an axisymmetric wheel reduced to one coordinate on its carrier.
- * Signals: f (3), g (3) orthonormal on the carrier with f x g along the spin axis, chi with chi' = Omega the absolute axial rate.
+ * Signals: f (3), g (3) orthonormal on the carrier with f x g along the spin axis, chi with chi' = Omega the absolute
+ * axial rate.
  * Reals: axial moment of inertia. Outputs: none. It does no work. */
 #include "element.h"
 

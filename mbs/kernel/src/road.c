@@ -8,7 +8,7 @@ enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_REALS }
 enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_REALS };
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
 
-/* Half-space below the plane through q with outward unit normal n. Returns the distance of the centre along the disc. */
+/* Half-space below the plane through q with outward unit normal n. Returns the centre's distance along the disc. */
 static double half_space(const double centre[3], const double axis[3], double radius, const double q[3],
                          const double n[3], ali3_contact *out) {
   double across = ali3_dot(n, axis), inplane[3], height = 0.0;
@@ -65,7 +65,8 @@ static int edge_line(const double centre[3], const double axis[3], double radius
   return 1;
 }
 
-/* Upper quarter space (plane, edge or face, whichever is nearest: its distance is C1) and, as second contact, the lower plane. */
+/* Upper quarter space (plane, edge or face, whichever is nearest: its distance is C1) and, as second contact, the
+ * lower plane. */
 static int kerb(const double *p, const double centre[3], const double axis[3], double radius, ali3_contact out[2]) {
   const double side = p[KERB_SIDE] >= 0.0 ? 1.0 : -1.0;
   const double edge[3] = {p[KERB_X], 0.0, p[KERB_LOWER] + p[KERB_STEP]}, low[3] = {0.0, 0.0, p[KERB_LOWER]};
@@ -86,7 +87,8 @@ static int kerb(const double *p, const double centre[3], const double axis[3], d
   return count + 1;
 }
 
-/* Cubic Hermite weights (slopes by central differences, one-sided at the border) of values first..first+3 (clamped to 0..n-1). */
+/* Cubic Hermite weights (slopes by central differences, one-sided at the border) of values first..first+3 (clamped to
+ * 0..n-1). */
 static int cubic(double s, int n, double w[4], double dw[4]) {
   int i = s >= (double)(n - 1) ? n - 2 : s > 0.0 ? (int)s : 0;
   const int outside = s < 0.0 || s > (double)(n - 1);

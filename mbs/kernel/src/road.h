@@ -11,24 +11,24 @@ typedef struct ali3_road ali3_road;
 
 enum { /* equal to mbs/elements/road.py */
        ALI3_ROAD_PLANE = 0, /* [height at the origin, grade dz/dx, grade dz/dy, friction] */
-       ALI3_ROAD_KERB, /* [x of the edge, lower height, step height, side, friction]; side 1: upper part at smaller x, -1: at larger x */
+       ALI3_ROAD_KERB, /* [x of the edge, lower height, step height, side, friction]; the upper part is at smaller x for
+                          side 1, at larger x for -1 */
        ALI3_ROAD_GRID, /* [nx, ny, x0, y0, dx, dy, friction factor, nx*ny heights, nx*ny frictions], y runs fastest */
        ALI3_ROAD_END
 };
 
 typedef struct {
-  double
-      penetration; /* radius minus distance from the centre to the road within the wheel plane, m; negative: no contact */
+  double penetration; /* radius minus distance from the centre to the road in the wheel plane, m; < 0: no contact */
   double point[3]; /* nearest point of the road in the wheel plane, m, earth axes */
   double normal[3]; /* unit normal of the road (of the contact line at an edge), upwards */
-  double down
-      [3]; /* unit vector in the wheel plane from the centre towards the road: point = centre + (radius - penetration) down */
+  double down[3]; /* unit, in the wheel plane, towards the road: point = centre + (radius - penetration) down */
   double cosine; /* -normal . down = sine of the angle between wheel axis and normal, > 0 */
   double friction;
 } ali3_contact;
 
 /* Writes one or two contacts (also open ones, so that outputs stay continuous) and returns their number.
- * axis must be a unit vector. The distance is C1 in centre and axis; -penetration grows by cosine^-1 normal . d(centre). */
+ * axis must be a unit vector. The distance is C1 in centre and axis; -penetration grows by cosine^-1 normal .
+ * d(centre). */
 int ali3_road_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
                        ali3_contact out[2]);
 

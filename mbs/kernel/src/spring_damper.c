@@ -1,5 +1,6 @@
 /* Linear spring and damper between two points, with optional linear end stops.
- * Signals: d = p2 - p1 (2 or 3). Reals: stiffness, damping, free length, bump length and stiffness, rebound length and stiffness.
+ * Signals: d = p2 - p1 (2 or 3). Reals: stiffness, damping, free length, bump length and stiffness, rebound length and
+ * stiffness.
  * Outputs: length m, force N (tension positive), rate m/s. */
 #include "element.h"
 #include "element_math.h"

@@ -55,8 +55,8 @@ bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance) {
 
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'
  * that spreads the correction is that of the tangent: the penalty would amplify what a later one has outside its
- * range. The violation is judged at the converged position. Returns it. With accelerations in v, lam (or NULL) takes the
- * multipliers along: T x = Phi_q' mu is (T - factor Phi_q' Phi_q) x = Phi_q' (mu - factor Phi_q x). */
+ * range. The violation is judged at the converged position. Returns it. With accelerations in v, lam (or NULL) takes
+ * the multipliers along: T x = Phi_q' mu is (T - factor Phi_q' Phi_q) x = Phi_q' (mu - factor Phi_q x). */
 double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
                     int32_t sweeps) {
   const ali3_system *S = in->system;

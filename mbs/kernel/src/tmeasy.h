@@ -14,6 +14,7 @@ ali3_tmeasy ali3_tmeasy_at(const double pairs[10], double q, double friction_rat
 /* Secant F(s)/s for s >= 0, finite at s = 0, and its derivative with respect to s. */
 double ali3_tmeasy_secant(const ali3_tmeasy *t, double s, double *derivative);
 
-/* Dynamic trail over contact length at lateral slip s >= 0; pairs: value at s = 0, slip of the first zero, slip where it ends. */
+/* Dynamic trail over contact length at lateral slip s >= 0; pairs: value at s = 0, slip of the first zero, slip where
+ * it ends. */
 double ali3_tmeasy_trail(const double pairs[6], double q, double s);
 #endif

@@ -1,17 +1,20 @@
-/* Tyre on a road: radial spring of a disc, TMeasy steady forces, first-order carcass deflections that are the same at standstill,
- * rolling, sliding and in the air.
+/* Tyre on a road: radial spring of a disc, TMeasy steady forces, first-order carcass deflections that are the same at
+ * standstill, rolling, sliding and in the air.
  *
- * Signals: wheel centre r (3), unit spin axis e pointing left (3), chi with chi' = Omega the absolute rate about e (> 0 rolling forward).
- * Integers: road. States: carcass deflections x, y and their rates. Outputs: Fx, Fy, Fz, Mz, slip, slip angle, deflection,
- * loaded radius, contact point (3).
+ * Signals: wheel centre r (3), unit spin axis e pointing left (3), chi with chi' = Omega the absolute rate about e
+ * (> 0 rolling forward).
+ * Integers: road. States: carcass deflections x, y and their rates. Outputs: Fx, Fy, Fz, Mz, slip, slip angle,
+ * deflection, loaded radius, contact point (3).
  *
- * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the larger effective
- * radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power F v_s, as the lever of F about
- * the axle: the pressure under a driven wheel moves by that difference. With the loaded radius as lever a driven tyre would make
- * energy out of nothing, Fx (v - |rho| Omega). At standstill both are the loaded radius, which makes the carcass a true spring.
+ * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the
+ * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power
+ * F v_s, as the lever of F about the axle: the pressure under a driven wheel moves by that difference. With the loaded
+ * radius as lever a driven tyre would make energy out of nothing, Fx (v - |rho| Omega). At standstill both are the
+ * loaded radius, which makes the carcass a true spring.
  *
- * Carcass, per direction, with secant slip damping g = |F_steady|/|v_s|: x'(d + g) = -c x - g v_s, F = c x + d x'. Hence
- * F (v_s + x') = -F^2/g <= 0: sliding only takes energy. With x = a + b x' (theta rule, a and b known) and D = d + b c the step is
+ * Carcass, per direction, with secant slip damping g = |F_steady|/|v_s|: x'(d + g) = -c x - g v_s, F = c x + d x'.
+ * Hence F (v_s + x') = -F^2/g <= 0: sliding only takes energy. With x = a + b x' (theta rule, a and b known) and
+ * D = d + b c the step is
  *   F = g (c a - D v_s)/(g + D),   x' = (F - c a)/D,
  * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the ellipse of the largest forces.
  *

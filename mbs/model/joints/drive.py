@@ -30,10 +30,12 @@ def drive(model: ModelCore, name: str, driven: Any, guide: Guide) -> Joint:
             name, "driven_distance", rod.equations[0].products, guides=[GuideTerm(g, 2, linear=minus_one * 0.5)]
         )
         return Joint(name, "drive", [row])
-    expression = driven.affine if isinstance(driven, Coordinate) else driven
-    if not isinstance(expression, Affine) or not expression.terms:
+    if not isinstance(driven, (Coordinate, Affine)):
         raise ModelError(
             f"The {what} needs a coordinate, a component of a point or two ends of a distance, got {driven!r}."
         )
+    expression = model.expression(driven, f"The {what}")
+    if not expression.terms:
+        raise ModelError(f"The {what} drives something that cannot move: it depends on no coordinate.")
     row = Equation(name, "drive", linear=expression, guides=[GuideTerm(g, 1, linear=minus_one)])
     return Joint(name, "drive", [row], rows_weight=1.0)

@@ -20,16 +20,26 @@ class Joint:
     name, type : str
     equations : list of Equation
     keep : bool
-        Its point equations stay rows so that the multipliers (the joint force) exist; a joint-force sensor sets it.
+        Its force equations stay rows so that the multipliers (the joint force) exist; a joint-force sensor sets it.
     rows_weight : float
         Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
+    normals : sequence of AffineVector
+        Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
     """
 
-    def __init__(self, name: str, type: str, equations: Sequence[Equation], rows_weight: float = 0.0) -> None:
+    def __init__(
+        self,
+        name: str,
+        type: str,
+        equations: Sequence[Equation],
+        rows_weight: float = 0.0,
+        normals: Sequence[AffineVector] = (),
+    ) -> None:
         self.name = name
         self.type = type
         self.equations = list(equations)
         self.rows_weight = rows_weight
+        self.normals = tuple(normals)
         self.keep = False
 
     def __repr__(self) -> str:
@@ -38,7 +48,7 @@ class Joint:
     @property
     def force_equations(self) -> list[int]:
         """Numbers of the equations whose multipliers are its force."""
-        return [k for k, e in enumerate(self.equations) if e.kind in ("point", "distance", "drive")]
+        return [k for k, e in enumerate(self.equations) if e.kind in ("point", "line", "distance", "drive")]
 
 
 def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> list[Equation]:

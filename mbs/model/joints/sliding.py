@@ -28,13 +28,16 @@ def _normals(model: ModelCore, body: Body, axis: ArrayLike, what: str) -> list[A
 
 def on_line(
     model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike, what: str
-) -> list[Equation]:
-    """The point of body 1 stays on the line through the point of body 2 along an axis fixed in body 2."""
+) -> tuple[list[Equation], list[AffineVector]]:
+    """The point of body 1 stays on the line through the point of body 2 along an axis fixed in body 2; also the
+    normals of the line.
+    """
     body_2 = model.owned(end_2[0], f"The {what}")
     if body_2.is_point:
         raise ModelError(f"The line of {what} needs a body with axes; '{body_2.name}' is a point mass.")
     gap = model.anchor(end_1[0], end_1[1], what) - model.anchor(body_2, end_2[1], what)
-    return [Equation(name, "line", dot_products(gap, n)) for n in _normals(model, body_2, axis, what)]
+    normals = _normals(model, body_2, axis, what)
+    return [Equation(name, "line", dot_products(gap, n)) for n in normals], normals
 
 
 def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, what: str) -> list[Equation]:
@@ -59,7 +62,8 @@ def point_on_line(
     """Point of body 1 on a line fixed in body 2."""
     what = f"point-on-line joint '{name}'"
     different(end_1[0], end_2[0], what)
-    return Joint(name, "point_on_line", on_line(model, name, end_1, end_2, axis, what))
+    line, normals = on_line(model, name, end_1, end_2, axis, what)
+    return Joint(name, "point_on_line", line, normals=normals)
 
 
 def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
@@ -71,7 +75,8 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
     p1, p2 = point_pair(point, 3, what)
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_axis(model, name, body_1, body_2, axis, what)
-    return Joint(name, "cylindrical", equations + on_line(model, name, (body_1, p1), (body_2, p2), axis, what))
+    line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
+    return Joint(name, "cylindrical", equations + line, normals=normals)
 
 
 def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
@@ -84,7 +89,8 @@ def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
         point = body_2.com if body_1.is_ground else body_1.com
     p1, p2 = point_pair(point, model.dimension, what)
     equations = same_orientation(model, name, body_1, body_2, what)
-    return Joint(name, "prismatic", equations + on_line(model, name, (body_1, p1), (body_2, p2), axis, what))
+    line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
+    return Joint(name, "prismatic", equations + line, normals=normals)
 
 
 def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:

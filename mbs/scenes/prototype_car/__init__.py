@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 
+import numpy as np
+
 from mbs.elements.automatic_drive import AutomaticDrive
-from mbs.elements.road import KerbRoad, PlaneRoad, Road
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.model import Model
 from mbs.model.guides import Guide
 from mbs.scenes.prototype_car import car_data
@@ -21,13 +24,17 @@ from mbs.scenes.prototype_car.wheels import wheel
 
 FAR_AWAY = 1e6  # m: the default kerb lies where no manoeuvre goes
 KERB_HEIGHT = 0.08  # m, of the paper's test
+FOOTPRINT = (
+    (-2.7, 0.4),
+    (-0.9, 0.9),
+)  # m, x and y of the car as drawn, from the rear edge of its wheels to the front one
 
 
 def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Model], Guide] | None = None) -> Model:
     """The car at rest in static equilibrium, its front axle over the origin.
 
-    On a plane with a grade nothing but the brakes could hold it: there it starts as drawn, level, and settles; a pose
-    must lift it above the plane.
+    Where the road under it is not level nothing but the brakes could hold it: there it starts as drawn, level, and
+    settles; a pose must lift it above the road.
 
     Parameters
     ----------
@@ -42,7 +49,7 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
     """
     m = Model("prototype car", gravity=(0.0, 0.0, -car_data.GRAVITY))
     m.floating = True
-    m.start_in_equilibrium = not (isinstance(road, PlaneRoad) and (road.grade_x != 0.0 or road.grade_y != 0.0))
+    m.start_in_equilibrium = _level_under_the_car(road)
     m.stop_time, m.step = 10.0, 0.002
     steering = m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left")
     throttle = m.input("throttle", min=0.0, max=1.0, description="throttle pedal")
@@ -90,6 +97,21 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
 def variants() -> dict[int, Callable[[], Model]]:
     """The rungs an FMU offers by its parameter `fidelity`."""
     return {k: partial(build, None, k) for k in range(4)}
+
+
+def _level_under_the_car(road: Road | None) -> bool:
+    if isinstance(road, PlaneRoad):
+        return road.grade_x == 0.0 and road.grade_y == 0.0
+    if isinstance(road, GridRoad):
+        heights = np.asarray(road.heights, float)
+        cells = []
+        for k, (low, high) in enumerate(FOOTPRINT):
+            # a cell takes its slopes from one point more on each side
+            first = math.floor((low - road.origin[k]) / road.spacing[k]) - 1
+            last = math.ceil((high - road.origin[k]) / road.spacing[k]) + 1
+            cells.append(np.clip(np.arange(first, last + 1), 0, heights.shape[k] - 1))
+        return float(np.ptp(heights[np.ix_(*cells)])) == 0.0
+    return True
 
 
 def _road_parameters(m: Model, road: Road | None, ground: int) -> None:

@@ -20,7 +20,13 @@ FORWARD, LEFT, UP = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
     """Pose, velocity and acceleration of the reference point; accelerometers on `accelerated`."""
     for c in "xyz":
-        m.sense_position(f"chassis.{c}", chassis, REFERENCE_POINT, c, description=f"{c} of the reference point, earth")
+        m.sense_position(
+            f"chassis.{c}",
+            chassis,
+            REFERENCE_POINT,
+            c,
+            description=f"{c} of the reference point (centre of mass at rest), earth",
+        )
     m.sense_yaw("chassis.yaw", chassis, description="heading, positive to the left")
     m.sense_pitch("chassis.pitch", chassis, description="positive nose down")
     m.sense_roll("chassis.roll", chassis, description="positive left side up")
