@@ -22,6 +22,7 @@ from mbs.scenes.prototype_car.chassis import FIDELITIES, PAPER_MODES, RIGID, red
 
 RUNGS: tuple[int | str, ...] = (0, 1, 2, 3, PAPER_MODES, 4)
 STEPS = (0.01, 0.005, 0.002)  # s
+TICKS = (25, 50, 100, 200, 400, 800)  # us, of the chart
 STRESSES = ("moment", "moment_unfiltered")
 COLUMNS = {
     "manoeuvre": "",
@@ -186,8 +187,12 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
             axes.set_title(name.replace("_", " ") if line == 0 else "")
             axes.set_ylabel(label if column == 0 else "")
             axes.set_xlabel("processor time per step, µs" if line == 1 else "")
-            axes.grid(True, which="both", alpha=0.25)
+            axes.grid(True, alpha=0.25)
+            axes.set_xticks([t for t in TICKS if axes.get_xlim()[0] < t < axes.get_xlim()[1]])
+            axes.xaxis.set_major_formatter("{x:g}")
+            axes.xaxis.set_minor_formatter("")
     handles = {text: h for ax in panels.flat for h, text in zip(*ax.get_legend_handles_labels(), strict=True)}
+    handles = dict(sorted(handles.items()))
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=2, fontsize="small")
     figure.suptitle("The ladder: error against cost on the same manoeuvres")
     file.parent.mkdir(parents=True, exist_ok=True)

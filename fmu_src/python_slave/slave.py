@@ -247,7 +247,7 @@ class Slave(Fmi2Slave):
             try:
                 kernel, fidelity = self._kernel_of(values)
                 kernel.restore(content[size:])
-            except binding.KernelError as error:
+            except (binding.KernelError, IndexError, ValueError) as error:
                 self._refuse(f"The state was refused: {error}")
                 return
             self._kernel, self._fidelity = kernel, fidelity

@@ -22,15 +22,16 @@ IMPOSSIBLE = 1e-6
 def check_motion(
     model: Model, rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, phi_t: Array, qd: Array, mass_diagonal: Array
 ) -> None:
-    """Refuse a model that cannot move at its reference position, or whose drives ask for an impossible velocity.
+    """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
 
-    A structure with just as many conditions as coordinates is no mistake: its joint forces may be what is wanted. With
-    more, drives included, a joint stands askew. Switched rows may be switched off again and do not count.
+    A structure that stands, to which nothing gives a velocity, is a model too: its joint forces are what is wanted.
+    Switched rows may be switched off again and do not count.
     """
     nq = Phiq.shape[1]
     lasting = [i for i, row in enumerate(rows) if row.switch < 0]
     scleronomic = [i for i in lasting if not rows[i].guides]
-    if len(lasting) > nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
+    asked = len(scleronomic) < len(lasting) or bool(model.body_velocities or model.coordinate_rates)
+    if asked and len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
         raise ModelError(
             f"The model '{model.name}' is locked: its joints are {nq} independent conditions on {nq} coordinates, "
             "which leaves no motion; check the axes of its joints, or let a body bend."

@@ -20,7 +20,8 @@ def joint_gaps(model: Model, q_full: Array) -> dict[str, float]:
     rigid = np.array(q_full, dtype=float)
     for body in model.bodies:
         if not body.is_point:
-            part = slice(body.start + body.dimension, body.start + body.size)
+            frame = 12 if body.is_flexible else body.size
+            part = slice(body.start + body.dimension, body.start + frame)
             rigid[part] = _rigid_axes(body, rigid[part])
     gaps = {}
     for joint in model.joints:
