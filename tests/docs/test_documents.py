@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import fmpy
 import pytest
 
 from fmu_src.build import build_fmu
@@ -16,7 +17,7 @@ from fmu_src.variables import variable_table
 from hosts.manoeuvre import manoeuvre_names
 
 ROOT = Path(__file__).parents[2]
-PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+PLATFORM = fmpy.platform
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")

@@ -47,7 +47,7 @@ def compile_stress(fmu_folder: Path, program: Path) -> tuple[Path, bool]:
     sources = [C_FOLDER / "stress.c", *sorted((fmu_folder / "sources").rglob("*.c"))]
     include = [f"-I{fmu_folder / 'sources'}"]
     flags = ["-std=gnu11", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
-    tail = ["-o", str(program), *map(str, sources), "-lm", "-lpthread"]
+    tail = ["-o", str(program), *map(str, sources), "-lm", *([] if sys.platform == "win32" else ["-lpthread"])]
     gcc = shutil.which("gcc") if sys.platform == "linux" else None
     if gcc is not None:
         sanitize = ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]

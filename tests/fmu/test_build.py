@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import fmpy
@@ -12,7 +11,7 @@ import build_fmu
 from fmu_src.build import fmu_name
 from fmu_src.scene_registry import SceneError, load_scene, scene_names
 
-PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+PLATFORM = fmpy.platform
 SCENE = """
 import mbs
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,8 @@ END = 2.0
 
 @pytest.fixture(scope="session")
 def cars(tmp_path_factory: pytest.TempPathFactory) -> tuple[mbs.System, dict[str, Path]]:
+    if sys.platform not in ("linux", "win32"):
+        pytest.skip("PythonFMU has libraries for Linux and Windows only")
     name, system = load_scene("prototype_car")
     folder = tmp_path_factory.mktemp("cars")
     kinds = ("native", "python", "fmi3")

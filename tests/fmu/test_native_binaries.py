@@ -172,7 +172,7 @@ STRESS = [("leak", 1000), ("memory", 0), ("states", 4000), ("systems", 4000), ("
 def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, int], str]:
     """Runs `stress.c`, linked with the FMU's sources under sanitizers."""
     folder = native.unpack(build("crane", "native"), tmp_path_factory.mktemp("stress"))
-    program, _ = native.compile_stress(folder, folder / "stress")
+    program, _ = native.compile_stress(folder, folder / ("stress.exe" if sys.platform == "win32" else "stress"))
 
     def run(what: str, count: int) -> str:
         command = [str(program), folder.joinpath("resources").as_uri(), native.guid_of(folder)]

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 from fmpy.util import read_csv
@@ -17,7 +18,7 @@ from hosts.manoeuvre import load_manoeuvre
 from mbs.simulation import Pose
 
 ROOT = Path(__file__).parents[2]
-PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+PLATFORM = fmpy.platform
 WHEELS = ("FL", "FR", "RL", "RR")
 GRAVITY = 9.81
 STEP = 0.01

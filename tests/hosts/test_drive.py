@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 from fmpy.util import read_csv
@@ -17,7 +18,7 @@ from fmu_src.scene_registry import load_scene
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
-PLATFORM = "win64" if sys.platform == "win32" else "linux64"
+PLATFORM = fmpy.platform
 TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'
 
 
