@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 
 from fmu_src.build import build_fmu
-from fmu_src.platforms import PLATFORMS
 from fmu_src.scene_registry import load_variants
 from hosts import kerb
 from hosts.low_pass import low_pass
-from mbs.kernel.build import host_target
 
-PLATFORM = PLATFORMS["windows" in host_target()]
+PLATFORM = fmpy.platform
 
 
 @pytest.fixture(scope="module")
