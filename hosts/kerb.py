@@ -25,7 +25,7 @@ from hosts.manoeuvre import Manoeuvre
 from hosts.plot_page import BLACK, BLUE, RED
 from hosts.run import Result, run
 
-DEFAULT_FMU = Path("dist", "KerbTestPython.fmu")
+DEFAULT_FMU = Path("dist", "KerbTest.fmu")
 DURATION = 15.0  # s
 INTERVALS = ((0.0, 5.0, "at rest"), (5.0, 10.0, "moving"), (10.0, 15.0, "at rest"))  # s
 GAUGES = ("SG1", "SG2", "SG3", "SG4")

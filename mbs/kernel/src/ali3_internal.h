@@ -227,6 +227,8 @@ void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *
 void ali3_flexible_forces(const ali3_instance *in, const double *q, const double *qd, double *Q);
 void ali3_flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic);
 void ali3_flexible_tangent(const ali3_instance *in, double wC, double wK, double *F);
+void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F);
+void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out);
 
 /* fronts.c */
 ali3_status ali3_factorise(ali3_instance *in, double *F);

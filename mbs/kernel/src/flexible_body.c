@@ -193,6 +193,20 @@ static void add(double *block, int32_t size, int32_t i, int32_t j, double value)
   block[i >= j ? (int64_t)j * size + i : (int64_t)i * size + j] += value;
 }
 
+/* Lower triangle of wC C + wK K into the body's front. */
+static void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, double *block) {
+  const int32_t n = f->n, *mode = f->loc + 12;
+  const bool together = mode[n - 1] - mode[0] == n - 1;
+  for (int32_t j = 0; j < n; j++) {
+    const double *restrict C = f->C + (int64_t)j * n, *restrict K = f->K + (int64_t)j * n;
+    double *restrict column = block + (int64_t)mode[j] * size;
+    if (together)
+      for (int32_t i = j; i < n; i++) column[mode[0] + i] += wC * C[i] + wK * K[i];
+    else
+      for (int32_t i = j; i < n; i++) column[mode[i]] += wC * C[i] + wK * K[i];
+  }
+}
+
 /* F += M(q) - constant part + wC C + wK K at the q that was prepared; K with the part of the weight. */
 void ali3_flexible_tangent(const ali3_instance *in, double wC, double wK, double *F) {
   const ali3_system *s = in->system;
@@ -215,15 +229,28 @@ void ali3_flexible_tangent(const ali3_instance *in, double wC, double wK, double
         for (int32_t j = 0; j < n; j++)
           add(block, size, f.loc[3 * i + k], mode[j], (ax * X[j] + ay * X[n + j]) + (az * X[2 * n + j] - g * hang[j]));
       }
-    if (wC == 0.0 && wK == 0.0) continue;
-    const bool together = mode[n - 1] - mode[0] == n - 1;
-    for (int32_t j = 0; j < n; j++) {
-      const double *restrict C = f.C + (int64_t)j * n, *restrict K = f.K + (int64_t)j * n;
-      double *restrict column = block + (int64_t)mode[j] * size;
-      if (together)
-        for (int32_t i = j; i < n; i++) column[mode[0] + i] += wC * C[i] + wK * K[i];
-      else
-        for (int32_t i = j; i < n; i++) column[mode[i]] += wC * C[i] + wK * K[i];
-    }
+    if (wC != 0.0 || wK != 0.0) add_moduli(&f, size, wC, wK, block);
+  }
+}
+
+/* F += weight K, without the part of the weight of the body. */
+void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
+  const ali3_system *s = in->system;
+  for (int32_t b = 0; b < s->n_flexible; b++) {
+    const ali3_flexible f = body_of(in, b);
+    const int32_t front = s->flex_front[b], size = s->front_ptr[front + 1] - s->front_ptr[front];
+    add_moduli(&f, size, 0.0, weight, F + s->front_off[front]);
+  }
+}
+
+/* out += weight K x. */
+void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out) {
+  for (int32_t b = 0; b < in->system->n_flexible; b++) {
+    const ali3_flexible f = body_of(in, b);
+    double *eta = in->flex_work, *force = eta + f.n;
+    gather(f.n, f.mode, x, eta);
+    memset(force, 0, (size_t)f.n * sizeof(double));
+    accumulate(f.n, f.K, eta, force);
+    for (int32_t j = 0; j < f.n; j++) out[f.mode[j]] += weight * force[j];
   }
 }

@@ -1,5 +1,6 @@
-/* Consistent start: nearest position on Phi = 0 in the mass metric, velocities likewise, then accelerations and
- * multipliers. All three are proximal augmented Lagrangian iterations, which do not ask for a full-rank Phi_q. */
+/* Consistent start: nearest position on Phi = 0 in the mass metric, where bending has its price, nearest velocities,
+ * then accelerations and multipliers. All three are proximal augmented Lagrangian iterations, which do not ask for a
+ * full-rank Phi_q. */
 #include <math.h>
 #include <string.h>
 
@@ -9,22 +10,24 @@ static const double ALPHA = 1e8; /* of mass-normalised rows with unit weight of 
 static const double CLOSED = 1e-12; /* violation that needs no work, m */
 static const double ASSEMBLED = 1e-9; /* violation accepted when nothing better can be had, m */
 static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
+static const double BENDING = 1.0; /* of K beside M when positions are closed, s^2: bodies turn rather than bend */
 static const double ROUND_OFF = 1e-13;
 enum { POSITION_ITERATIONS = 200, MULTIPLIER_ITERATIONS = 60 };
 
-/* F = M(q) (+ what massless coordinates lack) + ALPHA Phi_q' Phi_q, factorised. */
-static ali3_status factorise_metric(ali3_instance *in, const double *q, bool fill_massless) {
+/* F = M(q) (+ what massless coordinates lack + BENDING K) + ALPHA Phi_q' Phi_q, factorised. */
+static ali3_status factorise_metric(ali3_instance *in, const double *q, bool close) {
   const ali3_system *S = in->system;
   ali3_flexible_prepare(in, q);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  if (fill_massless)
+  if (close)
     for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
   ali3_rows_square(in, in->J, ALPHA, in->F);
   ali3_flexible_tangent(in, 0.0, 0.0, in->F);
+  if (close) ali3_flexible_stiffen(in, BENDING, in->F);
   return ali3_factorise(in, in->F);
 }
 
-/* Minimises (q - q_ref)' M (q - q_ref) on Phi = 0; q_ref is the position given. */
+/* Minimises (q - q_ref)' (M + BENDING K) (q - q_ref) on Phi = 0; q_ref is the position given. */
 static ali3_status close_position(ali3_instance *in) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
@@ -41,6 +44,7 @@ static ali3_status close_position(ali3_instance *in) {
     if (status != ALI3_OK) return status;
     for (int32_t i = 0; i < nq; i++) in->w[i] = q[i] - in->now.q[i];
     ali3_mass_times(in, in->w, in->r);
+    ali3_flexible_elastic(in, BENDING, in->w, in->r);
     for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->Phi[k];
     ali3_rows_transposed(S, in->J, in->mu, in->x);
     for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + S->mass_missing[i] * in->w[i] + in->x[i]);
