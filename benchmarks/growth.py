@@ -1,7 +1,7 @@
 """How cost grows: ``python -m benchmarks.growth [--json FILE] [--chart FILE] [--quick]``.
 
-Time per step, memory and non-zeros of the factor of the N-four-bar for N = 1 to 1000 with fitted exponents; and the
-arithmetic of a step against what this machine could do in its time.
+Time per step, memory and non-zeros of the factor of the N-four-bar for N = 1 to 1000 and of the car's frame with 5 to
+200 dynamic modes, with fitted exponents; and the arithmetic of a step against what this machine could do in its time.
 """
 
 from __future__ import annotations
@@ -22,12 +22,16 @@ import numpy as np
 
 import mbs
 from benchmarks.common import describe, machine, print_table, write_json
+from mbs.flexible import craig_bampton
 from mbs.kernel.build import FLAGS, cache_directory
 from mbs.scenes import double_four_bar
+from mbs.scenes.prototype_car.frame import DAMPING, INTERFACES, REFERENCE, prototype_frame
 
 STEP, END = 0.01, 0.6  # s: up to before the first singular position
 WINDOWS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 ROUNDS = 9
+MODES = (5, 10, 20, 50, 100, 200)  # dynamic ones of the chassis, beside 60 static and 6 inertia modes
+CHASSIS_STEP, CHASSIS_STEPS, CHASSIS_ROUNDS = 0.005, 100, 5  # s
 FITTED_FROM = 10  # N: below it the fixed cost of a step shows
 METHODS = ("ali3p", "energy_momentum")
 EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros", "operations_per_step")
@@ -48,6 +52,18 @@ TABLE = {
     "of_compiled_loop": ".1%",
     "of_dgemm": ".1%",
 }
+CHASSIS_TABLE = {
+    "dynamic_modes": "d",
+    "modes": "d",
+    "coordinates": "d",
+    "factor_nonzeros": "d",
+    "system_bytes": "d",
+    "state_bytes": "d",
+    "iterations": ".2f",
+    "us_per_step": ".1f",
+    "us_per_iteration": ".1f",
+}
+CHASSIS_EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros")
 LOOP = """
 #include <stdio.h>
 #include <time.h>
@@ -198,6 +214,51 @@ def measure(windows: Sequence[int], rounds: int) -> list[dict[str, Any]]:
     return rows
 
 
+def chassis(modes: Sequence[int], rounds: int) -> list[dict[str, Any]]:
+    """Rows of the car's frame alone, thrown and spinning: what its modes cost without the suspension."""
+    frame, _ = prototype_frame()
+    model = frame.finite_element_model()
+    rows: list[dict[str, Any]] = []
+    systems = []
+    for count in modes:
+        m = mbs.Model("thrown chassis", gravity=(0.0, 0.0, -9.81))
+        reduced = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=True, damping=DAMPING)
+        body = m.flexible_body("chassis", reduced)
+        m.initial_velocity(body, (5.0, 0.0, 3.0), (0.3, 0.5, 2.0))
+        m.sense_energy("energy.total", "total")
+        system = mbs.compile(m)
+        simulation = mbs.Simulation(system)
+        simulation.step(CHASSIS_STEP, n=CHASSIS_STEPS)
+        systems.append(system)
+        rows.append(
+            {
+                "dynamic_modes": count,
+                "modes": len(system.arrays["flex_mode"]),
+                "coordinates": system.nq,
+                "factor_nonzeros": system.report["factor_nonzeros"],
+                "system_bytes": len(system.to_bytes()),
+                "state_bytes": simulation.instance.system.state_size,
+                "iterations": simulation.report.mean_iterations,
+            }
+        )
+    walls: list[list[float]] = [[] for _ in rows]
+    for turn in range(rounds + 1):
+        for k, system in enumerate(systems):
+            run = mbs.simulate(system, CHASSIS_STEPS * CHASSIS_STEP, CHASSIS_STEP, every=CHASSIS_STEPS, progress=False)
+            if turn:
+                walls[k].append(run.wall_s / CHASSIS_STEPS)
+    for row, times in zip(rows, walls, strict=True):
+        wall = 1e6 * statistics.median(times)
+        row |= {"us_per_step": wall, "us_per_iteration": wall / row["iterations"]}
+    return rows
+
+
+def chassis_exponents(rows: Sequence[dict[str, Any]]) -> dict[str, float]:
+    """Fitted b of ``cost = a n^b`` over all modes n, static ones included."""
+    x = np.log([r["modes"] for r in rows])
+    return {key: float(np.polyfit(x, np.log([r[key] for r in rows]), 1)[0]) for key in CHASSIS_EXPONENTS}
+
+
 def exponents(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """Fitted b of ``cost = a N^b`` from `FITTED_FROM` on."""
     lines = []
@@ -248,6 +309,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     fitted = exponents(rows)
     print(f"\nExponents b of cost = a N^b from N = {FITTED_FROM}")
     print_table(fitted, {"method": ""} | dict.fromkeys(EXPONENTS, ".3f"))
+    flexible = chassis(MODES[:2] if options.quick else MODES, 1 if options.quick else CHASSIS_ROUNDS)
+    flexible_fitted = chassis_exponents(flexible)
+    print("\nThe car's frame alone, thrown and spinning, ALi3-P")
+    print_table(flexible, CHASSIS_TABLE)
+    print("Exponents b of cost = a n^b in all its modes n")
+    print_table([flexible_fitted], dict.fromkeys(CHASSIS_EXPONENTS, ".3f"))
     first = rows[0]
     print(
         f"\nThis machine in one thread: {first['dgemm_gflops']:.1f} Gflop/s in NumPy's matrix product"
@@ -258,7 +325,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     )
     if options.json is not None:
-        meta = describe("growth", mbs.Settings(), rounds=ROUNDS, step_s=STEP, end_s=END, exponents=fitted)
+        about = {"step_s": CHASSIS_STEP, "rows": flexible, "exponents": flexible_fitted}
+        meta = describe(
+            "growth", mbs.Settings(), rounds=ROUNDS, step_s=STEP, end_s=END, exponents=fitted, chassis=about
+        )
         write_json(options.json, meta, rows)
         print(f"written: {options.json}")
     if options.chart is not None:

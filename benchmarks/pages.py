@@ -13,7 +13,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import mbs
 from benchmarks.cases import CASES
+from benchmarks.kernel_methods import TITLES
 from benchmarks.stability import OUTCOMES
 from benchmarks.work_precision import LEVELS, compare, time_at_error
 
@@ -92,12 +94,50 @@ def stability_blocks(files: Sequence[Row]) -> dict[str, str]:
     return {
         "margins": table(margins, columns | decades),
         "classical": table(classical, {"scene": "", "method": ""} | dict.fromkeys(OUTCOMES, "d") | {"first stop": ""}),
+        "default": _default(margins),
         "why": table([{"method": k, "why": v} for k, v in why.items()], {"method": "", "why": ""}),
         "stability charts": "\n".join(
             f"![{CASES[s].title}](images/stability_{s}.png)\n"
             for s in dict.fromkeys(r["scene"] for f in files for r in f["rows"])
         ),
     }
+
+
+def _default(margins: Sequence[Row]) -> str:
+    """What the margins say about the default method, in words."""
+    name = TITLES[mbs.Settings().method]
+    lines = [m for m in margins if m["method"] == name]
+    fine = [m for m in lines if m["largest_fine_h_s"] is not None]
+
+    def worst(key: str, unit: str) -> str:
+        """The smallest value and its scenes."""
+        least = min(m[key] for m in fine)
+        scenes = [m["scene"] for m in fine if m[key] == least]
+        return f"{least:.2g}{unit} ({'all of them' if len(scenes) == len(fine) else ', '.join(scenes)})"
+
+    said = (
+        f"{name}, the default: fine with its default settings on {len(fine)} of {len(lines)} scenes, from the smallest "
+        f"step tried up to at least {worst('largest_fine_h_s', ' s')}. At the step nearest to 0.01 s (a hundredth of "
+        f"that for the squeezer) the first eps that is not fine is {worst('usual_below', ' decades')} or more below "
+        f"the default and {worst('usual_above', ' decades')} or more above; over all fine steps together "
+        f"{worst('decades_below', '')} and {worst('decades_above', '')}."
+    )
+    none = [m["scene"] for m in lines if m["largest_fine_h_s"] is None]
+    return said + (f" Not fine at any step: {', '.join(none)}." if none else "")
+
+
+def dissipative_blocks(data: Row) -> dict[str, str]:
+    """Flexible scenes and the car: a line for each scene and method."""
+    lines = []
+    for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in data["rows"]):
+        rows = [r for r in data["rows"] if (r["scene"], r["method"]) == (scene, method)]
+        line = {"scene": scene, "method": method, "error": rows[0]["quantity"], "wrong from": f"{rows[0]['limit']:g}"}
+        for r in sorted(rows, key=lambda r: -r["h_s"]):
+            said = r["outcome"] if r["error"] is None else f"{r['outcome']}, {r['error']:.1e}"
+            line["by step, s"] = "; ".join(filter(None, (line.get("by step, s"), f"{r['h_s']:g}: {said}")))
+        line["first stop"] = next((r["reason"].partition(". Worst")[0] for r in rows if r["reason"]), "-")
+        lines.append(line)
+    return {"dissipative": table(lines, dict.fromkeys(lines[0], ""))}
 
 
 def growth_blocks(data: Row) -> dict[str, str]:
@@ -120,7 +160,23 @@ def growth_blocks(data: Row) -> dict[str, str]:
     if first.get("compiled_loop_gflops"):
         peak += f", a loop of multiply-adds with the kernel's compiler and flags {first['compiled_loop_gflops']:.1f}"
     exponents = table(fitted, {"method": ""} | {k: ".2f" for k in fitted[0] if k != "method"}) if fitted else ""
-    return {"growth": table(data["rows"], columns) + f"\n\n{peak}.", "exponents": exponents}
+    blocks = {"growth": table(data["rows"], columns) + f"\n\n{peak}.", "exponents": exponents}
+    chassis = data["meta"].get("chassis")
+    if chassis is None:
+        return blocks
+    columns = {
+        "dynamic_modes": "d",
+        "modes": "d",
+        "coordinates": "d",
+        "factor_nonzeros": "d",
+        "system_bytes": "d",
+        "iterations": ".2f",
+        "us_per_step": ".0f",
+        "us_per_iteration": ".0f",
+    }
+    slopes = ", ".join(f"{key.replace('_', ' ')} {value:.2f}" for key, value in chassis["exponents"].items())
+    said = f"Steps of {chassis['step_s']:g} s. Exponents b of cost = a n^b in all modes n: {slopes}."
+    return blocks | {"chassis growth": table(chassis["rows"], columns) + f"\n\n{said}"}
 
 
 def four_bar_blocks(data: Row) -> dict[str, str]:
@@ -173,12 +229,12 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in ("work", "stability", "growth", "four-bar", "puma"):
+    for name in ("work", "stability", "growth", "four-bar", "puma", "dissipative"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
-    files = (o.work, o.stability, o.growth, o.four_bar, o.puma)
-    work, stability, growth, four_bar, puma = (_read(f) for f in files)
+    files = (o.work, o.stability, o.growth, o.four_bar, o.puma, o.dissipative)
+    work, stability, growth, four_bar, puma, dissipative = (_read(f) for f in files)
     blocks: dict[str, str] = {}
     if work:
         blocks |= work_blocks([r for f in work for r in f["rows"]]) | {"machine work": machine(work[0]["meta"])}
@@ -190,6 +246,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= four_bar_blocks(four_bar[0])
     if puma:
         blocks |= puma_blocks(puma[0])
+    if dissipative:
+        blocks |= dissipative_blocks({"rows": [r for f in dissipative for r in f["rows"]]})
     for page in PAGES:
         file = o.docs / page
         file.write_text(replace(file.read_text(encoding="utf-8"), blocks), encoding="utf-8")

@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from benchmarks import growth, pages, puma, stability, work_precision
+from benchmarks import dissipative, growth, pages, puma, stability, work_precision
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from mbs import compile
 from mbs.scenes import double_four_bar
@@ -60,10 +60,28 @@ def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, ca
     assert "dead point" in capsys.readouterr().out
 
 
+def test_the_default_is_right_on_the_spinning_beam_and_the_standing_car(tmp_path, capsys):
+    assert dissipative.main(["--quick", "--json", str(tmp_path / "d.json")]) == 0
+    _, rows = read(tmp_path / "d.json")
+    assert [r["scene"] for r in rows] == list(dissipative.QUICK)
+    assert all(r["outcome"] == "fine" and 0.0 < r["error"] < r["limit"] for r in rows)
+    refused = dissipative.measure("car_at_rest_100s", "runge_kutta_8", 0.01)
+    assert (refused["outcome"], refused["error"]) == ("refused", None)
+    assert "element states" in refused["reason"]
+    written = pages.dissipative_blocks({"rows": [*rows, refused]})["dissipative"]
+    assert written.count("fine") == 2
+    assert "0.01: refused" in written
+    assert "spinning_beam" in capsys.readouterr().out
+
+
 def test_growth_counts_arithmetic_and_finds_the_non_zeros_linear(tmp_path):
     arguments = ["--quick", "--json", str(tmp_path / "g.json"), "--chart", str(tmp_path / "growth.png")]
     assert growth.main(arguments) == 0
-    _, rows = read(tmp_path / "g.json")
+    meta, rows = read(tmp_path / "g.json")
+    few, more = meta["chassis"]["rows"]
+    assert more["modes"] - few["modes"] == growth.MODES[1] - growth.MODES[0]
+    assert 1.0 < meta["chassis"]["exponents"]["factor_nonzeros"] < 2.0  # the modal block is dense
+    assert {"growth", "exponents", "chassis growth"} == set(pages.growth_blocks({"meta": meta, "rows": rows}))
     assert all(0.0 < r["of_dgemm"] < 1.0 for r in rows)
     assert (tmp_path / "growth.png").read_bytes().startswith(PNG)
     counts = [growth.operations(compile(double_four_bar.build(n)), 2.0, 2.0, 4.0) for n in (50, 100, 200)]

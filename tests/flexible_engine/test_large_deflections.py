@@ -9,52 +9,28 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.interpolate import CubicHermiteSpline, PPoly
+from scipy.interpolate import PPoly
 
 from mbs import linearise, simulate
 from mbs.compile import compile
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.material import Material
-from mbs.flexible.section import Section, round_bar
+from mbs.flexible.section import round_bar
 from mbs.model import Model
+from mbs.scenes import spinning_beam
 from mbs.simulation import Simulation
 from tests.flexible_engine.bodies import chain
 
 REFERENCE = Path(__file__).parent.parent / "data" / "reference"
-# Simo and Vu-Quoc 1986: E A 2.8e7 N, E I 1.4e4 N m2, rho A 1.2 kg/m, 10 m; shear left stiff
-SPINNING = Section(1.2e-3, 6e-7, 6e-7, 1.2e-6, (1.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.0, 0.0), ())
-SPIN_MATERIAL = Material(2.8e7 / 1.2e-3, 0.3, 1000.0)
 
 
 def _stored(name: str) -> np.ndarray:
     return np.loadtxt(REFERENCE / f"{name}.csv", delimiter=",", skiprows=2)
 
 
-def spin_angle() -> CubicHermiteSpline:
-    """To 6 rad/s within 15 s."""
-    t = np.linspace(0.0, 15.0, 301)
-    w = 2 * np.pi / 15
-    angle = 0.4 * (t**2 / 2 + (np.cos(w * t) - 1) / w**2)
-    return CubicHermiteSpline([*t, 20.0], [*angle, 75.0], [*(0.4 * (t - np.sin(w * t) / w)), 6.0])
-
-
-def _spin_up(parts: int) -> Model:
-    m = Model("spin-up", gravity=(0, 0, 0))
-    beam = chain(m, (0, 0, 0), (10, 0, 0), SPINNING, SPIN_MATERIAL, parts=parts)
-    m.revolute("hub", m.ground, beam[0].interface(0), point=(0, 0, 0), axis=(0, 0, 1))
-    angle = m.relative_angle("angle", m.ground, beam[0].interface(0), axis=(0, 0, 1))
-    motion = spin_angle()
-    m.drive("motor", angle, m.guide_time("spin", PPoly(motion.c, motion.x), unit="rad"))
-    for k in "xy":
-        m.sense_position(k, beam[-1].interface(2), (10, 0, 0), k)
-    return m
-
-
 def _spin_run(parts: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    run = simulate(compile(_spin_up(parts)), 20.0, 0.01, progress=False)
-    angle = spin_angle()(run.t)
-    x, y = run["x"], run["y"]
-    return run.t, np.cos(angle) * x + np.sin(angle) * y - 10.0, np.cos(angle) * y - np.sin(angle) * x
+    run = simulate(compile(spinning_beam.build(parts)), spinning_beam.DURATION, 0.01, progress=False)
+    return run.t, *spinning_beam.in_turning_axes(run.t, run["tip.x"], run["tip.y"])
 
 
 def test_spin_up_converges_with_the_parts() -> None:
@@ -67,7 +43,7 @@ def test_spin_up_converges_with_the_parts() -> None:
         t, extension, deflection = _spin_run(parts)
         errors.append(np.max(np.abs(np.interp(t_ref, t, deflection) - deflection_ref)))
         steady = np.mean(extension[t > 16.0])
-        assert steady == pytest.approx(1.2 * 36.0 * 10.0**3 / (3 * 2.8e7), rel=2e-3)  # rho A w^2 L^3 / 3 E A
+        assert steady == pytest.approx(spinning_beam.STEADY_EXTENSION, rel=2e-3)
     assert errors[0] < 0.12 * 0.573
     assert errors[1] < 0.03 * 0.573
     assert errors[2] < 0.01 * 0.573
