@@ -10,7 +10,6 @@ import argparse
 import statistics
 import sys
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -161,19 +160,23 @@ def measure(scene: str, quick: bool, engines: dict[str, Any], rounds: int) -> li
 
 
 def time_at_error(rows: Sequence[dict[str, Any]], method: str, level: float) -> float | None:
-    """Least time in which a method reaches an error, along its curve (log-log); None where it does not.
+    """Time from which on a method stays within an error, along its curve (log-log); None where it does not.
 
-    A run that is better than asked for counts at its own time: no curve is extended.
+    Every finished run with a smaller step must be as good: a lucky step does not count. A run that is better than
+    asked for counts at its own time: no curve is extended.
     """
-    found = [(r["wall_s"], r["position_error_m"]) for r in rows if r["method"] == method]
-    points = sorted((wall, error) for wall, error in found if wall is not None and error is not None)
-    best = min((w for w, e in points if e <= level), default=None)
-    for (w0, e0), (w1, e1) in pairwise(points):
-        if e0 > level >= e1 > 0.0:
-            share = np.log(e0 / level) / np.log(e0 / e1)
-            crossing = float(np.exp(np.log(w0) + share * np.log(w1 / w0)))
-            best = crossing if best is None else min(best, crossing)
-    return best
+    found = [r for r in rows if r["method"] == method and None not in (r["wall_s"], r["position_error_m"])]
+    found.sort(key=lambda r: r["h_s"] if r["h_s"] is not None else r["rtol"], reverse=True)
+    points = [(r["wall_s"], r["position_error_m"]) for r in found]
+    first = next((k + 1 for k in reversed(range(len(points))) if points[k][1] > level), 0)
+    if first == len(points):
+        return None
+    best = min(wall for wall, _ in points[first:])
+    if first and points[first][1] > 0.0:
+        (w0, e0), (w1, e1) = points[first - 1 : first + 1]
+        share = np.log(e0 / level) / np.log(e0 / e1)
+        best = min(best, float(np.exp(np.log(w0) + share * np.log(w1 / w0))))
+    return float(best)
 
 
 def compare(rows: Sequence[dict[str, Any]], scene: str) -> list[dict[str, Any]]:

@@ -100,11 +100,22 @@ def test_the_arithmetic_of_a_dense_front_is_a_third_of_its_cube():
 
 
 def test_time_at_equal_error_lies_on_the_curve_and_no_curve_is_extended():
-    rows = [{"method": "m", "wall_s": w, "position_error_m": e} for w, e in ((1.0, 1e-2), (10.0, 1e-4), (100.0, 1e-6))]
+    def row(wall, error):
+        return {"method": "m", "h_s": 1.0 / wall, "wall_s": wall, "position_error_m": error}
+
+    rows = [row(1.0, 1e-2), row(10.0, 1e-4), row(100.0, 1e-6)]
     assert work_precision.time_at_error(rows, "m", 1e-3) == pytest.approx(np.sqrt(10.0))
     assert work_precision.time_at_error(rows, "m", 1.0) == 1.0
     assert work_precision.time_at_error(rows, "m", 1e-7) is None
     assert work_precision.time_at_error(rows, "other", 1e-3) is None
+
+
+def test_a_lucky_step_does_not_count():
+    errors = {1.0: 1e-2, 10.0: 1e-5, 100.0: 1e-3, 1000.0: 1e-5, 10000.0: None}
+    rows = [{"method": "m", "h_s": 1.0 / w, "wall_s": w, "position_error_m": e} for w, e in errors.items()]
+    assert work_precision.time_at_error(rows, "m", 1e-4) == pytest.approx(np.sqrt(100.0 * 1000.0))
+    assert work_precision.time_at_error(rows, "m", 2e-3) < 10.0
+    assert work_precision.time_at_error(rows[:3], "m", 1e-4) is None
 
 
 def test_margins_count_decades_around_the_default_and_stop_at_the_first_gap():
