@@ -18,7 +18,7 @@ import pytest
 
 from fmu_src.build import build_fmu
 from fmu_src.native.universal import universal
-from fmu_src.scene_registry import load_scene
+from fmu_src.scene_registry import load_scene, load_variants
 
 # pytest imports this folder's files by path
 sys.path.insert(0, str(Path(__file__).parent))
@@ -166,24 +166,46 @@ def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, k
 
 
 STRESS = [("leak", 1000), ("memory", 0), ("states", 4000), ("systems", 4000), ("crowd", 300), ("threads", 0)]
+FLEXIBLE_STRESS = [("leak", 20), ("states", 400), ("systems", 400), ("crowd", 20)]
 
 
-@pytest.fixture(scope="session")
-def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, int], str]:
+def stress_run(fmu: Path, folder: Path, system: str, output: str) -> Callable[[str, int], str]:
     """Runs `stress.c`, linked with the FMU's sources under sanitizers."""
-    folder = native.unpack(build("crane", "native"), tmp_path_factory.mktemp("stress"))
+    native.unpack(fmu, folder)
     program, _ = native.compile_stress(folder, folder / ("stress.exe" if sys.platform == "win32" else "stress"))
+    variables = fmpy.read_model_description(str(folder)).modelVariables
+    reference = next(v.valueReference for v in variables if v.name == output)
+    command = [str(program), folder.joinpath("resources").as_uri(), native.guid_of(folder)]
+    command += [str(folder / "resources" / system), str(reference)]
 
     def run(what: str, count: int) -> str:
-        command = [str(program), folder.joinpath("resources").as_uri(), native.guid_of(folder)]
-        command += [str(folder / "resources" / "system_0.ali3"), what, str(count)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = subprocess.run([*command, what, str(count)], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr[-4000:]
         return done.stdout
 
     return run
 
 
+@pytest.fixture(scope="session")
+def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, int], str]:
+    return stress_run(build("crane", "native"), tmp_path_factory.mktemp("stress"), "system_0.ali3", "rod.x")
+
+
 @pytest.mark.parametrize(("what", "count"), STRESS, ids=[w for w, _ in STRESS])
 def test_stress(stress: Callable[[str, int], str], what: str, count: int) -> None:
     assert stress(what, count)
+
+
+@pytest.fixture(scope="session")
+def flexible_stress(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, int], str]:
+    """A car with a flexible chassis and rungs."""
+    folder = tmp_path_factory.mktemp("flexible_stress")
+    name, systems, rung = load_variants("kerb_test")
+    fmu = build_fmu(systems, name, folder, [fmpy.platform], kind="native", fidelity=rung)
+    return stress_run(fmu, folder / "fmu", f"system_{rung}.ali3", "bending_moment.SG1")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("what", "count"), FLEXIBLE_STRESS, ids=[w for w, _ in FLEXIBLE_STRESS])
+def test_stress_of_flexible_bodies(flexible_stress: Callable[[str, int], str], what: str, count: int) -> None:
+    assert flexible_stress(what, count)

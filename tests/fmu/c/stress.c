@@ -1,5 +1,5 @@
 /* Hard use of the shell, linked with the FMU's own sources: leaks, failing memory, threads, altered bytes.
- *   stress RESOURCES_URI GUID SYSTEM_FILE WHAT COUNT
+ *   stress RESOURCES_URI GUID SYSTEM_FILE OUTPUT WHAT COUNT
  * Prints one line per finding; the exit status is 0 when all is well. */
 #include <math.h>
 #include <stdint.h>
@@ -32,6 +32,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component, const fmi2ValueReference 
 uint32_t ali3_crc32(const void *, size_t);
 
 static const char *resources, *guid, *system_file;
+static fmi2ValueReference output;
 static long alive, made, fail_at = -1;
 static uint64_t seed = 88172645463325252u;
 
@@ -65,7 +66,7 @@ static fmi2Component instance(void) {
 
 /* A short life with all that takes memory; false when a call was refused. */
 static int live(fmi2Component c, int steps, double *out) {
-  const fmi2ValueReference input = 0, output = 3;
+  const fmi2ValueReference input = 0;
   const double u = 1.0;
   fmi2FMUstate state = NULL;
   int good = fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0) == fmi2OK && fmi2EnterInitializationMode(c) == fmi2OK &&
@@ -140,7 +141,6 @@ static int altered_states(long count) {
   fmi2FMUstate state = NULL, other = NULL;
   size_t size = 0;
   double out;
-  const fmi2ValueReference output = 3;
   long taken = 0, refused = 0;
   if (c == NULL || !live(c, 5, &out) || fmi2GetFMUstate(c, &state) != fmi2OK ||
       fmi2SerializedFMUstateSize(c, state, &size) != fmi2OK)
@@ -260,12 +260,13 @@ static int threads(void) { return 0; }
 #endif
 
 int main(int count, char **argument) {
-  if (count < 6) return 1;
+  if (count < 7) return 1;
   resources = argument[1];
   guid = argument[2];
   system_file = argument[3];
-  const char *what = argument[4];
-  const long many = strtol(argument[5], NULL, 10);
+  output = (fmi2ValueReference)strtoul(argument[4], NULL, 10);
+  const char *what = argument[5];
+  const long many = strtol(argument[6], NULL, 10);
   if (strcmp(what, "leak") == 0) return leak(many);
   if (strcmp(what, "memory") == 0) return no_memory();
   if (strcmp(what, "states") == 0) return altered_states(many);
