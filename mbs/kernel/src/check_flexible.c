@@ -1,21 +1,10 @@
 /* Flexible bodies of a System: lengths, places in the fronts, symmetry. */
 #include <math.h>
 
-#include "ali3_internal.h"
+#include "check.h"
 
 enum { MAX_SQUARE = 1 << 24 };
 static const double SYMMETRY = 1e-9;
-
-#define CHECK(call)                                                                                                    \
-  do {                                                                                                                 \
-    const ali3_status status_ = (call);                                                                                \
-    if (status_ != ALI3_OK) return status_;                                                                            \
-  } while (0)
-
-static ali3_status check_length(ali3_message m, const char *name, int64_t n, int64_t expected) {
-  if (n == expected) return ALI3_OK;
-  return ali3_bad(m, "'%s' has %lld items instead of %lld", name, (long long)n, (long long)expected);
-}
 
 /* Every coordinate of the body is in its front at the place named, once, and the modes ascend. */
 static ali3_status check_places(const ali3_system *s, int32_t b, ali3_message m) {
@@ -53,11 +42,11 @@ static ali3_status check_symmetry(const double *M, int32_t n, double sign, const
 ali3_status ali3_check_flexible(ali3_system *s, ali3_message m) {
   const int64_t nb = s->n_flex_front, n_mode = s->n_flex_mode;
   CHECK(ali3_check_pointers(m, "flex_mode_ptr", s->flex_mode_ptr, s->n_flex_mode_ptr, nb, n_mode));
-  CHECK(check_length(m, "flex_frame", s->n_flex_frame, 12 * nb));
-  CHECK(check_length(m, "flex_loc", s->n_flex_loc, 12 * nb + n_mode));
-  CHECK(check_length(m, "flex_gravity", s->n_flex_gravity, 3 * nb));
-  CHECK(check_length(m, "flex_P", s->n_flex_P, 3 * n_mode));
-  CHECK(check_length(m, "flex_c", s->n_flex_c, 9 * n_mode));
+  CHECK(ali3_check_length(m, "flex_frame", s->n_flex_frame, 12 * nb));
+  CHECK(ali3_check_length(m, "flex_loc", s->n_flex_loc, 12 * nb + n_mode));
+  CHECK(ali3_check_length(m, "flex_gravity", s->n_flex_gravity, 3 * nb));
+  CHECK(ali3_check_length(m, "flex_P", s->n_flex_P, 3 * n_mode));
+  CHECK(ali3_check_length(m, "flex_c", s->n_flex_c, 9 * n_mode));
   CHECK(ali3_check_indices(m, "flex_frame", s->flex_frame, 12 * nb, 0, s->size.nq));
   CHECK(ali3_check_indices(m, "flex_mode", s->flex_mode, n_mode, 0, s->size.nq));
   CHECK(ali3_check_indices(m, "flex_front", s->flex_front, nb, 0, s->size.nf));
@@ -68,9 +57,9 @@ ali3_status ali3_check_flexible(ali3_system *s, ali3_message m) {
     CHECK(check_places(s, (int32_t)b, m));
   }
   if (square > MAX_SQUARE) return ali3_bad(m, "the flexible bodies have too many modes");
-  CHECK(check_length(m, "flex_T", s->n_flex_T, 9 * square));
-  CHECK(check_length(m, "flex_K", s->n_flex_K, square));
-  CHECK(check_length(m, "flex_C", s->n_flex_C, square));
+  CHECK(ali3_check_length(m, "flex_T", s->n_flex_T, 9 * square));
+  CHECK(ali3_check_length(m, "flex_K", s->n_flex_K, square));
+  CHECK(ali3_check_length(m, "flex_C", s->n_flex_C, square));
   square = 0;
   for (int32_t b = 0; b < nb; b++) {
     const int32_t n = s->flex_mode_ptr[b + 1] - s->flex_mode_ptr[b];

@@ -1,18 +1,7 @@
 /* Fronts and rows of a System: every local index must name the coordinate it stands for. */
-#include "ali3_internal.h"
+#include "check.h"
 
 enum { MAX_FRONT = 4096, MAX_FRONT_STORAGE = 1 << 26 };
-
-#define CHECK(call)                                                                                                    \
-  do {                                                                                                                 \
-    const ali3_status status_ = (call);                                                                                \
-    if (status_ != ALI3_OK) return status_;                                                                            \
-  } while (0)
-
-static ali3_status check_length(ali3_message m, const char *name, int64_t n, int64_t expected) {
-  if (n == expected) return ALI3_OK;
-  return ali3_bad(m, "'%s' has %lld items instead of %lld", name, (long long)n, (long long)expected);
-}
 
 /* Pivots first, ascending, all below nq; the others must lie in the parent, where front_map says. */
 static ali3_status check_front(const ali3_system *s, int32_t f, ali3_message m) {
@@ -41,14 +30,14 @@ ali3_status ali3_check_fronts(ali3_system *s, ali3_message m) {
   const int32_t nf = s->size.nf, nq = s->size.nq;
   CHECK(ali3_check_pointers(m, "front_col", s->front_col, s->n_front_col, nf, nq));
   CHECK(ali3_check_pointers(m, "front_ptr", s->front_ptr, s->n_front_ptr, nf, s->n_front_idx));
-  CHECK(check_length(m, "front_map", s->n_front_map, s->n_front_idx));
+  CHECK(ali3_check_length(m, "front_map", s->n_front_map, s->n_front_idx));
   CHECK(ali3_check_indices(m, "front_parent", s->front_parent, nf, -1, nf));
-  CHECK(check_length(m, "front_off", s->n_front_off, nf + 1));
+  CHECK(ali3_check_length(m, "front_off", s->n_front_off, nf + 1));
   CHECK(ali3_check_pointers(m, "front_off", s->front_off, s->n_front_off, nf, s->front_off[nf]));
   if (s->front_off[nf] > MAX_FRONT_STORAGE) return ali3_bad(m, "the fronts need %d numbers", (int)s->front_off[nf]);
   for (int32_t f = 0; f < nf; f++) CHECK(check_front(s, f, m));
   s->size.front_size = s->front_off[nf];
-  CHECK(check_length(m, "mass_pos", s->n_mass_pos, s->n_mass_col));
+  CHECK(ali3_check_length(m, "mass_pos", s->n_mass_pos, s->n_mass_col));
   int32_t f = 0;
   for (int32_t j = 0; j < nq; j++) { /* column j of the lower triangle lies in the front that eliminates j */
     while (j >= s->front_col[f + 1]) f++;
@@ -92,10 +81,10 @@ static ali3_status check_term(ali3_message m, const char *name, int32_t a, int32
 
 static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   const int64_t na = s->n_angle_row;
-  CHECK(check_length(m, "angle_theta", s->n_angle_theta, na));
-  CHECK(check_length(m, "angle_b", s->n_angle_b, s->n_angle_a));
-  CHECK(check_length(m, "angle_hc", s->n_angle_hc, s->n_angle_a));
-  CHECK(check_length(m, "angle_hs", s->n_angle_hs, s->n_angle_a));
+  CHECK(ali3_check_length(m, "angle_theta", s->n_angle_theta, na));
+  CHECK(ali3_check_length(m, "angle_b", s->n_angle_b, s->n_angle_a));
+  CHECK(ali3_check_length(m, "angle_hc", s->n_angle_hc, s->n_angle_a));
+  CHECK(ali3_check_length(m, "angle_hs", s->n_angle_hs, s->n_angle_a));
   CHECK(ali3_check_pointers(m, "angle_ptr", s->angle_ptr, s->n_angle_ptr, na, s->n_angle_a));
   CHECK(ali3_check_indices(m, "angle_row", s->angle_row, na, 0, s->size.nc));
   for (int64_t i = 0; i < na; i++) {
@@ -112,7 +101,7 @@ static ali3_status check_angles(const ali3_system *s, ali3_message m) {
 
 /* A switched row is a quadratic alone. */
 static ali3_status check_switches(const ali3_system *s, ali3_message m) {
-  CHECK(check_length(m, "row_switch", s->n_row_switch, s->size.nc));
+  CHECK(ali3_check_length(m, "row_switch", s->n_row_switch, s->size.nc));
   CHECK(ali3_check_indices(m, "row_switch", s->row_switch, s->size.nc, -1, s->n_switch_start));
   CHECK(ali3_check_indices(m, "switch_start", s->switch_start, s->n_switch_start, 0, 2));
   for (int32_t i = 0; i < s->n_switch_start; i++) {
@@ -130,17 +119,17 @@ static ali3_status check_switches(const ali3_system *s, ali3_message m) {
 
 ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
   const int32_t nc = s->size.nc;
-  CHECK(check_length(m, "row_scale", s->n_row_scale, nc));
-  CHECK(check_length(m, "row_measure", s->n_row_measure, nc));
-  CHECK(check_length(m, "row_front", s->n_row_front, nc));
-  CHECK(check_length(m, "row_lin", s->n_row_lin, s->n_row_col));
-  CHECK(check_length(m, "row_loc", s->n_row_loc, s->n_row_col));
+  CHECK(ali3_check_length(m, "row_scale", s->n_row_scale, nc));
+  CHECK(ali3_check_length(m, "row_measure", s->n_row_measure, nc));
+  CHECK(ali3_check_length(m, "row_front", s->n_row_front, nc));
+  CHECK(ali3_check_length(m, "row_lin", s->n_row_lin, s->n_row_col));
+  CHECK(ali3_check_length(m, "row_loc", s->n_row_loc, s->n_row_col));
   CHECK(ali3_check_pointers(m, "row_ptr", s->row_ptr, s->n_row_ptr, nc, s->n_row_col));
   CHECK(ali3_check_indices(m, "row_col", s->row_col, s->n_row_col, 0, s->size.nq));
   CHECK(ali3_check_indices(m, "row_front", s->row_front, nc, 0, s->size.nf));
   CHECK(ali3_check_pointers(m, "quad_ptr", s->quad_ptr, s->n_quad_ptr, nc, s->n_quad_a));
-  CHECK(check_length(m, "quad_b", s->n_quad_b, s->n_quad_a));
-  CHECK(check_length(m, "quad_h", s->n_quad_h, s->n_quad_a));
+  CHECK(ali3_check_length(m, "quad_b", s->n_quad_b, s->n_quad_a));
+  CHECK(ali3_check_length(m, "quad_h", s->n_quad_h, s->n_quad_a));
   for (int32_t k = 0; k < nc; k++) {
     if (!(s->row_measure[k] > 0.0)) return ali3_bad(m, "the measure of row %d is %g", (int)k, s->row_measure[k]);
     CHECK(check_row_pattern(s, k, m));
@@ -150,11 +139,11 @@ ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
   CHECK(check_angles(s, m));
   CHECK(check_switches(s, m));
   const int64_t nt = s->n_gterm_row;
-  CHECK(check_length(m, "gterm_guide", s->n_gterm_guide, nt));
-  CHECK(check_length(m, "gterm_power", s->n_gterm_power, nt));
-  CHECK(check_length(m, "gterm_a", s->n_gterm_a, nt));
-  CHECK(check_length(m, "gterm_b", s->n_gterm_b, nt));
-  CHECK(check_length(m, "gterm_h", s->n_gterm_h, nt));
+  CHECK(ali3_check_length(m, "gterm_guide", s->n_gterm_guide, nt));
+  CHECK(ali3_check_length(m, "gterm_power", s->n_gterm_power, nt));
+  CHECK(ali3_check_length(m, "gterm_a", s->n_gterm_a, nt));
+  CHECK(ali3_check_length(m, "gterm_b", s->n_gterm_b, nt));
+  CHECK(ali3_check_length(m, "gterm_h", s->n_gterm_h, nt));
   CHECK(ali3_check_indices(m, "gterm_row", s->gterm_row, nt, 0, nc));
   CHECK(ali3_check_indices(m, "gterm_guide", s->gterm_guide, nt, 0, s->size.ng));
   CHECK(ali3_check_indices(m, "gterm_power", s->gterm_power, nt, 1, 3));

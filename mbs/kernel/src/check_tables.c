@@ -1,11 +1,5 @@
 /* Force elements and sensors of a System. */
-#include "ali3_internal.h"
-
-#define CHECK(call)                                                                                                    \
-  do {                                                                                                                 \
-    const ali3_status status_ = (call);                                                                                \
-    if (status_ != ALI3_OK) return status_;                                                                            \
-  } while (0)
+#include "check.h"
 
 static bool fits(int32_t expected, int32_t n) { return expected == -1 || expected == n; }
 

@@ -2,15 +2,9 @@
  * is checked. */
 #include <math.h>
 
-#include "ali3_internal.h"
+#include "check.h"
 
 enum { MAX_COORDINATES = 1 << 20, MAX_OUTPUTS = 1 << 20 };
-
-#define CHECK(call)                                                                                                    \
-  do {                                                                                                                 \
-    const ali3_status status_ = (call);                                                                                \
-    if (status_ != ALI3_OK) return status_;                                                                            \
-  } while (0)
 
 ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *v, int64_t n, int64_t low,
                                int64_t high) {
@@ -45,7 +39,7 @@ int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value) {
   return low < n && sorted[low] == value ? low : -1;
 }
 
-static ali3_status check_length(ali3_message m, const char *name, int64_t n, int64_t expected) {
+ali3_status ali3_check_length(ali3_message m, const char *name, int64_t n, int64_t expected) {
   if (n == expected) return ALI3_OK;
   return ali3_bad(m, "'%s' has %lld items instead of %lld", name, (long long)n, (long long)expected);
 }
@@ -69,24 +63,24 @@ static ali3_status check_sizes(ali3_system *s, ali3_message m) {
   z->has_pose = s->n_pose_0 > 0;
   z->n_switch = (int32_t)s->n_switch_start;
   s->nr = (int32_t)s->n_road_type;
-  CHECK(check_length(m, "qd0", s->n_qd0, z->nq));
-  CHECK(check_length(m, "gravity_force", s->n_gravity_force, z->nq));
-  CHECK(check_length(m, "gravity_const", s->n_gravity_const, 1));
-  CHECK(check_length(m, "input_min", s->n_input_min, z->nu));
-  CHECK(check_length(m, "input_max", s->n_input_max, z->nu));
+  CHECK(ali3_check_length(m, "qd0", s->n_qd0, z->nq));
+  CHECK(ali3_check_length(m, "gravity_force", s->n_gravity_force, z->nq));
+  CHECK(ali3_check_length(m, "gravity_const", s->n_gravity_const, 1));
+  CHECK(ali3_check_length(m, "input_min", s->n_input_min, z->nu));
+  CHECK(ali3_check_length(m, "input_max", s->n_input_max, z->nu));
   const int64_t n_pose = z->has_pose ? z->nq : 0;
-  CHECK(check_length(m, "pose_0", s->n_pose_0, n_pose));
-  CHECK(check_length(m, "pose_cos", s->n_pose_cos, n_pose));
-  CHECK(check_length(m, "pose_sin", s->n_pose_sin, n_pose));
-  CHECK(check_length(m, "pose_x", s->n_pose_x, n_pose));
-  CHECK(check_length(m, "pose_y", s->n_pose_y, n_pose));
-  CHECK(check_length(m, "pose_z", s->n_pose_z, n_pose));
-  return check_length(m, "pose_speed", s->n_pose_speed, n_pose);
+  CHECK(ali3_check_length(m, "pose_0", s->n_pose_0, n_pose));
+  CHECK(ali3_check_length(m, "pose_cos", s->n_pose_cos, n_pose));
+  CHECK(ali3_check_length(m, "pose_sin", s->n_pose_sin, n_pose));
+  CHECK(ali3_check_length(m, "pose_x", s->n_pose_x, n_pose));
+  CHECK(ali3_check_length(m, "pose_y", s->n_pose_y, n_pose));
+  CHECK(ali3_check_length(m, "pose_z", s->n_pose_z, n_pose));
+  return ali3_check_length(m, "pose_speed", s->n_pose_speed, n_pose);
 }
 
 static ali3_status check_mass(const ali3_system *s, ali3_message m) {
   const int32_t nq = s->size.nq;
-  CHECK(check_length(m, "mass_val", s->n_mass_val, s->n_mass_col));
+  CHECK(ali3_check_length(m, "mass_val", s->n_mass_val, s->n_mass_col));
   CHECK(ali3_check_pointers(m, "mass_ptr", s->mass_ptr, s->n_mass_ptr, nq, s->n_mass_col));
   CHECK(ali3_check_indices(m, "mass_col", s->mass_col, s->n_mass_col, 0, nq));
   for (int32_t i = 0; i < nq; i++)
@@ -105,7 +99,7 @@ static ali3_status check_mass(const ali3_system *s, ali3_message m) {
 }
 
 static ali3_status check_signals(const ali3_system *s, ali3_message m) {
-  CHECK(check_length(m, "sig_val", s->n_sig_val, s->n_sig_col));
+  CHECK(ali3_check_length(m, "sig_val", s->n_sig_val, s->n_sig_col));
   CHECK(ali3_check_pointers(m, "sig_ptr", s->sig_ptr, s->n_sig_ptr, s->n_sig_const, s->n_sig_col));
   CHECK(ali3_check_indices(m, "sig_col", s->sig_col, s->n_sig_col, 0, s->size.nq));
   for (int64_t i = 0; i < s->size.nu; i++)
@@ -116,7 +110,7 @@ static ali3_status check_signals(const ali3_system *s, ali3_message m) {
 
 static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) {
   const int32_t ng = s->size.ng;
-  CHECK(check_length(m, "guide_input", s->n_guide_input, ng));
+  CHECK(ali3_check_length(m, "guide_input", s->n_guide_input, ng));
   CHECK(ali3_check_pointers(m, "guide_real_ptr", s->guide_real_ptr, s->n_guide_real_ptr, ng, s->n_guide_real));
   CHECK(ali3_check_indices(m, "guide_type", s->guide_type, ng, 0, 2));
   for (int32_t g = 0; g < ng; g++)
@@ -127,10 +121,10 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
 static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int32_t np = s->size.np;
   const int64_t length[3] = {s->n_el_real, s->n_guide_real, s->n_road_real};
-  CHECK(check_length(m, "par_min", s->n_par_min, np));
-  CHECK(check_length(m, "par_max", s->n_par_max, np));
-  CHECK(check_length(m, "par_index", s->n_par_index, s->n_par_target));
-  CHECK(check_length(m, "par_scale", s->n_par_scale, s->n_par_target));
+  CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
+  CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
+  CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
+  CHECK(ali3_check_length(m, "par_scale", s->n_par_scale, s->n_par_target));
   CHECK(ali3_check_pointers(m, "par_ptr", s->par_ptr, s->n_par_ptr, np, s->n_par_target));
   CHECK(ali3_check_indices(m, "par_target", s->par_target, s->n_par_target, 0, 3));
   for (int64_t k = 0; k < s->n_par_target; k++)
