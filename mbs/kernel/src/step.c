@@ -5,7 +5,8 @@
 
 #include "ali3_internal.h"
 
-enum { MAX_SWEEPS = 3 };
+enum { QUIET_STEPS = 6, MAX_SWEEPS = 3 };
+static const double UNRESOLVED = 2.0; /* step times frequency of a mode, rad */
 /* Relative violations at which projections end: velocities at round-off; accelerations only steer the next
  * prediction. */
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
@@ -188,13 +189,32 @@ static ali3_alpha alpha_of(double rho) {
   return x;
 }
 
+/* At a start, light nodes of flexible bodies have the accelerations of loads they have not bent under yet. Where the
+ * step does not resolve the fastest mode, the trapezoidal rule would let that ring: the first steps have no memory of
+ * it at high frequencies. */
+static bool quiet_start(const ali3_instance *in, double h) {
+  return in->system->n_flexible > 0 && h * h * in->system->flex_rate > UNRESOLVED * UNRESOLVED &&
+         in->settings.method == ALI3_METHOD_ALI3P && in->settings.project && in->report.steps < QUIET_STEPS;
+}
+
+static double rho_of(const ali3_instance *in, double h) { return quiet_start(in, h) ? 0.0 : in->settings.rho_infinity; }
+
 static void generalised_alpha(ali3_instance *in, double h) {
-  const ali3_alpha x = alpha_of(in->settings.rho_infinity);
+  const ali3_alpha x = alpha_of(rho_of(in, h));
   const double c = (1.0 - x.af) * x.beta * h * h / (1.0 - x.am), rate = x.gamma / (x.beta * h);
   const ali3_rule rule = {c, rate, c * rate};
   const ali3_vectors *from = &in->now;
   in->rule = rule;
   ali3_history_own(in, ALI3_METHOD_GENERALISED_ALPHA, from->qdd);
+  if (quiet_start(in, h) && in->report.steps == 0) { /* one acceleration, that at its end, for the whole first step */
+    const ali3_rule first = {0.5 * h * h, 2.0 / h, h};
+    in->rule = first;
+    for (int32_t i = 0; i < in->system->size.nq; i++) {
+      in->d0[i] = h * from->qd[i];
+      in->hat[i] = -from->qd[i];
+    }
+    return;
+  }
   for (int32_t i = 0; i < in->system->size.nq; i++) {
     const double known = h * from->qd[i] + (0.5 - x.beta) * h * h * from->own[i];
     in->d0[i] = known - c * (x.am * from->own[i] - x.af * from->qdd[i]) / (1.0 - x.af);
@@ -204,10 +224,12 @@ static void generalised_alpha(ali3_instance *in, double h) {
 }
 
 static void algorithmic_acceleration(ali3_instance *in, double h) {
-  const double beta = alpha_of(in->settings.rho_infinity).beta;
+  const double beta = alpha_of(rho_of(in, h)).beta;
+  const bool first = quiet_start(in, h) && in->report.steps == 0;
   memcpy(in->next.memory, in->now.memory, ALI3_MEMORY * sizeof(double));
   for (int32_t i = 0; i < in->system->size.nq; i++)
-    in->next.own[i] = (in->D[i] - h * in->now.qd[i] - (0.5 - beta) * h * h * in->now.own[i]) / (beta * h * h);
+    in->next.own[i] = first ? (in->D[i] - in->d0[i]) / in->rule.c
+                            : (in->D[i] - h * in->now.qd[i] - (0.5 - beta) * h * h * in->now.own[i]) / (beta * h * h);
 }
 
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
@@ -216,7 +238,7 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   const int32_t nq = S->size.nq;
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
-  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA;
+  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || quiet_start(in, h);
   int32_t iterations = 0;
   ali3_guides_step(in, from, to, t, h);
   ali3_switch_carry(in);
