@@ -251,7 +251,8 @@ static ali3_status attempt(ali3_instance *in, double t, double h) {
   memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
-  to->h_last[0] = is_alpha ? 0.0 : h; /* derivatives of a step are those of the trapezoidal rule */
+  /* derivatives of a step are those of the trapezoidal rule, also in a quiet start */
+  to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
   const ali3_status status = newton(in, h, alpha, &iterations);
   in->report.iterations += iterations;
   in->report.last_iterations = iterations;
