@@ -239,15 +239,27 @@ void ali3_mirror(const ali3_instance *in, double *F);
 ali3_status ali3_factorise_lu(ali3_instance *in, double *F);
 void ali3_solve_lu(ali3_instance *in, const double *F, double *b);
 
-/* step.c */
+/* measure.c */
+bool ali3_finite(const double *v, int64_t n);
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
 double ali3_penalty(const ali3_instance *in, double h);
-ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
-double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
-                    int32_t sweeps);
-bool ali3_finite(const double *v, int64_t n);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
 bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
+
+/* projection.c */
+double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
+                    int32_t sweeps);
+
+/* step.c */
+ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h);
+
+/* generalised_alpha.c */
+bool ali3_quiet_start(const ali3_instance *in, double h);
+void ali3_alpha_rule(ali3_instance *in, double h);
+void ali3_alpha_accept(ali3_instance *in, double h);
+
+/* advance.c */
+ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
 
 /* predict.c */
 void ali3_predict(ali3_instance *in, double h);

@@ -1,0 +1,24 @@
+/* A step by the method of the settings, in halves where it does not converge. */
+#include "ali3_internal.h"
+
+static ali3_status by_method(ali3_instance *in, double t, double h) {
+  switch (in->settings.method) {
+  case ALI3_METHOD_ENERGY_MOMENTUM:
+    return ali3_energy_momentum(in, t, h, in->now.used, 0.5, !in->quiet);
+  case ALI3_METHOD_ENERGY_MOMENTUM_4:
+    return ali3_composition(in, t, h);
+  case ALI3_METHOD_RUNGE_KUTTA_8:
+    return ali3_runge_kutta(in, t, h);
+  default:
+    return ali3_augmented_lagrangian(in, t, h);
+  }
+}
+
+/* A step to time t, in halves where it does not converge. */
+ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
+  const ali3_status status = by_method(in, t, h);
+  if (status == ALI3_OK || depth <= 0) return status;
+  in->report.halvings++;
+  const ali3_status first = ali3_advance(in, t - 0.5 * h, 0.5 * h, depth - 1);
+  return first == ALI3_OK ? ali3_advance(in, t, 0.5 * h, depth - 1) : first;
+}

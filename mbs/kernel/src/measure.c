@@ -1,0 +1,48 @@
+/* What all methods share: M x, the penalty, and how far a vector or the rows are from good. */
+#include <math.h>
+
+#include "ali3_internal.h"
+
+static const double MOST_STIFF = 100.0; /* a higher penalty would only bring round-off */
+
+bool ali3_finite(const double *v, int64_t n) {
+  double sum = 0.0; /* x - x is 0 for finite x, NaN else */
+  for (int64_t i = 0; i < n; i++) sum += v[i] - v[i];
+  return sum == 0.0;
+}
+
+void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
+  const ali3_system *S = in->system;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    double sum = 0.0;
+    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += S->mass_val[k] * x[S->mass_col[k]];
+    out[i] = sum;
+  }
+  if (S->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
+}
+
+/* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
+ * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as fast. */
+double ali3_penalty(const ali3_instance *in, double h) {
+  const ali3_settings *s = &in->settings;
+  const double stiff = 0.25 * h * h * in->system->flex_rate;
+  return s->alpha > 0.0 ? s->alpha : (1.0 + (stiff < MOST_STIFF ? stiff : MOST_STIFF)) / (s->eps_rel * h * h);
+}
+
+double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
+  double largest = 0.0;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const double v = fabs(Phi[k]) * S->row_measure[k];
+    if (!(v <= largest) && largest == largest) { /* a NaN stays */
+      largest = v;
+      *worst = k;
+    }
+  }
+  return largest;
+}
+
+bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance) {
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (!(fabs(Phi[k]) * S->row_measure[k] <= tolerance + S->row_round[k])) return false;
+  return true;
+}
