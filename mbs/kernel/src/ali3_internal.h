@@ -264,6 +264,7 @@ ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
 /* predict.c */
 void ali3_predict(ali3_instance *in, double h);
 void ali3_predict_accept(ali3_instance *in, double h);
+void ali3_predict_rates(ali3_instance *in, double h);
 
 /* accelerate.c */
 void ali3_accelerate(ali3_instance *in, int32_t iteration);

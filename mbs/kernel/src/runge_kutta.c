@@ -160,7 +160,7 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   if (status != ALI3_OK) return status;
   to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
   for (int32_t i = 0; i < nq; i++) in->D[i] = to->q[i] - from->q[i];
-  ali3_predict_accept(in, h);
+  ali3_predict_rates(in, h);
   to->h_last[0] = 0.0;
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
   const ali3_vectors swap = in->now;

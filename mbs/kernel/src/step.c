@@ -120,7 +120,6 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   else
     trapezoidal(in, h);
   const double c = in->rule.c;
-  memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
   /* derivatives of a step are those of the trapezoidal rule, also in a quiet start */
@@ -137,7 +136,8 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
     to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_ALI3P;
   const ali3_force_call call = {to->q, to->qd, from->y, h, in->rule.wC, c, false, in->Q, to->y, to->out, to->potential};
   ali3_forces_accept(in, &call);
-  ali3_predict_accept(in, h);
+  ali3_predict_rates(in, h);
+  ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
