@@ -1,6 +1,7 @@
-"""Wheels that roll without slip, as rows on velocities outside the kernel: the rigid bicycle's linear model.
+"""Wheels that roll without slip, as rows on velocities outside the kernel: an independent rigid bicycle.
 
-Dense NumPy on the arrays of a System: ``[M Phi_q' A'; Phi_q 0 0; A 0 0] [qdd; lam; mu] = [Q; -gamma; -dA/dt qd]`` where
+The contact points come from the geometry of a leaned circle, their accelerations from differences; nothing is taken from
+the rolling joints of the engine. Dense NumPy on the arrays of a System: ``[M Phi_q' A'; Phi_q 0 0; A 0 0] [qdd; lam; mu] = [Q; -gamma; -dA/dt qd]`` where
 A qd is the velocity of the contact points of knife-edge wheels.
 """
 
@@ -21,7 +22,7 @@ class RollingBicycle:
     """The bicycle of `mbs.scenes.bicycle` on a level road."""
 
     def __init__(self) -> None:
-        self.mechanism = Mechanism(mbs.compile(bicycle.build()))
+        self.mechanism = Mechanism(mbs.compile(bicycle.build(0.0, 0.0, rolling=False)))
         n = self.mechanism.nq
         self.q0 = self.mechanism.start[:n]
         zero, unit = np.zeros((1, n)), np.eye(n)
