@@ -7,7 +7,10 @@ A qd is the velocity of the contact points of knife-edge wheels.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import mbs
@@ -15,6 +18,7 @@ from benchmarks.baselines.mechanism import Array, Mechanism
 from mbs.scenes import bicycle
 
 WHEELS = {"rear wheel": bicycle.REAR_RADIUS, "front wheel": bicycle.FRONT_RADIUS}
+DIGITS = {"rtol": 1e-11, "atol": 1e-12}
 SHIFT = 3e-4  # rad, rad/s: of lean, steer and their rates in the central differences
 
 
@@ -82,6 +86,19 @@ class RollingBicycle:
         k = len(rows)
         bordered = np.block([[m.M, rows.T], [rows, np.zeros((k, k))]])
         return np.asarray(np.linalg.lstsq(bordered, right, rcond=1e-12)[0][: m.nq])
+
+    def motion(self, speed: float, lean_rate: float, end: float) -> Callable[[Array], Array]:
+        """Coordinates (n, nq) as a function of times (n,) up to `end`, from upright and straight, under DOP853."""
+        n = self.mechanism.nq
+        solution = solve_ivp(
+            lambda _, x: np.concatenate([x[n:], self.accelerations(x[:n], x[n:])]),
+            (0.0, end),
+            np.concatenate(self.state(speed, 0.0, 0.0, lean_rate, 0.0)),
+            method="DOP853",
+            dense_output=True,
+            **DIGITS,
+        )
+        return lambda t: np.asarray(solution.sol(t)[:n].T)
 
     def matrix(self, speed: float) -> Array:
         """A (4, 4) of x = (lean, steer, their rates), x' = A x, about straight running."""

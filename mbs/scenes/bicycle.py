@@ -71,6 +71,7 @@ def build(speed: float = SPEED, lean_rate: float = LEAN_RATE, rolling: bool = Tr
     for body in (rear, fork):
         m.initial_velocity(body, linear=(speed, -lean_rate * body.com[2], 0.0), angular=(lean_rate, 0.0, 0.0))
     m.sense_roll("lean", rear, description="roll of the rear frame, positive to the right")
+    m.sense_coordinate("lean.sine", rear.vector((0.0, 1.0, 0.0))[2], unit="1", description="z of the rear axle, unit")
     m.sense_norm("speed", rear.point((0.0, 0.0, REAR_RADIUS)), order=1, description="speed of the rear wheel centre")
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")
     m.stop_time, m.step = 5.0, 0.01

@@ -211,7 +211,6 @@ void ali3_rows_transposed(const ali3_system *S, const double *J, const double *w
 void ali3_velocity_jacobian(const ali3_instance *in, const double *q, double *Phi, double *J);
 void ali3_velocity_gamma(const ali3_instance *in, const double *qd, double *gamma);
 void ali3_velocity_values(const ali3_instance *in, const double *A, const double *v, double rate, double *Phi);
-void ali3_velocity_geometric(const ali3_instance *in, const double *lam, double weight, double *F);
 void ali3_velocity_middle(const ali3_instance *in, const double *A, const double *D, double *Phi, double *J);
 void ali3_velocity_release(const ali3_instance *in, double *J);
 

@@ -163,7 +163,6 @@ void ali3_geometric(ali3_instance *in, const double *q, const double *s, const d
     }
     F[S->angle_theta_pos[i]] -= value;
   }
-  ali3_velocity_geometric(in, lam, weight, F);
 }
 
 /* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are

@@ -41,18 +41,6 @@ void ali3_velocity_values(const ali3_instance *in, const double *A, const double
   }
 }
 
-/* F += weight * the symmetric part of d(A' lam)/dq, lower triangles. */
-void ali3_velocity_geometric(const ali3_instance *in, const double *lam, double weight, double *F) {
-  const ali3_system *S = in->system;
-  for (int64_t i = 0; i < S->n_velocity_row; i++) {
-    const double factor = weight * lam[S->velocity_row[i]];
-    for (int32_t t = S->velocity_ptr[i]; t < S->velocity_ptr[i + 1]; t++) {
-      const ali3_term *x = &S->velocity[t];
-      F[x->pos] += x->a == x->b ? factor * x->h : 0.5 * factor * x->h;
-    }
-  }
-}
-
 /* Over a step that goes D with the A of its middle: Phi = A D, and J its exact derivative A + sum of h D_b / 2. */
 void ali3_velocity_middle(const ali3_instance *in, const double *A, const double *D, double *Phi, double *J) {
   const ali3_system *S = in->system;
