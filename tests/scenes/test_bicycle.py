@@ -1,21 +1,47 @@
-"""The rigid bicycle with rolling wheels as velocity rows outside the kernel: published speeds and eigenvalues."""
+"""The rigid bicycle: published speeds and eigenvalues, from the System and from a model of rolling outside the kernel, and
+the run of the library at 4.6 m/s against that model.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
+import mbs
+from benchmarks import references
+from benchmarks.cases import exact_of, system_of
 from benchmarks.rolling import RollingBicycle
 from mbs.scenes import bicycle
 
 WEAVE, CAPSIZE = 4.29238253634111, 6.02426201538837  # m/s, published: self-stable between them
 AT_FIVE = (-14.07838969, -0.77534188 + 4.46486771j, -0.77534188 - 4.46486771j, -0.32286643)  # 1/s, at 5 m/s, published
+PRINTED = 1e-8  # 1/s
 DIFFERENCES = 1e-5  # of the central differences
+FREE = 1e-2  # 1/s: place, heading and speed have eigenvalues of zero, up to the square root of round-off
+PLACE = 1e-6
 
 
 @pytest.fixture(scope="module")
 def rolling():
     return RollingBicycle()
+
+
+def eigenvalues(speed):
+    """Those that are not zero, from the System, 1/s."""
+    model = mbs.linearise(mbs.Simulation(mbs.compile(bicycle.build(speed, 0.0))))
+    assert model.degrees_of_freedom == 7
+    assert len(model.A) == 10  # seven places, three velocities
+    return np.array([v for v in np.linalg.eigvals(model.A) if abs(v) > 1e-4])
+
+
+def weave(speed):
+    return max(v.real for v in eigenvalues(speed) if abs(v.imag) > FREE)
+
+
+def capsize(speed):
+    (value,) = [v.real for v in eigenvalues(speed) if abs(v.imag) < 1e-9 and abs(v) < 1.0]
+    return value
 
 
 def test_the_wheels_roll_without_slip_when_it_runs_straight(rolling):
@@ -38,3 +64,57 @@ def test_the_eigenvalues_at_five_metres_a_second_are_the_published_ones(rolling)
 
 def test_at_rest_it_falls_over(rolling):
     assert rolling.growth(0.0, oscillating=False) > 1.0
+
+
+def test_the_system_has_the_published_eigenvalues():
+    found = sorted(eigenvalues(5.0), key=lambda v: (v.real, -v.imag))
+    np.testing.assert_allclose(found, AT_FIVE, atol=PRINTED)
+
+
+def test_the_system_has_the_published_speeds():
+    assert brentq(weave, 4.2, 4.4, xtol=1e-12) == pytest.approx(WEAVE, abs=1e-10)
+    around = np.array([-0.06, -0.03, 0.03, 0.06])  # m/s: at the speed itself it is one zero among others
+    cubic = np.polynomial.Polynomial.fit(around, [capsize(CAPSIZE + d) for d in around], 3)
+    assert abs(brentq(cubic, -0.01, 0.01)) < 1e-6
+
+
+@pytest.mark.parametrize(("speed", "grows"), [(4.0, True), (5.0, False), (6.8, True)])
+def test_in_time_a_small_lean_dies_out_between_the_speeds_only(speed, grows):
+    run = mbs.simulate(mbs.compile(bicycle.build(speed, 1e-4)), 12.0, 0.01, every=10)
+    early, late = (np.abs(run["lean"][part]).max() for part in (slice(10, 40), slice(-30, None)))
+    assert (late > 1.3 * early) == grows
+    assert grows or late < 0.1 * early
+
+
+@pytest.mark.parametrize(
+    ("method", "h", "error"),
+    [("runge_kutta_8", 0.02, PLACE), ("energy_momentum_4", 0.02, PLACE), ("ali3p", 0.0025, 1e-5)],
+)
+def test_the_run_at_4_6_metres_a_second_is_that_of_rolling_outside_the_kernel(method, h, error):
+    run = mbs.simulate(system_of("bicycle"), 5.0, h, method=method, every=round(0.1 / h))
+    found = np.column_stack([run[name] for name in references.BICYCLE])
+    expected = exact_of("bicycle")
+    assert np.abs(found - expected).max() < error
+    assert np.ptp(expected, axis=0).min() > 0.15  # it leans and steers
+    # lean rate 0.5 rad/s to the right: it steers to the right, rights itself and has taken up most of the lean's energy
+    assert run["lean"].max() > 0.09
+    assert run["steer"].min() < -0.13
+    assert bicycle.SPEED < run["speed"][-1] < bicycle.SPEED + 0.03
+
+
+@pytest.mark.parametrize(
+    ("method", "kept"), [("runge_kutta_8", 1e-9), ("energy_momentum", 1e-8), ("energy_momentum_4", 1e-5)]
+)
+def test_rolling_does_no_work(method, kept):
+    run = mbs.simulate(system_of("bicycle"), 5.0, 0.01, method=method)
+    assert np.ptp(run["energy.total"]) < kept
+
+
+def test_the_steps_of_the_default_cost_few_iterations_and_lose_energy_at_second_order():
+    runs = [mbs.simulate(system_of("bicycle"), 5.0, h) for h in (0.02, 0.01, 0.005)]
+    lost = [np.abs(r["energy.total"] - r["energy.total"][0]).max() for r in runs]
+    assert np.log2(lost[0] / lost[1]) == pytest.approx(2.0, abs=0.1) == np.log2(lost[1] / lost[2])
+    assert lost[1] < 0.01
+    # flying, with its gyroscopic forces alone, it needs 3.3
+    assert runs[1].report.mean_iterations < 4.0
+    assert sum(r.report.halvings for r in runs) == 0
