@@ -1,8 +1,9 @@
 """Wheels that roll without slip, as rows on velocities outside the kernel: an independent rigid bicycle.
 
-The contact points come from the geometry of a leaned circle, their accelerations from differences; nothing is taken from
-the rolling joints of the engine. Dense NumPy on the arrays of a System: ``[M Phi_q' A'; Phi_q 0 0; A 0 0] [qdd; lam; mu] = [Q; -gamma; -dA/dt qd]`` where
-A qd is the velocity of the contact points of knife-edge wheels.
+The contact points come from the geometry of a leaned circle, their accelerations from differences; nothing is taken
+from the rolling joints of the engine. Dense NumPy on the arrays of a System,
+``[M Phi_q' A'; Phi_q 0 0; A 0 0] [qdd; lam; mu] = [Q; -gamma; -dA/dt qd]`` where A qd is the velocity of the contact
+points of knife-edge wheels.
 """
 
 from __future__ import annotations

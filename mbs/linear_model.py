@@ -10,8 +10,8 @@ variation is
 with H_k the second derivative of row k, W the complement ``V' M W = 0`` and y the element states, ``yd = g(q, qd, y)``.
 N is the velocity that keeps the constraints satisfied when a moving mechanism is shifted; it is zero at rest.
 
-With conditions on velocities A qd = 0 (rolling, skates) there are more places than velocities: z counts a basis P of the
-null space of the rows on positions alone, w one V of the null space of all, and ``zd = P' M (V w + N z)``.
+With conditions on velocities A qd = 0 (rolling, skates) there are more places than velocities: z counts a basis P of
+the null space of the rows on positions alone, w one V of the null space of all, and ``zd = P' M (V w + N z)``.
 
 Elements give steps of their slots, not rates: g is the limit of short steps. A slot that does not remember its value
 over a short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.

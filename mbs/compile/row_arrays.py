@@ -71,11 +71,14 @@ class RowArrays:
             for guide, power, p in row.guides:
                 gterms += [(r, guide, power, a, b, v) for a, b, v in terms(p)]
             if row.rates:
-                for (i, j), v in sorted((tuple(place[int(new[c]) if c >= 0 else -1] for c in m), v) for m, v in row.rates.items()):
-                    if i >= 0:
-                        velocities.append((len(velocity_rows), i, j, v))
+                entries = [
+                    (place[int(new[i]) if i >= 0 else -1], place[int(new[j])], v) for (i, j), v in row.rates.items()
+                ]
+                for a, b, v in sorted(entries):
+                    if a >= 0:
+                        velocities.append((len(velocity_rows), a, b, v))
                     else:
-                        lin[j] += v
+                        lin[b] += v
                 velocity_rows.append(r)
             columns += pattern
             linear += lin

@@ -34,7 +34,7 @@ class AnglePart:
 
 @dataclass(frozen=True)
 class Equation:
-    """``sum c * A * B + linear + guide terms + angle part = 0``, or a condition on velocities, ``sum c * A * dB/dt = 0``.
+    """``sum c * A * B + linear + guide terms + angle part = 0``, or on velocities ``sum c * A * dB/dt = 0``.
 
     Parameters
     ----------

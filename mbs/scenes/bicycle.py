@@ -59,6 +59,8 @@ def build(speed: float = SPEED, lean_rate: float = LEAN_RATE, rolling: bool = Tr
             m.rolling(f"{name} on road", spin, radius=centre[2])
         m.initial_rate(spin, speed / centre[2])
         m.sense_coordinate(f"{name}.spin", spin, description="its rate is the spin")
+        if carrier is rear:
+            m.sense_coordinate("speed", spin, order=1, scale=REAR_RADIUS, unit="m/s", description="of the rear contact")
         for axis, step in AXES.items():
             for component in "xyz":
                 m.sense_position(
@@ -72,7 +74,6 @@ def build(speed: float = SPEED, lean_rate: float = LEAN_RATE, rolling: bool = Tr
         m.initial_velocity(body, linear=(speed, -lean_rate * body.com[2], 0.0), angular=(lean_rate, 0.0, 0.0))
     m.sense_roll("lean", rear, description="roll of the rear frame, positive to the right")
     m.sense_coordinate("lean.sine", rear.vector((0.0, 1.0, 0.0))[2], unit="1", description="z of the rear axle, unit")
-    m.sense_norm("speed", rear.point((0.0, 0.0, REAR_RADIUS)), order=1, description="speed of the rear wheel centre")
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")
     m.stop_time, m.step = 5.0, 0.01
     return m

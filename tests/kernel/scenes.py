@@ -45,8 +45,8 @@ def four_bar(windows: int = 2, groups: list[int] | None = None) -> SystemBuilder
 
 
 def sleigh() -> SystemBuilder:
-    """A planar body (centre r, unit vector a) on a knife edge 0.3 m behind its centre, with a wheel of radius 0.2 m whose
-    angle rolls with the way along a; pushed by an input. Sensors: x, y of the edge, angle, total energy.
+    """A planar body (centre r, unit vector a) on a knife edge 0.3 m behind its centre, with a wheel of radius 0.2 m
+    whose angle rolls with the way along a; pushed by an input. Sensors: x, y of the edge, angle, total energy.
     """
     arm = 0.3
     rows = [

@@ -148,7 +148,14 @@ def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> No
         ({"row_const": [-0.5, 0.1, 0.0]}, "velocity row 1 also has a condition on positions"),
         ({"quad_ptr": [0, 1, 2, 2]}, "velocity row 1 also has a condition on positions"),
         (
-            {"gterm_row": [2], "gterm_guide": [0], "gterm_power": [1], "gterm_a": [0], "gterm_b": [-1], "gterm_h": [1.0]}
+            {
+                "gterm_row": [2],
+                "gterm_guide": [0],
+                "gterm_power": [1],
+                "gterm_a": [0],
+                "gterm_b": [-1],
+                "gterm_h": [1.0],
+            }
             | {"guide_type": [1], "guide_input": [0], "guide_real": [20.0, 0.5, 0.0], "guide_real_ptr": [0, 3]},
             "velocity row 2 also has a condition on positions",
         ),

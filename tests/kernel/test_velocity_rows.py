@@ -7,6 +7,7 @@ import ctypes
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.optimize import root
 
 from mbs.kernel.binding import Instance, LoadedSystem
 from mbs.settings import METHODS, Settings
@@ -89,6 +90,27 @@ def test_a_step_ends_with_velocities_and_accelerations_on_the_rows(method: str) 
     assert np.abs(J @ qd).max() < (1e-10 if projected else 1e-4)
     assert np.abs(J @ qdd + drift)[1:].max() < (1e-5 if projected else 1e-1)
     assert np.abs(qd).max() > 0.5
+
+
+def test_a_step_solves_the_trapezoidal_rule_with_the_rows_at_its_end() -> None:
+    """M qdd1 + A1' lam = Q, Phi(q1) = 0, A(q1) qd1 = 0 with (17), (18), by a general solver."""
+    instance, b = started("ali3p_no_projection", tolerance_r=1e-14, tolerance_phi=1e-14), sleigh()
+    h = 0.05
+    instance.set_input(0, 2.0)
+    instance.step(h)
+    q0, qd0, qdd0 = (np.array(v) for v in instance.get_state()[:3])
+    push = np.array([2.0, 0.0, -0.3 * 2.0, 0.0, 0.0])
+
+    def open_equations(x: Array) -> Array:
+        qdd, lam = x[:5], x[5:]
+        q, qd = q0 + h * qd0 + 0.25 * h**2 * (qdd0 + qdd), qd0 + 0.5 * h * (qdd0 + qdd)
+        J = np.array([b.gradient(row, q) for row in b.rows])
+        return np.concatenate([b.mass @ qdd + J.T @ lam - push, [b.value(b.rows[0], q)], J[1:] @ qd])
+
+    found = root(open_equations, np.concatenate([qdd0, np.zeros(3)]), tol=1e-13)
+    instance.step(h)
+    np.testing.assert_allclose(instance.get_state()[2], found.x[:5], atol=1e-8)
+    np.testing.assert_allclose(np.array(instance.get_state()[3]) * b.arrays()["row_scale"], found.x[5:], atol=1e-8)
 
 
 def test_the_derivative_of_a_step_by_its_input() -> None:

@@ -42,9 +42,15 @@ def with_spin(centre_z=0.5):
         ({"axis": None}, "needs the centre and the axis of the wheel on body 'disc'"),
         ({"centre": None}, "needs the centre and the axis of the wheel on body 'disc'"),
         ({"axis": (0.0, 0.01, 1.0)}, "lies flat, its axle is upright"),
-        ({"centre": (0.0, 0.0, 0.62)}, "its lowest point is 0.12 m above it. With the radius 0.5 m its centre must be 0.5 m"),
+        (
+            {"centre": (0.0, 0.0, 0.62)},
+            "its lowest point is 0.12 m above it. With the radius 0.5 m its centre must be 0.5 m",
+        ),
         ({"centre": (0.0, 0.0, 0.45)}, "its lowest point is 0.05 m below it"),
-        ({"axis": (0.0, 0.6, 0.8)}, "its lowest point is 0.2 m above it. With the radius 0.5 m its centre must be 0.3 m"),
+        (
+            {"axis": (0.0, 0.6, 0.8)},
+            "its lowest point is 0.2 m above it. With the radius 0.5 m its centre must be 0.3 m",
+        ),
         ({"level": 0.1}, "its lowest point is 0.1 m below it"),
         ({"level": float("inf")}, "The level of rolling joint 'rim'"),
     ],

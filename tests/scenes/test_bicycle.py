@@ -1,5 +1,5 @@
-"""The rigid bicycle: published speeds and eigenvalues, from the System and from a model of rolling outside the kernel, and
-the run of the library at 4.6 m/s against that model.
+"""The rigid bicycle: published speeds and eigenvalues, from the System and from a model of rolling outside the kernel,
+and the run of the library at 4.6 m/s against that model.
 """
 
 from __future__ import annotations

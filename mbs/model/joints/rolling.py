@@ -58,6 +58,7 @@ def rolling(
         if centre is None or axis is None:
             raise ModelError(f"The {what} needs the centre and the axis of the wheel on body '{body.name}'.")
         c, n = model.anchor(body, centre, what), model.anchor_axis(body, axis, what)
+        square = perpendicular(direction(axis, 3, f"The axis of {what}"))
     _touches(_at_reference(model, c)[2] - z, _at_reference(model, n)[2], R, what)
     height = Affine({}, -z) + c[2]
     touch = [(0.5 / R, height, height), (0.5 * R, n[2], n[2])]
@@ -68,7 +69,7 @@ def rolling(
         across = [(1.0, n[0], c[0]), (1.0, n[1], c[1]), (R, scaled, n[2])]
         equations += [Equation(name, "roll", rates=along), Equation(name, "track", rates=across)]
     else:
-        f, g = (model.anchor_axis(body, e, what) for e in perpendicular(direction(axis, 3, f"The axis of {what}")))
+        f, g = (model.anchor_axis(body, e, what) for e in square)
         equations += [
             Equation(name, "roll", rates=[(1.0 / R, height, c[i]), (-R, f[2], f[i]), (-R, g[2], g[i])]) for i in (0, 1)
         ]
