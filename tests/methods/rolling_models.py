@@ -11,6 +11,7 @@ MASS, RADIUS = 2.0, 0.5  # of the disc, kg, m
 DIAMETRAL, AXIAL = 0.15, 0.25  # kg m2: a disc of some thickness
 AXLE_MASS, AXLE_INERTIA = 0.1, 0.02  # kg, kg m2: of what carries it as a spin
 SLEIGH_MASS, SLEIGH_INERTIA, ARM, TURN = 2.0, 0.5, 0.3, 1.0  # kg, kg m2, m, rad/s
+ROLY_MASS, ROLY_INERTIA, ROLY_RADIUS, ROLY_DEPTH = 3.0, 0.2, 0.4, 0.1  # kg, kg m2, m, m
 
 
 def sleigh(turn: float = TURN, switch: bool | None = None, drift: float = 0.0) -> Model:
@@ -68,5 +69,23 @@ def disc(lean: float, precession: float, spin: float, kick: float = 0.0, reduced
     for c in "xyz":
         m.sense_position(f"centre.{c}", body, centre, c)
     m.sense_coordinate("axle.z", body.vector(axle)[2])
+    m.sense_energy("energy", "total")
+    return m
+
+
+def roly_poly(rate: float, turn: float = 0.0) -> Model:
+    """A body with two wheels on one axle, its centre of mass below it, turned about the axle (rad) and rolling (rad/s).
+
+    Both wheels say that the axle does not move along itself: one condition too many, everywhere.
+    """
+    m = Model("roly-poly")
+    com = (ROLY_DEPTH * np.sin(turn), 0.0, ROLY_RADIUS - ROLY_DEPTH * np.cos(turn))
+    body = m.body("body", mass=ROLY_MASS, com=com, inertia=(0.5, ROLY_INERTIA, 0.5))
+    for name, y in (("left", 0.5), ("right", -0.5)):
+        m.rolling(name, body, radius=ROLY_RADIUS, centre=(0.0, y, ROLY_RADIUS), axis=(0.0, 1.0, 0.0))
+    angular = np.array([0.0, rate, 0.0])
+    m.initial_velocity(body, linear=np.cross(angular, com), angular=angular)
+    m.sense_pitch("pitch", body)
+    m.sense_position("height", body, None, "z")
     m.sense_energy("energy", "total")
     return m

@@ -14,10 +14,15 @@ from tests.methods.rolling_models import (
     GRAVITY,
     MASS,
     RADIUS,
+    ROLY_DEPTH,
+    ROLY_INERTIA,
+    ROLY_MASS,
+    ROLY_RADIUS,
     SLEIGH_INERTIA,
     SLEIGH_MASS,
     TURN,
     disc,
+    roly_poly,
     sleigh,
 )
 
@@ -154,3 +159,19 @@ def test_a_tumbling_disc_at_order_two(method):
     assert np.polyfit(np.log(steps), np.log(errors), 1)[0] == pytest.approx(2.0, abs=0.2)
     if method == "energy_momentum":
         assert max(np.ptp(r["energy"]) for r in ends) < 10.0 * ENERGY
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_conditions_stated_twice_do_no_harm(method):
+    system = compile(roly_poly(KICK))
+    assert system.nc - system.report["rank"] == 1
+    run = simulate(system, 5.0, 0.01, method=method)
+    rate = np.sqrt(ROLY_MASS * GRAVITY * ROLY_DEPTH / (ROLY_INERTIA + ROLY_MASS * (ROLY_RADIUS - ROLY_DEPTH) ** 2))
+    exact = method in ("energy_momentum_4", "runge_kutta_8")
+    assert np.abs(run["pitch"] - KICK / rate * np.sin(rate * run.t)).max() < KICK / rate * (1e-7 if exact else 1e-3)
+
+
+def test_a_static_equilibrium_lies_where_the_body_rolls_to():
+    simulation = Simulation(compile(roly_poly(0.0, 2.0)))
+    simulation.static_equilibrium()
+    assert simulation.sensors["height"] == pytest.approx(ROLY_RADIUS - ROLY_DEPTH, abs=1e-9)
