@@ -4,44 +4,26 @@ and the run of the library at 4.6 m/s against that model.
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
 import mbs
 from benchmarks import references
+from benchmarks.bicycle import AT_FIVE, CAPSIZE, WEAVE, eigenvalues, main, stable_speeds
 from benchmarks.cases import exact_of, system_of
 from benchmarks.rolling import RollingBicycle
 from mbs.scenes import bicycle
 
-WEAVE, CAPSIZE = 4.29238253634111, 6.02426201538837  # m/s, published: self-stable between them
-AT_FIVE = (-14.07838969, -0.77534188 + 4.46486771j, -0.77534188 - 4.46486771j, -0.32286643)  # 1/s, at 5 m/s, published
-PRINTED = 1e-8  # 1/s
+PRINTED = 1e-8  # 1/s: of the published eigenvalues
 DIFFERENCES = 1e-5  # of the central differences
-FREE = 1e-2  # 1/s: place, heading and speed have eigenvalues of zero, up to the square root of round-off
 PLACE = 1e-6
 
 
 @pytest.fixture(scope="module")
 def rolling():
     return RollingBicycle()
-
-
-def eigenvalues(speed):
-    """Those that are not zero, from the System, 1/s."""
-    model = mbs.linearise(mbs.Simulation(mbs.compile(bicycle.build(speed, 0.0))))
-    assert model.degrees_of_freedom == 7
-    assert len(model.A) == 10  # seven places, three velocities
-    return np.array([v for v in np.linalg.eigvals(model.A) if abs(v) > 1e-4])
-
-
-def weave(speed):
-    return max(v.real for v in eigenvalues(speed) if abs(v.imag) > FREE)
-
-
-def capsize(speed):
-    (value,) = [v.real for v in eigenvalues(speed) if abs(v.imag) < 1e-9 and abs(v) < 1.0]
-    return value
 
 
 def test_the_wheels_roll_without_slip_when_it_runs_straight(rolling):
@@ -67,15 +49,16 @@ def test_at_rest_it_falls_over(rolling):
 
 
 def test_the_system_has_the_published_eigenvalues():
+    model = mbs.linearise(mbs.Simulation(mbs.compile(bicycle.build(5.0, 0.0))))
+    assert (model.degrees_of_freedom, len(model.A)) == (7, 10)  # seven places, three velocities
     found = sorted(eigenvalues(5.0), key=lambda v: (v.real, -v.imag))
     np.testing.assert_allclose(found, AT_FIVE, atol=PRINTED)
 
 
 def test_the_system_has_the_published_speeds():
-    assert brentq(weave, 4.2, 4.4, xtol=1e-12) == pytest.approx(WEAVE, abs=1e-10)
-    around = np.array([-0.06, -0.03, 0.03, 0.06])  # m/s: at the speed itself it is one zero among others
-    cubic = np.polynomial.Polynomial.fit(around, [capsize(CAPSIZE + d) for d in around], 3)
-    assert abs(brentq(cubic, -0.01, 0.01)) < 1e-6
+    weave, capsize = stable_speeds()
+    assert weave == pytest.approx(WEAVE, abs=1e-10)
+    assert capsize == pytest.approx(CAPSIZE, abs=1e-6)
 
 
 @pytest.mark.parametrize(("speed", "grows"), [(4.0, True), (5.0, False), (6.8, True)])
@@ -118,3 +101,15 @@ def test_the_steps_of_the_default_cost_few_iterations_and_lose_energy_at_second_
     # flying, with its gyroscopic forces alone, it needs 3.3
     assert runs[1].report.mean_iterations < 4.0
     assert sum(r.report.halvings for r in runs) == 0
+
+
+def test_the_command_prints_all_three_and_every_method(tmp_path, capsys):
+    assert main(["--quick", "--json", str(tmp_path / "b.json")]) == 0
+    data = json.loads((tmp_path / "b.json").read_text(encoding="utf-8"))
+    for row in data["meta"]["linear"]:
+        assert row["system"] == pytest.approx(row["published"], abs=1e-6)
+        assert row["outside"] == pytest.approx(row["published"], rel=DIFFERENCES, abs=DIFFERENCES)
+    assert all(row["error"] < 1e-4 for row in data["rows"])
+    printed = capsys.readouterr().out
+    assert "capsize begins" in printed
+    assert "runge_kutta_8" in printed
