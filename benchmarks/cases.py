@@ -13,6 +13,7 @@ import mbs
 from benchmarks import references
 from mbs.model import Model
 from mbs.scenes import (
+    bicycle,
     bricard,
     cart_pole,
     double_four_bar,
@@ -170,6 +171,15 @@ CASES: dict[str, Case] = {
         0.6,
         most_steps=1000000,
         classical=False,
+    ),
+    "bicycle": Case(
+        "rigid bicycle: wheels that roll without slip",
+        bicycle.build,
+        references.BICYCLE,
+        5.0,
+        (1, 2, 4, 10, 20, 40, 100, 200),
+        references.rolling_bicycle,
+        2.0,
     ),
     "spatial_chain": Case(
         "chain of ten links: smooth, no loop",

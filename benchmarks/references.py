@@ -13,9 +13,11 @@ from scipy.integrate import solve_ivp
 import mbs
 from benchmarks.baselines.lagrange import Lagrange
 from benchmarks.baselines.mechanism import Mechanism
-from mbs.scenes import cart_pole, double_four_bar, slider_crank, spatial_slider_crank
+from benchmarks.rolling import RollingBicycle
+from mbs.scenes import bicycle, cart_pole, double_four_bar, slider_crank, spatial_slider_crank
 
 Array = NDArray[np.float64]
+BICYCLE = ("lean.sine", "steer")
 DIGITS = {"rtol": 1e-12, "atol": 1e-13}
 STIFF_DIGITS = {"rtol": 1e-8, "atol": 1e-10}
 
@@ -75,6 +77,13 @@ def light_cart(t: Array, cart_mass: float = cart_pole.CART) -> Array:
     # centre of mass at rest: m X + b (X + L cos) = b L
     cart = b * L * (1.0 - np.cos(angle)) / (m + b)
     return np.column_stack([cart + L * np.cos(angle), -L * np.sin(angle)])
+
+
+def rolling_bicycle(t: Array, sensors: tuple[str, ...] = BICYCLE) -> Array:
+    """Position sensors (n, k) of the bicycle, with contact points from the geometry of its wheels."""
+    model = RollingBicycle()
+    motion = model.motion(bicycle.SPEED, bicycle.LEAN_RATE, float(t[-1]))
+    return model.mechanism.positions(motion(t), sensors)
 
 
 def one_degree(

@@ -1,12 +1,17 @@
-"""Wheels that roll without slip, as rows on velocities outside the kernel: the rigid bicycle's linear model.
+"""Wheels that roll without slip, as rows on velocities outside the kernel: an independent rigid bicycle.
 
-Dense NumPy on the arrays of a System: ``[M Phi_q' A'; Phi_q 0 0; A 0 0] [qdd; lam; mu] = [Q; -gamma; -dA/dt qd]`` where
-A qd is the velocity of the contact points of knife-edge wheels.
+The contact points come from the geometry of a leaned circle, their accelerations from differences; nothing is taken
+from the rolling joints of the engine. Dense NumPy on the arrays of a System,
+``[M Phi_q' A'; Phi_q 0 0; A 0 0] [qdd; lam; mu] = [Q; -gamma; -dA/dt qd]`` where A qd is the velocity of the contact
+points of knife-edge wheels.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import mbs
@@ -14,6 +19,7 @@ from benchmarks.baselines.mechanism import Array, Mechanism
 from mbs.scenes import bicycle
 
 WHEELS = {"rear wheel": bicycle.REAR_RADIUS, "front wheel": bicycle.FRONT_RADIUS}
+DIGITS = {"rtol": 1e-11, "atol": 1e-12}
 SHIFT = 3e-4  # rad, rad/s: of lean, steer and their rates in the central differences
 
 
@@ -21,7 +27,7 @@ class RollingBicycle:
     """The bicycle of `mbs.scenes.bicycle` on a level road."""
 
     def __init__(self) -> None:
-        self.mechanism = Mechanism(mbs.compile(bicycle.build()))
+        self.mechanism = Mechanism(mbs.compile(bicycle.build(0.0, 0.0, rolling=False)))
         n = self.mechanism.nq
         self.q0 = self.mechanism.start[:n]
         zero, unit = np.zeros((1, n)), np.eye(n)
@@ -81,6 +87,19 @@ class RollingBicycle:
         k = len(rows)
         bordered = np.block([[m.M, rows.T], [rows, np.zeros((k, k))]])
         return np.asarray(np.linalg.lstsq(bordered, right, rcond=1e-12)[0][: m.nq])
+
+    def motion(self, speed: float, lean_rate: float, end: float) -> Callable[[Array], Array]:
+        """Coordinates (n, nq) as a function of times (n,) up to `end`, from upright and straight, under DOP853."""
+        n = self.mechanism.nq
+        solution = solve_ivp(
+            lambda _, x: np.concatenate([x[n:], self.accelerations(x[:n], x[n:])]),
+            (0.0, end),
+            np.concatenate(self.state(speed, 0.0, 0.0, lean_rate, 0.0)),
+            method="DOP853",
+            dense_output=True,
+            **DIGITS,
+        )
+        return lambda t: np.asarray(solution.sol(t)[:n].T)
 
     def matrix(self, speed: float) -> Array:
         """A (4, 4) of x = (lean, steer, their rates), x' = A x, about straight running."""

@@ -10,6 +10,9 @@ variation is
 with H_k the second derivative of row k, W the complement ``V' M W = 0`` and y the element states, ``yd = g(q, qd, y)``.
 N is the velocity that keeps the constraints satisfied when a moving mechanism is shifted; it is zero at rest.
 
+With conditions on velocities A qd = 0 (rolling, skates) there are more places than velocities: z counts a basis P of
+the null space of the rows on positions alone, w one V of the null space of all, and ``zd = P' M (V w + N z)``.
+
 Elements give steps of their slots, not rates: g is the limit of short steps. A slot that does not remember its value
 over a short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.
 """
@@ -73,12 +76,13 @@ class Mode:
 
 @dataclass(frozen=True)
 class LinearModel:
-    """Linear model ``xd = A x`` about a state, with x = (z, zd, y).
+    """Linear model ``xd = A x`` about a state, with x = (z, zd, y), or (z, w, y) with conditions on velocities.
 
     Parameters
     ----------
     A : array of shape (2 n + ny, 2 n + ny)
-        State-space matrix, 1/s. Element slots without dynamics of their own have been dropped from y.
+        State-space matrix, 1/s. Element slots without dynamics of their own have been dropped from y. Each independent
+        condition on velocities takes one row and column.
     basis : array of shape (nq, n)
         Displacement of the coordinates per unit of z; ``basis' M basis`` is the unit matrix.
     slots : tuple of int
@@ -134,33 +138,39 @@ def linearise(simulation: Simulation) -> LinearModel:
     M = evaluator.mass()
     jacobian = evaluator.constraints(state.q)[0]
     V, W = _admissible(M, jacobian, simulation.system)
-    n = V.shape[1]
-    N = np.zeros_like(V)
-    GV = np.zeros_like(V)
-    for j in range(n):
-        ahead, drift_ahead = evaluator.constraints(state.q + SHIFT * V[:, j])
-        behind, drift_behind = evaluator.constraints(state.q - SHIFT * V[:, j])
+    rolling = simulation.system.arrays["velocity_row"]
+    P = _admissible(M, np.delete(jacobian, rolling, axis=0), simulation.system)[0] if len(rolling) else V
+    n, places = V.shape[1], P.shape[1]
+    N = np.zeros_like(P)
+    GV = np.zeros_like(P)
+    for j in range(places):
+        ahead, drift_ahead = evaluator.constraints(state.q + SHIFT * P[:, j])
+        behind, drift_behind = evaluator.constraints(state.q - SHIFT * P[:, j])
         drift = (drift_ahead - drift_behind) / (2 * SHIFT)
         N[:, j] = -W @ np.linalg.lstsq(jacobian @ W, drift, rcond=RANK_TOLERANCE)[0]
         GV[:, j] = (ahead - behind).T @ state.lam / (2 * SHIFT)
     slots = evaluator.slots
     unit = np.eye(len(state.y))
     columns = (
-        [_difference(evaluator.rates, state, dq=V[:, j], dqd=N[:, j]) for j in range(n)]
+        [_difference(evaluator.rates, state, dq=P[:, j], dqd=N[:, j]) for j in range(places)]
         + [_difference(evaluator.rates, state, dqd=V[:, j]) for j in range(n)]
         + [_difference(evaluator.rates, state, dy=unit[k]) for k in slots]
     )
-    slope = np.array(columns).T  # (nq + len(slots), 2 n + len(slots)): of forces and of slot rates
-    A: Array = np.zeros((2 * n + len(slots), 2 * n + len(slots)))
-    A[:n, n : 2 * n] = np.eye(n)
-    A[n : 2 * n] = V.T @ slope[: len(state.q)]
-    A[n : 2 * n, :n] -= V.T @ GV
-    A[2 * n :] = slope[len(state.q) :]
-    lively = [i for i in range(len(slots)) if np.abs(A[2 * n + i]).max() > STATE_TOLERANCE]
-    kept = [*range(2 * n), *(2 * n + i for i in lively)]
+    slope = np.array(columns).T  # (nq + len(slots), both + len(slots)): of forces and of slot rates
+    both = places + n
+    A: Array = np.zeros((both + len(slots), both + len(slots)))
+    if len(rolling):
+        A[:places, :both] = P.T @ M @ np.hstack([N, V])
+    else:
+        A[:n, n:both] = np.eye(n)
+    A[places:both] = V.T @ slope[: len(state.q)]
+    A[places:both, :places] -= V.T @ GV
+    A[both:] = slope[len(state.q) :]
+    lively = [i for i in range(len(slots)) if np.abs(A[both + i]).max() > STATE_TOLERANCE]
+    kept = [*range(both), *(both + i for i in lively)]
     A = A[np.ix_(kept, kept)]
     names = tuple(simulation.system.meta["coordinates"])
-    return LinearModel(A, V, tuple(slots[i] for i in lively), names, _modes(A, V))
+    return LinearModel(A, P, tuple(slots[i] for i in lively), names, _modes(A, P))
 
 
 class _Evaluator:

@@ -25,14 +25,15 @@ class Lagrange:
         b, 1/s: both Baumgarte factors; the counterpart of the penalty.
     minimum_norm : bool
         Solve for the least acceleration (in the metric of M) that the rows allow beside the free one, so that
-        redundant rows pass; LU otherwise.
+        redundant rows pass; where a coordinate has no mass, for the least accelerations and multipliers. LU otherwise.
     """
 
     def __init__(self, mechanism: Mechanism, penalty: float = 10.0, minimum_norm: bool = False) -> None:
         self.mechanism = mechanism
         self.b = penalty
         self.minimum_norm = minimum_norm
-        self.root = np.linalg.cholesky(mechanism.M + np.diag(_missing(mechanism.M)))
+        has_metric = bool(np.abs(mechanism.M).sum(axis=1).all())
+        self.root = np.linalg.cholesky(mechanism.M) if minimum_norm and has_metric else None
 
     def rates(self, t: float, x: Array) -> Array:
         """x' of x = (q, qd)."""
@@ -41,13 +42,15 @@ class Lagrange:
         phi, J, gamma, Q = m.evaluate(t, q, qd)
         right = -gamma - 2.0 * self.b * (J @ qd) - self.b**2 * phi
         m.factorizations += 1
-        if self.minimum_norm:
+        if self.root is not None:
             # qdd = free + L^-T y with y the least one that J L^-T y = right - J free allows
             free = scipy.linalg.cho_solve((self.root, True), Q)
             scaled = scipy.linalg.solve_triangular(self.root, J.T, lower=True).T
             y = np.linalg.lstsq(scaled, right - J @ free, rcond=CUT)[0]
             return np.concatenate([qd, free + scipy.linalg.solve_triangular(self.root, y, lower=True, trans="T")])
         bordered = np.block([[m.M, J.T], [J, np.zeros((m.nc, m.nc))]])
+        if self.minimum_norm:
+            return np.concatenate([qd, np.linalg.lstsq(bordered, np.concatenate([Q, right]), rcond=CUT)[0][: m.nq]])
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
@@ -58,8 +61,3 @@ class Lagrange:
         if not reciprocal > SINGULAR:
             raise RefusedError(f"bordered matrix singular (1/condition {reciprocal:.0e}); {m.rank(t, q)}", t)
         return np.concatenate([qd, scipy.linalg.lu_solve((lu, pivots), np.concatenate([Q, right]))[: m.nq]])
-
-
-def _missing(M: Array) -> Array:
-    """A unit where a coordinate has no mass at all."""
-    return np.where(np.abs(M).sum(axis=1) > 0.0, 0.0, 1.0)

@@ -78,9 +78,12 @@ def compile(model: Model) -> System:
     guides, guide_rates = guide_start(model)
     holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
     start = RowArrays(holding, new)
+    placing = [row for row in holding if not row.rates]
     stiffness = deformation_metric(model, full, new)
     drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
-    q = close_position(holding, start, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
+    q = close_position(
+        placing, RowArrays(placing, new), mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0)
+    )
     qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
     _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())

@@ -104,6 +104,8 @@ def symmetric(matrix: sparse.csr_matrix) -> sparse.csr_matrix:
     """Exactly symmetric, without round-off entries."""
     m = (0.5 * (matrix + matrix.T)).tocoo()
     diagonal = np.abs(m.tocsr().diagonal())
+    # a direction without mass, such as the axle of a thin disc, has exactly none
+    diagonal[diagonal < 1e-14 * np.max(diagonal, initial=0.0)] = 0.0
     big = np.sqrt(np.maximum(diagonal[m.row] * diagonal[m.col], 0.0))
-    stay = (np.abs(m.data) > 1e-14 * big) & (m.data != 0.0)
+    stay = (np.abs(m.data) > 1e-14 * big) & (big > 0.0)
     return sparse.coo_matrix((m.data[stay], (m.row[stay], m.col[stay])), shape=m.shape).tocsr()

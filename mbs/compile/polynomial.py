@@ -11,6 +11,8 @@ from mbs.model.equation import Equation, Product
 Monomial = tuple[int, int]
 """(i, j) with i >= j for z_i z_j, (i, -1) for z_i, (-1, -1) for 1."""
 Polynomial = dict[Monomial, float]
+RateTerms = dict[tuple[int, int], float]
+"""(i, j) for z_i dz_j/dt, (-1, j) for dz_j/dt."""
 
 DROP = 1e-12
 """A coefficient smaller than this part of the largest that went into its row is a zero."""
@@ -35,6 +37,8 @@ class RowTerms:
     guides : list of (guide, power, Polynomial)
     switch : int
         Number of the switch that turns it on and off, or -1.
+    rates : RateTerms
+        Of a condition on velocities, which has nothing else.
     """
 
     name: str
@@ -47,15 +51,17 @@ class RowTerms:
     sine: Polynomial = field(default_factory=dict)
     guides: list[tuple[int, int, Polynomial]] = field(default_factory=list)
     switch: int = -1
+    rates: RateTerms = field(default_factory=dict)
 
     @property
     def plain(self) -> bool:
         """Whether it is a quadratic alone that always holds."""
-        return self.theta < 0 and not self.guides and self.switch < 0
+        return self.theta < 0 and not self.guides and self.switch < 0 and not self.rates
 
     def columns(self) -> list[int]:
         """Coordinates it depends on, ascending."""
-        found = {i for p in (self.main, self.cosine, self.sine, *(g[2] for g in self.guides)) for m in p for i in m}
+        parts = (self.main, self.cosine, self.sine, self.rates, *(g[2] for g in self.guides))
+        found = {i for p in parts for m in p for i in m}
         found.add(self.theta)
         found.discard(-1)
         return sorted(found)
@@ -116,6 +122,18 @@ def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine]) 
     return cleaned(p)
 
 
+def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTerms:
+    """The terms of a sum of ``c * A * dB/dt``."""
+    found: RateTerms = {}
+    for factor, a, b in products:
+        value, rate = substitute(a, full), substitute(b, full)
+        for i, u in [*value.terms.items(), (-1, value.constant)]:
+            for j, v in rate.terms.items():
+                found[i, j] = found.get((i, j), 0.0) + factor * u * v
+    least = DROP * max((abs(v) for v in found.values()), default=0.0)
+    return {m: v for m, v in found.items() if abs(v) > least}
+
+
 def row_terms(equation: Equation, joint: int, part: int, full: Sequence[Affine]) -> RowTerms:
     """An equation of a joint as a row over z."""
     row = RowTerms(equation.name, equation.kind, joint, part, expand(equation.products, equation.linear, full))
@@ -124,5 +142,6 @@ def row_terms(equation: Equation, joint: int, part: int, full: Sequence[Affine])
         row.theta = next(iter(theta.terms))  # angle coordinates are never eliminated
         row.cosine = expand(equation.angle.cosine, Affine(), full)
         row.sine = expand(equation.angle.sine, Affine(), full)
+    row.rates = expand_rates(equation.rates, full)
     row.guides = [(g.guide, g.power, expand(g.products, g.linear, full)) for g in equation.guides]
     return row

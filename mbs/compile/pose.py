@@ -35,6 +35,11 @@ def pose_arrays(
     """
     if not model.floating:
         return {name: np.zeros(0) for name in NAMES}
+    rolling = [joint.name for joint in model.joints if joint.type == "rolling"]
+    if rolling:
+        raise ModelError(
+            f"The model '{model.name}' is declared floating, but '{rolling[0]}' ties it to the height of the ground."
+        )
     tied = [natural.info[i].name for i, e in enumerate(of_z) if abs(e.constant) > 1e-9]
     if tied:
         raise ModelError(

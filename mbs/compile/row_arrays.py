@@ -14,7 +14,7 @@ from mbs.compile.polynomial import Polynomial, RowTerms
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-SCALED = ("row_lin", "row_const", "quad_h", "angle_hc", "angle_hs", "gterm_h")
+SCALED = ("row_lin", "row_const", "quad_h", "angle_hc", "angle_hs", "gterm_h", "velocity_h")
 
 
 class RowArrays:
@@ -36,6 +36,8 @@ class RowArrays:
         angles: list[tuple[int, int]] = []
         angle_terms: list[tuple[int, int, int, float, float]] = []
         gterms: list[tuple[int, int, int, int, int, float]] = []
+        velocities: list[tuple[int, int, int, float]] = []
+        velocity_rows: list[int] = []
         for r, row in enumerate(rows):
             pattern = sorted(int(new[c]) for c in row.columns())
             place = {c: k for k, c in enumerate(pattern)}
@@ -68,11 +70,22 @@ class RowArrays:
                 angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(both.items())]
             for guide, power, p in row.guides:
                 gterms += [(r, guide, power, a, b, v) for a, b, v in terms(p)]
+            if row.rates:
+                entries = [
+                    (place[int(new[i]) if i >= 0 else -1], place[int(new[j])], v) for (i, j), v in row.rates.items()
+                ]
+                for a, b, v in sorted(entries):
+                    if a >= 0:
+                        velocities.append((len(velocity_rows), a, b, v))
+                    else:
+                        lin[b] += v
+                velocity_rows.append(r)
             columns += pattern
             linear += lin
             constant.append(const)
             pointer.append(len(columns))
-        q, t, g = (np.array(x, dtype=float).reshape(-1, k) for x, k in ((quad, 4), (angle_terms, 5), (gterms, 6)))
+        tables = ((quad, 4), (angle_terms, 5), (gterms, 6), (velocities, 4))
+        q, t, g, w = (np.array(x, dtype=float).reshape(-1, k) for x, k in tables)
         ang = np.array(angles, dtype=np.int64).reshape(-1, 2)
         self.arrays: dict[str, NDArray[Any]] = {
             "row_ptr": np.array(pointer, dtype=np.int64),
@@ -96,10 +109,16 @@ class RowArrays:
             "gterm_a": g[:, 3].astype(np.int64),
             "gterm_b": g[:, 4].astype(np.int64),
             "gterm_h": g[:, 5].copy(),
+            "velocity_row": np.array(velocity_rows, dtype=np.int64),
+            "velocity_ptr": _pointer(w[:, 0], len(velocity_rows)),
+            "velocity_a": w[:, 1].astype(np.int64),
+            "velocity_b": w[:, 2].astype(np.int64),
+            "velocity_h": w[:, 3].copy(),
         }
         self._row_of_entry = np.repeat(np.arange(self.nc), np.diff(self.arrays["row_ptr"]))
         self._quad_row = q[:, 0].astype(np.int64)
         self._angle_of_term = t[:, 0].astype(np.int64)
+        self._row_of_velocity = self.arrays["velocity_row"][w[:, 0].astype(np.int64)]
 
     def scale(self, factor: Array) -> None:
         """Multiply every row by its factor, shape (nc,)."""
@@ -110,6 +129,7 @@ class RowArrays:
         of_term = factor[a["angle_row"]][self._angle_of_term] if len(self._angle_of_term) else np.zeros(0)
         a["angle_hc"], a["angle_hs"] = a["angle_hc"] * of_term, a["angle_hs"] * of_term
         a["gterm_h"] = a["gterm_h"] * factor[a["gterm_row"]]
+        a["velocity_h"] = a["velocity_h"] * factor[self._row_of_velocity]
 
     def cliques(self) -> list[Index]:
         """Coordinates of each row, in the new order."""
@@ -118,7 +138,10 @@ class RowArrays:
     def evaluate(
         self, q: Array, guides: Array, guide_rates: Array | None = None
     ) -> tuple[Array, sparse.csr_matrix, Array]:
-        """Phi, Phi_q and Phi_t at position `q` with guide values and rates (default: at rest)."""
+        """Phi, Phi_q and Phi_t at position `q` with guide values and rates (default: at rest).
+
+        A condition on velocities has the matrix A of its A qd in place of Phi_q, and no Phi.
+        """
         a = self.arrays
         start, col = a["row_ptr"], a["row_col"]
         padded = np.append(q, 1.0)  # position -1 is the constant 1
@@ -168,6 +191,10 @@ class RowArrays:
                 np.add.at(
                     phi_t, a["gterm_row"], a["gterm_h"] * power * guides[g] ** (power - 1) * guide_rates[g] * u * v
                 )
+        if len(a["velocity_row"]):
+            row = self._row_of_velocity
+            np.add.at(jac, start[row] + a["velocity_b"], a["velocity_h"] * q[col[start[row] + a["velocity_a"]]])
+            phi[a["velocity_row"]] = 0.0
         matrix = sparse.csr_matrix((jac, col, start), shape=(self.nc, self.nq))
         return phi, matrix, phi_t
 

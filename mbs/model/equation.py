@@ -34,7 +34,7 @@ class AnglePart:
 
 @dataclass(frozen=True)
 class Equation:
-    """``sum c * A * B + linear + guide terms + angle part = 0``.
+    """``sum c * A * B + linear + guide terms + angle part = 0``, or on velocities ``sum c * A * dB/dt = 0``.
 
     Parameters
     ----------
@@ -42,6 +42,8 @@ class Equation:
         Name of the joint, or of its part, for messages and the list of rows.
     kind : str
         What the equation states: point, axis, distance, angle ...
+    rates : sequence of (c, A, B)
+        Of a condition on velocities, which has nothing else.
     """
 
     name: str
@@ -50,10 +52,13 @@ class Equation:
     linear: Affine = field(default_factory=Affine)
     guides: Sequence[GuideTerm] = ()
     angle: AnglePart | None = None
+    rates: Sequence[Product] = ()
 
     @property
     def is_linear(self) -> bool:
         """Whether it is a constant linear equation of the coordinates."""
+        if self.rates:
+            return False
         return not self.guides and self.angle is None and all(not a.terms or not b.terms for _, a, b in self.products)
 
     def linear_form(self) -> Affine:

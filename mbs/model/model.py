@@ -21,6 +21,7 @@ from mbs.model.joints.drive import drive
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.pin import pin
 from mbs.model.joints.points import revolute, spherical, universal
+from mbs.model.joints.rolling import rolling, skate
 from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
 from mbs.model.parameters import Parameter, new_parameter
 from mbs.model.sensors import SensorVocabulary
@@ -101,6 +102,31 @@ class Model(ForceVocabulary, SensorVocabulary):
         `Simulation` turns on and off: it stays where it is at that moment. `on`: from the start, where it is drawn.
         """
         return self._join(pin(self, name, body, point, on))
+
+    def rolling(
+        self,
+        name: str,
+        wheel: Body | Spin,
+        *,
+        radius: float,
+        centre: ArrayLike | None = None,
+        axis: ArrayLike | None = None,
+        level: float = 0.0,
+    ) -> Joint:
+        """A wheel of the given radius (m) with a knife edge that rolls without slip on the plane z = level.
+
+        It is a rigid body with `centre` and `axis`, or a spin, which has them. It always touches, and neither slips nor
+        lifts.
+        """
+        return self._join(rolling(self, name, wheel, radius, centre, axis, level))
+
+    def skate(
+        self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, switch: bool | None = None
+    ) -> Joint:
+        """A knife edge: the point of the body moves along a direction of the body only, seen from above; its height is
+        free. `switch`: with a switch of the same name, on or off at the start.
+        """
+        return self._join(skate(self, name, body, point, direction, switch))
 
     # --- coordinates ---
     def relative_angle(

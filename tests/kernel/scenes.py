@@ -44,6 +44,25 @@ def four_bar(windows: int = 2, groups: list[int] | None = None) -> SystemBuilder
     return builder
 
 
+def sleigh() -> SystemBuilder:
+    """A planar body (centre r, unit vector a) on a knife edge 0.3 m behind its centre, with a wheel of radius 0.2 m
+    whose angle rolls with the way along a; pushed by an input. Sensors: x, y of the edge, angle, total energy.
+    """
+    arm = 0.3
+    rows = [
+        Row(-0.5, quad={(2, 2): 0.5, (3, 3): 0.5}),
+        Row(0.0, rates={(2, 1): 1.0, (2, 3): -arm, (3, 0): -1.0, (3, 2): arm}),  # a_x p_y' - a_y p_x', p = r - arm a
+        Row(0.0, lin={4: 0.2}, rates={(2, 0): -1.0, (3, 1): -1.0}),
+    ]
+    mass, velocity = np.diag([2.0, 2.0, 0.5, 0.5, 0.01]), [0.5, 0.3, 0.0, 1.0, 2.5]
+    b = SystemBuilder(mass, [arm, 0.0, 1.0, 0.0, 0.0], velocity, rows=rows, groups=[2, 3])
+    b.inputs = [(0.0, -5.0, 5.0)]
+    x, y, angle = b.signal({0: 1.0, 2: -arm}), b.signal({1: 1.0, 3: -arm}), b.signal({4: 1.0})
+    b.elements = [Element(3, [x], [1.0], [0])]
+    b.sensors = [(0, [x], [1.0]), (0, [y], [1.0]), (0, [angle], [1.0]), (10, [3], [])]
+    return b
+
+
 def everything() -> SystemBuilder:
     """Two planar points with a spring, a distance row, an angle row, both kinds of guide, an input and a parameter."""
     M = np.diag([1.0, 2.0, 1.5, 2.5, 0.0])

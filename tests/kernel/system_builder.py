@@ -14,12 +14,12 @@ REALS = {
     "row_measure", "quad_h", "angle_hc", "angle_hs", "gterm_h", "sig_val", "sig_const", "el_real", "input_start",
     "input_min", "input_max", "guide_real", "road_real", "par_value", "par_min", "par_max", "par_scale", "pose_0",
     "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed", "sen_real",
-    "flex_gravity", "flex_P", "flex_c", "flex_T", "flex_K", "flex_C",
+    "velocity_h", "flex_gravity", "flex_P", "flex_c", "flex_T", "flex_K", "flex_C",
 }  # fmt: skip
 INTS = {
     "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
     "row_switch", "switch_start", "angle_row", "angle_theta", "angle_ptr", "angle_a", "angle_b",
-    "gterm_row", "gterm_guide", "gterm_power",
+    "velocity_row", "velocity_ptr", "velocity_a", "velocity_b", "gterm_row", "gterm_guide", "gterm_power",
     "gterm_a", "gterm_b", "front_col", "front_ptr", "front_idx", "front_parent", "front_map", "front_off", "sig_ptr",
     "sig_col", "el_type", "el_sig_ptr", "el_sig", "el_real_ptr", "el_int_ptr", "el_int", "el_state_ptr", "el_out_ptr",
     "el_front", "el_loc_ptr", "el_loc", "guide_type", "guide_input", "guide_real_ptr", "road_type", "road_real_ptr",
@@ -30,7 +30,9 @@ INTS = {
 
 @dataclass
 class Row:
-    """constant + lin . q + sum h q_i q_j (+ guides); an angle row adds cos(q_theta) S - sin(q_theta) C."""
+    """constant + lin . q + sum h q_i q_j (+ guides); an angle row adds cos(q_theta) S - sin(q_theta) C. A velocity row
+    is lin . qd + sum h q_i qd_j alone.
+    """
 
     constant: float
     lin: dict[int, float] = field(default_factory=dict)
@@ -38,10 +40,11 @@ class Row:
     theta: int | None = None
     angle: list[tuple[int, int, float, float]] = field(default_factory=list)  # i, j (-1: none), hc, hs
     guided: list[tuple[int, int, int, int, float]] = field(default_factory=list)  # guide, power, i, j, h
+    rates: dict[tuple[int, int], float] = field(default_factory=dict)
 
     def columns(self) -> list[int]:
         """Coordinates that appear."""
-        found = set(self.lin) | {i for pair in self.quad for i in pair}
+        found = set(self.lin) | {i for pair in (*self.quad, *self.rates) for i in pair}
         found |= {i for a in self.angle for i in a[:2] if i >= 0} | {i for g in self.guided for i in g[2:4] if i >= 0}
         return sorted(found | ({self.theta} if self.theta is not None else set()))
 
@@ -117,8 +120,14 @@ class SystemBuilder:
         return 1.0 / np.sqrt(total) if self.normalise and total > 0 else 1.0
 
     def gradient(self, row: Row, q: np.ndarray) -> np.ndarray:
-        """Gradient of a row by central differences of its polynomial."""
+        """Gradient of a row by central differences of its polynomial; of a velocity row the factors of the rates."""
         g = np.zeros(len(q))
+        if row.rates:
+            for j, c in row.lin.items():
+                g[j] += c
+            for (i, j), h in row.rates.items():
+                g[j] += h * q[i]
+            return g
         for i in row.columns():
             e = np.zeros(len(q))
             e[i] = 1e-4
@@ -195,8 +204,9 @@ class SystemBuilder:
         return a
 
     def _row_arrays(self, a: dict[str, object], fronts: list[list[int]], of: np.ndarray) -> None:
-        out: dict[str, list] = {k: [] for k in (*INTS, *REALS) if k.startswith(("row_", "quad_", "angle_", "gterm_"))}
-        out["row_ptr"], out["quad_ptr"], out["angle_ptr"] = [0], [0], [0]
+        own = ("row_", "quad_", "angle_", "gterm_", "velocity_")
+        out: dict[str, list] = {k: [] for k in (*INTS, *REALS) if k.startswith(own)}
+        out["row_ptr"], out["quad_ptr"], out["angle_ptr"], out["velocity_ptr"] = [0], [0], [0], [0]
         for k, row in enumerate(self.rows):
             columns, scale = row.columns(), self.row_scale(row)
             where = {c: i for i, c in enumerate(columns)} | {-1: -1}
@@ -220,6 +230,12 @@ class SystemBuilder:
                 parts = (k, g, p, where[max(i, j)], where[min(i, j)], scale * h)
                 for name, v in zip(("row", "guide", "power", "a", "b", "h"), parts, strict=True):
                     out[f"gterm_{name}"].append(v)
+            if row.rates:
+                out["velocity_row"].append(k)
+                out["velocity_a"] += [where[i] for i, _ in row.rates]
+                out["velocity_b"] += [where[j] for _, j in row.rates]
+                out["velocity_h"] += [scale * h for h in row.rates.values()]
+                out["velocity_ptr"].append(len(out["velocity_a"]))
             if row.theta is None:
                 continue
             out["angle_row"].append(k)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 
-from .scenes import everything, four_bar
-from .system_builder import INTS, REALS, pack, seal
+from .scenes import everything, four_bar, sleigh
+from .system_builder import INTS, REALS, SystemBuilder, pack, seal
 
 SEED = 20240117
+Builder = Callable[[], SystemBuilder]
+BUILDERS = pytest.mark.parametrize("builder", [everything, sleigh])
 
 
 def refused(data: bytes) -> str:
@@ -64,8 +68,9 @@ def test_every_flipped_bit_is_refused() -> None:
         refused(bytes(damaged))
 
 
-def test_flipped_bits_under_a_right_checksum_never_crash() -> None:
-    data = everything().to_bytes()
+@BUILDERS
+def test_flipped_bits_under_a_right_checksum_never_crash(builder: Builder) -> None:
+    data = builder().to_bytes()
     count = int.from_bytes(data[12:16], "little")
     rng = np.random.default_rng(SEED + 1)
     accepted = 0
@@ -77,9 +82,10 @@ def test_flipped_bits_under_a_right_checksum_never_crash() -> None:
     assert 100 < accepted < 2900  # both ways were walked
 
 
+@BUILDERS
 @pytest.mark.parametrize("value", [-1, -2, 1, 7, 1 << 30, -(1 << 31), (1 << 31) - 1])
-def test_every_integer_may_be_hostile(value: int) -> None:
-    arrays = everything().arrays()
+def test_every_integer_may_be_hostile(builder: Builder, value: int) -> None:
+    arrays = builder().arrays()
     for name in sorted(INTS):
         for k in range(len(np.atleast_1d(arrays[name]))):  # type: ignore[arg-type]
             hostile = np.array(arrays[name], dtype=np.int64)
@@ -87,9 +93,10 @@ def test_every_integer_may_be_hostile(value: int) -> None:
             exercise(pack(arrays | {name: hostile}))
 
 
+@BUILDERS
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-def test_numbers_that_are_not_finite_are_refused(value: float) -> None:
-    arrays = everything().arrays()
+def test_numbers_that_are_not_finite_are_refused(builder: Builder, value: float) -> None:
+    arrays = builder().arrays()
     for name in sorted(REALS - {"input_min", "input_max", "par_min", "par_max"}):
         if not len(np.atleast_1d(arrays[name])):  # type: ignore[arg-type]
             continue
@@ -98,9 +105,10 @@ def test_numbers_that_are_not_finite_are_refused(value: float) -> None:
         assert name in refused(pack(arrays | {name: hostile}))
 
 
+@BUILDERS
 @pytest.mark.parametrize("value", [1e300, -1e300, 0.0, 5e-324])
-def test_extreme_reals_never_crash(value: float) -> None:
-    arrays = everything().arrays()
+def test_extreme_reals_never_crash(builder: Builder, value: float) -> None:
+    arrays = builder().arrays()
     for name in sorted(REALS):
         for k in range(len(np.atleast_1d(arrays[name]))):  # type: ignore[arg-type]
             hostile = np.array(arrays[name], float)
@@ -108,8 +116,9 @@ def test_extreme_reals_never_crash(value: float) -> None:
             exercise(pack(arrays | {name: hostile}))
 
 
-def test_arrays_of_a_wrong_length_are_refused() -> None:
-    arrays = everything().arrays()
+@BUILDERS
+def test_arrays_of_a_wrong_length_are_refused(builder: Builder) -> None:
+    arrays = builder().arrays()
     for name in sorted(INTS | REALS):
         values = np.atleast_1d(arrays[name])  # type: ignore[arg-type]
         refused(pack(arrays | {name: np.append(values, 0)}))
@@ -131,3 +140,38 @@ def test_an_unknown_element_type_is_named() -> None:
 def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> None:
     arrays = four_bar().arrays()
     assert "fronts" in refused(pack(arrays | {"front_off": [0, (1 << 31) - 1]}))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"row_const": [-0.5, 0.1, 0.0]}, "velocity row 1 also has a condition on positions"),
+        ({"quad_ptr": [0, 1, 2, 2]}, "velocity row 1 also has a condition on positions"),
+        (
+            {
+                "gterm_row": [2],
+                "gterm_guide": [0],
+                "gterm_power": [1],
+                "gterm_a": [0],
+                "gterm_b": [-1],
+                "gterm_h": [1.0],
+            }
+            | {"guide_type": [1], "guide_input": [0], "guide_real": [20.0, 0.5, 0.0], "guide_real_ptr": [0, 3]},
+            "velocity row 2 also has a condition on positions",
+        ),
+        (
+            {"angle_row": [1], "angle_theta": [0], "angle_ptr": [0, 1], "angle_a": [1], "angle_b": [-1]}
+            | {"angle_hc": [1.0], "angle_hs": [0.0]},
+            "velocity row 1 also has a condition on positions",
+        ),
+        ({"velocity_row": [2, 1]}, "does not ascend"),
+        ({"velocity_row": [1, 1]}, "does not ascend"),
+        ({"velocity_row": [1, 3]}, "'velocity_row' is 3"),
+        ({"velocity_ptr": [0, 4, 5]}, "'velocity_ptr' runs from 0 to 5 instead of 0 to 6"),
+        ({"velocity_a": [4, 2, 3, 3, 2, 3]}, "'velocity_a' is 4"),
+        ({"velocity_b": [1, 3, 0, 2, 0, -1]}, "'velocity_b' is -1"),
+        ({"velocity_h": [1.0] * 5}, "'velocity_h' has 5 items instead of 6"),
+    ],
+)
+def test_a_velocity_row_that_is_more_or_less_is_refused(changes: dict[str, list[float]], said: str) -> None:
+    assert said in refused(pack(sleigh().arrays() | changes))

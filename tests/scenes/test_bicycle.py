@@ -1,16 +1,24 @@
-"""The rigid bicycle with rolling wheels as velocity rows outside the kernel: published speeds and eigenvalues."""
+"""The rigid bicycle: published speeds and eigenvalues, from the System and from a model of rolling outside the kernel,
+and the run of the library at 4.6 m/s against that model.
+"""
 
 from __future__ import annotations
+
+import json
 
 import numpy as np
 import pytest
 
+import mbs
+from benchmarks import references
+from benchmarks.bicycle import AT_FIVE, CAPSIZE, WEAVE, eigenvalues, main, stable_speeds
+from benchmarks.cases import exact_of, system_of
 from benchmarks.rolling import RollingBicycle
 from mbs.scenes import bicycle
 
-WEAVE, CAPSIZE = 4.29238253634111, 6.02426201538837  # m/s, published: self-stable between them
-AT_FIVE = (-14.07838969, -0.77534188 + 4.46486771j, -0.77534188 - 4.46486771j, -0.32286643)  # 1/s, at 5 m/s, published
+PRINTED = 1e-8  # 1/s: of the published eigenvalues
 DIFFERENCES = 1e-5  # of the central differences
+PLACE = 1e-6
 
 
 @pytest.fixture(scope="module")
@@ -38,3 +46,70 @@ def test_the_eigenvalues_at_five_metres_a_second_are_the_published_ones(rolling)
 
 def test_at_rest_it_falls_over(rolling):
     assert rolling.growth(0.0, oscillating=False) > 1.0
+
+
+def test_the_system_has_the_published_eigenvalues():
+    model = mbs.linearise(mbs.Simulation(mbs.compile(bicycle.build(5.0, 0.0))))
+    assert (model.degrees_of_freedom, len(model.A)) == (7, 10)  # seven places, three velocities
+    found = sorted(eigenvalues(5.0), key=lambda v: (v.real, -v.imag))
+    np.testing.assert_allclose(found, AT_FIVE, atol=PRINTED)
+
+
+def test_the_system_has_the_published_speeds():
+    weave, capsize = stable_speeds()
+    assert weave == pytest.approx(WEAVE, abs=1e-10)
+    assert capsize == pytest.approx(CAPSIZE, abs=1e-6)
+
+
+@pytest.mark.parametrize(("speed", "grows"), [(4.0, True), (5.0, False), (6.8, True)])
+def test_in_time_a_small_lean_dies_out_between_the_speeds_only(speed, grows):
+    run = mbs.simulate(mbs.compile(bicycle.build(speed, 1e-4)), 12.0, 0.01, every=10)
+    early, late = (np.abs(run["lean"][part]).max() for part in (slice(10, 40), slice(-30, None)))
+    assert (late > 1.3 * early) == grows
+    assert grows or late < 0.1 * early
+
+
+@pytest.mark.parametrize(
+    ("method", "h", "error"),
+    [("runge_kutta_8", 0.02, PLACE), ("energy_momentum_4", 0.02, PLACE), ("ali3p", 0.0025, 1e-5)],
+)
+def test_the_run_at_4_6_metres_a_second_is_that_of_rolling_outside_the_kernel(method, h, error):
+    run = mbs.simulate(system_of("bicycle"), 5.0, h, method=method, every=round(0.1 / h))
+    found = np.column_stack([run[name] for name in references.BICYCLE])
+    expected = exact_of("bicycle")
+    assert np.abs(found - expected).max() < error
+    assert np.ptp(expected, axis=0).min() > 0.15  # it leans and steers
+    # lean rate 0.5 rad/s to the right: it steers to the right, rights itself and has taken up most of the lean's energy
+    assert run["lean"].max() > 0.09
+    assert run["steer"].min() < -0.13
+    assert bicycle.SPEED < run["speed"][-1] < bicycle.SPEED + 0.03
+
+
+@pytest.mark.parametrize(
+    ("method", "kept"), [("runge_kutta_8", 1e-9), ("energy_momentum", 1e-8), ("energy_momentum_4", 1e-5)]
+)
+def test_rolling_does_no_work(method, kept):
+    run = mbs.simulate(system_of("bicycle"), 5.0, 0.01, method=method)
+    assert np.ptp(run["energy.total"]) < kept
+
+
+def test_the_steps_of_the_default_cost_few_iterations_and_lose_energy_at_second_order():
+    runs = [mbs.simulate(system_of("bicycle"), 5.0, h) for h in (0.02, 0.01, 0.005)]
+    lost = [np.abs(r["energy.total"] - r["energy.total"][0]).max() for r in runs]
+    assert np.log2(lost[0] / lost[1]) == pytest.approx(2.0, abs=0.1) == np.log2(lost[1] / lost[2])
+    assert lost[1] < 0.01
+    # flying, with its gyroscopic forces alone, it needs 3.3
+    assert runs[1].report.mean_iterations < 4.0
+    assert sum(r.report.halvings for r in runs) == 0
+
+
+def test_the_command_prints_all_three_and_every_method(tmp_path, capsys):
+    assert main(["--quick", "--json", str(tmp_path / "b.json")]) == 0
+    data = json.loads((tmp_path / "b.json").read_text(encoding="utf-8"))
+    for row in data["meta"]["linear"]:
+        assert row["system"] == pytest.approx(row["published"], abs=1e-6)
+        assert row["outside"] == pytest.approx(row["published"], rel=DIFFERENCES, abs=DIFFERENCES)
+    assert all(row["error"] < 1e-4 for row in data["rows"])
+    printed = capsys.readouterr().out
+    assert "capsize begins" in printed
+    assert "runge_kutta_8" in printed

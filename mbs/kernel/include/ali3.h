@@ -134,7 +134,8 @@ ALI3_API ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_
 ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
-   phi, lam and jacobian are those of the stored (mass-normalised) rows. */
+   phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is
+   zero and the jacobian is A. */
 ALI3_API ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam,
                                     double *y);
 ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, const double *y, double t,

@@ -22,6 +22,8 @@
   X(int32_t, 1, angle_b) X(double, 2, angle_hc) X(double, 2, angle_hs) \
   X(int32_t, 1, gterm_row) X(int32_t, 1, gterm_guide) X(int32_t, 1, gterm_power) X(int32_t, 1, gterm_a) \
   X(int32_t, 1, gterm_b) X(double, 2, gterm_h) X(int32_t, 1, row_switch) X(int32_t, 1, switch_start) \
+  X(int32_t, 1, velocity_row) X(int32_t, 1, velocity_ptr) X(int32_t, 1, velocity_a) X(int32_t, 1, velocity_b) \
+  X(double, 2, velocity_h) \
   X(int32_t, 1, front_col) X(int32_t, 1, front_ptr) X(int32_t, 1, front_idx) X(int32_t, 1, front_parent) \
   X(int32_t, 1, front_map) X(int32_t, 1, front_off) \
   X(int32_t, 1, sig_ptr) X(int32_t, 1, sig_col) X(double, 2, sig_val) X(double, 2, sig_const) \
@@ -83,6 +85,7 @@ struct ali3_system {
   ali3_angle_term *angle;      /* as angle_a */
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
   ali3_guide_term *gterm;
+  ali3_term *velocity;         /* as velocity_a; b is the coordinate whose rate it takes */
   double *front_mass;          /* front storage holding M, the start of every tangent */
   double *mass_floor;          /* nq: M_ii, or a typical mass for massless coordinates */
   double *mass_floor_inverse;  /* nq */
@@ -203,6 +206,13 @@ void ali3_rows_square(ali3_instance *in, const double *J, double weight, double 
 void ali3_rows_product(ali3_instance *in, const double *A, const double *J, double weight, double *F);
 void ali3_rows_times(const ali3_system *S, const double *J, const double *x, double *out);
 void ali3_rows_transposed(const ali3_system *S, const double *J, const double *w, double *out); /* out = J' w */
+
+/* velocity_rows.c */
+void ali3_velocity_jacobian(const ali3_instance *in, const double *q, double *Phi, double *J);
+void ali3_velocity_gamma(const ali3_instance *in, const double *qd, double *gamma);
+void ali3_velocity_values(const ali3_instance *in, const double *A, const double *v, double rate, double *Phi);
+void ali3_velocity_middle(const ali3_instance *in, const double *A, const double *D, double *Phi, double *J);
+void ali3_velocity_release(const ali3_instance *in, double *J);
 
 /* forces.c */
 typedef struct {

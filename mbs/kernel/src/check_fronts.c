@@ -117,6 +117,28 @@ static ali3_status check_switches(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
+/* A condition on velocities holds nothing else: no constant, no products of positions, no angle, no guide. */
+static ali3_status check_velocities(const ali3_system *s, ali3_message m) {
+  const int64_t n = s->n_velocity_row;
+  CHECK(ali3_check_indices(m, "velocity_row", s->velocity_row, n, 0, s->size.nc));
+  CHECK(ali3_check_pointers(m, "velocity_ptr", s->velocity_ptr, s->n_velocity_ptr, n, s->n_velocity_a));
+  CHECK(ali3_check_length(m, "velocity_b", s->n_velocity_b, s->n_velocity_a));
+  CHECK(ali3_check_length(m, "velocity_h", s->n_velocity_h, s->n_velocity_a));
+  for (int64_t i = 0; i < n; i++) {
+    const int32_t k = s->velocity_row[i], size = s->row_ptr[k + 1] - s->row_ptr[k];
+    bool other = s->row_const[k] != 0.0 || s->quad_ptr[k + 1] > s->quad_ptr[k];
+    if (i > 0 && k <= s->velocity_row[i - 1]) return ali3_bad(m, "'velocity_row' does not ascend at %d", (int)k);
+    for (int64_t j = 0; j < s->n_angle_row; j++) other = other || s->angle_row[j] == k;
+    for (int64_t t = 0; t < s->n_gterm_row; t++) other = other || s->gterm_row[t] == k;
+    if (other) return ali3_bad(m, "the velocity row %d also has a condition on positions", (int)k);
+    for (int32_t t = s->velocity_ptr[i]; t < s->velocity_ptr[i + 1]; t++) {
+      CHECK(ali3_check_indices(m, "velocity_a", s->velocity_a + t, 1, 0, size));
+      CHECK(ali3_check_indices(m, "velocity_b", s->velocity_b + t, 1, 0, size));
+    }
+  }
+  return ALI3_OK;
+}
+
 ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
   const int32_t nc = s->size.nc;
   CHECK(ali3_check_length(m, "row_scale", s->n_row_scale, nc));
@@ -151,5 +173,5 @@ ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
     const int32_t k = s->gterm_row[t];
     CHECK(check_term(m, "gterm_a", s->gterm_a[t], s->gterm_b[t], s->row_ptr[k + 1] - s->row_ptr[k], -1));
   }
-  return ALI3_OK;
+  return check_velocities(s, m);
 }

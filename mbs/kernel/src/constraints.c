@@ -74,6 +74,7 @@ void ali3_constraints(ali3_instance *in, const double *q, const double *s, doubl
     Phi[S->angle_row[i]] += cosine * across - sine * along;
     J[S->angle_theta_j[i]] -= sine * across + cosine * along;
   }
+  ali3_velocity_jacobian(in, q, Phi, J);
   ali3_switch_rows(in, Phi, J);
 }
 
@@ -126,6 +127,7 @@ void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd,
     }
     gamma[S->angle_row[i]] += second + 2.0 * rate * first - rate * rate * value;
   }
+  ali3_velocity_gamma(in, qd, gamma);
   ali3_switch_values(in, gamma);
 }
 

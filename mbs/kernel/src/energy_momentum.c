@@ -37,6 +37,7 @@ static void evaluate(ali3_instance *in, double h) {
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_discrete_rows(in, in->D, to->q, &in->now, to);
+  ali3_velocity_middle(in, in->A, in->D, in->Phi, in->J);
   const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h,      0.25 * h * h,
                                 true,       in->Q,    to->y,     to->out, to->potential};
   in->discrete = true;
@@ -248,6 +249,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
     ali3_forces_accept(in, &call);
   }
   to->h_last[0] = 0.0;
+  if (reported && S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
   if (reported) report(in, to, weight);
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
   const ali3_vectors swap = in->now;

@@ -36,6 +36,7 @@ static ali3_status close_position(ali3_instance *in) {
   memset(lam, 0, (size_t)nc * sizeof(double));
   for (int iteration = 0;; iteration++) {
     ali3_constraints(in, q, in->now.s, in->Phi, in->J);
+    ali3_velocity_release(in, in->J);
     in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
     if (in->report.violation <= CLOSED) break;
     if (iteration == POSITION_ITERATIONS) return in->report.violation <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;

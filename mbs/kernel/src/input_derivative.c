@@ -26,6 +26,7 @@ static void look(ali3_instance *in, const linear_step *step, double part, int st
   memcpy(in->input, at->used, (size_t)S->size.nu * sizeof(double));
   ali3_constraints(in, at->q, at->s, in->Phi, in->J);
   if (stage == POSITION) {
+    ali3_velocity_values(in, in->J, at->qd, 2.0 / step->h, in->Phi);
     const ali3_force_call call = {at->q, at->qd, in->now.y_last, step->h,      0.5 * step->h,     step->c,
                                   false, in->Q,  in->y_work,     in->out_work, in->potential_work};
     ali3_forces(in, &call);

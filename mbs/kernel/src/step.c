@@ -22,6 +22,7 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
     in->w[i] = in->D[i] - in->d0[i];
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
+  ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
   const ali3_force_call call = {to->q,   to->qd, in->now.y, h,       in->rule.wC,  c,
                                 tangent, in->Q,  to->y,     to->out, to->potential};
   ali3_forces(in, &call);

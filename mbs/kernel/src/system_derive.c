@@ -34,6 +34,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->angle_theta_j = take(p, na, sizeof(int32_t));
   s->angle_theta_pos = take(p, na, sizeof(int32_t));
   s->gterm = take(p, (size_t)s->n_gterm_row, sizeof *s->gterm);
+  s->velocity = take(p, (size_t)s->n_velocity_a, sizeof *s->velocity);
   s->front_mass = take(p, (size_t)s->size.front_size, sizeof(double));
   s->mass_floor = take(p, nq, sizeof(double));
   s->mass_floor_inverse = take(p, nq, sizeof(double));
@@ -82,6 +83,9 @@ static void derive_rows(ali3_system *s) {
                                s->gterm_power[t]};
     s->gterm[t] = g;
   }
+  for (int64_t i = 0; i < s->n_velocity_row; i++)
+    for (int32_t t = s->velocity_ptr[i]; t < s->velocity_ptr[i + 1]; t++)
+      s->velocity[t] = make_term(s, s->velocity_row[i], s->velocity_a[t], s->velocity_b[t], s->velocity_h[t]);
   for (int64_t i = 0; i < s->n_angle_row; i++) {
     const int32_t k = s->angle_row[i], theta = s->row_ptr[k] + s->angle_theta[i];
     s->angle_theta_j[i] = theta;
@@ -112,6 +116,7 @@ static void derive_round(ali3_system *s) {
       sum += fabs(s->quad[t].h * s->q0[s->quad[t].a] * s->q0[s->quad[t].b]);
     s->row_round[k] = 4.0 * DBL_EPSILON * sum * s->row_measure[k];
   }
+  for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
 }
 
 /* The products of the rows once more, sorted by the entry of Phi_q they add to. */

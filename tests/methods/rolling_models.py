@@ -1,0 +1,91 @@
+"""Skates and rolling discs with closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbs import Model
+
+GRAVITY = 9.81
+MASS, RADIUS = 2.0, 0.5  # of the disc, kg, m
+DIAMETRAL, AXIAL = 0.15, 0.25  # kg m2: a disc of some thickness
+AXLE_MASS, AXLE_INERTIA = 0.1, 0.02  # kg, kg m2: of what carries it as a spin
+SLEIGH_MASS, SLEIGH_INERTIA, ARM, TURN = 2.0, 0.5, 0.3, 1.0  # kg, kg m2, m, rad/s
+ROLY_MASS, ROLY_INERTIA, ROLY_RADIUS, ROLY_DEPTH = 3.0, 0.2, 0.4, 0.1  # kg, kg m2, m, m
+
+
+def sleigh(turn: float = TURN, switch: bool | None = None, drift: float = 0.0) -> Model:
+    """Chaplygin's sleigh: a body on a knife edge ARM behind its centre of mass, that turns about the edge at first."""
+    m = Model("sleigh", dimension=2, gravity=(0.0, 0.0))
+    body = m.body("sleigh", mass=SLEIGH_MASS, com=(ARM, 0.0), inertia=SLEIGH_INERTIA)
+    m.skate("edge", body, point=(0.0, 0.0), direction=(1.0, 0.0), switch=switch)
+    m.initial_velocity(body, linear=(0.0, ARM * turn + drift), angular=turn)
+    m.sense_yaw("yaw", body)
+    for c in "xy":
+        m.sense_position(f"edge.{c}", body, (0.0, 0.0), c)
+        m.sense_velocity(f"edge.v{c}", body, (0.0, 0.0), c, axes=body)
+    m.sense_angular_rate("turn", body)
+    m.sense_energy("energy", "total")
+    return m
+
+
+def disc(lean: float, precession: float, spin: float, kick: float = 0.0, reduced: bool = False) -> Model:
+    """A disc with a knife edge on the plane, its centre above the origin and heading along x.
+
+    Parameters
+    ----------
+    lean : float
+        rad, to the right.
+    precession, spin, kick : float
+        rad/s: rate of the plane of the disc along its steepest line, about the axle and about the heading.
+    reduced : bool
+        As a spin on an axle that does not turn about itself.
+    """
+    s, n_z = np.cos(lean), np.sin(lean)
+    axle, up, heading = np.array([0.0, s, n_z]), np.array([0.0, -n_z, s]), np.array([1.0, 0.0, 0.0])
+    turning = precession * s * up + kick * heading
+    centre = np.array([0.0, 0.0, RADIUS * s])
+    speed = np.cross(turning + spin * axle, RADIUS * up)
+    m = Model("disc")
+    if reduced:
+        body = m.body("axle", mass=AXLE_MASS, com=centre, inertia=[AXLE_INERTIA] * 3)
+        wheel = m.spin(
+            "wheel",
+            carrier=body,
+            centre=centre,
+            axis=axle,
+            mass=MASS - AXLE_MASS,
+            spin_inertia=AXIAL,
+            diametral_inertia=DIAMETRAL - AXLE_INERTIA,
+        )
+        m.rolling("rim", wheel, radius=RADIUS)
+        m.initial_rate(wheel, spin)
+        m.initial_velocity(body, linear=speed, angular=turning)
+    else:
+        inertia = DIAMETRAL * np.eye(3) + (AXIAL - DIAMETRAL) * np.outer(axle, axle)
+        body = m.body("disc", mass=MASS, com=centre, inertia=inertia)
+        m.rolling("rim", body, radius=RADIUS, centre=centre, axis=axle)
+        m.initial_velocity(body, linear=speed, angular=turning + spin * axle)
+    for c in "xyz":
+        m.sense_position(f"centre.{c}", body, centre, c)
+    m.sense_coordinate("axle.z", body.vector(axle)[2])
+    m.sense_energy("energy", "total")
+    return m
+
+
+def roly_poly(rate: float, turn: float = 0.0) -> Model:
+    """A body with two wheels on one axle, its centre of mass below it, turned about the axle (rad) and rolling (rad/s).
+
+    Both wheels say that the axle does not move along itself: one condition too many, everywhere.
+    """
+    m = Model("roly-poly")
+    com = (ROLY_DEPTH * np.sin(turn), 0.0, ROLY_RADIUS - ROLY_DEPTH * np.cos(turn))
+    body = m.body("body", mass=ROLY_MASS, com=com, inertia=(0.5, ROLY_INERTIA, 0.5))
+    for name, y in (("left", 0.5), ("right", -0.5)):
+        m.rolling(name, body, radius=ROLY_RADIUS, centre=(0.0, y, ROLY_RADIUS), axis=(0.0, 1.0, 0.0))
+    angular = np.array([0.0, rate, 0.0])
+    m.initial_velocity(body, linear=np.cross(angular, com), angular=angular)
+    m.sense_pitch("pitch", body)
+    m.sense_position("height", body, None, "z")
+    m.sense_energy("energy", "total")
+    return m
