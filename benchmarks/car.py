@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -204,7 +205,8 @@ def _build_fmu(folder: Path) -> Path | None:
         return None
     from fmu_src.build import build_fmu
 
-    return build_fmu(car_manoeuvres.system_of("drop"), "prototype_car", folder, (fmpy.platform,))
+    say = partial(print, file=sys.stderr, flush=True)
+    return build_fmu(car_manoeuvres.system_of("drop"), "prototype_car", folder, (fmpy.platform,), say)
 
 
 if __name__ == "__main__":
