@@ -6,7 +6,6 @@ geometrically exact beams, for bars of 1, 2, 4 and 8 flexible bodies and several
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from benchmarks.common import describe, median_wall, print_table, write_json
+from benchmarks.command import parser_of, pyplot, save_chart, save_rows, watched
+from benchmarks.common import describe, median_wall, print_table
 from mbs.errors import ModelError
 from mbs.scenes import assembly_defect_four_bar as scene
 
@@ -90,11 +90,7 @@ def refusal() -> str:
 
 def draw(run: mbs.Trajectory, expected: dict[str, NDArray[np.float64]], bodies: int, file: Path) -> None:
     """The three moments over time as in the paper's Figure 5, the reference dashed; colours of Okabe and Ito."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot()
     figure, ax = plt.subplots(figsize=(8.0, 4.2), layout="constrained")
     for c, colour in zip(COMPONENTS, ("#0072B2", "#D55E00", "#009E73"), strict=True):
         ax.plot(run.t, run[f"coupler.{c}"], color=colour, linewidth=1.6, label=f"{c}, ALi3, {bodies} bodies per bar")
@@ -104,21 +100,17 @@ def draw(run: mbs.Trajectory, expected: dict[str, NDArray[np.float64]], bodies: 
     ax.set_ylabel("moment in the middle of the coupler, N m")
     ax.grid(True, alpha=0.35)
     ax.legend(fontsize=8)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=110, metadata={"Software": None})
-    plt.close(figure)
+    save_chart(figure, file)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.assembly_defect", description=__doc__)
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
-    parser.add_argument("--chart", type=Path, metavar="FILE", help="draw the moments over time (PNG)")
+    parser = parser_of("assembly_defect", __doc__, chart="the moments over time")
     parser.add_argument("--quick", action="store_true", help="one flexible body per bar only")
     options = parser.parse_args(arguments)
     expected = reference()
     rows: list[dict[str, Any]] = []
-    for case in FEW if options.quick else CASES:
+    for case in watched(FEW if options.quick else CASES):
         row, run = measure(case, expected, 1 if options.quick else 3)
         rows.append(row)
     meta = describe("four-bar with assembly defect", mbs.Settings(), end_s=scene.DURATION, h_s=STEP, reference=ORIGIN)
@@ -127,12 +119,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print("largest difference as a fraction of the peak of each moment, and of the largest of all moments\n")
     print_table(rows, TABLE)
     print(f"\nWith rigid bars: {refusal()}")
-    if options.json is not None:
-        write_json(options.json, meta, rows)
-        print(f"written: {options.json}")
+    save_rows(options.json, meta, rows)
     if options.chart is not None:
         draw(run, expected, rows[-1]["bodies_per_bar"], options.chart)
-        print(f"written: {options.chart}")
     return 0
 
 

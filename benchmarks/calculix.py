@@ -14,11 +14,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from benchmarks.car_statics import interface_forces
+from benchmarks.command import watched
 from mbs.flexible.beam_axes import beam_axes
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.section import Section
@@ -158,20 +161,23 @@ def _bending_moments(frd: str) -> dict[int, float]:
 
 def main() -> int:
     """Run every case on three meshes, print and store."""
-    cases = {
-        "tube_tip_deflection_m": [tip_deflection(n) for n in TUBE_MESHES],
-        "tube_clamped_hz": [clamped_frequencies(n) for n in TUBE_MESHES],
-        "frame_torsional_stiffness_Nm_per_deg": [frame_torsion(r) for r in FRAME_MESHES],
-        "frame_loaded_free_hz": [frame_frequencies(r, True, 5) for r in FRAME_MESHES],
-        "frame_bare_free_hz": [frame_frequencies(r, False, 4) for r in FRAME_MESHES],
-        "frame_gauge_moments_Nm": [gauge_moments(r) for r in FRAME_MESHES],
+    cases: dict[str, tuple[Callable[[int], Any], tuple[int, ...]]] = {
+        "tube_tip_deflection_m": (tip_deflection, TUBE_MESHES),
+        "tube_clamped_hz": (clamped_frequencies, TUBE_MESHES),
+        "frame_torsional_stiffness_Nm_per_deg": (frame_torsion, FRAME_MESHES),
+        "frame_loaded_free_hz": (lambda r: frame_frequencies(r, True, 5), FRAME_MESHES),
+        "frame_bare_free_hz": (lambda r: frame_frequencies(r, False, 4), FRAME_MESHES),
+        "frame_gauge_moments_Nm": (gauge_moments, FRAME_MESHES),
     }
+    results: dict[str, list[Any]] = {name: [] for name in cases}
+    for name, case, mesh in watched([(name, case, m) for name, (case, meshes) in cases.items() for m in meshes]):
+        results[name].append(case(mesh))
     version = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout.strip()
     stored = {
         "origin": f"CalculiX, {version}; B32R beams with pipe sections; python -m benchmarks.calculix",
         "meshes": "three, each twice as fine; extrapolated = 2 f(h/2) - f(h) of the two finest",
     }
-    for name, values in cases.items():
+    for name, values in results.items():
         meshes = np.array(values)
         extrapolated = 2 * meshes[2] - meshes[1]
         stored[name] = {"meshes": meshes.tolist(), "extrapolated": np.round(extrapolated, 8).tolist()}

@@ -11,22 +11,21 @@ Per manoeuvre and step, against the stored reference (see `benchmarks.car_refere
 
 from __future__ import annotations
 
-import argparse
 import sys
 import tempfile
 import time
 from collections.abc import Sequence
-from dataclasses import astuple
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks import car_manoeuvres, car_references
-from benchmarks.common import describe, median_wall, print_table, write_json
+from benchmarks.command import parser_of, pyplot, save_chart, save_rows, watched
+from benchmarks.common import describe, median_wall, print_table
+from benchmarks.step_time import step_time
 from mbs import Settings, Trajectory
-from mbs.input_signals import InputSignals
-from mbs.kernel.binding import Instance, LoadedSystem
 
 STEPS = (0.01, 0.005, 0.002, 0.001)  # s
 PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
@@ -52,31 +51,9 @@ def wall_of_kernel(name: str, h: float, repeats: int) -> float:
     """Median wall time of all steps of a manoeuvre, s; start and input table are made before."""
     manoeuvre = car_manoeuvres.load(name)
     parameters, pose = car_manoeuvres.start_of(manoeuvre)
+    inputs = {k: (manoeuvre.time, v) for k, v in manoeuvre.inputs.items()}
     system = car_manoeuvres.system_of(name)
-    meta = system.meta
-    names = [p["name"] for p in meta["parameters"]]
-    steps = round(manoeuvre.stop_time / h)
-    signals = InputSignals({k: (manoeuvre.time, v) for k, v in manoeuvre.inputs.items()}, meta["inputs"])
-    table = np.zeros((steps, len(meta["inputs"])))
-    table[:, signals.columns()] = signals.at(h * np.arange(1, steps + 1), 1e-6 * h)
-    loaded = LoadedSystem(system.to_bytes())
-    values = np.empty((1, len(meta["sensors"])))
-
-    def once() -> float:
-        instance = Instance(loaded)
-        instance.set_settings(**Settings().kernel_fields())
-        for parameter, value in parameters.items():
-            instance.set_parameter(names.index(parameter), value)
-        for i, column in enumerate(signals.columns()):
-            instance.set_input(column, float(signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0, i]))
-        if pose is not None:
-            instance.set_pose(*astuple(pose))
-        instance.initialise(0.0)
-        begin = time.perf_counter()
-        instance.run(h, steps, table, steps, values)
-        return time.perf_counter() - begin
-
-    return median_wall(once, repeats)
+    return step_time(system, manoeuvre.stop_time, h, repeats, time.perf_counter, inputs, parameters, pose)
 
 
 def wall_of_fmu(file: Path, name: str, h: float, repeats: int) -> float:
@@ -162,11 +139,7 @@ def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
 
 def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
     """Errors over wall time of a step, as a picture."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot()
     figure, axes = plt.subplots(1, 2, figsize=(13, 5.5), layout="constrained", sharex=True)
     parts = (
         ("path_error_rel", "path error / path length", PATH_BOUND),
@@ -185,31 +158,22 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
         ax.grid(True, which="major", alpha=0.3)
     figure.legend(*axes[1].get_legend_handles_labels(), loc="outside right center", fontsize="small")
     figure.suptitle("Prototype car: error against cost")
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=120)
-    plt.close(figure)
+    save_chart(figure, file)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
-    parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.car", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows} there")
-    parser.add_argument("--chart", type=Path, metavar="FILE", help="draw errors against cost into a PNG")
+    parser = parser_of("car", __doc__, chart="errors against cost")
     parser.add_argument("--no-fmu", action="store_true", help="leave the runs through FMPy out")
     parser.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs per row; default: 5")
     parser.add_argument(
         "--manoeuvres", nargs="+", default=car_manoeuvres.NAMES, choices=car_manoeuvres.NAMES, metavar="NAME"
     )
     options = parser.parse_args(arguments)
-    rows = []
+    todo = [(name, h) for name in options.manoeuvres for h in STEPS]
     with tempfile.TemporaryDirectory() as folder:
         fmu = None if options.no_fmu else _build_fmu(Path(folder))
-        for name in options.manoeuvres:
-            for h in STEPS:
-                rows.append(measure(name, h, fmu, options.repeats))
-                print(f"{name}, {1e3 * h:g} ms: {rows[-1]['us_per_step']:.1f} us per step", file=sys.stderr, flush=True)
+        rows = [measure(name, h, fmu, options.repeats) for name, h in watched(todo)]
     print_table(rows, COLUMNS)
     print()
     print(
@@ -218,16 +182,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     lines = verdict(rows)
     print("\n".join(f"  {line}" for line in lines))
-    if options.json:
-        meta = describe(
-            "car",
-            Settings(),
-            reference=f"own engine, h = {car_references.STEP:g} s, tests/data/car",
-            repeats=options.repeats,
-            fmpy="set 3 inputs, one communication step of h, get 4 outputs; null: without FMU or another road",
-            verdict=lines,
-        )
-        write_json(options.json, meta, rows)
+    meta = describe(
+        "car",
+        Settings(),
+        reference=f"own engine, h = {car_references.STEP:g} s, tests/data/car",
+        repeats=options.repeats,
+        fmpy="set 3 inputs, one communication step of h, get 4 outputs; null: without FMU or another road",
+        verdict=lines,
+    )
+    save_rows(options.json, meta, rows)
     if options.chart:
         chart(rows, options.chart)
     return 0
@@ -242,7 +205,8 @@ def _build_fmu(folder: Path) -> Path | None:
         return None
     from fmu_src.build import build_fmu
 
-    return build_fmu(car_manoeuvres.system_of("drop"), "prototype_car", folder, (fmpy.platform,))
+    say = partial(print, file=sys.stderr, flush=True)
+    return build_fmu(car_manoeuvres.system_of("drop"), "prototype_car", folder, (fmpy.platform,), say)
 
 
 if __name__ == "__main__":

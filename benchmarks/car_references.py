@@ -6,7 +6,6 @@ They come from this engine at a step of 0.1 ms with a tight tolerance. Each file
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import car_manoeuvres
+from benchmarks.command import parser_of, watched
 from mbs import Settings, Trajectory
 
 FOLDER = Path(__file__).parents[1] / "tests" / "data" / "car"
@@ -116,7 +116,7 @@ def write_replay() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Write all references, or those named."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.car_references", description=__doc__)
+    parser = parser_of("car_references", __doc__, json=False)
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"out of: {', '.join(car_manoeuvres.NAMES)}")
     parser.add_argument("--keep-replay", action="store_true", help="do not drive the double lane change anew")
     options = parser.parse_args(arguments)
@@ -125,8 +125,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.error(f"there is no manoeuvre {', '.join(sorted(unknown))}")
     if not options.keep_replay and not options.names:
         write_replay()
-    for name in options.names or car_manoeuvres.NAMES:
-        print(write(name), flush=True)
+    lines = [write(name) for name in watched(options.names or car_manoeuvres.NAMES)]
+    print("\n".join(lines))
     return 0
 
 

@@ -19,6 +19,7 @@ import numpy as np
 
 import mbs
 from benchmarks import assembly_defect, ladder_runs
+from benchmarks.command import watched
 from benchmarks.common import describe, print_table, write_json
 from benchmarks.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TITLES
 from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
@@ -141,7 +142,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--quick", action="store_true", help="two scenes, the default method, one step")
     options = parser.parse_args(arguments)
     rows = []
-    for name in options.scene or (QUICK if options.quick else SCENES):
+    for name in watched(options.scene or (QUICK if options.quick else list(SCENES))):
         for method in ("ali3p",) if options.quick else [m for m in KERNEL if m not in CONSERVATIVE_ONLY]:
             rows += [measure(name, method, h) for h in ((0.01,) if options.quick else SCENES[name].steps)]
     print_table(rows, TABLE)

@@ -5,7 +5,6 @@ Ten seconds through ten singular positions, against the exact reduction to one a
 
 from __future__ import annotations
 
-import argparse
 import statistics
 import sys
 import time
@@ -18,7 +17,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 import mbs
-from benchmarks.common import describe, machine, print_table, write_json
+from benchmarks.command import parser_of, pyplot, save_chart, save_rows, watched
+from benchmarks.common import describe, machine, print_table
 from mbs.scenes import double_four_bar
 from mbs.scenes.double_four_bar import GRAVITY, START_SPEED
 
@@ -124,13 +124,13 @@ def time_rows(rows: Sequence[dict[str, Any]], systems: dict[int, mbs.System]) ->
     """
     good = [row for row in rows if row["failed_at_s"] is None]
     walls: dict[int, list[float]] = {k: [] for k in range(len(good))}
-    for turn in range(ROUNDS):
-        for k, row in enumerate(good):
-            if row["wall_s"] < LONG or turn < FEW_ROUNDS:
-                steps = round(END / row["h_s"])
-                settings = METHODS[row["method"]]
-                run = mbs.simulate(systems[row["N"]], END, row["h_s"], settings=settings, every=steps, progress=False)
-                walls[k].append(run.wall_s)
+    for turn, k in watched([(turn, k) for turn in range(ROUNDS) for k in range(len(good))]):
+        row = good[k]
+        if row["wall_s"] < LONG or turn < FEW_ROUNDS:
+            steps = round(END / row["h_s"])
+            settings = METHODS[row["method"]]
+            run = mbs.simulate(systems[row["N"]], END, row["h_s"], settings=settings, every=steps, progress=False)
+            walls[k].append(run.wall_s)
     for k, row in enumerate(good):
         wall = statistics.median(walls[k])
         row |= {"wall_s": wall, "us_per_step": 1e6 * wall / round(END / row["h_s"]), "realtime_factor": END / wall}
@@ -145,9 +145,8 @@ def measure_all(windows: Sequence[int]) -> list[dict[str, Any]]:
         compile_s = time.perf_counter() - begin
         print(f"N = {n}: {system.nq} coordinates, {system.nc} rows, compiled in {compile_s:.2f} s", flush=True)
         methods = METHODS if n <= 2 else [m for m in METHODS if METHODS[m].project]
-        for method in methods:
-            steps = STEPS if n <= 40 else FEW_STEPS
-            rows += [measure(system, n, method, h, compile_s) for h in steps]
+        todo = [(method, h) for method in methods for h in (STEPS if n <= 40 else FEW_STEPS)]
+        rows += [measure(system, n, method, h, compile_s) for method, h in watched(todo)]
     time_rows(rows, systems)
     return rows
 
@@ -200,11 +199,7 @@ def cost_of_accuracy(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
     """Position error against wall time, log-log; colours of Okabe and Ito, a marker per method, a panel per N."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot()
     look = dict(zip(METHODS, (("#0072B2", "o"), ("#009E73", "s"), ("#E69F00", "^"), ("#D55E00", "x")), strict=True))
     processor = machine()["processor"]
     windows = [n for n in (2, 40) if any(r["N"] == n for r in rows)]
@@ -236,16 +231,12 @@ def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
         ax.margins(x=0.16)
     axes[0, 0].set_ylabel("largest position error of B0, m")
     axes[0, 0].legend(fontsize=8, loc="lower left")
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=110, metadata={"Software": None})
-    plt.close(figure)
+    save_chart(figure, file)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.double_four_bar", description=__doc__)
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
-    parser.add_argument("--chart", type=Path, metavar="FILE", help="draw error against wall time (PNG)")
+    parser = parser_of("double_four_bar", __doc__, chart="error against wall time")
     parser.add_argument("--quick", action="store_true", help="N = 1 and 2 only")
     options = parser.parse_args(arguments)
     rows = measure_all(WINDOWS[:2] if options.quick else WINDOWS)
@@ -265,12 +256,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print("\nRatios within this run, N = 2")
     ratios = cost_of_accuracy(rows)
     print_table(ratios, dict.fromkeys(ratios[0], ".3g"))
-    if options.json is not None:
-        write_json(options.json, meta, rows)
-        print(f"written: {options.json}")
+    save_rows(options.json, meta, rows)
     if options.chart is not None:
         draw(rows, options.chart)
-        print(f"written: {options.chart}")
     return 0
 
 

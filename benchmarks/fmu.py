@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import subprocess
 import sys
 import tempfile
@@ -15,7 +14,8 @@ from typing import Any
 import fmpy
 from fmpy.fmi2 import FMU2Slave, fmi2Real, fmi2ValueReference
 
-from benchmarks.common import describe, median_wall, print_table, write_json
+from benchmarks.command import parser_of, save_rows, watched
+from benchmarks.common import describe, median_wall, print_table
 from fmu_src.build import build_fmu
 from fmu_src.native.sources import HERE as FMI_HEADERS
 from fmu_src.scene_registry import load_scene
@@ -39,20 +39,18 @@ SOURCE = Path(__file__).parent / "c" / "time_fmu.c"
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.fmu", description="What an FMU costs.")
+    parser = parser_of("fmu", "What an FMU costs.")
     parser.add_argument("--scene", default="prototype_car", metavar="NAME", help="default: prototype_car")
     parser.add_argument("--steps", type=int, default=1000, metavar="N", help="calls per timed run; default: 1000")
     parser.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs per figure; default: 5")
     parser.add_argument("--instances", type=int, default=1000, metavar="N", help="at once; default: 1000")
-    parser.add_argument("--json", type=Path, metavar="FILE")
     options = parser.parse_args(arguments)
     if min(options.steps, options.repeats, options.instances) < 1 or options.repeats > 64:
         parser.error("numbers of steps, repeats and instances are positive, repeats at most 64")
     rows = []
     name, system = load_scene(options.scene)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        for kind in KINDS:
-            print(f"{kind} ...", file=sys.stderr, flush=True)
+        for kind in watched(list(KINDS)):
             fmu = build_fmu(system, name, Path(folder), [fmpy.platform], kind=kind)
             rows += measure(fmu, kind, Path(folder, kind), options.steps, options.repeats, options.instances)
     table = [
@@ -65,17 +63,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     ]
     columns = {"quantity": "", **{f"{k}, {h}": ".4g" for k in KINDS for h in ("C", "FMPy")}, "meaning": ""}
     print_table(table, columns)
-    if options.json:
-        meta = describe(
-            "fmu",
-            scene=options.scene,
-            steps=options.steps,
-            repeats=options.repeats,
-            instances=options.instances,
-            quantities=QUANTITIES,
-            inner_step_s=system.meta["experiment"]["step_s"],
-        )
-        write_json(options.json, meta, rows)
+    meta = describe(
+        "fmu",
+        scene=options.scene,
+        steps=options.steps,
+        repeats=options.repeats,
+        instances=options.instances,
+        quantities=QUANTITIES,
+        inner_step_s=system.meta["experiment"]["step_s"],
+    )
+    save_rows(options.json, meta, rows)
     return 0
 
 

@@ -6,7 +6,6 @@ Time per step, memory and non-zeros of the factor of the N-four-bar for N = 1 to
 
 from __future__ import annotations
 
-import argparse
 import importlib.util
 import os
 import statistics
@@ -21,7 +20,8 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.common import describe, machine, print_table, write_json
+from benchmarks.command import parser_of, pyplot, save_chart, save_rows, watched
+from benchmarks.common import describe, machine, print_table
 from mbs.flexible import craig_bampton
 from mbs.kernel.build import FLAGS, cache_directory
 from mbs.scenes import double_four_bar
@@ -160,7 +160,7 @@ def measure(windows: Sequence[int], rounds: int) -> list[dict[str, Any]]:
     steps = round(END / STEP)
     rows: list[dict[str, Any]] = []
     systems: dict[int, mbs.System] = {}
-    for n in windows:
+    for n in watched(windows):
         begin = time.perf_counter()
         system = systems[n] = mbs.compile(double_four_bar.build(n))
         compiled = time.perf_counter() - begin
@@ -192,13 +192,11 @@ def measure(windows: Sequence[int], rounds: int) -> list[dict[str, Any]]:
                 }
             )
     walls: list[list[float]] = [[] for _ in rows]
-    for turn in range(rounds + 1):
-        for k, row in enumerate(rows):
-            run = mbs.simulate(
-                systems[row["N"]], END, STEP, settings=mbs.Settings(method=row["method"]), every=steps, progress=False
-            )
-            if turn:
-                walls[k].append(run.wall_s / steps)
+    for turn, k in watched([(turn, k) for turn in range(rounds + 1) for k in range(len(rows))]):
+        system, settings = systems[rows[k]["N"]], mbs.Settings(method=rows[k]["method"])
+        run = mbs.simulate(system, END, STEP, settings=settings, every=steps, progress=False)
+        if turn:
+            walls[k].append(run.wall_s / steps)
     for row, times in zip(rows, walls, strict=True):
         wall = statistics.median(times)
         rate = row["operations_per_step"] / wall
@@ -220,7 +218,7 @@ def chassis(modes: Sequence[int], rounds: int) -> list[dict[str, Any]]:
     model = frame.finite_element_model()
     rows: list[dict[str, Any]] = []
     systems = []
-    for count in modes:
+    for count in watched(modes):
         m = mbs.Model("thrown chassis", gravity=(0.0, 0.0, -9.81))
         reduced = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=True, damping=DAMPING)
         body = m.flexible_body("chassis", reduced)
@@ -242,11 +240,11 @@ def chassis(modes: Sequence[int], rounds: int) -> list[dict[str, Any]]:
             }
         )
     walls: list[list[float]] = [[] for _ in rows]
-    for turn in range(rounds + 1):
-        for k, system in enumerate(systems):
-            run = mbs.simulate(system, CHASSIS_STEPS * CHASSIS_STEP, CHASSIS_STEP, every=CHASSIS_STEPS, progress=False)
-            if turn:
-                walls[k].append(run.wall_s / CHASSIS_STEPS)
+    for turn, k in watched([(turn, k) for turn in range(rounds + 1) for k in range(len(systems))]):
+        end = CHASSIS_STEPS * CHASSIS_STEP
+        run = mbs.simulate(systems[k], end, CHASSIS_STEP, every=CHASSIS_STEPS, progress=False)
+        if turn:
+            walls[k].append(run.wall_s / CHASSIS_STEPS)
     for row, times in zip(rows, walls, strict=True):
         wall = 1e6 * statistics.median(times)
         row |= {"us_per_step": wall, "us_per_iteration": wall / row["iterations"]}
@@ -275,11 +273,7 @@ def exponents(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
     """Time per step and non-zeros against N, log-log, with a line of slope one."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot()
     figure, ax = plt.subplots(figsize=(6.2, 4.4), layout="constrained")
     for method, colour, marker in zip(METHODS, ("#0072B2", "#CC79A7"), "ov", strict=True):
         part = [r for r in rows if r["method"] == method]
@@ -292,16 +286,12 @@ def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
     ax.set_xlabel(f"N of the N-four-bar ({machine()['processor']})")
     ax.grid(True, which="major", alpha=0.35)
     ax.legend(fontsize=8)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=90, metadata={"Software": None})
-    plt.close(figure)
+    save_chart(figure, file)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.growth", description=__doc__)
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
-    parser.add_argument("--chart", type=Path, metavar="FILE", help="draw the growth (PNG)")
+    parser = parser_of("growth", __doc__, chart="the growth")
     parser.add_argument("--quick", action="store_true", help="N up to 20, one round")
     options = parser.parse_args(arguments)
     rows = measure(WINDOWS[:5] if options.quick else WINDOWS, 1 if options.quick else ROUNDS)
@@ -324,16 +314,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
             else ""
         )
     )
-    if options.json is not None:
-        about = {"step_s": CHASSIS_STEP, "rows": flexible, "exponents": flexible_fitted}
-        meta = describe(
-            "growth", mbs.Settings(), rounds=ROUNDS, step_s=STEP, end_s=END, exponents=fitted, chassis=about
-        )
-        write_json(options.json, meta, rows)
-        print(f"written: {options.json}")
+    about = {"step_s": CHASSIS_STEP, "rows": flexible, "exponents": flexible_fitted}
+    meta = describe("growth", mbs.Settings(), rounds=ROUNDS, step_s=STEP, end_s=END, exponents=fitted, chassis=about)
+    save_rows(options.json, meta, rows)
     if options.chart is not None:
         draw(rows, options.chart)
-        print(f"written: {options.chart}")
     return 0
 
 

@@ -9,16 +9,15 @@ and after their grip is let go.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks import ladder_runs
-from benchmarks.common import describe, print_table, write_json
+from benchmarks.command import parser_of, save_rows, watched
+from benchmarks.common import describe, print_table
 from benchmarks.ladder import RUNGS, modes_of
 from hosts.low_pass import low_pass
 from mbs import Settings, Simulation, Trajectory
@@ -103,21 +102,17 @@ def measure(rung: int | str, h: float, repeats: int) -> dict[str, Any]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
-    parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.kerb", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows} there")
+    parser = parser_of("kerb", __doc__)
     parser.add_argument(
         "--steps", type=float, nargs="+", default=[kerb_test.STEP], metavar="H", help="s; default: 0.01"
     )
     parser.add_argument("--rungs", nargs="+", default=[str(r) for r in RUNGS], choices=[str(r) for r in RUNGS])
     parser.add_argument("--repeats", type=int, default=3, metavar="N", help="timed runs per row; default: 3")
     options = parser.parse_args(arguments)
-    rungs = [int(r) if r.isdigit() else r for r in options.rungs]
-    rows = [measure(rung, h, options.repeats) for rung in rungs for h in options.steps]
+    todo = [(int(r) if r.isdigit() else r, h) for r in options.rungs for h in options.steps]
+    rows = [measure(rung, h, options.repeats) for rung, h in watched(todo)]
     print_table(rows, COLUMNS)
-    if options.json:
-        write_json(options.json, describe("kerb", Settings(), repeats=options.repeats), rows)
+    save_rows(options.json, describe("kerb", Settings(), repeats=options.repeats), rows)
     return 0
 
 

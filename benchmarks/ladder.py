@@ -7,7 +7,6 @@ modes but no inertia modes. Errors are against the stored references (`benchmark
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import ladder_runs
-from benchmarks.common import describe, print_table, write_json
+from benchmarks.command import parser_of, pyplot, save_chart, save_rows, watched
+from benchmarks.common import describe, print_table
 from benchmarks.ladder_runs import NAMES, OUTPUTS
 from mbs import Settings
 from mbs.scenes.prototype_car.chassis import FIDELITIES, PAPER_MODES, RIGID, reduced_chassis
@@ -150,11 +150,7 @@ def cheapest_rung(rows: Sequence[dict[str, Any]], output: str, tolerance: float)
 
 def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
     """Stress and motion errors over time per step, one column per manoeuvre."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot()
     names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
     parts = (
         ("moment", "gauge moments, low-pass 10 Hz:\nlargest error / largest change"),
@@ -195,9 +191,7 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
     handles = dict(sorted(handles.items()))
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=2, fontsize="small")
     figure.suptitle("The ladder: error against cost on the same manoeuvres")
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    save_chart(figure, file)
 
 
 def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
@@ -219,29 +213,16 @@ def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
-    parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.ladder", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows} there")
-    parser.add_argument("--chart", type=Path, metavar="FILE", help="draw errors against cost into a PNG")
+    parser = parser_of("ladder", __doc__, chart="errors against cost")
     parser.add_argument("--repeats", type=int, default=3, metavar="N", help="timed runs per row; default: 3")
     parser.add_argument("--manoeuvres", nargs="+", default=NAMES, choices=NAMES, metavar="NAME")
     options = parser.parse_args(arguments)
-    rows = []
-    for name in options.manoeuvres:
-        for rung in RUNGS:
-            for h in STEPS:
-                rows.append(measure(name, rung, h, options.repeats))
-                print(
-                    f"{name}, rung {rung}, {1e3 * h:g} ms: {rows[-1]['us_per_step']:.0f} us",
-                    file=sys.stderr,
-                    flush=True,
-                )
+    todo = [(name, rung, h) for name in options.manoeuvres for rung in RUNGS for h in STEPS]
+    rows = [measure(name, rung, h, options.repeats) for name, rung, h in watched(todo)]
     print_table(rows, COLUMNS)
     lines = verdict(rows)
     print("\n" + "\n".join(lines))
-    if options.json:
-        write_json(options.json, describe("ladder", Settings(), repeats=options.repeats, verdict=lines), rows)
+    save_rows(options.json, describe("ladder", Settings(), repeats=options.repeats, verdict=lines), rows)
     if options.chart:
         chart(rows, options.chart)
     return 0

@@ -6,13 +6,13 @@ file says how far runs with twice the step, and with 5 dynamic modes, are from i
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 
 import numpy as np
 
 from benchmarks import ladder_runs
+from benchmarks.command import parser_of, watched
 from benchmarks.ladder_runs import FILTERED, FOLDER, INTERVAL, LOADS, MOMENTS, NAMES, POSITION
 from mbs.scenes.prototype_car.chassis import DYNAMIC, REFERENCE_MODES
 
@@ -51,14 +51,14 @@ def write(name: str) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Write all references, or those named."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.ladder_references", description=__doc__)
+    parser = parser_of("ladder_references", __doc__, json=False)
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"out of: {', '.join(NAMES)}")
     options = parser.parse_args(arguments)
     unknown = set(options.names) - set(NAMES)
     if unknown:
         parser.error(f"there is no manoeuvre {', '.join(sorted(unknown))}")
-    for name in options.names or NAMES:
-        print(write(name), flush=True)
+    lines = [write(name) for name in watched(options.names or NAMES)]
+    print("\n".join(lines))
     return 0
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from dataclasses import astuple
 from functools import cache
 from pathlib import Path
 
@@ -11,12 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import car_manoeuvres
-from benchmarks.common import median_wall
+from benchmarks.step_time import step_time
 from hosts.low_pass import low_pass
 from hosts.manoeuvre import Manoeuvre
 from mbs import Settings, System, Trajectory, compile, simulate
-from mbs.input_signals import InputSignals
-from mbs.kernel.binding import Instance, LoadedSystem
 from mbs.scenes import kerb_test, prototype_car
 from mbs.scenes.prototype_car.frame import GAUGES
 
@@ -60,30 +57,8 @@ def cpu_time(name: str, rung: int | str, h: float, repeats: int) -> float:
     """Median processor time of all steps of a run, s; start and input table are made before."""
     m = manoeuvre_of(name)
     parameters, pose = car_manoeuvres.start_of(m)
-    system = system_of(name, rung)
-    meta = system.meta
-    names = [p["name"] for p in meta["parameters"]]
-    steps = round(m.stop_time / h)
-    signals = InputSignals({k: (m.time, v) for k, v in m.inputs.items()}, meta["inputs"])
-    table = np.tile([float(i["start"]) for i in meta["inputs"]], (steps, 1))
-    if m.inputs:
-        table[:, signals.columns()] = signals.at(h * np.arange(1, steps + 1), 1e-6 * h)
-    loaded = LoadedSystem(system.to_bytes())
-    values = np.empty((1, len(meta["sensors"])))
-
-    def once() -> float:
-        instance = Instance(loaded)
-        instance.set_settings(**Settings().kernel_fields())
-        for parameter, value in parameters.items():
-            instance.set_parameter(names.index(parameter), value)
-        if pose is not None:
-            instance.set_pose(*astuple(pose))
-        instance.initialise(0.0)
-        begin = time.process_time()
-        instance.run(h, steps, table, steps, values)
-        return time.process_time() - begin
-
-    return median_wall(once, repeats)
+    inputs = {k: (m.time, v) for k, v in m.inputs.items()}
+    return step_time(system_of(name, rung), m.stop_time, h, repeats, time.process_time, inputs, parameters, pose)
 
 
 def sampled(found: Trajectory, h: float) -> dict[str, NDArray[np.float64]]:

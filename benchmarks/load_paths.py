@@ -7,7 +7,6 @@ their deformations as modes.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import car_manoeuvres
+from benchmarks.command import parser_of, watched
 from mbs import Simulation, compile
 from mbs.input_signals import InputSignals
 from mbs.scenes import prototype_car
@@ -68,13 +68,8 @@ def mirrored(forces: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Drive, decompose, write."""
-    parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.load_paths",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.parse_args(arguments)
-    driven = settled_loads(np.hstack([port_forces(name) for name in MANOEUVRES]))
+    parser_of("load_paths", __doc__, json=False).parse_args(arguments)
+    driven = settled_loads(np.hstack([port_forces(name) for name in watched(MANOEUVRES)]))
     snapshots = np.hstack([driven, mirrored(driven)])
     energy = deformation_energy(snapshots)
     values, vectors = np.linalg.eigh(energy)

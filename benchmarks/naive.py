@@ -6,18 +6,18 @@ equation a row, rods as bodies, wheels as bodies on hinges, planar mechanisms in
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from benchmarks.common import describe, median_wall, print_table, write_json
-from mbs import Model, Settings, Simulation, System, compile
+from benchmarks.command import parser_of, save_rows, watched
+from benchmarks.common import describe, print_table
+from benchmarks.step_time import step_time
+from mbs import Model, Settings, Simulation, compile
 from mbs.model.body import Body
 from mbs.model.checks import direction, perpendicular
 from mbs.model.joints.joint import Joint
@@ -134,19 +134,6 @@ SCENES: dict[str, tuple[Callable[[], Model], Callable[[], Model], str]] = {
 }
 
 
-def wall(system: System, steps: int, repeats: int) -> float:
-    """Median wall time of a step, s."""
-    values = np.empty((1, len(system.meta["sensors"])))
-
-    def once() -> float:
-        simulation = Simulation(system)
-        begin = time.perf_counter()
-        simulation.instance.run(H, steps, None, steps, values)
-        return time.perf_counter() - begin
-
-    return median_wall(once, repeats) / steps
-
-
 def measure(scene: str, repeats: int) -> dict[str, Any]:
     """One row."""
     good, naive, output = SCENES[scene]
@@ -157,7 +144,7 @@ def measure(scene: str, repeats: int) -> dict[str, Any]:
         simulation = Simulation(system)
         simulation.step(H, round(DURATION / H))
         ends.append(simulation.sensors[output])
-    walls = [wall(s, round(DURATION / H), repeats) for s in systems]
+    walls = [step_time(s, DURATION, H, repeats, time.perf_counter) * H / DURATION for s in systems]
     sizes = [
         (len(m.bodies), len(s.arrays["q0"]), len(s.arrays["row_const"])) for m, s in zip(models, systems, strict=True)
     ]
@@ -178,16 +165,12 @@ def measure(scene: str, repeats: int) -> dict[str, Any]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
-    parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.naive", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows} there")
+    parser = parser_of("naive", __doc__)
     parser.add_argument("--repeats", type=int, default=3, metavar="N", help="timed runs per row; default: 3")
     options = parser.parse_args(arguments)
-    rows = [measure(scene, options.repeats) for scene in SCENES]
+    rows = [measure(scene, options.repeats) for scene in watched(list(SCENES))]
     print_table(rows, COLUMNS)
-    if options.json:
-        write_json(options.json, describe("naive", Settings(), h_s=H, duration_s=DURATION, rod_mass_kg=ROD_MASS), rows)
+    save_rows(options.json, describe("naive", Settings(), h_s=H, duration_s=DURATION, rod_mass_kg=ROD_MASS), rows)
     return 0
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from benchmarks.command import watched
 from benchmarks.common import describe, median_wall, print_table, write_json
 from mbs.scenes import puma
 
@@ -78,8 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     system = mbs.compile(puma.build())
     rows = [
         measure(system, method, h, 1 if options.quick else ROUNDS)
-        for method in (METHODS[:1] if options.quick else METHODS)
-        for h in STEPS
+        for method, h in watched([(m, h) for m in (METHODS[:1] if options.quick else METHODS) for h in STEPS])
     ]
     print_table(rows, TABLE)
     if options.json is not None:

@@ -5,11 +5,10 @@ A map over step and penalty (or its counterpart) for each method and scene: fine
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,8 @@ import mbs
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.baselines.run import run
 from benchmarks.cases import CASES, exact_of, size_of, system_of
-from benchmarks.common import describe, print_table, write_json
+from benchmarks.command import parser_of, save_rows, watched
+from benchmarks.common import describe, print_table
 from benchmarks.kernel_methods import TITLES
 from benchmarks.stability_chart import draw
 from mbs.settings import METHODS as KERNEL
@@ -175,19 +175,17 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
             PENALTIES[2:3],
             BAUMGARTE[1:2],
         )
-    rows = []
+    todo: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
     for method in KERNEL:
         if method == "energy_momentum_4" and not case.conservative:
             continue
-        for h in steps:
-            rows += [kernel_point(scene, method, float(h), e) for e in [None, *map(float, eps)]]
+        todo += [(kernel_point, method, float(h), e) for h in steps for e in [None, *map(float, eps)]]
     for method in CLASSICAL if case.classical else ():
         values: Sequence[float | None] = penalties
         if method in PARAMETER:
             values = (None,) if PARAMETER[method] == "none" else factors
-        for h in classical:
-            rows += [classical_point(scene, method, float(h), v) for v in values]
-    return rows
+        todo += [(classical_point, method, float(h), v) for h in classical for v in values]
+    return [point(scene, method, h, value) for point, method, h, value in watched(todo)]
 
 
 def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -259,9 +257,8 @@ def explain(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.stability", description=__doc__)
+    parser = parser_of("stability", __doc__)
     parser.add_argument("--scene", action="append", choices=list(CASES), help="a scene; may be given again")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
     parser.add_argument("--charts", type=Path, metavar="DIR", help="draw a PNG per scene")
     parser.add_argument("--quick", action="store_true", help="one scene, few points")
     options = parser.parse_args(arguments)
@@ -289,19 +286,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print_table(why, {"scene": "", "method": ""} | dict.fromkeys(OUTCOMES, "d") | {"first stop": ""})
     for method, text in WHY.items():
         print(f"{method}: {text}")
-    if options.json is not None:
-        meta = describe(
-            "stability",
-            mbs.Settings(),
-            fine=f"position within {WRONG:g} of the extent, energy within {ENERGY:g} of the largest kinetic energy",
-            window=f"until the scene's time, or {MOST_STEPS} steps ({MOST_CLASSICAL} or {FEW_CLASSICAL} in Python), "
-            "fewer for large scenes",
-            margins=lines,
-            why=WHY,
-            classical=why,
-        )
-        write_json(options.json, meta, rows)
-        print(f"written: {options.json}")
+    meta = describe(
+        "stability",
+        mbs.Settings(),
+        fine=f"position within {WRONG:g} of the extent, energy within {ENERGY:g} of the largest kinetic energy",
+        window=f"until the scene's time, or {MOST_STEPS} steps ({MOST_CLASSICAL} or {FEW_CLASSICAL} in Python), "
+        "fewer for large scenes",
+        margins=lines,
+        why=WHY,
+        classical=why,
+    )
+    save_rows(options.json, meta, rows)
     return 0
 
 

@@ -8,16 +8,15 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.command import pyplot, save_chart
+
 LOOK = {"fine": ("#009E73", "s"), "wrong": ("#E69F00", "v"), "refused": ("#56B4E9", "D"), "diverged": ("#D55E00", "X")}
 """Colours of Okabe and Ito; shapes say the same."""
 
 
 def draw(rows: Sequence[dict[str, Any]], title: str, file: Path) -> None:
     """Draw the maps of one scene; the default settings are the line of ringed marks at the bottom."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    plt = pyplot()
     from matplotlib.lines import Line2D
 
     methods = list(dict.fromkeys(r["method"] for r in rows))
@@ -53,6 +52,4 @@ def draw(rows: Sequence[dict[str, Any]], title: str, file: Path) -> None:
     handles = [Line2D([], [], color=c, marker=m, linestyle="none", label=o) for o, (c, m) in LOOK.items()]
     figure.legend(handles=handles, loc="outside upper right", ncols=4, fontsize=8, frameon=False)
     figure.suptitle(title, fontsize=10, x=0.3)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=80, metadata={"Software": None})
-    plt.close(figure)
+    save_chart(figure, file)

@@ -7,7 +7,6 @@ the largest normal stress round each tube, with the deformation scaled up. Needs
 
 from __future__ import annotations
 
-import argparse
 import importlib.util
 import sys
 from collections.abc import Sequence
@@ -18,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.command import parser_of, pyplot, watched
 from mbs import Simulation, compile
 from mbs.flexible import Frame, ReducedBody
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
@@ -59,7 +59,7 @@ def amplitudes(body: ReducedBody) -> tuple[Array, Array]:
     columns = [names.index(f"chassis.{mode}") for mode in body.mode_names]
     car = Simulation(system)
     t, eta = [0.0], [car.state.q[columns]]
-    for _ in range(round(ANIMATED[1] / kerb_test.STEP)):
+    for _ in watched(range(round(ANIMATED[1] / kerb_test.STEP))):
         car.step(kerb_test.STEP)
         t.append(car.time)
         eta.append(car.state.q[columns])
@@ -128,10 +128,7 @@ def draw(frame: Frame, motion: Motion, folder: Path) -> list[Path]:
 
 def draw_plain(frame: Frame, motion: Motion, folder: Path) -> list[Path]:
     """Picture with Matplotlib."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    plt = pyplot()
     from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
     k = int(motion.stress.max(axis=(1, 2)).argmax())
@@ -157,11 +154,7 @@ def draw_plain(frame: Frame, motion: Motion, folder: Path) -> list[Path]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run, draw, say where."""
-    parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.stress_picture",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = parser_of("stress_picture", __doc__, json=False)
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
     parser.add_argument("--plain", action="store_true", help="draw with Matplotlib")
     options = parser.parse_args(arguments)

@@ -20,6 +20,7 @@ from benchmarks import peers
 from benchmarks.baselines.run import LANGUAGE, run
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.cases import CASES, SAMPLES, SHARED, exact_of, size_of, system_of
+from benchmarks.command import watched
 from benchmarks.common import describe, print_table, write_json
 from benchmarks.kernel_methods import all_settings
 from benchmarks.work_precision_chart import draw
@@ -143,12 +144,12 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
 def measure(scene: str, quick: bool, engines: dict[str, Any], rounds: int) -> list[dict[str, Any]]:
     """All rows of a scene; times are medians over rounds through all of them, so that a disturbance is shared."""
     todo = plan(scene, quick, engines)
-    for row, action in todo:
+    for row, action in watched(todo):
         wall, found = action()
         row |= found
         row["wall_s"] = wall if found["ended"] == "finished" else None
     walls: list[list[float]] = [[] for _ in todo]
-    for turn in range(rounds):
+    for turn in watched(range(rounds)):
         for k, (row, action) in enumerate(todo):
             wall = row["wall_s"]
             if wall is not None and (wall < LONG or (turn < FEW_ROUNDS and wall < VERY_LONG)):

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from benchmarks.command import pyplot, save_chart
 from benchmarks.common import machine
 
 COLOURS = ("#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00", "#000000")
@@ -28,10 +29,7 @@ def draw(rows: Sequence[dict[str, Any]], scene: str, title: str, lost: float, fi
     file : Path
         PNG.
     """
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    plt = pyplot()
     from matplotlib.ticker import NullFormatter
 
     figure, axes = plt.subplots(1, 2, figsize=(11.0, 4.6), sharey=True, layout="constrained")
@@ -69,6 +67,4 @@ def draw(rows: Sequence[dict[str, Any]], scene: str, title: str, lost: float, fi
     handles = {label: handle for ax in axes for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="outside right center", fontsize=7.5, frameon=False)
     figure.suptitle(f"{title}   (solid: kernel, C; dotted: Python; dashed: other engines)", fontsize=10)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=90, metadata={"Software": None})
-    plt.close(figure)
+    save_chart(figure, file)

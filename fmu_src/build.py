@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import mbs
+from fmu_src.native.faces import FMI2, FMI3
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.variables import check_variants, variable_table
@@ -28,6 +29,7 @@ KINDS = {
 }
 """Kinds of FMU."""
 
+_FACES = {"native": FMI2, "fmi3": FMI3}
 _NAME_SUFFIX = {"native": "", "fmi3": "FMI3", "python": "Python"}
 
 
@@ -103,12 +105,8 @@ def build_fmu(
 
     if kind == "python":
         _pack_python(contents, chosen, file, told)
-    elif kind == "fmi3":
-        from fmu_src.native.package_fmi3 import pack_fmi3
-
-        pack_fmi3(contents, chosen, file, told)
     else:
-        pack_native(contents, chosen, file, told)
+        pack_native(contents, _FACES[kind], chosen, file, told)
     return file
 
 

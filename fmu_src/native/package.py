@@ -1,18 +1,18 @@
-"""Packs a System, its table, the shell's libraries and sources into a native FMU of FMI 2.0."""
+"""Packs a System, its table, the shell's libraries and sources into a native FMU of any version of FMI."""
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
 import mbs
 from fmu_src.archive import identity_of, licence, write_zip
-from fmu_src.description import Description, model_description
+from fmu_src.description import Description
 from fmu_src.documentation import documentation
-from fmu_src.native.compile import compile_platform
+from fmu_src.native.compile import compile_library
 from fmu_src.native.reference import ReferenceRun, reference_files, reference_run
 from fmu_src.native.sources import packed_sources
 from fmu_src.native.table import c_table
@@ -21,15 +21,6 @@ from fmu_src.platforms import SUFFIXES
 from fmu_src.variables import Variable, table_records
 
 Telling = Callable[..., AbstractContextManager[None]]
-_WORDS = (
-    "FMI 2.0 co-simulation in C: it needs nothing but the C library of its platform, and can be compiled from its "
-    "folder sources (compilers other than the one used here may change the last bits unless they are kept from "
-    "fusing multiplications and additions: -ffp-contract=off).",
-    "Derivatives of inputs up to the third order are followed inside a communication step and forgotten after it. "
-    "Outputs that are positions, angles or velocities have first time derivatives. Directional derivatives of "
-    "outputs by inputs are those over the last inner step, the state before it held; in initialisation mode those of "
-    "the initial state.",
-)
 
 
 @dataclass(frozen=True)
@@ -88,12 +79,41 @@ class NativeContents:
         )
 
 
-def pack_native(contents: NativeContents, platforms: Sequence[str], file: Path, told: Telling) -> str:
+@dataclass(frozen=True)
+class Face:
+    """What one version of FMI packs otherwise than another.
+
+    Parameters
+    ----------
+    name : str
+        ``fmi2`` or ``fmi3``; its C files begin with it.
+    words : sequence of str
+        Paragraphs of the documentation.
+    binaries : mapping
+        Per platform its folders in ``binaries`` and the compiler's targets of the library there.
+    picture : str
+        Where the picture of the model lies.
+    tables : callable
+        C table of the contents with identity and GUID.
+    documents : callable
+        XML documents by path, from the attributes and the contents.
+    """
+
+    name: str
+    words: Sequence[str]
+    binaries: Mapping[str, Mapping[str, Sequence[str]]]
+    picture: str
+    tables: Callable[[NativeContents, str, str], str]
+    documents: Callable[[Description, NativeContents], dict[str, bytes]]
+
+
+def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], file: Path, told: Telling) -> str:
     """Compile and write the FMU.
 
     Parameters
     ----------
     contents : NativeContents
+    face : Face
     platforms : sequence of str
         Out of ``linux64``, ``win64`` and ``darwin64``.
     file : Path
@@ -104,20 +124,30 @@ def pack_native(contents: NativeContents, platforms: Sequence[str], file: Path, 
     Returns
     -------
     str
-        The GUID, a hash of all the content.
+        The GUID (instantiation token), a hash of all the content.
     """
     name = contents.model_name
-    identity, guid = contents.identity("fmi2")
-    table_c = c_table(contents.table, contents.rows, identity, guid)
-    sources = packed_sources("fmi2", table_c)
-    files = {f"sources/{path}": data for path, data in sources.items()} | common_files(contents, told)
-    with tempfile.TemporaryDirectory() as folder:
-        table = Path(folder, "table.c")
+    identity, guid = contents.identity(face.name)
+    table_c = face.tables(contents, identity, guid)
+    sources = packed_sources(face.name, table_c)
+    with told("running the default experiment"):
+        run = reference_run(contents.system)
+    files = {
+        **{f"sources/{path}": data for path, data in sources.items()},
+        **contents.system_files,
+        "documentation/licenses/ALi3.txt": licence("ali3"),
+        "documentation/index.html": _page(contents, face.words),
+        face.picture: _picture(run),
+    } | reference_files(name, run, contents.stop_time, contents.step_size)
+    with tempfile.TemporaryDirectory() as temporary:
+        table = Path(temporary, "table.c")
         table.write_text(table_c, encoding="utf-8")
         for platform in platforms:
-            with told(f"compiling for {platform}", "the first time takes up to two minutes"):
-                library = compile_platform(platform, "fmi2", table, Path(folder), name)
-            files[f"binaries/{platform}/{name}{SUFFIXES[platform]}"] = library
+            library = name + SUFFIXES[platform]
+            for folder, targets in face.binaries[platform].items():
+                with told(f"compiling for {folder}", "the first time takes up to two minutes"):
+                    made = compile_library(targets, face.name, table, Path(temporary), library)
+                files[f"binaries/{folder}/{library}"] = made
     head = Description(
         name,
         name,
@@ -131,26 +161,12 @@ def pack_native(contents: NativeContents, platforms: Sequence[str], file: Path, 
         capable=True,
         sources=[path for path in sources if path.endswith(".c")],
     )
-    files["modelDescription.xml"] = model_description(head, contents.table)
-    files["documentation/index.html"] = page(contents, _WORDS)
     with told("packing"):
-        write_zip(files, file)
+        write_zip(files | face.documents(head, contents), file)
     return guid
 
 
-def common_files(contents: NativeContents, told: Telling) -> dict[str, bytes]:
-    """What native FMUs of both versions of FMI carry alike, by path."""
-    with told("running the default experiment"):
-        run = reference_run(contents.system)
-    return {
-        **contents.system_files,
-        "documentation/licenses/ALi3.txt": licence("ali3"),
-        "model.png": _picture(run),
-    } | reference_files(contents.model_name, run, contents.stop_time, contents.step_size)
-
-
-def page(contents: NativeContents, words: Sequence[str]) -> bytes:
-    """documentation/index.html."""
+def _page(contents: NativeContents, words: Sequence[str]) -> bytes:
     text = documentation(
         contents.model_name, contents.description, contents.version, contents.step_size, contents.table, words
     )

@@ -23,6 +23,7 @@ _STATE_MAGIC = b"ALI3FMU1"
 _STATE_HEAD = struct.Struct("<8s16sIId")
 _CHECKSUM = struct.Struct("<I")
 _INSTANTIATED, _INITIALISING, _STEPPING, _TERMINATED = range(4)
+_POSE_HEIGHT = 2  # place of the height in a pose
 _PHASE_NAMES = ("before initialisation", "in initialisation", "after initialisation", "after termination")
 # A host adds up its time in floating point; it may be this much off, s.
 _TIME_TOLERANCE = 1e-6
@@ -292,6 +293,17 @@ class Slave(Fmi2Slave):
             return ""
         return f" Worst constraint: '{rows[row]}', open by {report['violation']:.3g} m."
 
+    def _start_hint(self, error: Exception) -> str:
+        """What is wrong with a start, in numbers."""
+        if not isinstance(error, binding.KernelError) or error.status != binding.BELOW_ROAD:
+            return self._worst()
+        lift = self._kernel.start_lift()
+        heights = [k for k, v in enumerate(self._table) if v["source"] == "pose" and v["index"] == _POSE_HEIGHT]
+        if not heights:
+            return f" {lift:.3g} m higher it would be clear of it."
+        name, z = self._table[heights[0]]["name"], self._values[heights[0]]
+        return f" '{name}' is {z:g} m; from {z + lift:.3g} m on the tyres are clear of it."
+
     def _apply_pending(self) -> None:
         for vr in sorted(self._pending):
             v = self._table[vr]
@@ -317,7 +329,7 @@ class Slave(Fmi2Slave):
             kernel.initialise(self._start_time)
         except Exception as error:
             self._initialised = False
-            return self._refuse(f"The initial state could not be found: {error}{self._worst()}")
+            return self._refuse(f"The initial state could not be found: {error}{self._start_hint(error)}")
         self._pending.clear()
         self._initialised = True
         self._outputs_fresh = False

@@ -25,7 +25,8 @@ from typing import Any
     SINGULAR,
     NOT_FINITE,
     WRONG_METHOD,
-) = range(1, 11)
+    BELOW_ROAD,
+) = range(1, 12)
 """Codes of `ali3_status` beside 0."""
 
 
@@ -121,6 +122,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_set_switch": (c_int32, [c_void_p, c_int32, c_int32]),
     "ali3_get_switch": (c_int32, [c_void_p, c_int32, POINTER(c_int32)]),
     "ali3_initialise": (c_int32, [c_void_p, c_double]),
+    "ali3_start_lift": (c_double, [c_void_p]),
     "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
     "ali3_step": (c_int32, [c_void_p, c_double]),
     "ali3_run": (c_int32, [c_void_p, c_double, c_int64, _DOUBLES, c_int64, _DOUBLES, POINTER(c_int64)]),
@@ -326,6 +328,10 @@ class Instance:
     def initialise(self, t0: float = 0.0) -> None:
         """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
         self._start(self._library.ali3_initialise(self._handle, t0))
+
+    def start_lift(self) -> float:
+        """How much higher a start refused with `BELOW_ROAD` must be, m: there no tyre touches the road."""
+        return float(self._library.ali3_start_lift(self._handle))
 
     def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
         """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""

@@ -16,6 +16,7 @@ from mbs.kernel import build
 
 ROOT = Path(__file__).parents[2]
 C_FOLDER = Path(__file__).parent / "c"
+LIBRARY_HEADERS = ROOT / "benchmarks" / "c"
 HOST_SOURCE = ROOT / "hosts" / "c" / "host.c"
 
 
@@ -30,7 +31,7 @@ def compile_host(folder: Path, target: str | None = None, source: Path = HOST_SO
     """Compile the C host of the project, or another one, for a target of zig."""
     target = target or build.host_target()
     program = folder / (source.stem + (".exe" if "windows" in target else ""))
-    build.compile_c([source], target, program, include=(FMI_HEADERS,), what="the C host", shared=False)
+    build.compile_c([source], target, program, include=(FMI_HEADERS, LIBRARY_HEADERS), what="the C host", shared=False)
     return program
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -19,6 +20,8 @@ from mbs.simulation import Pose
 
 HostMaker = Callable[..., Any]
 STEP, SPEED = 0.01, 12.0
+OK, ERROR = 0, 3
+SAG_ROUNDED = 1e-4  # m, the message has three digits
 # Time, steering, throttle, brake: a launch, a lane change, a stop.
 MANOEUVRE = [(0.0, 0.0, 0.5, 0.0), (0.5, 0.3, 0.2, 0.0), (1.0, -0.3, 0.2, 0.0), (1.5, 0.0, 0.0, 0.6)]
 END = 2.0
@@ -136,3 +139,22 @@ def test_outputs_by_inputs_of_the_moving_car(cars: tuple[mbs.System, dict[str, P
         assert np.allclose(found, expected, rtol=2e-3, atol=1e-3 * np.max(np.abs(expected)))
         assert np.all(np.isfinite(found))
         assert np.max(np.abs(expected)) > 1.0
+
+
+@pytest.mark.parametrize("kind", ["native", "python"])
+def test_a_start_below_the_road_is_refused_and_can_be_put_right(
+    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, kind: str
+) -> None:
+    driven = host(cars[1][kind])
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
+    assert driven.set("initial.z", -300.0) == OK
+    assert driven.call("exitInitializationMode") == ERROR
+    said = driven.messages[-1]
+    clear = float(re.search(r"'initial\.z' is -300 m; from (\S+) m on the tyres are clear", said)[1])
+    assert "deeper in the road than its radius" in said
+    assert 0.02 < clear < 0.04  # the tyres of the standing car are pressed in by 21 and 28 mm
+    assert driven.set("initial.z", clear + SAG_ROUNDED) == OK
+    assert driven.call("exitInitializationMode") == OK
+    assert driven.get("wheel_RL.Fz") == driven.get("wheel_FR.Fz") == 0.0
+    driven.run(3, STEP)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from benchmarks import car_manoeuvres
-from mbs import Pose
+from mbs import Pose, Simulation, SimulationError, compile
+from mbs.elements.road import KerbRoad, PlaneRoad
+from mbs.scenes import prototype_car
 from tests.scenes.car import WHEELS, H, car, drive
 
 # Quarter-car estimates: each axle alone, linear. The car pitches: over an axle it is lighter than its share of the
@@ -72,3 +76,36 @@ def test_until_it_lands_the_centre_of_mass_falls_freely():
     assert t["energy.gravity"][0] - t["energy.gravity"][-1] == pytest.approx(
         597.0 * 9.81 * 0.5 * 9.81 * 0.2**2, rel=1e-4
     )
+
+
+ROUNDED = 1e-3  # m, the message has three digits
+
+
+def start_loads(system, pose):
+    """Wheel loads at the start, N."""
+    return [Simulation(system, pose=pose).sensors[f"wheel_{w}.Fz"] for w in WHEELS]
+
+
+@pytest.mark.parametrize("grade", [0.0, 0.3])
+def test_a_start_with_a_wheel_centre_in_the_road_is_refused_with_the_height_that_clears_it(grade):
+    system = compile(prototype_car.build(PlaneRoad(grade_x=-grade)))
+    low = -0.3 if grade == 0.0 else 0.0  # m; falling to the front, the drawn car has its rear wheels in the road
+    with pytest.raises(SimulationError, match="deeper in the road than its radius") as refused:
+        start_loads(system, Pose(z=low))
+    lift = float(str(refused.value).split("radius. ")[1].split(" m")[0])
+    assert max(start_loads(system, Pose(z=low + lift + ROUNDED))) == 0.0
+    assert max(start_loads(system, Pose(z=low + lift - 0.01))) > 100.0
+
+
+def test_the_height_that_clears_a_kerb_is_that_of_its_upper_level():
+    system = compile(prototype_car.build(KerbRoad(1.0, 0.4, -0.4)))
+    inside = Pose(x=1.1, z=-0.4)  # the front wheels in the face of the kerb, the rear ones under its upper level
+    with pytest.raises(SimulationError, match="deeper in the road") as refused:
+        start_loads(system, inside)
+    lift = float(str(refused.value).split("radius. ")[1].split(" m")[0])
+    assert 0.4 < lift < 0.45
+    assert max(start_loads(system, replace(inside, z=inside.z + lift + ROUNDED))) == 0.0
+
+
+def test_a_tyre_pressed_in_by_less_than_its_radius_may_start():
+    assert min(start_loads(car(), Pose(z=-0.1))) > 10_000.0

@@ -4,6 +4,8 @@
 
 #include "slave.h"
 
+enum { POSE_HEIGHT = 2 }; /* place of the height in a pose */
+
 void slave_stale(slave *s) {
   s->calls.initialised = 0;
   s->outputs_fresh = false;
@@ -19,6 +21,18 @@ const char *slave_worst_row(slave *s, char *text, size_t size) {
       (size_t)report.worst_row < n)
     snprintf(text, size, " Worst constraint: '%.128s', open by %.3g m.", t->row[first + (size_t)report.worst_row],
              report.violation);
+  return text;
+}
+
+/* What is wrong with a start, in numbers. */
+static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
+  if (status != ALI3_BELOW_ROAD) return slave_worst_row(s, text, size);
+  const double lift = ali3_start_lift(s->rung.kernel);
+  snprintf(text, size, " %.3g m higher it would be clear of it.", lift);
+  for (size_t i = 0; i < slave_the_table.n_known; i++)
+    if (slave_the_table.variable[i].source == SLAVE_POSE && slave_the_table.variable[i].index == POSE_HEIGHT)
+      snprintf(text, size, " '%.64s' is %g m; from %.3g m on the tyres are clear of it.",
+               slave_the_table.variable[i].name, s->value[i], s->value[i] + lift);
   return text;
 }
 
@@ -40,7 +54,7 @@ static ali3_status apply(slave *s) {
 }
 
 bool slave_initialise(slave *s) {
-  char worst[SLAVE_TEXT / 2];
+  char text[SLAVE_TEXT / 2];
   slave_stale(s);
   if (!slave_rung_choose(s)) return false;
   const ali3_status status = apply(s);
@@ -48,7 +62,7 @@ bool slave_initialise(slave *s) {
   s->outputs_fresh = false;
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The initial state could not be found: %s.%s", ali3_status_text(status),
-              slave_worst_row(s, worst, sizeof worst));
+              hint(s, status, text, sizeof text));
     return false;
   }
   memset(s->pending, 0, slave_the_table.n_known);

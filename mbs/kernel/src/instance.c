@@ -17,6 +17,7 @@ const char *ali3_status_text(ali3_status s) {
       "the tangent is singular",
       "a number that is not finite appeared",
       "this method takes no element states or filtered guides and, if it also steps backwards in time, no damping",
+      "a tyre starts deeper in the road than its radius",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }

@@ -24,7 +24,8 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
   in->report = none;
   ali3_vectors_copy(in, &in->start, &in->now);
-  return begin(in, ali3_solve_initial(in, t0), t0);
+  const ali3_status status = ali3_solve_initial(in, t0);
+  return begin(in, status == ALI3_OK && ali3_start_lift(in) > 0.0 ? ALI3_BELOW_ROAD : status, t0);
 }
 
 ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations) {
