@@ -6,6 +6,7 @@ import math
 from dataclasses import asdict, dataclass
 
 UPDATES = ("linearised", "paper")
+PREDICTORS = ("parabola", "acceleration")
 METHODS = {
     "ali3p": {"method": 0},
     "ali3p_no_projection": {"method": 0, "project": 0},
@@ -51,6 +52,9 @@ class Settings:
         steps to order four, for conservative models without element states only;
         "runge_kutta_8" is explicit, of order eight, for smooth motion without stiff forces, element states or singular
         positions.
+    predictor : {"parabola", "acceleration"}
+        Start value of a step of ALi3-P: accelerations and multipliers of past steps go on along a parabola where they
+        are smooth, or the present ones stay, as in the paper. The first needs fewer iterations.
     rho_infinity : float
         Of generalised-alpha: what a step leaves of an infinitely fast oscillation, 0 to 1.
     """
@@ -65,6 +69,7 @@ class Settings:
     update: str = "linearised"
     geometric: bool = True
     method: str = "ali3p"
+    predictor: str = "parabola"
     rho_infinity: float = 0.8
 
     def __post_init__(self) -> None:
@@ -82,9 +87,11 @@ class Settings:
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
                 raise ValueError(f"Setting {name!r} is {value!r}; it must be a whole number from {least} to {most}.")
-        if self.update not in UPDATES:
-            raise ValueError(f"Setting 'update' is {self.update!r}; it must be one of {', '.join(map(repr, UPDATES))}.")
-
+        for name, words in (("update", UPDATES), ("predictor", PREDICTORS)):
+            if getattr(self, name) not in words:
+                raise ValueError(
+                    f"Setting {name!r} is {getattr(self, name)!r}; it must be one of {', '.join(map(repr, words))}."
+                )
         if self.method not in METHODS:
             raise ValueError(f"Setting 'method' is {self.method!r}; it must be one of {', '.join(map(repr, METHODS))}.")
         if not 0.0 <= self.rho_infinity <= 1.0:
@@ -96,4 +103,5 @@ class Settings:
         fields["project"] = int(self.project)
         fields["geometric"] = int(self.geometric)
         fields["update"] = UPDATES.index(self.update)
+        fields["predictor"] = PREDICTORS.index(self.predictor)
         return fields | METHODS[self.method]

@@ -62,6 +62,7 @@ class SettingsFields(Structure):
         ("update", c_int32),
         ("geometric", c_int32),
         ("method", c_int32),
+        ("predictor", c_int32),
     )
 
 

@@ -21,10 +21,17 @@ MULTIPLIER = 1e-6  # of the largest multiplier
 PENALISED = 1e-14  # constraint units: what alpha turns into multipliers in equation (16)
 STEPS = 150
 SETTINGS = {
-    "linearised": Settings(eps_rel=EPS_REL),
+    "linearised": Settings(eps_rel=EPS_REL, predictor="acceleration"),
     # equation (16) adds alpha times the round-off of Phi to the multipliers, which bounds the residual it can reach;
     # with redundant constraints its multipliers drift, so the geometric term must not use them
-    "paper": Settings(eps_rel=EPS_REL, update="paper", geometric=False, tolerance_r=1e-7, max_iterations=100),
+    "paper": Settings(
+        eps_rel=EPS_REL,
+        update="paper",
+        predictor="acceleration",
+        geometric=False,
+        tolerance_r=1e-7,
+        max_iterations=100,
+    ),
 }
 
 

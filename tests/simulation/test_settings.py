@@ -52,6 +52,7 @@ def test_every_field_reaches_the_kernel():
         update="paper",
         geometric=False,
         method="energy_momentum",
+        predictor="acceleration",
         rho_infinity=0.5,
     )
     changed = other.kernel_fields()

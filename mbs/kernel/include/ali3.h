@@ -49,6 +49,12 @@ enum {                    /* ali3_settings.method */
        ALI3_METHOD_COUNT
 };
 
+typedef enum {
+  ALI3_PREDICTOR_PARABOLA = 0,     /* through the accelerations and multipliers of past steps where they are smooth */
+  ALI3_PREDICTOR_ACCELERATION = 1, /* the present ones stay: the paper's */
+  ALI3_PREDICTOR_COUNT
+} ali3_predictor;
+
 typedef struct {
   double alpha;             /* penalty, 1/s^2; 0: rule alpha = 1/(eps_rel h^2) */
   double eps_rel;           /* used by the rule */
@@ -61,6 +67,7 @@ typedef struct {
   int32_t update;           /* ALI3_UPDATE_* */
   int32_t geometric;        /* 1: exact geometric term sum lam_k H_k in the tangent */
   int32_t method;           /* ALI3_METHOD_* */
+  int32_t predictor;        /* ALI3_PREDICTOR_*: start value of a step of ALi3-P */
 } ali3_settings;
 
 typedef struct {

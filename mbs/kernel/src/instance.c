@@ -164,7 +164,8 @@ void ali3_instance_free(ali3_instance *in) {
 }
 
 ali3_settings ali3_default_settings(void) {
-  const ali3_settings settings = {0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1, ALI3_METHOD_ALI3P};
+  const ali3_settings settings = {
+      0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1, ALI3_METHOD_ALI3P, ALI3_PREDICTOR_PARABOLA};
   return settings;
 }
 
@@ -175,7 +176,7 @@ bool ali3_settings_valid(const ali3_settings *s) {
          (s->project == 0 || s->project == 1) &&
          (s->update == ALI3_UPDATE_LINEARISED || s->update == ALI3_UPDATE_PAPER) &&
          (s->geometric == 0 || s->geometric == 1) && s->rho_infinity >= 0.0 && s->rho_infinity <= 1.0 &&
-         s->method >= 0 && s->method < ALI3_METHOD_COUNT;
+         s->method >= 0 && s->method < ALI3_METHOD_COUNT && s->predictor >= 0 && s->predictor < ALI3_PREDICTOR_COUNT;
 }
 
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {

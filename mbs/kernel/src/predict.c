@@ -45,7 +45,8 @@ void ali3_predict(ali3_instance *in, double h) {
     return;
   }
   ali3_history_own(in, in->settings.method, from->qdd);
-  ali3_history_predict(in, h, smooth(in, h) ? PARABOLA : 0, in->x, lam);
+  const bool goes_on = in->settings.predictor == ALI3_PREDICTOR_PARABOLA && smooth(in, h);
+  ali3_history_predict(in, h, goes_on ? PARABOLA : 0, in->x, lam);
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] = from->lam[k] + SHARE * (lam[k] - from->lam[k]);
   for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * in->x[i];
 }

@@ -1,0 +1,67 @@
+"""Start values of ALi3-P from past steps: fewer iterations where the motion is smooth, none more elsewhere."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Settings, Simulation, compile, simulate
+from mbs.scenes import bricard, double_four_bar, spatial_chain
+
+PAPER = Settings(predictor="acceleration")
+SAME_MOTION = 1e-3  # m of 2 m: both are within the tolerance of the same step
+LONG = 60.0  # s: with dependent rows whole extrapolations of the multipliers blow up within ten
+
+
+@pytest.fixture(scope="module")
+def loop():
+    return compile(bricard.build())
+
+
+def both(system, t_end, h):
+    runs = [simulate(system, t_end, h, settings=s, progress=False) for s in (Settings(), PAPER)]
+    return [np.column_stack([t[n] for n in t if ".position." in n]) for t in runs], [t.report for t in runs]
+
+
+@pytest.mark.parametrize(
+    ("scene", "h", "share"),
+    [(double_four_bar, 0.01, 0.7), (bricard, 0.005, 0.6), (spatial_chain, 0.005, 0.75)],
+)
+def test_a_smooth_motion_needs_fewer_iterations_and_is_the_same(scene, h, share):
+    (places, expected), (report, paper) = both(compile(scene.build()), 2.0, h)
+    assert report.iterations < share * paper.iterations
+    np.testing.assert_allclose(places, expected, atol=SAME_MOTION)
+
+
+@pytest.mark.parametrize("h", [0.2, 0.1, 0.05])
+def test_large_steps_need_hardly_more_iterations_and_no_halves(loop, h):
+    _, (report, paper) = both(loop, LONG, h)
+    assert report.halvings == paper.halvings == 0
+    assert report.iterations < 1.1 * paper.iterations
+
+
+def test_multipliers_of_dependent_rows_stay_bounded(loop):
+    simulation = Simulation(loop)
+    largest = []
+    for _ in range(6):
+        simulation.step(0.02, n=round(LONG / 6 / 0.02))
+        largest.append(np.abs(simulation.state.lam).max())
+    assert max(largest[1:]) < 5.0 * largest[0]
+
+
+def test_steps_of_other_sizes_do_not_mislead_it(loop):
+    """A parabola through steps of a microsecond says nothing about one of 10 ms."""
+    simulation = Simulation(loop)
+    for h in (1e-6, 1e-2, 1e-5, 2e-2, 1e-6, 1e-2):
+        simulation.step(h, n=6)
+    assert simulation.report.max_iterations <= 3
+    assert simulation.report.halvings == 0
+
+
+def test_a_saved_state_takes_its_past_along(loop):
+    one, other = Simulation(loop), Simulation(loop)
+    one.step(0.01, n=20)
+    other.restore(one.save())
+    one.step(0.01, n=20)
+    other.step(0.01, n=20)
+    assert one.save() == other.save()
