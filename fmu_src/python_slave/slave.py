@@ -286,11 +286,8 @@ class Slave(Fmi2Slave):
         return n, h
 
     def _worst(self) -> str:
-        report = self._kernel.report()
-        row, rows = report["worst_row"], _Shared.get().rows[self._fidelity]
-        if not 0 <= row < len(rows) or not report["violation"] > 0.0:
-            return ""
-        return f" Worst constraint: '{rows[row]}', open by {report['violation']:.3g} m."
+        worst = binding.open_row(self._kernel.report(), _Shared.get().rows[self._fidelity])
+        return f" Worst constraint: {worst}." if worst else ""
 
     def _apply_pending(self) -> None:
         for vr in sorted(self._pending):

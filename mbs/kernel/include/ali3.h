@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 2
+#define ALI3_STATE_VERSION 3
 
 typedef enum {
   ALI3_OK = 0,
@@ -31,6 +31,7 @@ typedef enum {
   ALI3_SINGULAR,          /* the tangent could not be factorised */
   ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
   ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
+  ALI3_UNRESOLVED,        /* the motion is too fast for the step: energy came or went without a force, also in halves */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -70,6 +71,7 @@ typedef struct {
   double velocity_violation;        /* max |Phi_q qd + Phi_t| * row_measure after projection */
   int32_t worst_row, worst_coordinate;
   double energy_jump;               /* change of the kinetic energy by the last switching, J */
+  double energy_error;              /* work of constraint forces and projections, J; 0: exact, or not measured */
 } ali3_report;
 
 typedef struct {
