@@ -286,8 +286,9 @@ class Slave(Fmi2Slave):
         return n, h
 
     def _worst(self) -> str:
-        worst = binding.open_row(self._kernel.report(), _Shared.get().rows[self._fidelity])
-        return f" Worst constraint: {worst}." if worst else ""
+        report = self._kernel.report()
+        worst = binding.open_row(report, _Shared.get().rows[self._fidelity])
+        return f" Worst constraint: {worst}." if worst and report["violation"] > 0.0 else ""
 
     def _apply_pending(self) -> None:
         for vr in sorted(self._pending):

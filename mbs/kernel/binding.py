@@ -49,9 +49,9 @@ class KernelError(RuntimeError):
 
 
 def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
-    """Name and gap of the row farthest from closed; empty where there is no gap or no finite figure of it."""
+    """Name and gap of the row farthest from closed; empty where there is no finite figure of it."""
     row, violation = int(report["worst_row"]), report["violation"]
-    if not (0 <= row < len(names) and 0.0 < violation < math.inf):
+    if not (0 <= row < len(names) and 0.0 <= violation < math.inf):
         return ""
     return f"'{names[row]}', open by {violation:.3g} m"
 

@@ -81,10 +81,11 @@ def test_an_infinite_motion_is_said_in_words():
         simulate(system_of("flyball"), 1.0, 0.02, method="runge_kutta_8", progress=False)
     assert refused.value.status == NOT_FINITE
     words = str(refused.value).lower().replace("infinite", "")
-    assert "nan" not in words and "inf" not in words
+    assert "nan" not in words
+    assert "inf" not in words
 
 
-@pytest.mark.parametrize("gap", [float("nan"), float("inf"), 0.0])
+@pytest.mark.parametrize("gap", [float("nan"), float("inf"), -float("inf")])
 def test_a_gap_without_a_finite_figure_is_not_reported(gap):
     assert open_row({"worst_row": 0, "violation": gap}, ["hinge"]) == ""
     assert open_row({"worst_row": 1, "violation": 1.0}, ["hinge"]) == ""
