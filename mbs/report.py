@@ -26,6 +26,9 @@ class Report:
         ``max |Phi_q qd + Phi_t|`` of the last step after projection, m/s.
     energy_jump : float
         Change of the kinetic energy by the last switching of rows, J.
+    energy_error : float
+        Work that constraint forces and projections did in all steps, J; 0 in the exact motion. Measured by the ALi3-P
+        methods, and by Runge-Kutta without flexible bodies.
     """
 
     steps: int
@@ -41,6 +44,7 @@ class Report:
     violation: float
     velocity_violation: float
     energy_jump: float = 0.0
+    energy_error: float = 0.0
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:

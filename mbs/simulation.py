@@ -11,7 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.input_signals import InputSignals, Signal
-from mbs.kernel.binding import BELOW_ROAD, WRONG_METHOD, Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import (
+    BELOW_ROAD,
+    UNRESOLVED,
+    WRONG_METHOD,
+    Instance,
+    KernelError,
+    LoadedSystem,
+    open_row,
+)
 from mbs.progress import progress_for
 from mbs.report import Report
 from mbs.settings import Settings
@@ -297,12 +305,15 @@ class Simulation:
         if error.status == BELOW_ROAD:
             message += f" {self.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
             return SimulationError(message, self.time, error.status, trajectory)
-        row, coordinate = int(report["worst_row"]), int(report["worst_coordinate"])
-        if not report["factorizations"]:  # refused before anything was solved
+        # neither row nor balance is at fault where nothing was solved yet, or all was but did work
+        if not report["factorizations"] or error.status == UNRESOLVED:
             return SimulationError(message, self.time, error.status, trajectory)
-        if row < len(self._meta["rows"]):
-            message += f" Worst constraint: {self._meta['rows'][row]['name']!r}, open by {report['violation']:.3g} m."
-        message += f" Worst balance: {self._meta['coordinates'][coordinate]!r}, residual {report['residual']:.3g}."
+        worst = open_row(report, [row["name"] for row in self._meta["rows"]])
+        if worst:
+            message += f" Worst constraint: {worst}."
+        if 0.0 < report["residual"] < math.inf:
+            name = self._meta["coordinates"][int(report["worst_coordinate"])]
+            message += f" Worst balance: {name!r}, residual {report['residual']:.3g}."
         return SimulationError(message, self.time, error.status, trajectory)
 
 

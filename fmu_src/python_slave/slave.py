@@ -288,10 +288,8 @@ class Slave(Fmi2Slave):
 
     def _worst(self) -> str:
         report = self._kernel.report()
-        row, rows = report["worst_row"], _Shared.get().rows[self._fidelity]
-        if not 0 <= row < len(rows) or not report["violation"] > 0.0:
-            return ""
-        return f" Worst constraint: '{rows[row]}', open by {report['violation']:.3g} m."
+        worst = binding.open_row(report, _Shared.get().rows[self._fidelity])
+        return f" Worst constraint: {worst}." if worst and report["violation"] > 0.0 else ""
 
     def _start_hint(self, error: Exception) -> str:
         """What is wrong with a start, in numbers."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mbs.errors import ModelError
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem, open_row
 from mbs.system import System
 
 TOLERANCE = 1e-8  # N
@@ -36,10 +37,11 @@ def equilibrium(system: System, parameters: Mapping[str, float]) -> NDArray[np.f
         text = f"The model '{meta['name']}' has no static equilibrium near its drawing: "
         if not report["factorizations"]:
             raise ModelError(text + error.message) from None
+        if not math.isfinite(report["residual"]):
+            raise ModelError(text + "the search for it became infinite.") from None
         text += (
             f"'{meta['coordinates'][report['worst_coordinate']]}' stays out of balance by {report['residual']:.3g} N"
         )
-        if report["violation"] > 0.0:
-            text += f", '{meta['rows'][report['worst_row']]['name']}' open by {report['violation']:.3g} m"
-        raise ModelError(text + ".") from None
+        worst = open_row(report, [row["name"] for row in meta["rows"]])
+        raise ModelError(f"{text}; {worst}." if worst and report["violation"] > 0.0 else f"{text}.") from None
     return np.array(instance.get_state()[0], float)

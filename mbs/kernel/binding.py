@@ -7,9 +7,10 @@ Names and units: `include/ali3.h`.
 from __future__ import annotations
 
 import ctypes
+import math
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,8 @@ from typing import Any
     NOT_FINITE,
     WRONG_METHOD,
     BELOW_ROAD,
-) = range(1, 12)
+    UNRESOLVED,
+) = range(1, 13)
 """Codes of `ali3_status` beside 0."""
 
 
@@ -45,6 +47,14 @@ class KernelError(RuntimeError):
         super().__init__(message)
         self.status = status
         self.message = message
+
+
+def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
+    """Name and gap of the row farthest from closed; empty where there is no finite figure of it."""
+    row, violation = int(report["worst_row"]), report["violation"]
+    if not (0 <= row < len(names) and 0.0 <= violation < math.inf):
+        return ""
+    return f"'{names[row]}', open by {violation:.3g} m"
 
 
 class SettingsFields(Structure):
@@ -86,6 +96,7 @@ class ReportFields(Structure):
         ("worst_row", c_int32),
         ("worst_coordinate", c_int32),
         ("energy_jump", c_double),
+        ("energy_error", c_double),
     )
 
 
@@ -343,7 +354,7 @@ class Instance:
             return
         report = self.report()
         text = _status_text(self._library, status)
-        if report["violation"] > 1e-9:
+        if 1e-9 < report["violation"] < math.inf:
             text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
         raise KernelError(status, text)
 

@@ -1,4 +1,5 @@
 /* The initial state, found from the values set so far. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -17,8 +18,8 @@ const char *slave_worst_row(slave *s, char *text, size_t size) {
   text[0] = 0;
   const slave_table *t = &slave_the_table;
   const size_t first = t->first_row[s->rung.fidelity], n = t->first_row[s->rung.fidelity + 1] - first;
-  if (ali3_report_get(s->rung.kernel, &report) == ALI3_OK && report.violation > 0.0 && report.worst_row >= 0 &&
-      (size_t)report.worst_row < n)
+  if (ali3_report_get(s->rung.kernel, &report) == ALI3_OK && report.violation > 0.0 && report.violation < HUGE_VAL &&
+      report.worst_row >= 0 && (size_t)report.worst_row < n)
     snprintf(text, size, " Worst constraint: '%.128s', open by %.3g m.", t->row[first + (size_t)report.worst_row],
              report.violation);
   return text;

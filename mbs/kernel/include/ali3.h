@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 2
+#define ALI3_STATE_VERSION 3
 
 typedef enum {
   ALI3_OK = 0,
@@ -32,6 +32,7 @@ typedef enum {
   ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
   ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
   ALI3_BELOW_ROAD,        /* a start with a tyre deeper in the road than its radius; see ali3_start_lift */
+  ALI3_UNRESOLVED, /* the motion is too fast for the step: energy came or went without a force, also in halves */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -40,44 +41,45 @@ typedef struct ali3_instance ali3_instance;
 
 enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
 
-enum {                    /* ali3_settings.method */
-       ALI3_METHOD_ALI3P = 0,              /* trapezoidal rule with projections */
-       ALI3_METHOD_GENERALISED_ALPHA,      /* the same with generalised-alpha, rho_infinity */
-       ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
-       ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
-       ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
+enum { /* ali3_settings.method */
+       ALI3_METHOD_ALI3P = 0, /* trapezoidal rule with projections */
+       ALI3_METHOD_GENERALISED_ALPHA, /* the same with generalised-alpha, rho_infinity */
+       ALI3_METHOD_ENERGY_MOMENTUM, /* discrete derivatives of rows and potentials; keeps energy */
+       ALI3_METHOD_ENERGY_MOMENTUM_4, /* five of them, order four; conservative Systems only */
+       ALI3_METHOD_RUNGE_KUTTA_8, /* explicit, index one, order eight; no element states */
        ALI3_METHOD_COUNT
 };
 
 typedef enum {
-  ALI3_PREDICTOR_PARABOLA = 0,     /* through the accelerations and multipliers of past steps where they are smooth */
+  ALI3_PREDICTOR_PARABOLA = 0, /* through the accelerations and multipliers of past steps where they are smooth */
   ALI3_PREDICTOR_ACCELERATION = 1, /* the present ones stay: the paper's */
   ALI3_PREDICTOR_COUNT
 } ali3_predictor;
 
 typedef struct {
-  double alpha;             /* penalty, 1/s^2; 0: rule alpha = 1/(eps_rel h^2) */
-  double eps_rel;           /* used by the rule */
-  double tolerance_r;       /* on max_i |r_i| / m_i, coordinate units (m) */
-  double tolerance_phi;     /* on the constraint violation, m */
-  double rho_infinity;      /* generalised-alpha: share of an infinite frequency that a step leaves, 0 to 1 */
+  double alpha; /* penalty, 1/s^2; 0: rule alpha = 1/(eps_rel h^2) */
+  double eps_rel; /* used by the rule */
+  double tolerance_r; /* on max_i |r_i| / m_i, coordinate units (m) */
+  double tolerance_phi; /* on the constraint violation, m */
+  double rho_infinity; /* generalised-alpha: share of an infinite frequency that a step leaves, 0 to 1 */
   int32_t max_iterations;
-  int32_t max_halvings;     /* depth of step bisection; 0: never */
-  int32_t project;          /* 1: velocity and acceleration projections (24), (25) */
-  int32_t update;           /* ALI3_UPDATE_* */
-  int32_t geometric;        /* 1: exact geometric term sum lam_k H_k in the tangent */
-  int32_t method;           /* ALI3_METHOD_* */
-  int32_t predictor;        /* ALI3_PREDICTOR_*: start value of a step of ALi3-P */
+  int32_t max_halvings; /* depth of step bisection; 0: never */
+  int32_t project; /* 1: velocity and acceleration projections (24), (25) */
+  int32_t update; /* ALI3_UPDATE_* */
+  int32_t geometric; /* 1: exact geometric term sum lam_k H_k in the tangent */
+  int32_t method; /* ALI3_METHOD_* */
+  int32_t predictor; /* ALI3_PREDICTOR_*: start value of a step of ALi3-P */
 } ali3_settings;
 
 typedef struct {
   int64_t steps, iterations, factorizations, solves, halvings, failures; /* since the last initialise */
   int32_t last_iterations, max_iterations;
   int32_t last_status, negative_pivots;
-  double residual, violation;       /* of the last step: max |r_i|/m_i, max |Phi| in m */
-  double velocity_violation;        /* max |Phi_q qd + Phi_t| * row_measure after projection */
+  double residual, violation; /* of the last step: max |r_i|/m_i, max |Phi| in m */
+  double velocity_violation; /* max |Phi_q qd + Phi_t| * row_measure after projection */
   int32_t worst_row, worst_coordinate;
-  double energy_jump;               /* change of the kinetic energy by the last switching, J */
+  double energy_jump; /* change of the kinetic energy by the last switching, J */
+  double energy_error; /* work of constraint forces and projections, J; 0: exact, or not measured */
 } ali3_report;
 
 typedef struct {

@@ -133,6 +133,7 @@ struct ali3_instance {
   ali3_settings settings;
   ali3_report report;
   double t_base, h_last; /* time = t_base + count * h_last */
+  double h_whole; /* of the step that was asked for, where halves are made */
   int64_t count;
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
@@ -255,6 +256,11 @@ void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* 
 double ali3_penalty(const ali3_instance *in, double h);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
 bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
+
+/* energy_watch.c */
+double ali3_constraint_work(ali3_instance *in, double h);
+double ali3_projection_work(ali3_instance *in, double h, double *kinetic);
+ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic);
 
 /* projection.c */
 double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,

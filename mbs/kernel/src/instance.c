@@ -15,9 +15,10 @@ const char *ali3_status_text(ali3_status s) {
       "the position problem does not close",
       "the iteration did not converge, also not in smaller steps",
       "the tangent is singular",
-      "a number that is not finite appeared",
+      "the motion or a force became infinite",
       "this method takes no element states or filtered guides and, if it also steps backwards in time, no damping",
       "a tyre starts deeper in the road than its radius",
+      "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }

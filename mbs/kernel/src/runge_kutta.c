@@ -2,6 +2,7 @@
  * Wanner, "Solving Ordinary Differential Equations I", second edition) on the equations of index one: every stage solves
  * for accelerations and multipliers, positions and velocities return to the rows at the end of a step. For smooth
  * motion without stiff forces, away from singular positions; the last stage of a step is the first of the next. */
+#include <math.h>
 #include <string.h>
 
 #include "ali3_internal.h"
@@ -53,6 +54,23 @@ static const double stage_weight[STAGES][STAGES] = {
     {2.273310147516538, 0.0, 0.0, -10.53449546673725, -2.0008720582248625, -17.9589318631188, 27.94888452941996,
      -2.8589982771350235, -8.87285693353063, 12.360567175794303, 0.6433927460157636},
 };
+
+/* Power of the forces in in->Q and of drives at the state that accelerate() has just solved. */
+static double power(ali3_instance *in, const ali3_vectors *v) {
+  double sum = 0.0;
+  ali3_constraint_rate(in, v->q, v, in->Phit);
+  for (int32_t i = 0; i < in->system->size.nq; i++) sum += v->qd[i] * in->Q[i];
+  for (int32_t k = 0; k < in->system->size.nc; k++) sum += v->lam[k] * in->Phit[k];
+  return sum;
+}
+
+/* 1/2 qd' M x, M constant. */
+static double half_product(ali3_instance *in, const double *qd, const double *x) {
+  double sum = 0.0;
+  ali3_mass_times(in, x, in->r);
+  for (int32_t i = 0; i < in->system->size.nq; i++) sum += 0.5 * qd[i] * in->r[i];
+  return sum;
+}
 
 /* Accelerations and multipliers at q, qd and the guides of v: v->qdd and v->lam are improved from what they hold. */
 static ali3_status accelerate(ali3_instance *in, ali3_vectors *v) {
@@ -116,7 +134,8 @@ static ali3_status close(ali3_instance *in) {
     ali3_constraints(in, v->q, v->s, in->Phi, in->J);
     in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
     if (ali3_closed(S, in->Phi, in->settings.tolerance_phi)) break;
-    if (sweep == in->settings.max_iterations || !(in->report.violation < 1e300)) return ALI3_NOT_CONVERGED;
+    if (!(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
+    if (sweep == in->settings.max_iterations) return ALI3_NOT_CONVERGED;
     for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] = ALPHA * in->Phi[k];
     ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
     ali3_solve(in, in->F, in->x);
@@ -138,6 +157,9 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   memcpy(to->qdd, from->qdd, (size_t)nq * sizeof(double));
   memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  const bool watched = S->n_flexible == 0; /* else M changes, and in->Q has inertia forces */
+  const double kinetic = watched ? half_product(in, from->qd, from->qd) : 0.0;
+  double work = watched ? 2.0 * h * weight[0] * half_product(in, from->qd, from->qdd) : 0.0;
   ali3_status status = ALI3_OK;
   in->force_input = in->input_middle;
   for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
@@ -146,6 +168,7 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
       in->input_middle[i] = from->used[i] + node[stage] * (in->input[i] - from->used[i]);
     ali3_guides_time(in, to, t - (1.0 - node[stage]) * h);
     status = accelerate(in, to);
+    if (watched) work += h * weight[stage] * power(in, to);
     memcpy(in->stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
   }
   in->force_input = in->input;
@@ -155,6 +178,10 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
     status = close(in);
   }
   if (status == ALI3_OK) status = accelerate(in, to);
+  if (status == ALI3_OK && watched) {
+    const double gained = half_product(in, to->qd, to->qd) - kinetic;
+    status = ali3_energy_watch(in, h, gained - work, kinetic + fmax(gained, 0.0));
+  }
   in->report.last_iterations = (int32_t)(in->report.iterations - before);
   if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
   if (status != ALI3_OK) return status;

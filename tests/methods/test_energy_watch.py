@@ -1,0 +1,92 @@
+"""Energy that steps make or take without a force: its books against the energy itself, and steps refused for it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmarks import references
+from benchmarks.cases import CASES, system_of
+from mbs import Settings, Simulation, SimulationError, simulate
+from mbs.kernel.binding import NOT_FINITE, UNRESOLVED, open_row
+from mbs.scenes import cart_pole
+
+BOOKS = 0.02  # of the change of energy: the books take the next step to be like the present one
+SHARE = 0.05  # of extent and energy: what the stability maps call fine
+FALL = cart_pole.BOB * cart_pole.GRAVITY * cart_pole.LENGTH  # J
+USUAL = {"squeezer": 1e-4}  # s, where not 0.01
+
+
+@pytest.mark.parametrize("scene", ["pendulum", "double_four_bar", "bricard", "slider_crank", "spatial_chain"])
+def test_the_books_of_a_conservative_scene_are_its_loss_of_energy(scene):
+    t = simulate(system_of(scene), 2.0, 0.005, progress=False)
+    lost = t["energy.total"][-1] - t["energy.total"][0]
+    assert abs(lost) > 1e-9
+    assert t.report.energy_error == pytest.approx(lost, rel=BOOKS)
+
+
+def test_a_motor_and_a_spring_are_no_error():
+    """Work of forces and drives is not in the books: they fall with the step like the error of the method."""
+    errors = [
+        abs(simulate(system_of("squeezer"), 0.04, h, progress=False).report.energy_error) for h in (1e-4, 5e-5, 2.5e-5)
+    ]
+    assert errors[0] > 3.0 * errors[1]
+    assert errors[1] > 3.0 * errors[2]
+
+
+@pytest.mark.parametrize(
+    "scene", [name for name in CASES if name not in ("cart_pole", "pendulum_1000s", "four_bar_200")]
+)
+@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha"])
+def test_no_other_scene_is_halved_at_its_usual_step(scene, method):
+    h = USUAL.get(scene, 0.01)
+    assert simulate(system_of(scene), 200 * h, h, method=method, progress=False).report.halvings == 0
+
+
+@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "runge_kutta_8"])
+@pytest.mark.parametrize("h", [1e-4, 1e-5])
+def test_the_spike_of_the_light_cart_is_refused_where_the_step_does_not_resolve_it(method, h):
+    simulation = Simulation(system_of("cart_pole"), settings=Settings(method=method))
+    with pytest.raises(SimulationError, match="energy came or went without a force") as refused:
+        simulation.run(0.6, h, progress=False)
+    assert refused.value.status == UNRESOLVED
+    assert "Worst" not in str(refused.value)
+    assert refused.value.time == simulation.time == pytest.approx(0.4515, abs=1e-4)
+    bob = np.array([simulation.sensors[f"bob.position.{c}"] for c in "xy"])
+    exact = references.light_cart(np.array([0.0, simulation.time]))[-1]
+    np.testing.assert_allclose(bob, exact, atol=1e-4)  # good up to there
+    assert abs(simulation.report.energy_error) < 0.02 * FALL  # nothing of the refused step
+
+
+@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "runge_kutta_8"])
+@pytest.mark.parametrize("h", [1e-3, 3e-4, 1e-4, 3e-5])
+def test_halves_of_the_step_resolve_the_spike_of_the_light_cart(method, h):
+    t = simulate(
+        system_of("cart_pole"), 0.6, h, settings=Settings(method=method, max_halvings=16), every=10, progress=False
+    )
+    exact = references.light_cart(t.t)
+    error = np.hypot(t["bob.position.x"] - exact[:, 0], t["bob.position.y"] - exact[:, 1])
+    assert error.max() < SHARE * cart_pole.LENGTH
+    assert np.abs(t["energy.total"] - t["energy.total"][0]).max() < SHARE * FALL
+    assert 5 <= t.report.halvings < 60
+
+
+def test_nothing_is_projected_so_nothing_is_watched():
+    t = simulate(system_of("double_four_bar"), 0.5, 0.01, method="ali3p_no_projection", progress=False)
+    assert t.report.energy_error == 0.0
+
+
+def test_an_infinite_motion_is_said_in_words():
+    with pytest.raises(SimulationError, match="became infinite") as refused:
+        simulate(system_of("flyball"), 1.0, 0.02, method="runge_kutta_8", progress=False)
+    assert refused.value.status == NOT_FINITE
+    words = str(refused.value).lower().replace("infinite", "")
+    assert "nan" not in words
+    assert "inf" not in words
+
+
+@pytest.mark.parametrize("gap", [float("nan"), float("inf"), -float("inf")])
+def test_a_gap_without_a_finite_figure_is_not_reported(gap):
+    assert open_row({"worst_row": 0, "violation": gap}, ["hinge"]) == ""
+    assert open_row({"worst_row": 1, "violation": 1.0}, ["hinge"]) == ""
+    assert open_row({"worst_row": 0, "violation": 0.5}, ["hinge"]) == "'hinge', open by 0.5 m"
