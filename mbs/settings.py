@@ -13,6 +13,7 @@ METHODS = {
     "energy_momentum": {"method": 2},
     "energy_momentum_4": {"method": 3},
     "runge_kutta_8": {"method": 4},
+    "semi_recursive": {"method": 5},
 }
 """Names of the methods and what each sets in the kernel."""
 

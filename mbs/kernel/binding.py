@@ -25,7 +25,8 @@ from typing import Any
     SINGULAR,
     NOT_FINITE,
     WRONG_METHOD,
-) = range(1, 11)
+    NO_TREE,
+) = range(1, 12)
 """Codes of `ali3_status` beside 0."""
 
 

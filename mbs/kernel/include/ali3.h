@@ -31,6 +31,7 @@ typedef enum {
   ALI3_SINGULAR,          /* the tangent could not be factorised */
   ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
   ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
+  ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -45,6 +46,7 @@ enum {                    /* ali3_settings.method */
        ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
        ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
        ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
+       ALI3_METHOD_SEMI_RECURSIVE,         /* explicit, relative coordinates, order eight; no element states */
        ALI3_METHOD_COUNT
 };
 
