@@ -20,7 +20,7 @@ from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.baselines.run import run
 from benchmarks.cases import CASES, exact_of, size_of, system_of
 from benchmarks.common import describe, print_table, write_json
-from benchmarks.kernel_methods import TITLES
+from benchmarks.kernel_methods import TITLES, suits
 from benchmarks.stability_chart import draw
 from mbs.settings import METHODS as KERNEL
 
@@ -176,8 +176,9 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
             BAUMGARTE[1:2],
         )
     rows = []
+    tree = not system_of(scene).report["no_tree"]
     for method in KERNEL:
-        if method == "energy_momentum_4" and not case.conservative:
+        if not suits(method, case.conservative, tree):
             continue
         for h in steps:
             rows += [kernel_point(scene, method, float(h), e) for e in [None, *map(float, eps)]]

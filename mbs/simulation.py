@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.input_signals import InputSignals, Signal
-from mbs.kernel.binding import WRONG_METHOD, Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import NO_TREE, WRONG_METHOD, Instance, KernelError, LoadedSystem
 from mbs.progress import progress_for
 from mbs.report import Report
 from mbs.settings import Settings
@@ -294,6 +294,9 @@ class Simulation:
             return SimulationError(
                 f"{message} The method is {self.settings.method!r}.", self.time, error.status, trajectory
             )
+        if error.status == NO_TREE:
+            reason = f"Here {self._meta['report']['no_tree']}. The method is {self.settings.method!r}."
+            return SimulationError(f"{message} {reason}", self.time, error.status, trajectory)
         row, coordinate = int(report["worst_row"]), int(report["worst_coordinate"])
         if not report["factorizations"]:  # refused before anything was solved
             return SimulationError(message, self.time, error.status, trajectory)

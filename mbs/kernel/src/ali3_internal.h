@@ -145,7 +145,7 @@ struct ali3_instance {
   ali3_vectors now, next, start, whole, tangent;
   ali3_rule rule;
   bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
-  bool sampled;         /* only sensors will look at it */
+  bool sampled; /* only sensors will look at it */
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */

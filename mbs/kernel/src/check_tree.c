@@ -13,14 +13,15 @@ static ali3_status check_cuts(const ali3_system *s, int64_t n, ali3_message m) {
     CHECK(ali3_check_indices(m, "tree_cut_rows", s->tree_cut_rows + 2 * c, 1, 0, 4));
     CHECK(ali3_check_indices(m, "tree_cut_rows", s->tree_cut_rows + 2 * c + 1, 1, 0, 3));
     rows += s->tree_cut_rows[2 * c] + s->tree_cut_rows[2 * c + 1];
-    if (rows > ALI3_MOST_CUT_ROWS) return ali3_bad(m, "the cut joints of the tree have more than %d rows", ALI3_MOST_CUT_ROWS);
+    if (rows > ALI3_MOST_CUT_ROWS)
+      return ali3_bad(m, "the cut joints of the tree have more than %d rows", ALI3_MOST_CUT_ROWS);
   }
   if (rows + 4 * n + 1 > (1 + ALI3_PAST) * (int64_t)s->size.nq)
     return ali3_bad(m, "a tree of %lld joints for %d coordinates", (long long)n, (int)s->size.nq);
   return ALI3_OK;
 }
 
-/* Every coordinate is a component of exactly one point or vector. */
+/* As many components of points and vectors as there are coordinates. */
 static ali3_status check_coordinates(const ali3_system *s, int64_t n, ali3_message m) {
   const int64_t parts = s->n_tree_out_body;
   CHECK(ali3_check_length(m, "tree_out_local", s->n_tree_out_local, 4 * parts));

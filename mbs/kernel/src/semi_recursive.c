@@ -168,8 +168,7 @@ static ali3_status show(ali3_instance *in, ali3_vectors *v) {
   if (in->sampled && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
   const ali3_status status = ali3_index_one(in, v);
   if (status != ALI3_OK) return status;
-  in->report.iterations--; /* what the method itself needs is counted */
-  in->report.factorizations--;
+  in->report.iterations--; /* evaluations of the method itself are counted */
   in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
   ali3_rows_times(S, in->J, v->qd, in->mu);
   int32_t worst = 0;
@@ -186,7 +185,7 @@ static void turn_back(const ali3_tree *T, double *q) {
 ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const ali3_tree *T = S->tree;
-  const ali3_tableau *rule = in->settings.method == ALI3_METHOD_SEMI_RECURSIVE ? &ali3_order_8 : &ali3_order_8;
+  const ali3_tableau *rule = in->settings.method == ALI3_METHOD_SEMI_RECURSIVE ? &ali3_order_8 : &ali3_order_4;
   const int32_t n = T->n;
   const int64_t before = in->report.iterations;
   const bool mine = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;

@@ -9,5 +9,5 @@ typedef struct {
   const double (*stage_weight)[ALI3_STAGES];
 } ali3_tableau;
 
-extern const ali3_tableau ali3_order_8;
+extern const ali3_tableau ali3_order_4, ali3_order_8;
 #endif

@@ -3,12 +3,11 @@
 
 void ali3_tree_place(const ali3_tree *T, ali3_tree_work *w) {
   ali3_sine_cosine(T->lanes, w->q, w->sine, w->cosine);
-  if (T->slides)
-    ALI3_FOR_LANES
-    for (int32_t b = 0; b < T->lanes; b++) {
-      w->sine[b] *= T->turn[b];
-      w->cosine[b] = T->slide[b] + T->turn[b] * w->cosine[b];
-    }
+  if (T->slides) ALI3_FOR_LANES
+  for (int32_t b = 0; b < T->lanes; b++) {
+    w->sine[b] *= T->turn[b];
+    w->cosine[b] = T->slide[b] + T->turn[b] * w->cosine[b];
+  }
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++)
     for (int i = 0; i < 3; i++) {
@@ -46,13 +45,12 @@ void ali3_tree_joints(const ali3_tree *T, ali3_tree_work *w) {
     w->shift[1][b] = r2 * x - r0 * z;
     w->shift[2][b] = r0 * y - r1 * x;
   }
-  if (T->slides)
-    ALI3_FOR_LANES
-    for (int32_t b = 0; b < T->lanes; b++)
-      for (int i = 0; i < 3; i++) {
-        w->shift[i][b] = T->turn[b] * w->shift[i][b] + T->slide[b] * w->turn[i][b];
-        w->turn[i][b] *= T->turn[b];
-      }
+  if (T->slides) ALI3_FOR_LANES
+  for (int32_t b = 0; b < T->lanes; b++)
+    for (int i = 0; i < 3; i++) {
+      w->shift[i][b] = T->turn[b] * w->shift[i][b] + T->slide[b] * w->turn[i][b];
+      w->turn[i][b] *= T->turn[b];
+    }
 }
 
 /* Velocities, and what their products with the frames add to the accelerations. */

@@ -11,15 +11,18 @@ typedef double ali3_lanes[ALI3_LANES];
 
 #if defined(__clang__)
 #define ALI3_FOR_LANES _Pragma("clang loop vectorize(assume_safety) interleave(disable) unroll(disable)")
+#define ALI3_NOT_UNROLLED _Pragma("clang loop unroll(disable) vectorize(disable)")
 #else
 #define ALI3_FOR_LANES
+#define ALI3_NOT_UNROLLED
 #endif
 
 struct ali3_tree {
   int32_t n, lanes;         /* joints, and n + 1 rounded up to a whole number of vectors */
   int32_t n_cut, n_row;     /* cut joints and their rows */
   bool slides, asymmetric;  /* a joint is prismatic; a body has three different moments of inertia */
-  int32_t parent[ALI3_LANES], run[ALI3_LANES]; /* run: the lowest of the bodies j, j - 1, .. that are each other's parents */
+  int32_t parent[ALI3_LANES],
+      run[ALI3_LANES]; /* run: the lowest of the bodies j, j - 1, .. that are each other's parents */
   ali3_lanes base[3][3];    /* [i][k]: component i of axis k of the joint, in the frame of the parent */
   ali3_lanes place[3];      /* origin of the joint in the frame of the parent */
   ali3_lanes mass, composite, centre[3];
@@ -32,14 +35,14 @@ struct ali3_tree_work {
   ali3_lanes q, qd, sine, cosine;
   ali3_lanes relative[3][2];              /* first two axes of the frame in the frame of the parent */
   ali3_lanes axis[3][3], origin[3];       /* [i][k]: component i of axis k */
-  ali3_lanes turn[3], shift[3];           /* motion per unit rate of the joint: angular, and linear at the earth's origin */
-  ali3_lanes spin[3], drift[3];           /* angular velocity, linear velocity at the earth's origin */
+  ali3_lanes turn[3], shift[3]; /* motion per unit rate of the joint: angular, and linear at the earth's origin */
+  ali3_lanes spin[3], drift[3]; /* angular velocity, linear velocity at the earth's origin */
   ali3_lanes spin_rate[3], drift_rate[3]; /* their rates without those of the joint rates, gravity taken off */
-  ali3_lanes inertia[6], moment[3];       /* xx, yy, zz, yz, zx, xy about the earth's origin, mass times centre: composite */
-  ali3_lanes torque[3], force[3];         /* of inertia and gravity without the joint accelerations: composite */
-  ali3_lanes angular[3], linear[3];       /* composite momentum per unit rate of the joint */
-  ali3_lanes load;                        /* right side of M qdd = load */
-  double gravity[3];                      /* zero where the forces of the System bring it */
+  ali3_lanes inertia[6], moment[3]; /* xx, yy, zz, yz, zx, xy about the earth's origin, mass times centre: composite */
+  ali3_lanes torque[3], force[3]; /* of inertia and gravity without the joint accelerations: composite */
+  ali3_lanes angular[3], linear[3]; /* composite momentum per unit rate of the joint */
+  ali3_lanes load; /* right side of M qdd = load */
+  double gravity[3]; /* zero where the forces of the System bring it */
   double mass[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* M, lower triangle; zero where neither joint moves the other */
   double dense[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* a matrix and its factors */
   double product[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* M times the columns of the null space */

@@ -21,21 +21,20 @@ static void bodies(const ali3_tree *T, ali3_tree_work *w) {
     w->inertia[5][b] = k0 * e[1];
     for (int i = 0; i < 3; i++) w->moment[i][b] = c[i];
   }
-  if (T->asymmetric)
-    ALI3_FOR_LANES
-    for (int32_t b = 0; b < T->lanes; b++) {
-      double e[3];
-      for (int i = 0; i < 3; i++)
-        e[i] = w->axis[i][0][b] * T->second_axis[0][b] + w->axis[i][1][b] * T->second_axis[1][b] +
-               w->axis[i][2][b] * T->second_axis[2][b];
-      const double k0 = T->second[b] * e[0], k1 = T->second[b] * e[1], k2 = T->second[b] * e[2];
-      w->inertia[0][b] += k0 * e[0];
-      w->inertia[1][b] += k1 * e[1];
-      w->inertia[2][b] += k2 * e[2];
-      w->inertia[3][b] += k1 * e[2];
-      w->inertia[4][b] += k2 * e[0];
-      w->inertia[5][b] += k0 * e[1];
-    }
+  if (T->asymmetric) ALI3_FOR_LANES
+  for (int32_t b = 0; b < T->lanes; b++) {
+    double e[3];
+    for (int i = 0; i < 3; i++)
+      e[i] = w->axis[i][0][b] * T->second_axis[0][b] + w->axis[i][1][b] * T->second_axis[1][b] +
+             w->axis[i][2][b] * T->second_axis[2][b];
+    const double k0 = T->second[b] * e[0], k1 = T->second[b] * e[1], k2 = T->second[b] * e[2];
+    w->inertia[0][b] += k0 * e[0];
+    w->inertia[1][b] += k1 * e[1];
+    w->inertia[2][b] += k2 * e[2];
+    w->inertia[3][b] += k1 * e[2];
+    w->inertia[4][b] += k2 * e[0];
+    w->inertia[5][b] += k0 * e[1];
+  }
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
     const double c0 = w->moment[0][b], c1 = w->moment[1][b], c2 = w->moment[2][b], m = T->mass[b];
@@ -49,8 +48,7 @@ static void bodies(const ali3_tree *T, ali3_tree_work *w) {
                  f2 = m * (w->drift_rate[2][b] + (a0 * c1 - a1 * c0) + (o0 * v1 - o1 * v0));
     const double xx = w->inertia[0][b], yy = w->inertia[1][b], zz = w->inertia[2][b], yz = w->inertia[3][b],
                  zx = w->inertia[4][b], xy = w->inertia[5][b];
-    const double h0 = xx * o0 + xy * o1 + zx * o2, h1 = xy * o0 + yy * o1 + yz * o2,
-                 h2 = zx * o0 + yz * o1 + zz * o2;
+    const double h0 = xx * o0 + xy * o1 + zx * o2, h1 = xy * o0 + yy * o1 + yz * o2, h2 = zx * o0 + yz * o1 + zz * o2;
     w->force[0][b] = f0;
     w->force[1][b] = f1;
     w->force[2][b] = f2;
@@ -113,7 +111,7 @@ void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
   for (int32_t j = 1; j <= T->n; j++) {
     const double a0 = w->angular[0][j], a1 = w->angular[1][j], a2 = w->angular[2][j];
     const double l0 = w->linear[0][j], l1 = w->linear[1][j], l2 = w->linear[2][j];
-    double *row = w->mass[j];
+    double *restrict row = w->mass[j];
     for (int32_t last = j; last > 0; last = T->parent[T->run[last]]) {
       ALI3_FOR_LANES
       for (int32_t i = T->run[last]; i <= last; i++)
@@ -123,28 +121,49 @@ void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* M = L' D L from the leaves to the root, which keeps the zeros between branches (Featherstone 2005); b goes to L'^-1 b.
- * The diagonal takes 1/D. */
-bool ali3_tree_factorise(const ali3_tree *T, ali3_tree_work *w, double *b) {
-  double least = 1.0;
-  for (int32_t k = T->n; k > 0; k--) {
-    double *pivot = w->mass[k];
-    const double inverse = 1.0 / pivot[k];
-    least = pivot[k] < least ? pivot[k] : least;
-    for (int32_t last = k == T->run[k] ? T->parent[k] : k - 1; last > 0; last = T->parent[T->run[last]])
-      for (int32_t i = last; i >= T->run[last]; i--) {
-        const double factor = pivot[i] * inverse;
-        double *row = w->mass[i];
-        for (int32_t above = i; above > 0; above = T->parent[T->run[above]]) {
-          ALI3_FOR_LANES
-          for (int32_t j = T->run[above]; j <= above; j++) row[j] -= factor * pivot[j];
-        }
-        pivot[i] = factor;
-        b[i] -= factor * b[k];
-      }
-    pivot[k] = inverse;
+/* row -= f p + g q from `first` to `last`, in whole pairs: what lies beside the path is zero, above the diagonal unread. */
+static void subtract(double *restrict row, const double *restrict p, double f, const double *restrict q, double g,
+                     int32_t first, int32_t last) {
+  ALI3_NOT_UNROLLED
+  for (int32_t j = first & ~1; j <= last; j += 2) {
+    const double even = f * p[j] + g * q[j], odd = f * p[j + 1] + g * q[j + 1];
+    row[j] -= even;
+    row[j + 1] -= odd;
   }
-  return least > 0.0;
+}
+
+/* M = L' D L from the leaves to the root, which keeps the zeros between branches (Featherstone 2005), two joints of a
+ * run at a time; b goes to L'^-1 b. The diagonal takes 1/D. */
+bool ali3_tree_factorise(const ali3_tree *T, ali3_tree_work *w, double *b) {
+  bool positive = true;
+  for (int32_t k = T->n; k > 0;) {
+    const int32_t below = T->run[k] < k ? k - 1 : k; /* its parent, or itself where a run begins */
+    double *p = w->mass[k], *q = w->mass[below];
+    const double f = 1.0 / p[k], own = b[k];
+    double g = 0.0, next = 0.0;
+    positive = positive && p[k] > 0.0;
+    p[k] = f;
+    if (below < k) {
+      const double factor = p[below] * f;
+      for (int32_t last = below; last > 0; last = T->parent[T->run[last]])
+        subtract(q, p, factor, p, 0.0, T->run[last], last);
+      p[below] = factor;
+      b[below] -= factor * own;
+      positive = positive && q[below] > 0.0;
+      q[below] = g = 1.0 / q[below];
+      next = b[below];
+    }
+    for (int32_t i = T->parent[below]; i > 0; i = T->parent[i]) {
+      const double of_p = p[i] * f, of_q = q[i] * g;
+      for (int32_t last = i; last > 0; last = T->parent[T->run[last]])
+        subtract(w->mass[i], p, of_p, q, of_q, T->run[last], last);
+      b[i] -= of_p * own + of_q * next;
+      p[i] = of_p;
+      if (below < k) q[i] = of_q;
+    }
+    k = below - 1;
+  }
+  return positive;
 }
 
 /* x = L^-1 D^-1 b after the factors. */

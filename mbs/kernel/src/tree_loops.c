@@ -9,7 +9,8 @@ static const double RANK = 1e-7; /* a pivot below this part of the largest is of
 
 typedef struct {
   int32_t first, second, points, axes;
-  double p[3], n[2][3], r[3], z[3]; /* point and normals of the first body, point and axis of the second, in earth axes */
+  double p[3], n[2][3], r[3],
+      z[3]; /* point and normals of the first body, point and axis of the second, in earth axes */
 } cut;
 
 static void cross(const double a[3], const double b[3], double out[3]) {
