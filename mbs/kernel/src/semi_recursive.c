@@ -166,8 +166,11 @@ static ali3_status show(ali3_instance *in, ali3_vectors *v) {
   ali3_tree_accelerate(S->tree, in->tree, in->tree->qdd);
   ali3_tree_write(in, v->q, v->qd, v->qdd);
   if (in->sampled && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
+  /* not from the last multipliers: bits must not depend on who looked when */
+  memset(v->lam, 0, (size_t)S->size.nc * sizeof(double));
   const ali3_status status = ali3_index_one(in, v);
   if (status != ALI3_OK) return status;
+  ali3_tree_write(in, v->q, v->qd, v->qdd); /* those of the multipliers' solution have its error */
   in->report.iterations--; /* evaluations of the method itself are counted */
   in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
   ali3_rows_times(S, in->J, v->qd, in->mu);
@@ -191,8 +194,9 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   const bool mine = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
   ali3_tree_work *w = in->tree;
   (void)t;
-  ali3_status status = mine && recall(in, in->now.own) ? ALI3_OK : begin(in);
+  memcpy(in->input_middle, in->now.used, (size_t)S->size.nu * sizeof(double));
   in->force_input = in->input_middle;
+  ali3_status status = mine && recall(in, in->now.own) ? ALI3_OK : begin(in);
   memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
   for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
