@@ -11,7 +11,7 @@ from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.scenes import bricard, double_four_bar, flyball, prototype_car, spatial_chain
 from mbs.settings import METHODS
 from tests.methods.models import driven, hinge
-from tests.methods.trees import GRAVITY, branching, carriage, double_pendulum, measured, pendulum
+from tests.methods.trees import GRAVITY, branching, carriage, double_pendulum, measured, pendulum, random_tree
 
 SEED = 11
 SEMI = ("semi_recursive", "semi_recursive_4")
@@ -71,6 +71,16 @@ def test_springs_dampers_inputs_a_slide_and_a_weld_agree_with_the_natural_method
     for name in names:
         np.testing.assert_allclose(found[name], expected[name], atol=SAME_RULE if method == SEMI[0] else 1e-7)
     assert np.ptp(expected["tail.x"]) > 0.1
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_random_trees_and_loops_move_as_in_natural_coordinates(seed):
+    system = compile(random_tree(seed))
+    assert system.report["no_tree"] == ""
+    runs = [simulate(system, 0.2, 0.002, settings=tight(m), every=10) for m in ("runge_kutta_8", "semi_recursive")]
+    for name in ("x", "y", "z", "ax", "ay", "az"):
+        size = 1.0 + np.abs(runs[0][name]).max()
+        np.testing.assert_allclose(runs[1][name], runs[0][name], rtol=0.0, atol=SAME_RULE * size)
 
 
 @pytest.mark.parametrize(

@@ -36,6 +36,38 @@ def branching(springs: bool) -> Model:
     return m
 
 
+def random_tree(seed: int) -> Model:
+    """Up to twelve bodies on skew pins, slides and welds, some with a spring, some with a loop."""
+    rng = np.random.default_rng(seed)
+    m = Model(f"tree {seed}", dimension=3)
+    bodies, centres = [m.ground], [np.zeros(3)]
+    for k in range(int(rng.integers(4, 13))):
+        parent = int(rng.integers(max(0, len(bodies) - 4), len(bodies)))
+        point = centres[parent] + 0.3 * rng.standard_normal(3)
+        centre = point + 0.3 * rng.standard_normal(3)
+        moments = rng.uniform(0.05, 0.09, 3)
+        axes = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+        body = m.body(f"body {k}", mass=rng.uniform(0.5, 2.0), com=centre, inertia=axes @ np.diag(moments) @ axes.T)
+        pair = (bodies[parent], body) if rng.random() < 0.5 else (body, bodies[parent])
+        kind, axis = rng.random(), rng.standard_normal(3)
+        if kind < 0.2:
+            m.prismatic(f"joint {k}", *pair, axis=axis, point=point)
+        elif kind < 0.3 and parent > 0:
+            m.weld(f"joint {k}", *pair)
+        else:
+            m.revolute(f"joint {k}", *pair, point=point, axis=axis)
+        bodies.append(body)
+        centres.append(centre)
+    if seed % 2:
+        m.spring_damper("coil", (m.ground, (1.0, 1.0, 1.0)), (body, centre), stiffness=30.0, damping=1.0)
+    if len(bodies) > 8:
+        m.spherical("loop", bodies[7], bodies[1], point=centres[7])
+    for c in "xyz":
+        m.sense_position(c, body, None, c)
+        m.sense_acceleration(f"a{c}", body, None, c)
+    return m
+
+
 def measured(scene: str) -> Model:
     """The scene with velocities and accelerations of its output point."""
     m = {"chain": spatial_chain, "bricard": bricard}[scene].build()

@@ -11,10 +11,10 @@ typedef double ali3_lanes[ALI3_LANES];
 
 #if defined(__clang__)
 #define ALI3_FOR_LANES _Pragma("clang loop vectorize(assume_safety) interleave(disable) unroll(disable)")
-#define ALI3_NOT_UNROLLED _Pragma("clang loop unroll(disable) vectorize(disable)")
+#define ALI3_SHORT _Pragma("clang loop unroll(disable) vectorize(disable)")
 #else
 #define ALI3_FOR_LANES
-#define ALI3_NOT_UNROLLED
+#define ALI3_SHORT
 #endif
 
 struct ali3_tree {

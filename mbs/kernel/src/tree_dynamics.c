@@ -124,7 +124,7 @@ void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
 /* row -= f p + g q from `first` to `last`, in whole pairs: what lies beside the path is zero, above the diagonal unread. */
 static void subtract(double *restrict row, const double *restrict p, double f, const double *restrict q, double g,
                      int32_t first, int32_t last) {
-  ALI3_NOT_UNROLLED
+  ALI3_SHORT
   for (int32_t j = first & ~1; j <= last; j += 2) {
     const double even = f * p[j] + g * q[j], odd = f * p[j + 1] + g * q[j + 1];
     row[j] -= even;

@@ -62,8 +62,10 @@ void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients) {
     if (gradients) {
       double arm[2][3];
       for (int i = 0; i < k.axes; i++) cross(k.n[i], k.z, arm[i]);
-      for (int32_t i = row; i < row + k.points + k.axes; i++)
+      for (int32_t i = row; i < row + k.points + k.axes; i++) {
+        ALI3_SHORT
         for (int32_t j = 1; j <= T->n; j++) w->row[i][j] = 0.0;
+      }
       path(T, w, &k, k.first, k.p, 1.0, (const double (*)[3])arm, row);
       path(T, w, &k, k.second, k.r, -1.0, (const double (*)[3])arm, row);
     }
@@ -150,13 +152,17 @@ void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
 /* The chosen rows in the order chosen: L U of J_d, inverse pivots on the diagonal, then G in the columns of the others. */
 void ali3_loops_factorise(const ali3_tree *T, ali3_tree_work *w) {
   const int32_t r = w->rank, n = T->n;
-  for (int32_t i = 0; i < r; i++)
-    for (int32_t j = 0; j < n; j++) w->upper[i][j] = w->row[w->row_order[i]][w->column_order[j]];
+  for (int32_t i = 0; i < r; i++) {
+    const double *row = w->row[w->row_order[i]];
+    ALI3_SHORT
+    for (int32_t j = 0; j < n; j++) w->upper[i][j] = row[w->column_order[j]];
+  }
   for (int32_t k = 0; k < r; k++) {
     const double inverse = 1.0 / w->upper[k][k];
     for (int32_t i = k + 1; i < r; i++) {
       const double factor = w->upper[i][k] * inverse;
       w->upper[i][k] = factor;
+      ALI3_SHORT
       for (int32_t j = k + 1; j < n; j++) w->upper[i][j] -= factor * w->upper[k][j];
     }
     w->upper[k][k] = inverse;
@@ -218,6 +224,7 @@ static bool reduce(const ali3_tree *T, ali3_tree_work *w) {
     for (int32_t j = 1; j <= n; j++) product[j] = own[j];
     for (int32_t d = 0; d < r; d++) {
       const double *row = w->mass[w->column_order[d]], factor = w->upper[d][r + c];
+      ALI3_SHORT
       for (int32_t j = 1; j <= n; j++) product[j] -= factor * row[j];
     }
     for (int32_t e = 0; e <= c; e++) {
@@ -237,6 +244,7 @@ bool ali3_loops_solve(const ali3_tree *T, ali3_tree_work *w, double *qdd) {
   dependent(w, w->gamma, g);
   for (int32_t d = 0; d < r; d++) {
     const double *row = w->mass[w->column_order[d]];
+    ALI3_SHORT
     for (int32_t j = 1; j <= n; j++) w->load[j] += g[d] * row[j];
   }
   for (int32_t c = 0; c < f; c++) {
