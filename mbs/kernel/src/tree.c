@@ -3,40 +3,37 @@
 
 void ali3_tree_place(const ali3_tree *T, ali3_tree_work *w) {
   ali3_sine_cosine(T->lanes, w->q, w->sine, w->cosine);
-  if (T->slides) ALI3_FOR_LANES
-  for (int32_t b = 0; b < T->lanes; b++) {
-    w->sine[b] *= T->turn[b];
-    w->cosine[b] = T->slide[b] + T->turn[b] * w->cosine[b];
+  if (T->slides) {
+    ALI3_FOR_LANES
+    for (int32_t b = 0; b < T->lanes; b++) {
+      w->sine[b] *= T->turn[b];
+      w->cosine[b] = T->slide[b] + T->turn[b] * w->cosine[b];
+    }
   }
-  ALI3_FOR_LANES
-  for (int32_t b = 0; b < T->lanes; b++)
+  for (int32_t b = 1; b <= T->n; b++)
     for (int i = 0; i < 3; i++) {
       const double x = T->base[i][0][b], y = T->base[i][1][b];
-      w->relative[i][0][b] = w->cosine[b] * x + w->sine[b] * y;
-      w->relative[i][1][b] = w->cosine[b] * y - w->sine[b] * x;
+      w->relative[b][i][0] = w->cosine[b] * x + w->sine[b] * y;
+      w->relative[b][i][1] = w->cosine[b] * y - w->sine[b] * x;
     }
   for (int32_t b = 1; b <= T->n; b++) {
     const int32_t p = T->parent[b];
-    const double x0 = w->relative[0][0][b], x1 = w->relative[1][0][b], x2 = w->relative[2][0][b];
-    const double y0 = w->relative[0][1][b], y1 = w->relative[1][1][b], y2 = w->relative[2][1][b];
-    const double z0 = T->base[0][2][b], z1 = T->base[1][2][b], z2 = T->base[2][2][b];
-    const double d0 = T->place[0][b], d1 = T->place[1][b], d2 = T->place[2][b];
+    const double *restrict l0 = w->relative[b][0], *restrict l1 = w->relative[b][1], *restrict l2 = w->relative[b][2];
     for (int i = 0; i < 3; i++) {
-      const double a = w->axis[i][0][p], c = w->axis[i][1][p], e = w->axis[i][2][p];
-      w->axis[i][0][b] = a * x0 + c * x1 + e * x2;
-      w->axis[i][1][b] = a * y0 + c * y1 + e * y2;
-      w->axis[i][2][b] = a * z0 + c * z1 + e * z2;
-      w->origin[i][b] = w->origin[i][p] + (a * d0 + c * d1 + e * d2);
+      const double x = w->frame[p][i][0], y = w->frame[p][i][1], z = w->frame[p][i][2];
+      double *restrict row = w->frame[b][i];
+      for (int k = 0; k < 4; k++) row[k] = x * l0[k] + y * l1[k] + z * l2[k];
     }
+    for (int i = 0; i < 3; i++) w->origin[i][b] = w->origin[i][p] + w->frame[b][i][3];
     if (T->slides)
-      for (int i = 0; i < 3; i++) w->origin[i][b] += T->slide[b] * w->q[b] * w->axis[i][2][b];
+      for (int i = 0; i < 3; i++) w->origin[i][b] += T->slide[b] * w->q[b] * w->frame[b][i][2];
   }
 }
 
 void ali3_tree_joints(const ali3_tree *T, ali3_tree_work *w) {
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
-    const double x = w->axis[0][2][b], y = w->axis[1][2][b], z = w->axis[2][2][b];
+    const double x = w->frame[b][0][2], y = w->frame[b][1][2], z = w->frame[b][2][2];
     const double r0 = w->origin[0][b], r1 = w->origin[1][b], r2 = w->origin[2][b];
     w->turn[0][b] = x;
     w->turn[1][b] = y;
@@ -45,12 +42,14 @@ void ali3_tree_joints(const ali3_tree *T, ali3_tree_work *w) {
     w->shift[1][b] = r2 * x - r0 * z;
     w->shift[2][b] = r0 * y - r1 * x;
   }
-  if (T->slides) ALI3_FOR_LANES
-  for (int32_t b = 0; b < T->lanes; b++)
-    for (int i = 0; i < 3; i++) {
-      w->shift[i][b] = T->turn[b] * w->shift[i][b] + T->slide[b] * w->turn[i][b];
-      w->turn[i][b] *= T->turn[b];
-    }
+  if (T->slides) {
+    ALI3_FOR_LANES
+    for (int32_t b = 0; b < T->lanes; b++)
+      for (int i = 0; i < 3; i++) {
+        w->shift[i][b] = T->turn[b] * w->shift[i][b] + T->slide[b] * w->turn[i][b];
+        w->turn[i][b] *= T->turn[b];
+      }
+  }
 }
 
 /* Velocities, and what their products with the frames add to the accelerations. */

@@ -1,6 +1,6 @@
 /* Relative coordinates along a spanning tree of the bodies: what the files of the semi-recursive method share.
  * Everything is in earth axes with respect to the origin of the earth, so that what belongs to a body adds up along the
- * tree without transformations. Quantities are arrays over bodies ("lanes"), body 0 is the ground; loops over lanes
+ * tree without transformations. Most quantities are arrays over bodies ("lanes"), body 0 is the ground; loops over lanes
  * have no branches and no dependence from body to body, recursions along the tree have little arithmetic. */
 #ifndef ALI3_TREE_H
 #define ALI3_TREE_H
@@ -9,6 +9,7 @@
 enum { ALI3_MOST_JOINTS = 64, ALI3_LANES = 66, ALI3_MOST_CUT_ROWS = 64 };
 typedef double ali3_lanes[ALI3_LANES];
 
+/* Before a loop whose rounds do not depend on each other; never before a sum, which it would allow to be reordered. */
 #if defined(__clang__)
 #define ALI3_FOR_LANES _Pragma("clang loop vectorize(assume_safety) interleave(disable) unroll(disable)")
 #define ALI3_SHORT _Pragma("clang loop unroll(disable) vectorize(disable)")
@@ -33,8 +34,9 @@ struct ali3_tree {
 
 struct ali3_tree_work {
   ali3_lanes q, qd, sine, cosine;
-  ali3_lanes relative[3][2];              /* first two axes of the frame in the frame of the parent */
-  ali3_lanes axis[3][3], origin[3];       /* [i][k]: component i of axis k */
+  double relative[ALI3_LANES][3][4];      /* axes and origin of the frame in the frame of the parent */
+  double frame[ALI3_LANES][3][4]; /* [b][i]: component i of the axes of body b and of the way from its parent */
+  ali3_lanes origin[3];
   ali3_lanes turn[3], shift[3]; /* motion per unit rate of the joint: angular, and linear at the earth's origin */
   ali3_lanes spin[3], drift[3]; /* angular velocity, linear velocity at the earth's origin */
   ali3_lanes spin_rate[3], drift_rate[3]; /* their rates without those of the joint rates, gravity taken off */

@@ -39,7 +39,11 @@ void ali3_tree_derive(const ali3_system *s, ali3_tree *T) {
 /* The ground, and gravity where no forces of the System bring it; zeroed memory is given. */
 void ali3_tree_start(const ali3_system *s, ali3_tree_work *w) {
   for (int i = 0; i < 3; i++) {
-    w->axis[i][i][0] = 1.0;
+    w->frame[0][i][i] = 1.0;
+    for (int32_t b = 1; b <= s->tree->n; b++) {
+      w->relative[b][i][2] = s->tree->base[i][2][b];
+      w->relative[b][i][3] = s->tree->place[i][b];
+    }
     w->gravity[i] = s->size.ne > 0 ? 0.0 : s->tree->gravity[i];
   }
 }

@@ -7,7 +7,7 @@ static void bodies(const ali3_tree *T, ali3_tree_work *w) {
   for (int32_t b = 0; b < T->lanes; b++) {
     double c[3], e[3], rc[3];
     for (int i = 0; i < 3; i++) {
-      const double x = w->axis[i][0][b], y = w->axis[i][1][b], z = w->axis[i][2][b];
+      const double x = w->frame[b][i][0], y = w->frame[b][i][1], z = w->frame[b][i][2];
       rc[i] = x * T->centre[0][b] + y * T->centre[1][b] + z * T->centre[2][b];
       c[i] = w->origin[i][b] + rc[i];
       e[i] = x * T->first_axis[0][b] + y * T->first_axis[1][b] + z * T->first_axis[2][b];
@@ -21,19 +21,21 @@ static void bodies(const ali3_tree *T, ali3_tree_work *w) {
     w->inertia[5][b] = k0 * e[1];
     for (int i = 0; i < 3; i++) w->moment[i][b] = c[i];
   }
-  if (T->asymmetric) ALI3_FOR_LANES
-  for (int32_t b = 0; b < T->lanes; b++) {
-    double e[3];
-    for (int i = 0; i < 3; i++)
-      e[i] = w->axis[i][0][b] * T->second_axis[0][b] + w->axis[i][1][b] * T->second_axis[1][b] +
-             w->axis[i][2][b] * T->second_axis[2][b];
-    const double k0 = T->second[b] * e[0], k1 = T->second[b] * e[1], k2 = T->second[b] * e[2];
-    w->inertia[0][b] += k0 * e[0];
-    w->inertia[1][b] += k1 * e[1];
-    w->inertia[2][b] += k2 * e[2];
-    w->inertia[3][b] += k1 * e[2];
-    w->inertia[4][b] += k2 * e[0];
-    w->inertia[5][b] += k0 * e[1];
+  if (T->asymmetric) {
+    ALI3_FOR_LANES
+    for (int32_t b = 0; b < T->lanes; b++) {
+      double e[3];
+      for (int i = 0; i < 3; i++)
+        e[i] = w->frame[b][i][0] * T->second_axis[0][b] + w->frame[b][i][1] * T->second_axis[1][b] +
+               w->frame[b][i][2] * T->second_axis[2][b];
+      const double k0 = T->second[b] * e[0], k1 = T->second[b] * e[1], k2 = T->second[b] * e[2];
+      w->inertia[0][b] += k0 * e[0];
+      w->inertia[1][b] += k1 * e[1];
+      w->inertia[2][b] += k2 * e[2];
+      w->inertia[3][b] += k1 * e[2];
+      w->inertia[4][b] += k2 * e[0];
+      w->inertia[5][b] += k0 * e[1];
+    }
   }
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {

@@ -28,8 +28,8 @@ static cut cut_of(const ali3_system *S, const ali3_tree_work *w, int32_t c) {
            .points = S->tree_cut_rows[2 * c],
            .axes = S->tree_cut_rows[2 * c + 1]};
   for (int i = 0; i < 3; i++) {
-    const double x = w->axis[i][0][k.first], y = w->axis[i][1][k.first], z = w->axis[i][2][k.first];
-    const double u = w->axis[i][0][k.second], v = w->axis[i][1][k.second], t = w->axis[i][2][k.second];
+    const double x = w->frame[k.first][i][0], y = w->frame[k.first][i][1], z = w->frame[k.first][i][2];
+    const double u = w->frame[k.second][i][0], v = w->frame[k.second][i][1], t = w->frame[k.second][i][2];
     k.p[i] = w->origin[i][k.first] + (x * place[0] + y * place[1] + z * place[2]);
     k.n[0][i] = x * place[3] + y * place[4] + z * place[5];
     k.n[1][i] = x * place[6] + y * place[7] + z * place[8];

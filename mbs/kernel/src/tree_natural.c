@@ -79,7 +79,7 @@ void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd
     double r[3], spin[3], rate[3], v[3], turned[3], vd[3], bent[3];
     for (int i = 0; i < 3; i++) {
       r[i] = o * w->origin[i][b] +
-             (w->axis[i][0][b] * local[1] + w->axis[i][1][b] * local[2] + w->axis[i][2][b] * local[3]);
+             (w->frame[b][i][0] * local[1] + w->frame[b][i][1] * local[2] + w->frame[b][i][2] * local[3]);
       spin[i] = w->spin[i][b];
       rate[i] = w->spin_rate[i][b];
     }
@@ -107,7 +107,7 @@ void ali3_tree_load(const ali3_instance *in, const double *Q) {
     double r[3], force[3], torque[3];
     for (int i = 0; i < 3; i++) {
       r[i] = o * w->origin[i][b] +
-             (w->axis[i][0][b] * local[1] + w->axis[i][1][b] * local[2] + w->axis[i][2][b] * local[3]);
+             (w->frame[b][i][0] * local[1] + w->frame[b][i][1] * local[2] + w->frame[b][i][2] * local[3]);
       force[i] = column[i] < 0 ? 0.0 : Q[column[i]];
     }
     cross(r, force, torque);
