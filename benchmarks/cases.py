@@ -186,7 +186,7 @@ CASES: dict[str, Case] = {
         spatial_chain.build,
         tuple(f"tip.position.{c}" for c in "xyz"),
         10.0,
-        (1, 2, 4, 10, 20, 40, 100, 200, 400),
+        (1, 2, 3, 4, 6, 10, 20, 40, 100, 200, 400),
         None,
         2.0,
     ),

@@ -13,21 +13,28 @@ TITLES = {
     "energy_momentum": "energy-momentum",
     "energy_momentum_4": "energy-momentum, order 4",
     "runge_kutta_8": "Runge-Kutta, order 8",
+    "semi_recursive": "semi-recursive, order 8",
+    "semi_recursive_4": "semi-recursive, order 4",
 }
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13}
 CONSERVATIVE_ONLY = ("energy_momentum_4",)
+TREE_ONLY = ("semi_recursive", "semi_recursive_4")
 
 
-def settings_of(name: str, conservative: bool) -> dict[str, mbs.Settings]:
+def suits(name: str, conservative: bool, tree: bool) -> bool:
+    """Whether a method takes a scene: one without dissipation, one whose System has a spanning tree."""
+    return (conservative or name not in CONSERVATIVE_ONLY) and (tree or name not in TREE_ONLY)
+
+
+def settings_of(name: str) -> dict[str, mbs.Settings]:
     """Settings by title; the default method also with tight tolerances, which small errors need."""
-    if name in CONSERVATIVE_ONLY and not conservative:
-        return {}
     title = TITLES.get(name, name)
     if name == "ali3p":
         return {title: mbs.Settings(method=name), f"{title}, tight": mbs.Settings(method=name, **TIGHT)}
     return {title: mbs.Settings(method=name)}
 
 
-def all_settings(conservative: bool) -> dict[str, mbs.Settings]:
+def all_settings(conservative: bool, tree: bool) -> dict[str, mbs.Settings]:
     """All methods of the kernel that suit a scene."""
-    return {title: s for name in KERNEL for title, s in settings_of(name, conservative).items()}
+    names = [name for name in KERNEL if suits(name, conservative, tree)]
+    return {title: s for name in names for title, s in settings_of(name).items()}

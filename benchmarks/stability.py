@@ -20,7 +20,7 @@ from benchmarks.baselines.run import run
 from benchmarks.cases import CASES, exact_of, size_of, system_of
 from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table
-from benchmarks.kernel_methods import TITLES
+from benchmarks.kernel_methods import TITLES, suits
 from benchmarks.stability_chart import draw
 from mbs.settings import METHODS as KERNEL
 
@@ -177,8 +177,9 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
             BAUMGARTE[1:2],
         )
     todo: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
+    tree = not system_of(scene).report["no_tree"]
     for method in KERNEL:
-        if method == "energy_momentum_4" and not case.conservative:
+        if not suits(method, case.conservative, tree):
             continue
         todo += [(kernel_point, method, float(h), e) for h in steps for e in [None, *map(float, eps)]]
     for method in CLASSICAL if case.classical else ():

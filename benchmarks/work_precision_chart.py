@@ -11,7 +11,7 @@ from benchmarks.common import machine
 
 COLOURS = ("#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00", "#000000")
 """Okabe and Ito."""
-MARKERS = "osD^vPX"
+MARKERS = "osD^vPX<>"
 LINES = {"kernel": "-", "classical": ":"}
 PEERS = "--"
 

@@ -14,6 +14,8 @@ METHODS = {
     "energy_momentum": {"method": 2},
     "energy_momentum_4": {"method": 3},
     "runge_kutta_8": {"method": 4},
+    "semi_recursive": {"method": 5},
+    "semi_recursive_4": {"method": 6},
 }
 """Names of the methods and what each sets in the kernel."""
 
@@ -51,7 +53,10 @@ class Settings:
         a conservative model and takes out of any other what its dampers take; "energy_momentum_4" composes five such
         steps to order four, for conservative models without element states only;
         "runge_kutta_8" is explicit, of order eight, for smooth motion without stiff forces, element states or singular
-        positions.
+        positions;
+        "semi_recursive" is the same rule in relative coordinates along a spanning tree of rigid bodies on revolute and
+        prismatic joints, many times as fast; "semi_recursive_4" the same with the classical rule of order four, for
+        coarse errors.
     predictor : {"parabola", "acceleration"}
         Start value of a step of ALi3-P: accelerations and multipliers of past steps go on along a parabola where they
         are smooth, or the present ones stay, as in the paper. The first needs fewer iterations.

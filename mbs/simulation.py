@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mbs.input_signals import InputSignals, Signal
 from mbs.kernel.binding import (
     BELOW_ROAD,
+    NO_TREE,
     UNRESOLVED,
     WRONG_METHOD,
     Instance,
@@ -302,6 +303,9 @@ class Simulation:
             return SimulationError(
                 f"{message} The method is {self.settings.method!r}.", self.time, error.status, trajectory
             )
+        if error.status == NO_TREE:
+            reason = f"Here {self._meta['report']['no_tree']}. The method is {self.settings.method!r}."
+            return SimulationError(f"{message} {reason}", self.time, error.status, trajectory)
         if error.status == BELOW_ROAD:
             message += f" {self.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
             return SimulationError(message, self.time, error.status, trajectory)

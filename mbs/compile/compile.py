@@ -33,6 +33,7 @@ from mbs.compile.row_scale import row_scale
 from mbs.compile.rows import rigid_rows
 from mbs.compile.start import guide_start, reference_position, velocity
 from mbs.compile.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
+from mbs.compile.tree import tree_arrays
 from mbs.errors import ModelError
 from mbs.model.equation import Equation
 from mbs.model.model import Model
@@ -95,6 +96,7 @@ def compile(model: Model) -> System:
     signals = Signals(full, new)
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
+    tree, no_tree = tree_arrays(model, signals, kept, new)
     tables: dict[str, Any] = {
         "q0": q,
         "qd0": qd,
@@ -116,6 +118,7 @@ def compile(model: Model) -> System:
         **channel_arrays(model),
         **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, kept, of_z, q[new], order),
+        **tree,
         **signals.arrays(),
     }
     report = {
@@ -124,6 +127,7 @@ def compile(model: Model) -> System:
         "redundant_equations": redundant,
         "dependent_rows": dependent,
         "tangent_nonzeros": tangent_nonzeros,
+        "no_tree": no_tree,
     }
     system = System(tables, metadata(model, [natural.info[kept[k]].name for k in order], rows, report))
     if not model.start_in_equilibrium:

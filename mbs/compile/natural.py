@@ -67,7 +67,7 @@ Choice = tuple[str, float, Array]
 
 
 def _describe(body: Body, info: list[NaturalCoordinate], expressions: list[Affine]) -> None:
-    chosen = _choose(body)
+    chosen = choose(body)
     d = body.dimension
     if d == 3:
         G = np.array([[o, *w] for _, o, w in chosen]).T
@@ -88,7 +88,7 @@ def _describe(body: Body, info: list[NaturalCoordinate], expressions: list[Affin
             info[body.start + d * n + k] = NaturalCoordinate(f"{body.name}.{name}{'xyz'[k]}", kind, k, reference)
 
 
-def _choose(body: Body) -> list[Choice]:
+def choose(body: Body) -> list[Choice]:
     """Independent points and vectors: joints first, then the frame of the body."""
     size, d = body_length(body), body.dimension
     frame: list[Choice] = [("r", 1.0, np.zeros(d))]

@@ -28,7 +28,8 @@ from typing import Any
     WRONG_METHOD,
     BELOW_ROAD,
     UNRESOLVED,
-) = range(1, 13)
+    NO_TREE,
+) = range(1, 14)
 """Codes of `ali3_status` beside 0."""
 
 

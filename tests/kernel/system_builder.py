@@ -15,6 +15,7 @@ REALS = {
     "input_min", "input_max", "guide_real", "road_real", "par_value", "par_min", "par_max", "par_scale", "pose_0",
     "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed", "sen_real",
     "velocity_h", "flex_gravity", "flex_P", "flex_c", "flex_T", "flex_K", "flex_C",
+    "tree_base", "tree_mass", "tree_centre", "tree_inertia", "tree_gravity", "tree_out_local", "tree_cut_place",
 }  # fmt: skip
 INTS = {
     "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
@@ -25,6 +26,7 @@ INTS = {
     "el_front", "el_loc_ptr", "el_loc", "guide_type", "guide_input", "guide_real_ptr", "road_type", "road_real_ptr",
     "par_ptr", "par_target", "par_index", "sen_type", "sen_int_ptr", "sen_int", "sen_real_ptr",
     "flex_mode_ptr", "flex_frame", "flex_mode", "flex_front", "flex_loc",
+    "tree_parent", "tree_slides", "tree_frame", "tree_out_body", "tree_out_col", "tree_cut_body", "tree_cut_rows",
 }  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from mbs.kernel import build
 ERROR, INVERSE_ERROR = 2.5, 5.0
 SAMPLES = 20000
 _ONE = ("sin", "cos", "exp", "tanh", "asin")
+_BOTH = {"both_sin": "sin", "both_cos": "cos"}
 
 
 @pytest.fixture(scope="module")
@@ -24,13 +25,16 @@ def functions(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Callable[..
     shown += '#define SHOW __attribute__((visibility("default")))\n#endif\n'
     shown += "".join(f"SHOW double show_{f}(double x) {{ return ali3_{f}(x); }}\n" for f in _ONE)
     shown += "SHOW double show_atan2(double y, double x) { return ali3_atan2(y, x); }\n"
+    for k, f in enumerate(_BOTH):
+        shown += f"SHOW double show_{f}(double x) {{\n  double v[2];\n  ali3_sine_cosine(1, &x, v, v + 1);\n"
+        shown += f"  return v[{k}];\n}}\n"
     source = folder / "shown.c"
     source.write_text(shown, encoding="utf-8")
     library = folder / build.library_name(build.host_target())
     build.compile_c([source], build.host_target(), library, include=(build.HERE / "src",), what="the test")
     loaded = ctypes.CDLL(str(library))
     made: dict[str, Callable[..., float]] = {}
-    for name in (*_ONE, "atan2"):
+    for name in (*_ONE, *_BOTH, "atan2"):
         function = getattr(loaded, f"show_{name}")
         function.restype = ctypes.c_double
         function.argtypes = [ctypes.c_double] * (2 if name == "atan2" else 1)
@@ -48,6 +52,10 @@ def distance(value: float, expected: float) -> float:
         ("sin", -1000.0, 1000.0, ERROR),
         ("cos", -1000.0, 1000.0, ERROR),
         ("sin", -1e6, 1e6, ERROR),
+        ("both_sin", -4.0, 4.0, ERROR),
+        ("both_cos", -4.0, 4.0, ERROR),
+        ("both_sin", -1e4, 1e4, ERROR),
+        ("both_cos", -1e4, 1e4, ERROR),
         ("exp", -700.0, 700.0, ERROR),
         ("exp", -1.0, 1.0, ERROR),
         ("tanh", -25.0, 25.0, INVERSE_ERROR),
@@ -62,7 +70,7 @@ def test_of_one_argument(
     worst = 0.0
     for _ in range(SAMPLES):
         x = rng.uniform(low, high)
-        worst = max(worst, distance(functions[name](x), getattr(math, name)(x)))
+        worst = max(worst, distance(functions[name](x), getattr(math, _BOTH.get(name, name))(x)))
     assert worst <= error
 
 

@@ -33,6 +33,7 @@ typedef enum {
   ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
   ALI3_BELOW_ROAD,        /* a start with a tyre deeper in the road than its radius; see ali3_start_lift */
   ALI3_UNRESOLVED, /* the motion is too fast for the step: energy came or went without a force, also in halves */
+  ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -41,12 +42,14 @@ typedef struct ali3_instance ali3_instance;
 
 enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
 
-enum { /* ali3_settings.method */
-       ALI3_METHOD_ALI3P = 0, /* trapezoidal rule with projections */
-       ALI3_METHOD_GENERALISED_ALPHA, /* the same with generalised-alpha, rho_infinity */
-       ALI3_METHOD_ENERGY_MOMENTUM, /* discrete derivatives of rows and potentials; keeps energy */
-       ALI3_METHOD_ENERGY_MOMENTUM_4, /* five of them, order four; conservative Systems only */
-       ALI3_METHOD_RUNGE_KUTTA_8, /* explicit, index one, order eight; no element states */
+enum {                    /* ali3_settings.method */
+       ALI3_METHOD_ALI3P = 0,              /* trapezoidal rule with projections */
+       ALI3_METHOD_GENERALISED_ALPHA,      /* the same with generalised-alpha, rho_infinity */
+       ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
+       ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
+       ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
+       ALI3_METHOD_SEMI_RECURSIVE,         /* explicit, relative coordinates, order eight; no element states */
+       ALI3_METHOD_SEMI_RECURSIVE_4,       /* the same of order four, for coarse errors */
        ALI3_METHOD_COUNT
 };
 

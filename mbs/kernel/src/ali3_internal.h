@@ -41,7 +41,11 @@
   X(double, 2, sen_real) \
   X(int32_t, 1, flex_mode_ptr) X(int32_t, 1, flex_frame) X(int32_t, 1, flex_mode) X(int32_t, 1, flex_front) \
   X(int32_t, 1, flex_loc) X(double, 2, flex_gravity) X(double, 2, flex_P) X(double, 2, flex_c) X(double, 2, flex_T) \
-  X(double, 2, flex_K) X(double, 2, flex_C)
+  X(double, 2, flex_K) X(double, 2, flex_C) \
+  X(int32_t, 1, tree_parent) X(int32_t, 1, tree_slides) X(double, 2, tree_base) X(double, 2, tree_mass) \
+  X(double, 2, tree_centre) X(double, 2, tree_inertia) X(double, 2, tree_gravity) X(int32_t, 1, tree_frame) \
+  X(int32_t, 1, tree_out_body) X(double, 2, tree_out_local) X(int32_t, 1, tree_out_col) \
+  X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place)
 /* clang-format on */
 
 /* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */
@@ -60,6 +64,9 @@ typedef struct {
   int32_t row, guide, power;
 } ali3_guide_term;
 
+typedef struct ali3_tree ali3_tree;           /* tree.h: what relative coordinates need of a System */
+typedef struct ali3_tree_work ali3_tree_work; /* tree.h: their work space */
+
 struct ali3_system {
 #define ALI3_DECLARE(type, number, name) const type *name;
   ALI3_SYSTEM_ARRAYS(ALI3_DECLARE)
@@ -75,6 +82,7 @@ struct ali3_system {
   int32_t max_front; /* largest front */
   double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
   int32_t n_flexible, max_modes; /* flexible bodies, most modes of one */
+  bool senses_rows; /* a sensor reads multipliers */
   /* derived at load, in one block */
   void *derived;
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q */
@@ -101,6 +109,7 @@ struct ali3_system {
   int32_t *el_coordinate_loc;  /* local index in the front, ascending */
   int32_t *active_signal;      /* signals that elements use */
   int32_t *flex_square;        /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
+  ali3_tree *tree;             /* NULL: the System has none */
   int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
 };
 
@@ -140,6 +149,7 @@ struct ali3_instance {
   ali3_vectors now, next, start, whole, tangent;
   ali3_rule rule;
   bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
+  bool sampled; /* only sensors will look at it */
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */
@@ -163,6 +173,7 @@ struct ali3_instance {
   double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
   double wC, wK; /* weights of the last forces */
   double *y_work, *out_work, *potential_work, *parameter_work;
+  ali3_tree_work *tree;
 };
 
 enum { ALI3_LOCAL = ALI3_MAX_SIGNALS };
@@ -293,6 +304,17 @@ void ali3_energy_momentum_report(ali3_instance *in);
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
 void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam);
 void ali3_history_append(ali3_instance *in, double h, const double *a);
+
+/* index_one.c */
+#define ALI3_INDEX_ONE_PENALTY 1e8 /* of mass-normalised rows, with unit weight of M */
+ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v);
+
+/* check_tree.c */
+ali3_status ali3_check_tree(const ali3_system *s, ali3_message m);
+
+/* semi_recursive.c */
+ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h);
+void ali3_semi_recursive_report(ali3_instance *in);
 
 /* runge_kutta.c */
 ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h);

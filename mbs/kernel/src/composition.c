@@ -27,7 +27,9 @@ static bool conservative(const ali3_instance *in, int32_t e) {
 ali3_status ali3_check_method(ali3_instance *in) {
   const ali3_system *S = in->system;
   const int32_t method = in->settings.method;
-  if (method != ALI3_METHOD_ENERGY_MOMENTUM_4 && method != ALI3_METHOD_RUNGE_KUTTA_8) return ALI3_OK;
+  const bool relative = method == ALI3_METHOD_SEMI_RECURSIVE || method == ALI3_METHOD_SEMI_RECURSIVE_4;
+  if (relative && S->tree == NULL) return ALI3_NO_TREE;
+  if (!relative && method != ALI3_METHOD_ENERGY_MOMENTUM_4 && method != ALI3_METHOD_RUNGE_KUTTA_8) return ALI3_OK;
   if (S->size.ny > 0) return ALI3_WRONG_METHOD;
   for (int32_t g = 0; g < S->size.ng; g++)
     if (S->guide_type[g] == 1) return ALI3_WRONG_METHOD;

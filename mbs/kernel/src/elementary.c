@@ -59,6 +59,26 @@ double ali3_sin(double x) { return x == 0.0 ? x : turned(x, 0); }
 
 double ali3_cos(double x) { return turned(x, 1); }
 
+/* To the nearest whole number, even at halves, by adding a number whose last bit is one. */
+static double nearest(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
+
+/* With k quarter turns taken off, k = 2 h + d and d -1, 0 or 1, (-1)^h turns the signs. */
+void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine) {
+#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety) interleave(disable)
+#endif
+  for (int i = 0; i < n; i++) {
+    const double k = nearest(x[i] * TWO_OVER_PI), a = x[i] - k * HALF_PI_1, b = k * HALF_PI_2;
+    const double near = a - b, lost = ((a - near) - b) - k * HALF_PI_3;
+    const double r = near + lost, rest = (near - r) + lost;
+    const double h = nearest(0.5 * k), d = k - 2.0 * h, e = h - 2.0 * nearest(0.5 * h);
+    const double sign = 1.0 - 2.0 * (e * e), stay = 1.0 - d * d;
+    const double s = sine_near(r, rest), c = cosine_near(r, rest);
+    sine[i] = sign * (stay * s + d * c);
+    cosine[i] = sign * (stay * c - d * s);
+  }
+}
+
 /* exp(r) - 1 for |r| <= 0.35 */
 static double exp_near(double r) {
   static const double c[] = {1.0 / 2.0,       1.0 / 6.0,        1.0 / 24.0,        1.0 / 120.0,

@@ -9,4 +9,5 @@ double ali3_exp(double x);
 double ali3_tanh(double x);
 double ali3_atan2(double y, double x);
 double ali3_asin(double x);
+void ali3_sine_cosine(int n, const double *x, double *sine, double *cosine); /* of n angles, without branches */
 #endif

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "ali3_internal.h"
+#include "tree.h"
 
 const char *ali3_status_text(ali3_status s) {
   static const char *const text[ALI3_STATUS_COUNT] = {
@@ -19,6 +19,7 @@ const char *ali3_status_text(ali3_status s) {
       "this method takes no element states or filtered guides and, if it also steps backwards in time, no damping",
       "a tyre starts deeper in the road than its radius",
       "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
+      "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -91,15 +92,20 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
                        (size_t)s->max_front + ny + nout + ne;
   const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
-               roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u;
+               roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
+               tree = s->tree != NULL ? (sizeof(ali3_tree_work) + 15u) / 16u * 16u : 0;
   *out = NULL;
-  char *block = s->memory.allocate(1, head + roads + (total + n_flex + n_flex_work) * sizeof(double));
+  char *block = s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work) * sizeof(double));
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
-  double *pool = (double *)(block + head + roads);
+  double *pool = (double *)(block + head + roads + tree);
   in->system = s;
   in->release = s->memory.release;
   in->road = (ali3_road *)(block + head);
+  if (s->tree != NULL) {
+    in->tree = (ali3_tree_work *)(block + head + roads);
+    ali3_tree_start(s, in->tree);
+  }
   in->n_vector = n_vector;
   place_vectors(s, &in->now, &pool);
   place_vectors(s, &in->next, &pool);

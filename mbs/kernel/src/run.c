@@ -64,13 +64,15 @@ static ali3_status step(ali3_instance *in, double h) {
 ali3_status ali3_step(ali3_instance *in, double h) {
   if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const ali3_status status = ali3_check_method(in);
-  in->quiet = false;
+  in->quiet = in->sampled = false;
   return status == ALI3_OK ? step(in, h) : status;
 }
 
 /* After quiet steps the last good state may lack what only a reader needs. */
 static ali3_status give_up(ali3_instance *in, ali3_status status) {
   if (in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM) ali3_energy_momentum_report(in);
+  if (in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE && in->tree != NULL)
+    ali3_semi_recursive_report(in);
   return status;
 }
 
@@ -89,6 +91,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
       }
     const bool recorded = out != NULL && (n + 1) % every == 0;
     in->quiet = !recorded && n + 1 < n_steps;
+    in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h);
     if (status != ALI3_OK) return give_up(in, status);
     if (done != NULL) *done = n + 1;

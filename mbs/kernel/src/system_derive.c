@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ali3_internal.h"
+#include "tree.h"
 
 enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
 
@@ -50,6 +50,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_coordinate_loc = take(p, n_entry, sizeof(int32_t));
   s->active_signal = take(p, (size_t)s->size.nsig, sizeof(int32_t));
   s->flex_square = take(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
+  s->tree = s->n_tree_parent > 0 ? take(p, 1, sizeof *s->tree) : NULL;
 }
 
 /* Front storage index of the product of entries i >= j of the Jacobian in row k. */
@@ -254,6 +255,9 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_mass(s);
   derive_elements(s);
   derive_flexible(s);
+  if (s->tree != NULL) ali3_tree_derive(s, s->tree);
+  for (int32_t i = 0; i < s->size.ns; i++)
+    s->senses_rows = s->senses_rows || s->sen_type[i] == 9 || s->sen_type[i] == 17;
   s->shift_x = s->shift_y = s->shift_z = -1;
   if (s->size.has_pose) {
     s->shift_x = first_nonzero(s->pose_x, s->size.nq);

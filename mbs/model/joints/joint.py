@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
 from mbs.errors import ModelError
 from mbs.model.equation import Equation
+
+if TYPE_CHECKING:
+    from mbs.model.body import Body
+
+
+@dataclass(frozen=True)
+class JointPlaces:
+    """Where a joint sits: its bodies and, on each in earth axes as drawn, its point and axis (if it has one)."""
+
+    bodies: tuple[Body, Body]
+    points: tuple[Any, Any]
+    axes: tuple[Any, Any] | None = None
 
 
 class Joint:
@@ -27,6 +40,8 @@ class Joint:
         Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
     normals : sequence of AffineVector
         Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
+    places : JointPlaces or None
+        Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
     """
 
     def __init__(
@@ -36,12 +51,14 @@ class Joint:
         equations: Sequence[Equation],
         rows_weight: float = 0.0,
         normals: Sequence[AffineVector] = (),
+        places: JointPlaces | None = None,
     ) -> None:
         self.name = name
         self.type = type
         self.equations = list(equations)
         self.rows_weight = rows_weight
         self.normals = tuple(normals)
+        self.places = places
         self.keep = False
         self.switch: Any = None
 

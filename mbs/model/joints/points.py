@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
-from mbs.model.joints.joint import Joint, equal_vectors, point_pair
+from mbs.model.joints.joint import Joint, JointPlaces, equal_vectors, point_pair
 
 _BIG = 1.0 - 1e-12
 
@@ -59,7 +59,8 @@ def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     different(body_1, body_2, what)
     p1, p2 = point_pair(point, model.dimension, what)
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
-    return Joint(name, "spherical", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
+    equations = shared_point(model, name, body_1, body_2, point, what)
+    return Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
 
 
 def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike | None) -> Joint:
@@ -75,7 +76,9 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
         equations += shared_axis(model, name, body_1, body_2, axis, what)
     elif axis is not None:
         raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
-    return Joint(name, "revolute", equations, rows_weight=1.0)
+    axes = None if axis is None else point_pair(axis, 3, what)
+    places = JointPlaces((body_1, body_2), (p1, p2), axes)
+    return Joint(name, "revolute", equations, rows_weight=1.0, places=places)
 
 
 def universal(

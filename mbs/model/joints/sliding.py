@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import Interface, bends, located
-from mbs.model.joints.joint import Joint, equal_vectors, point_pair
+from mbs.model.joints.joint import Joint, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import different, may_share, shared_axis, shared_point
 
 
@@ -90,7 +90,8 @@ def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     p1, p2 = point_pair(point, model.dimension, what)
     equations = same_orientation(model, name, body_1, body_2, what)
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
-    return Joint(name, "prismatic", equations + line, normals=normals)
+    places = JointPlaces((body_1, body_2), (p1, p2), (axis, axis))
+    return Joint(name, "prismatic", equations + line, normals=normals, places=places)
 
 
 def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
@@ -102,4 +103,5 @@ def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
         point = body_1.com if body_1.is_point else body_2.com
         return Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
     equations = shared_point(model, name, body_1, body_2, point, what)
-    return Joint(name, "weld", equations + same_orientation(model, name, body_1, body_2, what), rows_weight=1.0)
+    equations += same_orientation(model, name, body_1, body_2, what)
+    return Joint(name, "weld", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (point, point)))

@@ -1,0 +1,62 @@
+/* Tree of a System: lengths, parents before children, places, and that nothing else moves the bodies. */
+#include "check.h"
+#include "tree.h"
+
+static ali3_status check_cuts(const ali3_system *s, int64_t n, ali3_message m) {
+  const int64_t cuts = s->n_tree_cut_body / 2;
+  int64_t rows = 0;
+  CHECK(ali3_check_length(m, "tree_cut_body", s->n_tree_cut_body, 2 * cuts));
+  CHECK(ali3_check_length(m, "tree_cut_rows", s->n_tree_cut_rows, 2 * cuts));
+  CHECK(ali3_check_length(m, "tree_cut_place", s->n_tree_cut_place, 15 * cuts));
+  CHECK(ali3_check_indices(m, "tree_cut_body", s->tree_cut_body, 2 * cuts, 0, n + 1));
+  for (int64_t c = 0; c < cuts; c++) {
+    CHECK(ali3_check_indices(m, "tree_cut_rows", s->tree_cut_rows + 2 * c, 1, 0, 4));
+    CHECK(ali3_check_indices(m, "tree_cut_rows", s->tree_cut_rows + 2 * c + 1, 1, 0, 3));
+    rows += s->tree_cut_rows[2 * c] + s->tree_cut_rows[2 * c + 1];
+    if (rows > ALI3_MOST_CUT_ROWS)
+      return ali3_bad(m, "the cut joints of the tree have more than %d rows", ALI3_MOST_CUT_ROWS);
+  }
+  if (rows + 4 * n + 1 > (1 + ALI3_PAST) * (int64_t)s->size.nq)
+    return ali3_bad(m, "a tree of %lld joints for %d coordinates", (long long)n, (int)s->size.nq);
+  return ALI3_OK;
+}
+
+/* As many components of points and vectors as there are coordinates. */
+static ali3_status check_coordinates(const ali3_system *s, int64_t n, ali3_message m) {
+  const int64_t parts = s->n_tree_out_body;
+  CHECK(ali3_check_length(m, "tree_out_local", s->n_tree_out_local, 4 * parts));
+  CHECK(ali3_check_length(m, "tree_out_col", s->n_tree_out_col, 3 * parts));
+  CHECK(ali3_check_indices(m, "tree_out_body", s->tree_out_body, parts, 1, n + 1));
+  CHECK(ali3_check_indices(m, "tree_out_col", s->tree_out_col, 3 * parts, -1, s->size.nq));
+  int64_t named = 0;
+  for (int64_t i = 0; i < 3 * parts; i++) named += s->tree_out_col[i] >= 0;
+  if (named != s->size.nq)
+    return ali3_bad(m, "the bodies of the tree name %lld coordinates of %d", (long long)named, (int)s->size.nq);
+  return ALI3_OK;
+}
+
+ali3_status ali3_check_tree(const ali3_system *s, ali3_message m) {
+  const int64_t n = s->n_tree_parent;
+  if (n > ALI3_MOST_JOINTS) return ali3_bad(m, "the tree has %lld joints", (long long)n);
+  CHECK(ali3_check_length(m, "tree_slides", s->n_tree_slides, n));
+  CHECK(ali3_check_length(m, "tree_base", s->n_tree_base, 12 * n));
+  CHECK(ali3_check_length(m, "tree_mass", s->n_tree_mass, n));
+  CHECK(ali3_check_length(m, "tree_centre", s->n_tree_centre, 3 * n));
+  CHECK(ali3_check_length(m, "tree_inertia", s->n_tree_inertia, 9 * n));
+  CHECK(ali3_check_length(m, "tree_frame", s->n_tree_frame, 12 * n));
+  CHECK(ali3_check_length(m, "tree_gravity", s->n_tree_gravity, n > 0 ? 3 : 0));
+  CHECK(ali3_check_indices(m, "tree_slides", s->tree_slides, n, 0, 2));
+  CHECK(ali3_check_indices(m, "tree_frame", s->tree_frame, 12 * n, 0, s->size.nsig));
+  for (int64_t b = 0; b < n; b++) CHECK(ali3_check_indices(m, "tree_parent", s->tree_parent + b, 1, 0, b + 1));
+  if (n == 0) {
+    CHECK(ali3_check_length(m, "tree_out_body", s->n_tree_out_body, 0));
+    CHECK(ali3_check_length(m, "tree_out_local", s->n_tree_out_local, 0));
+    CHECK(ali3_check_length(m, "tree_out_col", s->n_tree_out_col, 0));
+    CHECK(ali3_check_length(m, "tree_cut_body", s->n_tree_cut_body, 0));
+    CHECK(ali3_check_length(m, "tree_cut_rows", s->n_tree_cut_rows, 0));
+    return ali3_check_length(m, "tree_cut_place", s->n_tree_cut_place, 0);
+  }
+  if (s->size.ng > 0 || X
+  CHECK(check_cuts(s, n, m));
+  return check_coordinates(s, n, m);
+}

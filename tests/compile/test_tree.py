@@ -1,0 +1,218 @@
+"""The spanning tree of a model, and what the loader refuses of it."""
+
+from __future__ import annotations
+
+import zlib
+
+import numpy as np
+import pytest
+
+from mbs import Model, compile
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.scenes import bricard, double_four_bar, pendulum, spatial_chain, spatial_slider_crank, spinning_beam
+from mbs.settings import METHODS
+from mbs.system import System
+from tests.methods.trees import branching
+
+SEED = 5
+SAME = 1e-10  # m, of coordinates from frames at a start closed to 1e-12
+
+
+def put(index, value):
+    def change(values):
+        values[index] = value
+        return values
+
+    return change
+
+
+def altered(system, **changes):
+    arrays = {name: np.array(values) for name, values in system.arrays.items()}
+    for name, change in changes.items():
+        arrays[name] = change(arrays[name])
+    return System(arrays, system.meta).to_bytes()
+
+
+def signals(system, q):
+    a = system.arrays
+    return np.array(
+        [
+            a["sig_const"][i] + a["sig_val"][k] @ q[a["sig_col"][k]]
+            for i, k in enumerate(map(slice, a["sig_ptr"][:-1], a["sig_ptr"][1:]))
+        ]
+    )
+
+
+@pytest.mark.parametrize(
+    "build",
+    [spatial_chain.build, bricard.build, double_four_bar.build, lambda: branching(True)],
+    ids=["chain", "Bricard", "four-bar", "branching"],
+)
+def test_frames_from_coordinates_are_right_handed_and_give_the_coordinates_back(build):
+    system = compile(build())
+    a = system.arrays
+    frames = signals(system, a["q0"])[a["tree_frame"]].reshape(-1, 4, 3)
+    for _, *axes in frames:
+        np.testing.assert_allclose(np.array(axes) @ np.array(axes).T, np.eye(3), atol=SAME)
+        assert np.linalg.det(axes) > 0.0
+    q = np.full(system.nq, np.nan)
+    for body, (o, *local), columns in zip(
+        a["tree_out_body"], a["tree_out_local"].reshape(-1, 4), a["tree_out_col"].reshape(-1, 3), strict=True
+    ):
+        origin, *axes = frames[body - 1]
+        v = o * origin + np.array(local) @ np.array(axes)
+        q[columns[columns >= 0]] = v[columns >= 0]
+    np.testing.assert_allclose(q, a["q0"], atol=SAME)
+
+
+def test_a_loop_is_cut_where_paths_stay_short():
+    a = compile(bricard.build()).arrays
+    assert list(a["tree_parent"]) == [0, 1, 2, 0, 4]  # two branches, the longest first
+    assert list(a["tree_cut_body"]) == [3, 5]
+    assert list(a["tree_cut_rows"]) == [3, 2]
+    planar = compile(double_four_bar.build()).arrays
+    assert list(planar["tree_cut_rows"]) == [2, 0, 2, 0]
+
+
+def test_a_prismatic_joint_is_never_the_one_that_is_cut():
+    m = Model("crank", dimension=2)
+    crank = m.body("crank", mass=1.0, com=(0.1, 0.0), inertia=0.01)
+    rod = m.body("rod", mass=1.0, com=(0.4, 0.0), inertia=0.02)
+    slider = m.body("slider", mass=1.0, com=(0.6, 0.0), inertia=0.01)
+    m.revolute("pivot", m.ground, crank, point=(0.0, 0.0))
+    m.revolute("pin", crank, rod, point=(0.2, 0.0))
+    m.revolute("wrist", rod, slider, point=(0.6, 0.0))
+    m.prismatic("rail", slider, m.ground, axis=(1.0, 0.0))
+    system = compile(m)
+    assert system.report["no_tree"] == ""
+    assert sorted(system.arrays["tree_slides"]) == [0, 0, 1]
+    assert len(system.arrays["tree_cut_body"]) == 2
+
+
+def test_welded_bodies_are_one_with_the_mass_of_both():
+    a = compile(branching(False)).arrays
+    assert len(a["tree_parent"]) == 4
+    np.testing.assert_allclose(sorted(a["tree_mass"]), [0.4, 0.7, 0.9 + 0.3, 2.0])
+
+
+def floating():
+    m = Model("floating", dimension=3)
+    first = m.body("first", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
+    second = m.body("second", mass=1.0, com=(1.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
+    m.revolute("knee", first, second, point=(0.5, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    return m
+
+
+@pytest.mark.parametrize(
+    ("build", "reason"),
+    [
+        (pendulum.build, "body 'bob' is a point mass"),
+        (lambda: spinning_beam.build(), "flexible"),
+        (spatial_slider_crank.build, "joint 'C' is neither revolute, prismatic, spherical nor a weld"),
+        (floating, "no revolute or prismatic joints lead from the ground to body 'first'"),
+        (lambda: double_four_bar.build(40), "81 joints and 80 rows of loops are more than 64 and 64"),
+    ],
+    ids=["point", "flexible", "distance", "floating", "large"],
+)
+def test_what_has_no_tree_says_why_and_has_empty_arrays(build, reason):
+    system = compile(build())
+    assert reason in system.report["no_tree"]
+    assert all(len(values) == 0 for name, values in system.arrays.items() if name.startswith("tree_"))
+
+
+BAD = [
+    ("tree_parent", put(2, 3), "'tree_parent' is 3, outside 0..2"),
+    ("tree_parent", put(0, -1), "'tree_parent'"),
+    ("tree_parent", lambda v: v[:-1], "'tree_slides' has 5 items instead of 4"),
+    ("tree_parent", lambda v: np.arange(65), "the tree has 65 joints"),
+    ("tree_slides", put(0, 2), "'tree_slides'"),
+    ("tree_base", lambda v: v[:-1], "'tree_base'"),
+    ("tree_base", put(3, np.inf), "is not a finite number"),
+    ("tree_mass", lambda v: v[:-1], "'tree_mass'"),
+    ("tree_centre", lambda v: v[:-1], "'tree_centre'"),
+    ("tree_inertia", lambda v: v[:-1], "'tree_inertia'"),
+    ("tree_gravity", lambda v: v[:-1], "'tree_gravity'"),
+    ("tree_frame", put(0, 10**6), "'tree_frame'"),
+    ("tree_frame", lambda v: v[:-1], "'tree_frame'"),
+    ("tree_out_body", put(0, 0), "'tree_out_body'"),
+    ("tree_out_body", put(0, 6), "'tree_out_body'"),
+    ("tree_out_local", lambda v: v[:-1], "'tree_out_local'"),
+    ("tree_out_col", put(0, 24), "'tree_out_col'"),
+    ("tree_out_col", put(0, -1), "name 23 coordinates of 24"),
+    ("tree_cut_body", put(0, 6), "'tree_cut_body'"),
+    ("tree_cut_body", lambda v: v[:-1], "'tree_cut_body'"),
+    ("tree_cut_rows", put(0, 4), "'tree_cut_rows'"),
+    ("tree_cut_rows", put(1, 3), "'tree_cut_rows'"),
+    ("tree_cut_place", lambda v: v[:-1], "'tree_cut_place'"),
+]
+
+
+@pytest.fixture(scope="module")
+def loop() -> System:
+    return compile(bricard.build())
+
+
+@pytest.mark.parametrize(("name", "change", "text"), BAD, ids=[f"{n}-{k}" for k, (n, _, _) in enumerate(BAD)])
+def test_a_bad_tree_is_refused(loop, name, change, text):
+    with pytest.raises(KernelError) as refusal:
+        LoadedSystem(altered(loop, **{name: change}))
+    assert text in str(refusal.value)
+
+
+def test_half_a_tree_is_refused(loop):
+    empty = {n: lambda v: v[:0] for n in loop.arrays if n.startswith("tree_") and "cut" not in n}
+    with pytest.raises(KernelError, match="'tree_cut_body' has 2 items instead of 0"):
+        LoadedSystem(altered(loop, **empty))
+
+
+def test_altered_numbers_never_crash(loop):
+    """Every integer of the tree and some of its reals changed at random: refused, or harmless."""
+    rng = np.random.default_rng(SEED)
+    accepted = 0
+    for name in (n for n in loop.arrays if n.startswith("tree_")):
+        for index in range(len(loop.arrays[name])):
+            integer = loop.arrays[name].dtype == np.int32
+            value = int(rng.integers(-2, 8)) if integer else float(rng.choice([0.0, -1.0, 1e150, -1e-150]))
+            try:
+                instance = Instance(LoadedSystem(altered(loop, **{name: put(index, value)})))
+                instance.set_settings(**METHODS["semi_recursive"])
+                instance.initialise()
+                instance.run(0.01, 2)
+                assert np.isfinite(instance.get_state()[0][:]).all()
+                accepted += 1
+            except KernelError:
+                continue
+    assert accepted > 10
+
+
+def test_a_state_whose_memory_is_nonsense_is_read_anew(loop):
+    """Orders of rows and joints in a state are checked before they are used."""
+    instance = Instance(LoadedSystem(loop.to_bytes()))
+    instance.set_settings(**METHODS["semi_recursive"])
+    instance.initialise()
+    instance.run(0.01, 5)
+    expected = _next(loop, instance.save())
+    for shift in (0.5, 7.0, -3.0, 1e300):
+        np.testing.assert_allclose(_next(loop, _shifted(loop, instance.save(), shift)), expected, atol=1e-12)
+
+
+def _order_at(system):
+    """Bytes from the end of a state at which the orders begin: of own (nq) and past (4 nq, 4 nc), after q, qd, qdd."""
+    return 8 * (5 * system.nq + 4 * system.nc - 3 * len(system.arrays["tree_parent"]))
+
+
+def _shifted(system, state, shift):
+    at = len(state) - _order_at(system)
+    body = np.frombuffer(state[at : at + 8 * 11]).copy()
+    assert sorted(body[6:]) == [1.0, 2.0, 3.0, 4.0, 5.0]
+    data = bytearray(state)
+    data[at : at + 8 * 11] = (body + shift).tobytes()
+    data[24:28] = zlib.crc32(bytes(data[28:])).to_bytes(4, "little")
+    return bytes(data)
+
+
+def _next(system, state):
+    instance = Instance(LoadedSystem(system.to_bytes()))
+    instance.restore(state)
+    instance.run(0.01, 1)
+    return instance.get_state()[0][:]
