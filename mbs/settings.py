@@ -13,6 +13,7 @@ METHODS = {
     "energy_momentum": {"method": 2},
     "energy_momentum_4": {"method": 3},
     "runge_kutta_8": {"method": 4},
+    "radau_5": {"method": 5},
 }
 """Names of the methods and what each sets in the kernel."""
 
@@ -50,7 +51,8 @@ class Settings:
         a conservative model and takes out of any other what its dampers take; "energy_momentum_4" composes five such
         steps to order four, for conservative models without element states only;
         "runge_kutta_8" is explicit, of order eight, for smooth motion without stiff forces, element states or singular
-        positions.
+        positions; "radau_5" is implicit, of order five, and damps what is too fast for the step: for stiff, dissipative
+        models without element states.
     rho_infinity : float
         Of generalised-alpha: what a step leaves of an infinitely fast oscillation, 0 to 1.
     """

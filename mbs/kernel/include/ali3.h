@@ -45,6 +45,7 @@ enum {                    /* ali3_settings.method */
        ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
        ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
        ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
+       ALI3_METHOD_RADAU_5,                /* implicit collocation, index three, order five; no element states */
        ALI3_METHOD_COUNT
 };
 

@@ -9,6 +9,8 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
     return ali3_composition(in, t, h);
   case ALI3_METHOD_RUNGE_KUTTA_8:
     return ali3_runge_kutta(in, t, h);
+  case ALI3_METHOD_RADAU_5:
+    return ali3_radau(in, t, h);
   default:
     return ali3_augmented_lagrangian(in, t, h);
   }
