@@ -12,9 +12,9 @@
 enum { STAGES = ALI3_RADAU, LAST = STAGES - 1, SWEEPS = 3, REFINEMENTS = 1 };
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
 static const double SLOW = 0.1;         /* ratio of two errors from which on the tangent is made anew */
-static const double LEAST_R = 1e-2;
+static const double LEAST_R = 1e-2;     /* of the tolerance, what makes refinement end early */
+static const double EPS_SHARE = 1e-3;   /* of eps_rel: rows that singular positions nearly lose need it, as in energy_momentum.c */
 static const double LONGEST = 2.0;      /* steps; the last collocation polynomial is no guide farther on */
-static const double REAL_ROOT = 3.6378; /* of A^-1: a tangent of one stage for the projections */
 
 static const double node[STAGES] = {0.15505102572168219, 0.64494897427831781, 1.0}; /* (4 -+ sqrt 6)/10 */
 /* A, in units of 1/1800 built of sqrt 6, and A^2 */
@@ -235,23 +235,27 @@ static void remember(ali3_instance *in, double h) {
   }
 }
 
-/* Velocities and accelerations of the end to the rows, in the metric of a tangent M + h C/s + (h/s)^2 K: that of the
- * mass alone would send changes through stiff dampers. */
+/* Velocities and accelerations of the end to the rows, in the metric of the mass: stages err by multipliers, which move
+ * velocities along M^-1 Phi_q', and only a projection along the same directions takes no more away. */
 static ali3_status project(ali3_instance *in, double h, double alpha) {
   const ali3_system *S = in->system;
-  const double wC = h / REAL_ROOT, wK = wC * wC;
+  const double weight = h * h * alpha;
   ali3_vectors *v = &in->next;
-  for (int64_t i = 0; i < S->size.front_size; i++) in->F[i] += wC * in->F_C[i] + wK * in->F_K[i];
   const size_t entries = (size_t)S->size.nnz_rows * sizeof(double);
   memcpy(in->J, of_entries(in, in->stage_J, LAST), entries);
-  memcpy(in->J_tangent, of_entries(in, in->stage_J_tangent, LAST), entries);
-  const ali3_status status = in->settings.project ? ali3_factorise(in, in->F) : ALI3_OK;
-  if (status != ALI3_OK) return status;
+  memcpy(in->J_tangent, in->J, entries);
+  if (in->settings.project) {
+    memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+    if (S->n_flexible > 0) ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+    ali3_rows_square(in, in->J, weight, in->F);
+    const ali3_status status = ali3_factorise(in, in->F);
+    if (status != ALI3_OK) return status;
+  }
   const int32_t sweeps = in->settings.project ? SWEEPS : 0;
   ali3_constraint_rate(in, v->q, v, in->Phit);
-  in->report.velocity_violation = ali3_project(in, wK * alpha, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, sweeps);
+  in->report.velocity_violation = ali3_project(in, weight, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, sweeps);
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  ali3_project(in, wK * alpha, in->gamma, v->qdd, v->lam, ACCELERATION_TOLERANCE, sweeps);
+  ali3_project(in, weight, in->gamma, v->qdd, v->lam, ACCELERATION_TOLERANCE, sweeps);
   return ALI3_OK;
 }
 
@@ -260,7 +264,7 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const size_t nq = (size_t)S->size.nq;
   const int64_t before = in->report.iterations;
-  const double alpha = ali3_penalty(in, h);
+  const double alpha = ali3_penalty(in, h) / EPS_SHARE;
   ali3_vectors *from = &in->now, *to = &in->next;
   ali3_history_own(in, ALI3_METHOD_RADAU_5, from->qdd);
   ali3_switch_carry(in);
