@@ -13,6 +13,7 @@ TITLES = {
     "energy_momentum": "energy-momentum",
     "energy_momentum_4": "energy-momentum, order 4",
     "runge_kutta_8": "Runge-Kutta, order 8",
+    "radau_5": "Radau IIA, order 5",
 }
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13}
 CONSERVATIVE_ONLY = ("energy_momentum_4",)
