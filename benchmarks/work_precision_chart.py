@@ -8,9 +8,9 @@ from typing import Any
 
 from benchmarks.common import machine
 
-COLOURS = ("#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00", "#000000")
-"""Okabe and Ito."""
-MARKERS = "osD^vPX"
+COLOURS = ("#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00", "#000000", "#882255")
+"""Okabe and Ito; the last is a wine of Tol."""
+MARKERS = "osD^vPX*"
 LINES = {"kernel": "-", "classical": ":"}
 PEERS = "--"
 

@@ -223,8 +223,8 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
   ali3_switch_carry(in);
-  ali3_history_predict(in, 0.5 * h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST, in->d0,
-                       to->lam);
+  ali3_history_predict(in, 0.5 * h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST,
+                       in->d0, to->lam);
   for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];
   for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));

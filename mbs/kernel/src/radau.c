@@ -11,13 +11,13 @@
 
 enum { STAGES = ALI3_RADAU, LAST = STAGES - 1, SWEEPS = 3, REFINEMENTS = 1 };
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
-static const double SLOW = 0.1;         /* ratio of two errors from which on the tangent is made anew */
+static const double SLOW = 0.3;         /* ratio of two errors from which on the tangent is made anew */
 static const double LEAST_R = 1e-2;     /* of the tolerance, what makes refinement end early */
-static const double EPS_SHARE = 1e-3;   /* of eps_rel: rows that singular positions nearly lose need it, as in energy_momentum.c */
+static const double EPS_SHARE = 1e-3;   /* of eps_rel, for rows that singular positions nearly lose */
 static const double LONGEST = 2.0;      /* steps; the last collocation polynomial is no guide farther on */
 
 static const double node[STAGES] = {0.15505102572168219, 0.64494897427831781, 1.0}; /* (4 -+ sqrt 6)/10 */
-/* A, in units of 1/1800 built of sqrt 6, and A^2 */
+/* A and A^2 to 17 digits */
 static const double first[STAGES][STAGES] = {{0.19681547722366043, -0.06553542585019839, 0.02377097434822015},
                                              {0.39442431473908728, 0.29207341166522846, -0.04154875212599793},
                                              {0.37640306270046728, 0.51248582618842161, 0.11111111111111111}};
