@@ -21,7 +21,9 @@ from scipy.optimize import brentq
 import mbs
 from benchmarks import references
 from benchmarks.cases import CASES, SAMPLES, exact_of, system_of
+from benchmarks.command import watched
 from benchmarks.common import describe, print_table, write_json
+from benchmarks.kernel_methods import suits
 from benchmarks.rolling import RollingBicycle
 from mbs.scenes import bicycle
 from mbs.settings import METHODS
@@ -112,7 +114,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     straight = linear()
     print_table(straight, {"at 5 m/s": "", "published": ".8f", "system": ".10f", "outside": ".8f"})
     print(f"\nFrom upright at {bicycle.SPEED:g} m/s with a lean rate of {bicycle.LEAN_RATE:g} rad/s:")
-    rows = [measure(method, h) for method in METHODS for h in (STEPS[1:2] if options.quick else STEPS)]
+    methods = [method for method in METHODS if suits(method, True, system_of("bicycle"))]
+    steps = STEPS[1:2] if options.quick else STEPS
+    rows = [measure(method, h) for method, h in watched([(m, h) for m in methods for h in steps])]
     print_table(rows, TABLE)
     if options.json is not None:
         write_json(options.json, describe("bicycle", mbs.Settings(), linear=straight), rows)

@@ -9,21 +9,26 @@ TITLES = {
     "ali3p": "ALi3-P",
     "ali3p_no_projection": "ALi3 without projections",
     "ali3p_generalised_alpha": "ALi3-P, generalised-α",
-    "ali3p_hht": "ALi3-P, HHT",
     "energy_momentum": "energy-momentum",
     "energy_momentum_4": "energy-momentum, order 4",
     "runge_kutta_8": "Runge-Kutta, order 8",
     "semi_recursive": "semi-recursive, order 8",
     "semi_recursive_4": "semi-recursive, order 4",
+    "radau_5": "Radau IIA, order 5",
 }
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13}
 CONSERVATIVE_ONLY = ("energy_momentum_4",)
 TREE_ONLY = ("semi_recursive", "semi_recursive_4")
+POSITIONS_ONLY = ("radau_5",)
 
 
-def suits(name: str, conservative: bool, tree: bool) -> bool:
-    """Whether a method takes a scene: one without dissipation, one whose System has a spanning tree."""
-    return (conservative or name not in CONSERVATIVE_ONLY) and (tree or name not in TREE_ONLY)
+def suits(name: str, conservative: bool, system: mbs.System) -> bool:
+    """Whether a method takes a scene: one without dissipation, with a spanning tree, without velocity rows."""
+    return (
+        (conservative or name not in CONSERVATIVE_ONLY)
+        and (not system.report["no_tree"] or name not in TREE_ONLY)
+        and (len(system.arrays["velocity_row"]) == 0 or name not in POSITIONS_ONLY)
+    )
 
 
 def settings_of(name: str) -> dict[str, mbs.Settings]:
@@ -34,7 +39,7 @@ def settings_of(name: str) -> dict[str, mbs.Settings]:
     return {title: mbs.Settings(method=name)}
 
 
-def all_settings(conservative: bool, tree: bool) -> dict[str, mbs.Settings]:
+def all_settings(conservative: bool, system: mbs.System) -> dict[str, mbs.Settings]:
     """All methods of the kernel that suit a scene."""
-    names = [name for name in KERNEL if suits(name, conservative, tree)]
+    names = [name for name in KERNEL if suits(name, conservative, system)]
     return {title: s for name in names for title, s in settings_of(name).items()}

@@ -177,9 +177,9 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
             BAUMGARTE[1:2],
         )
     todo: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
-    tree = not system_of(scene).report["no_tree"]
+    system = system_of(scene)
     for method in KERNEL:
-        if not suits(method, case.conservative, tree):
+        if not suits(method, case.conservative, system):
             continue
         todo += [(kernel_point, method, float(h), e) for h in steps for e in [None, *map(float, eps)]]
     for method in CLASSICAL if case.classical else ():

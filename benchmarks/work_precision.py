@@ -117,7 +117,7 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
     """Rows without figures, and what measures them."""
     case = CASES[scene]
     divisions = case.divisions[3 : 3 + QUICK_DIVISIONS] if quick else case.divisions
-    tree = not system_of(scene).report["no_tree"]
+    system = system_of(scene)
     todo: list[tuple[dict[str, Any], Action]] = []
 
     def add(family: str, method: str, h: float | None, action: Action, rtol: float | None = None) -> None:
@@ -127,7 +127,7 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
 
     for d in divisions:
         h = case.end / (SAMPLES * d)
-        for title, settings in all_settings(case.conservative, tree).items():
+        for title, settings in all_settings(case.conservative, system).items():
             add("kernel", title, h, kernel_action(scene, settings, h))
         if case.classical and SAMPLES * d <= CLASSICAL_STEPS:
             for method in CLASSICAL:

@@ -9,9 +9,9 @@ from typing import Any
 from benchmarks.command import pyplot, save_chart
 from benchmarks.common import machine
 
-COLOURS = ("#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00", "#000000")
-"""Okabe and Ito."""
-MARKERS = "osD^vPX<>"
+COLOURS = ("#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00", "#000000", "#882255", "#999999", "#44AA99")
+"""Okabe and Ito, then wine, grey and teal of Tol."""
+MARKERS = "osD^vPX*<>"
 LINES = {"kernel": "-", "classical": ":"}
 PEERS = "--"
 

@@ -16,6 +16,7 @@ METHODS = {
     "runge_kutta_8": {"method": 4},
     "semi_recursive": {"method": 5},
     "semi_recursive_4": {"method": 6},
+    "radau_5": {"method": 7},
 }
 """Names of the methods and what each sets in the kernel."""
 
@@ -56,7 +57,9 @@ class Settings:
         positions;
         "semi_recursive" is the same rule in relative coordinates along a spanning tree of rigid bodies on revolute and
         prismatic joints, many times as fast; "semi_recursive_4" the same with the classical rule of order four, for
-        coarse errors.
+        coarse errors;
+        "radau_5" is implicit, of order five, and damps what is too fast for the step: for stiff, dissipative
+        models without element states.
     predictor : {"parabola", "acceleration"}
         Start value of a step of ALi3-P: accelerations and multipliers of past steps go on along a parabola where they
         are smooth, or the present ones stay, as in the paper. The first needs fewer iterations.

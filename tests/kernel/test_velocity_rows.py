@@ -16,6 +16,7 @@ from .scenes import sleigh
 
 SEED = 5
 H = 0.01
+ROLLING = [m for m in METHODS if m != "radau_5" and not m.startswith("semi_recursive")]  # the others refuse them
 DIFFERENCE = 1e-6
 FD_TOLERANCE = 1e-8  # of central differences with that step
 Array = NDArray[np.float64]
@@ -63,7 +64,7 @@ def test_the_start_velocity_is_the_nearest_in_the_metric_of_the_mass_and_the_pos
     np.testing.assert_allclose(qd, b.qd0 - weight @ np.linalg.solve(J @ weight, J @ b.qd0), atol=1e-9)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", ROLLING)
 def test_a_restored_state_continues_bit_for_bit(method: str) -> None:
     instance = started(method)
     for _ in range(20):
@@ -78,7 +79,7 @@ def test_a_restored_state_continues_bit_for_bit(method: str) -> None:
     assert [bytes(v) for v in other.get_state()] == [bytes(v) for v in instance.get_state()]
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", ROLLING)
 def test_a_step_ends_with_velocities_and_accelerations_on_the_rows(method: str) -> None:
     instance, b = started(method), sleigh()
     for _ in range(50):

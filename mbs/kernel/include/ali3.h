@@ -50,6 +50,7 @@ enum {                    /* ali3_settings.method */
        ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
        ALI3_METHOD_SEMI_RECURSIVE,         /* explicit, relative coordinates, order eight; no element states */
        ALI3_METHOD_SEMI_RECURSIVE_4,       /* the same of order four, for coarse errors */
+       ALI3_METHOD_RADAU_5,                /* implicit collocation, index three, order five; no element states */
        ALI3_METHOD_COUNT
 };
 

@@ -12,6 +12,8 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
   case ALI3_METHOD_SEMI_RECURSIVE:
   case ALI3_METHOD_SEMI_RECURSIVE_4:
     return ali3_semi_recursive(in, t, h);
+  case ALI3_METHOD_RADAU_5:
+    return ali3_radau(in, t, h);
   default:
     return ali3_augmented_lagrangian(in, t, h);
   }

@@ -128,7 +128,7 @@ typedef struct {
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
 } ali3_vectors;
 
-enum { ALI3_STAGES = 12 }; /* of runge_kutta.c */
+enum { ALI3_STAGES = 12, ALI3_RADAU = 3 }; /* of runge_kutta.c, radau.c */
 enum { ALI3_PAST = 4, ALI3_MEMORY_OWNER = 0, ALI3_MEMORY_COUNT, ALI3_MEMORY_TIME, ALI3_MEMORY = 2 + ALI3_PAST };
 
 /* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
@@ -157,7 +157,7 @@ struct ali3_instance {
   ali3_road *road;
   /* work space */
   double *D, *d0, *r, *x, *w, *hat; /* nq */
-  double *stage; /* ALI3_STAGES x nq: accelerations */
+  double *stage; /* ALI3_STAGES x nq: accelerations, of radau.c residuals too */
   double *middle, *rate; /* nq: position and velocity in the middle of the step */
   double *J0, *A, *A_tangent; /* row pattern: Phi_q at the start, discrete derivative, where F was made */
   double *Phi, *Phit, *gamma, *mu, *lam; /* nc */
@@ -172,6 +172,9 @@ struct ali3_instance {
   double *shifted; /* nq */
   double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
   double wC, wK; /* weights of the last forces */
+  /* of radau.c, empty where it is refused: stages of the rows, of Phi_q and of where the tangent saw it, of corrections */
+  double *stage_Phi, *stage_lam, *stage_J, *stage_J_tangent, *stage_x;
+  double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;
   ali3_tree_work *tree;
 };
@@ -234,6 +237,7 @@ typedef struct {
   double *Q, *y_new, *out, *potential;
 } ali3_force_call;
 void ali3_forces(ali3_instance *in, const ali3_force_call *call);
+void ali3_elements_tangent(ali3_instance *in, double *F);
 void ali3_forces_tangent(ali3_instance *in, double *F);
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call);
 
@@ -248,7 +252,7 @@ void ali3_flexible_prepare(const ali3_instance *in, const double *q);
 void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *out);
 void ali3_flexible_forces(const ali3_instance *in, const double *q, const double *qd, double *Q);
 void ali3_flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic);
-void ali3_flexible_tangent(const ali3_instance *in, double wC, double wK, double *F);
+void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, double *F);
 void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F);
 void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out);
 
@@ -258,8 +262,8 @@ void ali3_solve(ali3_instance *in, const double *F, double *b);
 
 /* fronts_lu.c */
 void ali3_mirror(const ali3_instance *in, double *F);
-ali3_status ali3_factorise_lu(ali3_instance *in, double *F);
-void ali3_solve_lu(ali3_instance *in, const double *F, double *b);
+ali3_status ali3_factorise_lu(ali3_instance *in, int32_t width, double *F);
+void ali3_solve_lu(ali3_instance *in, int32_t width, const double *F, double *b);
 
 /* measure.c */
 bool ali3_finite(const double *v, int64_t n);
@@ -302,7 +306,7 @@ void ali3_energy_momentum_report(ali3_instance *in);
 
 /* history.c */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
-void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam);
+void ali3_history_predict(const ali3_instance *in, double when, int32_t most, double *a, double *lam);
 void ali3_history_append(ali3_instance *in, double h, const double *a);
 
 /* index_one.c */
@@ -319,8 +323,12 @@ void ali3_semi_recursive_report(ali3_instance *in);
 /* runge_kutta.c */
 ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h);
 
+/* radau.c */
+ali3_status ali3_radau(ali3_instance *in, double t, double h);
+
 /* composition.c */
 ali3_status ali3_composition(ali3_instance *in, double t, double h);
+bool ali3_without_memory(const ali3_system *S);
 ali3_status ali3_check_method(ali3_instance *in);
 
 /* initialise.c */

@@ -56,7 +56,8 @@ ali3_status ali3_check_tree(const ali3_system *s, ali3_message m) {
     CHECK(ali3_check_length(m, "tree_cut_rows", s->n_tree_cut_rows, 0));
     return ali3_check_length(m, "tree_cut_place", s->n_tree_cut_place, 0);
   }
-  if (s->size.ng > 0 || X
+  if (s->size.ng > 0 || s->size.n_switch > 0 || s->n_flex_front > 0 || s->n_velocity_row > 0)
+    return ali3_bad(m, "a tree beside guides, switches, conditions on velocities or flexible bodies");
   CHECK(check_cuts(s, n, m));
   return check_coordinates(s, n, m);
 }

@@ -89,7 +89,7 @@ static ali3_status factorise(ali3_instance *in, double h, double weight) {
   in->J_tangent = J;
   in->A = in->A_tangent;
   in->A_tangent = A;
-  return ali3_factorise_lu(in, in->F);
+  return ali3_factorise_lu(in, 1, in->F);
 }
 
 static ali3_status correct(ali3_instance *in, double weight, double alpha, int32_t iteration) {
@@ -98,7 +98,7 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
   for (int32_t k = 0; k < nc; k++) in->mu[k] = weight * in->Phi[k];
   ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
   for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
-  ali3_solve_lu(in, in->F, in->x);
+  ali3_solve_lu(in, 1, in->F, in->x);
   if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
   ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
   for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
@@ -140,7 +140,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *i
 static void clean(ali3_instance *in, double weight, double *lam) {
   const ali3_system *S = in->system;
   ali3_rows_transposed(S, in->A_tangent, lam, in->x);
-  ali3_solve_lu(in, in->F, in->x);
+  ali3_solve_lu(in, 1, in->F, in->x);
   ali3_rows_times(S, in->J_tangent, in->x, lam);
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
 }
@@ -160,7 +160,7 @@ static double project(ali3_instance *in, double weight, const double *b, double 
     for (int32_t i = 0; i < nq; i++) scale = fmax(scale, fabs(v[i]));
     if (sweep == MAX_SWEEPS || violation <= tolerance * scale) return violation;
     ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
-    ali3_solve_lu(in, in->F, in->x);
+    ali3_solve_lu(in, 1, in->F, in->x);
     for (int32_t i = 0; i < nq; i++) v[i] -= in->x[i];
   }
 }
@@ -206,11 +206,11 @@ void ali3_energy_momentum_report(ali3_instance *in) {
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, in->now.q);
-    ali3_flexible_tangent(in, 0.0, 0.0, in->F);
+    ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
   }
   ali3_mirror(in, in->F);
   ali3_rows_product(in, in->J, in->J, weight, in->F);
-  if (ali3_factorise_lu(in, in->F) == ALI3_OK) report(in, &in->now, weight);
+  if (ali3_factorise_lu(in, 1, in->F) == ALI3_OK) report(in, &in->now, weight);
 }
 
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
@@ -224,8 +224,8 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
   ali3_switch_carry(in);
-  ali3_history_predict(in, h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST, in->d0,
-                       to->lam);
+  ali3_history_predict(in, 0.5 * h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST,
+                       in->d0, to->lam);
   for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];
   for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));

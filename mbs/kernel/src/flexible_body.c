@@ -207,8 +207,8 @@ static void add_moduli(const ali3_flexible *f, int32_t size, double wC, double w
   }
 }
 
-/* F += M(q) - constant part + wC C + wK K at the q that was prepared; K with the part of the weight. */
-void ali3_flexible_tangent(const ali3_instance *in, double wC, double wK, double *F) {
+/* F += wM (M(q) - constant part) + wC C + wK K at the q that was prepared; K with the part of the weight. */
+void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, double *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
     const ali3_flexible f = body_of(in, b);
@@ -218,14 +218,14 @@ void ali3_flexible_tangent(const ali3_instance *in, double wC, double wK, double
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) {
         const int32_t axis = f.loc[3 + 3 * i + k];
-        add(block, size, axis, f.loc[k], f.S[i]);
-        for (int l = 0; l <= i; l++) add(block, size, axis, f.loc[3 + 3 * l + k], f.J[3 * i + l]);
+        add(block, size, axis, f.loc[k], wM * f.S[i]);
+        for (int l = 0; l <= i; l++) add(block, size, axis, f.loc[3 + 3 * l + k], wM * f.J[3 * i + l]);
       }
     for (int i = 0; i < 4; i++)
       for (int k = 0; k < 3; k++) {
         const double *restrict X = i == 0 ? f.P : f.D + 3 * (i - 1) * n;
         const double *restrict hang = i == 0 ? f.P : f.P + (i - 1) * n;
-        const double ax = f.A[k], ay = f.A[3 + k], az = f.A[6 + k], g = i == 0 ? 0.0 : wK * f.gravity[k];
+        const double ax = wM * f.A[k], ay = wM * f.A[3 + k], az = wM * f.A[6 + k], g = i == 0 ? 0.0 : wK * f.gravity[k];
         for (int32_t j = 0; j < n; j++)
           add(block, size, f.loc[3 * i + k], mode[j], (ax * X[j] + ay * X[n + j]) + (az * X[2 * n + j] - g * hang[j]));
       }

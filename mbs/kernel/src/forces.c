@@ -80,11 +80,10 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
 }
 
 /* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a
- * tangent; and the flexible bodies. */
-void ali3_forces_tangent(ali3_instance *in, double *F) {
+ * tangent. */
+void ali3_elements_tangent(ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   double *restrict SB = in->SB; /* a row per signal, a column per coordinate of the element */
-  if (S->n_flexible > 0) ali3_flexible_tangent(in, in->wC, in->wK, F);
   for (int32_t e = 0; e < S->size.ne; e++) {
     const int32_t front = S->el_front[e];
     if (front < 0) continue;
@@ -109,6 +108,12 @@ void ali3_forces_tangent(ali3_instance *in, double *F) {
       }
     }
   }
+}
+
+/* The same with the flexible bodies, their changing mass too. */
+void ali3_forces_tangent(ali3_instance *in, double *F) {
+  if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->wC, in->wK, F);
+  ali3_elements_tangent(in, F);
 }
 
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call) {

@@ -1,11 +1,13 @@
 /* Multifrontal L U of a matrix whose pattern is symmetric but whose numbers are not quite: the fronts of the tangent,
  * whole blocks instead of lower triangles, no pivoting. A factorised front holds L below the diagonal (ones on it are
- * not stored) and U above, with the inverse of its diagonal. */
+ * not stored) and U above, with the inverse of its diagonal. A coordinate may stand for several unknowns (`width`), one
+ * beside the other in vectors and fronts. */
 #include <math.h>
 
 #include "ali3_internal.h"
 
 enum { PANEL = 4 };
+#define ALI3_INLINED __attribute__((always_inline)) /* compiled apart for each width */
 
 static ali3_status check_pivot(ali3_instance *in, int32_t coordinate, double d) {
   if (fabs(d) > 1e-14 * in->system->mass_floor[coordinate] && fabs(d) < 1e300) {
@@ -17,7 +19,8 @@ static ali3_status check_pivot(ali3_instance *in, int32_t coordinate, double d) 
 }
 
 /* Panels of pivots: columns of the panel among themselves, then the others lose the panel at once. */
-static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n) {
+static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n,
+                             int32_t width) {
   for (int32_t start = 0; start < n_pivot; start += PANEL) {
     const int32_t end = start + PANEL < n_pivot ? start + PANEL : n_pivot;
     for (int32_t p = start; p < end; p++) {
@@ -26,7 +29,7 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
         const double *restrict left = block + (int64_t)k * n, factor = column[k];
         for (int32_t i = k + 1; i < n; i++) column[i] -= factor * left[i];
       }
-      const ali3_status status = check_pivot(in, first + p, column[p]);
+      const ali3_status status = check_pivot(in, first + p / width, column[p]);
       if (status != ALI3_OK) return status;
       const double inverse = 1.0 / column[p];
       column[p] = inverse;
@@ -66,49 +69,69 @@ void ali3_mirror(const ali3_instance *in, double *F) {
   }
 }
 
-ali3_status ali3_factorise_lu(ali3_instance *in, double *F) {
+/* The offset of a front in F is width^2 that of the tangent. */
+ALI3_INLINED static inline ali3_status factorise(ali3_instance *in, int32_t width, double *F) {
   const ali3_system *S = in->system;
+  const int64_t square = (int64_t)width * width;
   in->report.factorizations++;
   in->report.negative_pivots = 0;
   for (int32_t f = 0; f < S->size.nf; f++) {
-    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first,
-                  n = S->front_ptr[f + 1] - S->front_ptr[f];
+    const int32_t first = S->front_col[f], first_rest = S->front_col[f + 1] - first,
+                  coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n_pivot = width * first_rest,
+                  n = width * coordinates;
     const int32_t *map = S->front_map + S->front_ptr[f], parent = S->front_parent[f];
-    double *block = F + S->front_off[f];
-    const ali3_status status = eliminate(in, block, first, n_pivot, n);
+    double *block = F + square * S->front_off[f];
+    const ali3_status status = eliminate(in, block, first, n_pivot, n, width);
     if (status != ALI3_OK) return status;
     if (parent < 0) continue;
-    const int32_t parent_n = S->front_ptr[parent + 1] - S->front_ptr[parent];
+    const int32_t parent_n = width * (S->front_ptr[parent + 1] - S->front_ptr[parent]);
     for (int32_t j = n_pivot; j < n; j++) {
       const double *column = block + (int64_t)j * n;
-      double *target = F + S->front_off[parent] + (int64_t)map[j] * parent_n;
-      for (int32_t i = n_pivot; i < n; i++) target[map[i]] += column[i];
+      double *target = F + square * S->front_off[parent] + (int64_t)(width * map[j / width] + j % width) * parent_n;
+      for (int32_t i = first_rest; i < coordinates; i++)
+        for (int32_t s = 0; s < width; s++) target[width * map[i] + s] += column[width * i + s];
     }
   }
   return ALI3_OK;
 }
 
+/* A loop over one unknown would cost small fronts five percent. */
+ali3_status ali3_factorise_lu(ali3_instance *in, int32_t width, double *F) {
+  return width == 1 ? factorise(in, 1, F) : factorise(in, ALI3_RADAU, F);
+}
+
+/* The part of b that belongs to a front of so many coordinates. */
+ALI3_INLINED static inline void gather(const int32_t *idx, int32_t width, int32_t coordinates, const double *restrict b,
+                                       double *restrict x) {
+  for (int32_t i = 0; i < coordinates; i++)
+    for (int32_t s = 0; s < width; s++) x[width * i + s] = b[width * idx[i] + s];
+}
+
 /* b becomes the solution. */
-void ali3_solve_lu(ali3_instance *in, const double *F, double *b) {
+ALI3_INLINED static inline void solve(ali3_instance *in, int32_t width, const double *F, double *b) {
   const ali3_system *S = in->system;
+  const int64_t square = (int64_t)width * width;
   double *restrict x = in->local;
   in->report.solves++;
   for (int32_t f = 0; f < S->size.nf; f++) {
-    const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
+    const int32_t coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n = width * coordinates,
+                  n_pivot = width * (S->front_col[f + 1] - S->front_col[f]);
     const int32_t *idx = S->front_idx + S->front_ptr[f];
-    const double *block = F + S->front_off[f];
-    for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
+    const double *block = F + square * S->front_off[f];
+    gather(idx, width, coordinates, b, x);
     for (int32_t p = 0; p < n_pivot; p++) {
       const double *restrict left = block + (int64_t)p * n, factor = x[p];
       for (int32_t i = p + 1; i < n; i++) x[i] -= factor * left[i];
     }
-    for (int32_t i = 0; i < n; i++) b[idx[i]] = x[i];
+    for (int32_t i = 0; i < coordinates; i++)
+      for (int32_t s = 0; s < width; s++) b[width * idx[i] + s] = x[width * i + s];
   }
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
-    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
-    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-    const double *block = F + S->front_off[f];
-    for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
+    const int32_t first = S->front_col[f], n_pivot = width * (S->front_col[f + 1] - first);
+    const int32_t coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n = width * coordinates;
+    const int32_t *idx = S->front_idx + S->front_ptr[f];
+    const double *block = F + square * S->front_off[f];
+    gather(idx, width, coordinates, b, x);
     for (int32_t j = n - 1; j >= 0; j--) { /* down the columns of U */
       const double *restrict column = block + (int64_t)j * n;
       if (j < n_pivot) x[j] *= column[j];
@@ -116,6 +139,13 @@ void ali3_solve_lu(ali3_instance *in, const double *F, double *b) {
       const int32_t last = j < n_pivot ? j : n_pivot;
       for (int32_t i = 0; i < last; i++) x[i] -= factor * column[i];
     }
-    for (int32_t p = 0; p < n_pivot; p++) b[first + p] = x[p];
+    for (int32_t p = 0; p < n_pivot; p++) b[width * first + p] = x[p];
   }
+}
+
+void ali3_solve_lu(ali3_instance *in, int32_t width, const double *F, double *b) {
+  if (width == 1)
+    solve(in, 1, F, b);
+  else
+    solve(in, ALI3_RADAU, F, b);
 }

@@ -19,9 +19,9 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
 }
 
-/* Mean acceleration a (nq) and multipliers (nc) of the step h that begins now from at most `most` past steps; without
- * a past those of the state. */
-void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam) {
+/* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from at most `most` past ones; without a past
+ * those of the state. */
+void ali3_history_predict(const ali3_instance *in, double when, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   const int32_t n = past(v, most);
@@ -36,7 +36,7 @@ void ali3_history_predict(const ali3_instance *in, double h, int32_t most, doubl
   for (int32_t k = 0; k < n; k++) {
     double weight = 1.0; /* Lagrange */
     for (int32_t j = 0; j < n; j++)
-      if (j != k) weight *= (0.5 * h - time[j]) / (time[k] - time[j]);
+      if (j != k) weight *= (when - time[j]) / (time[k] - time[j]);
     const double *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
     for (int32_t i = 0; i < nq; i++) a[i] += weight * past_a[i];
     for (int32_t i = 0; i < nc; i++) lam[i] += weight * past_lam[i];

@@ -22,7 +22,7 @@ static ali3_status factorise_metric(ali3_instance *in, const double *q, bool clo
   if (close)
     for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
   ali3_rows_square(in, in->J, ALPHA, in->F);
-  ali3_flexible_tangent(in, 0.0, 0.0, in->F);
+  ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
   if (close) ali3_flexible_stiffen(in, BENDING, in->F);
   return ali3_factorise(in, in->F);
 }

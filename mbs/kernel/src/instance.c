@@ -16,7 +16,7 @@ const char *ali3_status_text(ali3_status s) {
       "the iteration did not converge, also not in smaller steps",
       "the tangent is singular",
       "the motion or a force became infinite",
-      "this method takes no element states or filtered guides and, if it also steps backwards in time, no damping",
+      "this method takes no element states or filtered guides (energy_momentum_4: no damping; radau_5: no rolling)",
       "a tyre starts deeper in the road than its radius",
       "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
       "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
@@ -87,9 +87,11 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_vector = ali3_vector_count(s);
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
+  const size_t stages = ali3_without_memory(s) ? ALI3_RADAU : 0;
   const size_t total = 5 * n_vector + 3 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
                        5 * (size_t)z->nnz_rows + (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work +
-                       (size_t)s->max_front + ny + nout + ne;
+                       ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
+                       stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + (stages + 1) * (size_t)z->front_size);
   const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
@@ -151,7 +153,15 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->ud = take(&pool, (size_t)z->nsig);
   in->S = take(&pool, n_S);
   in->SB = take(&pool, n_work);
-  in->local = take(&pool, (size_t)s->max_front);
+  in->local = take(&pool, ALI3_RADAU * (size_t)s->max_front);
+  in->stage_Phi = take(&pool, stages * nc);
+  in->stage_lam = take(&pool, stages * nc);
+  in->stage_J = take(&pool, stages * (size_t)z->nnz_rows);
+  in->stage_J_tangent = take(&pool, stages * (size_t)z->nnz_rows);
+  in->stage_x = take(&pool, stages * nq);
+  in->F_stages = take(&pool, stages * stages * (size_t)z->front_size);
+  in->F_C = take(&pool, stages > 0 ? (size_t)z->front_size : 0);
+  in->F_K = take(&pool, stages > 0 ? (size_t)z->front_size : 0);
   in->flex = take(&pool, n_flex);
   in->flex_work = take(&pool, n_flex_work);
   in->y_work = take(&pool, ny);

@@ -46,7 +46,7 @@ void ali3_predict(ali3_instance *in, double h) {
   }
   ali3_history_own(in, in->settings.method, from->qdd);
   const bool goes_on = in->settings.predictor == ALI3_PREDICTOR_PARABOLA && smooth(in, h);
-  ali3_history_predict(in, h, goes_on ? PARABOLA : 0, in->x, lam);
+  ali3_history_predict(in, 0.5 * h, goes_on ? PARABOLA : 0, in->x, lam);
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] = from->lam[k] + SHARE * (lam[k] - from->lam[k]);
   for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * in->x[i];
 }

@@ -65,7 +65,7 @@ ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) 
   if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
   memcpy(in->F, in->system->front_mass, (size_t)in->system->size.front_size * sizeof(double));
   ali3_flexible_prepare(in, q);
-  ali3_flexible_tangent(in, 0.0, 0.0, in->F);
+  ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
   spread(in, dense);
   return ALI3_OK;
 }

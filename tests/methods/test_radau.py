@@ -1,0 +1,184 @@
+"""Radau IIA on index three: orders, stiff decay, redundant rows, the books of dampers, what it does not take."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
+from mbs.scenes import bricard, double_four_bar, flyball, prototype_car
+from tests.methods.models import driven, hinge, swing
+
+NAME = "radau_5"
+TIGHT = Settings(method=NAME, tolerance_r=1e-13, tolerance_phi=1e-13)
+STAGES = 3
+
+
+def end(system, names, t_end, h, settings=TIGHT):
+    run = simulate(system, t_end, h, settings=settings, every=round(t_end / h))
+    return np.array([run[n][-1] for n in names])
+
+
+def order(system, names, t_end, steps, settings=TIGHT):
+    """Fitted order at the end, and the least error; the reference is the method itself with a much smaller step."""
+    reference = end(system, names, t_end, 0.1 * steps[-1])
+    errors = [np.linalg.norm(end(system, names, t_end, h, settings) - reference) for h in steps]
+    return np.polyfit(np.log(steps), np.log(errors), 1)[0], errors[-1]
+
+
+def sliding_mass(stiffness, damping, start, speed):
+    """A mass on a line, its coordinate tied to zero."""
+    m = Model("mass", dimension=2, gravity=(0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(start, 0.0))
+    m.initial_velocity(mass, linear=(speed, 0.0))
+    along = mass.point(None).components[0]
+    m.torsional_spring_damper("tie", along, stiffness=stiffness, damping=damping, free_angle=0.0)
+    m.sense_position("x", mass, None, "x")
+    m.sense_velocity("v", mass, None, "x")
+    m.sense_energy("energy", "total")
+    return compile(m)
+
+
+def crank_with_a_motor():
+    m = Model("crank", dimension=2)
+    crank = m.body("crank", mass=2.0, com=(0.5, 0.0), inertia=0.16)
+    m.revolute("hinge", m.ground, crank, point=(0.0, 0.0))
+    angle = m.relative_angle("angle", m.ground, crank)
+    m.torque_on("motor", angle, input=m.input("torque", unit="N m"))
+    m.sense_coordinate("angle", angle)
+    return compile(m)
+
+
+@pytest.mark.parametrize(
+    ("model", "names", "t_end", "steps"),
+    [
+        (swing(6.0), ["tip.y"], 1.0, (0.05, 0.04, 0.025, 0.02)),
+        (hinge(0.3), ["angle"], 1.0, (0.05, 0.04, 0.025, 0.02)),
+        (driven(), ["bob.x", "bob.y"], 1.0, (0.05, 0.04, 0.025, 0.02)),
+        (bricard.build(), [f"P3.position.{c}" for c in "xyz"], 10.0, (0.1, 0.0625, 0.05, 0.04)),
+        (flyball.build(), ["shaft.rate"], 2.0, (0.04, 0.025, 0.02, 0.0125)),
+    ],
+    ids=["damped swing", "angle", "driven", "redundant row", "stiff dampers"],
+)
+def test_order_five(model, names, t_end, steps):
+    found, least = order(compile(model), names, t_end, steps)
+    assert found > 4.5
+    assert least < 1e-6
+
+
+def test_velocities_without_projection_are_of_order_three():
+    """Hairer, Lubich, Roche 1989: of index three, positions 2s - 1, velocities s."""
+    system, steps = compile(flyball.build()), (0.02, 0.0125, 0.01, 0.008)
+    loose = Settings(method=NAME, tolerance_r=1e-13, tolerance_phi=1e-13, project=False)
+    found, _ = order(system, ["shaft.rate"], 0.4, steps, loose)
+    assert 2.7 < found < 3.3
+
+
+def test_a_damped_oscillator_has_the_motion_and_the_energy_of_the_closed_form():
+    damping, stiffness, t_end = 1.2, 40.0, 2.0
+    system, decay = sliding_mass(stiffness, damping, 1.0, 0.0), 0.5 * damping
+    rate = np.sqrt(stiffness - decay**2)
+    x = np.exp(-decay * t_end) * (np.cos(rate * t_end) + decay / rate * np.sin(rate * t_end))
+    v = -np.exp(-decay * t_end) * stiffness / rate * np.sin(rate * t_end)
+    expected = np.array([x, v, 0.5 * v**2 + 0.5 * stiffness * x**2])
+    steps = (0.1, 0.05, 0.04, 0.025)
+    errors = np.array([np.abs(end(system, ["x", "v", "energy"], t_end, h) - expected) for h in steps])
+    for component in errors.T:
+        assert np.polyfit(np.log(steps), np.log(component), 1)[0] > 4.5
+
+
+def test_what_a_damper_takes_is_what_is_lost():
+    """On the angle theta of a hinge: E0 - E1 is the integral of c theta'^2 along the motion of an ODE solver."""
+    damping, system = 0.3, compile(hinge(0.3))
+    inertia, arm, weight, stiffness = 0.1 + 2.0 * 0.4**2, 0.4, 2.0 * 9.81, 1.5
+
+    def rates(_, x):
+        angular = (weight * arm * np.cos(x[0]) - stiffness * x[0] - damping * x[1]) / inertia
+        return [x[1], angular, damping * x[1] ** 2]
+
+    exact = solve_ivp(rates, (0.0, 2.0), [0.0, 9.0, 0.0], method="Radau", rtol=1e-10, atol=1e-12).y[:, -1]
+    run = simulate(system, 2.0, 0.02, settings=TIGHT)
+    assert run["angle"][-1] == pytest.approx(exact[0], abs=2e-6)
+    assert run["energy"][0] - run["energy"][-1] == pytest.approx(exact[2], abs=1e-5)
+    assert exact[2] > 10.0
+
+
+@pytest.mark.parametrize("rate", [1e3, 1e6])
+def test_a_stiff_damper_stops_within_a_step_without_swinging(rate):
+    run = simulate(sliding_mass(0.0, rate, 0.0, 1.0), 0.1, 0.01, settings=TIGHT)
+    speed = np.abs(run["v"])
+    assert speed[1] < 10.0 / (rate * 0.01)
+    assert speed[2] < 10.0 / (rate * 0.01) ** 2
+    assert run["x"][-1] == pytest.approx(1.0 / rate, rel=1e-2)
+
+
+def test_a_stiff_spring_is_damped_and_the_slow_motion_stays():
+    """Frequency times step 100: the energy of the fast motion is gone at once."""
+    run = simulate(sliding_mass(1e8, 0.0, 1.0, 0.0), 0.1, 0.01, settings=Settings(method=NAME))
+    assert run["energy"][2] < 1e-6 * run["energy"][0]
+
+
+@pytest.mark.parametrize("h", [0.05, 0.02, 0.01])
+def test_singular_positions_are_passed(h):
+    run = simulate(compile(double_four_bar.build()), 10.0, h, method=NAME)
+    energy = run["energy.total"]
+    assert np.abs(energy - energy[0]).max() < 20.0 * (h / 0.05) ** 4.5 * 1e-3
+    assert run.report.violation < 1e-10
+
+
+def test_a_redundant_row_costs_no_more_than_others():
+    run = simulate(compile(bricard.build()), 10.0, 0.05, method=NAME)
+    assert np.abs(run["energy.total"] - run["energy.total"][0]).max() < 1e-5
+    assert run.report.iterations % STAGES == 0
+    assert run.report.iterations < 5 * STAGES * run.report.steps
+    assert run.report.factorizations < 2.1 * run.report.steps  # all stages together, and the mass for the projections
+    assert run.report.velocity_violation < 1e-10
+
+
+def test_inputs_go_straight_between_the_ends_of_a_step():
+    inputs, system = {"torque": (np.array([0.0, 0.5, 1.0]), np.array([0.0, 8.0, -4.0]))}, crank_with_a_motor()
+    found = simulate(system, 1.0, 0.02, inputs, TIGHT)
+    expected = simulate(system, 1.0, 0.02, inputs, method="runge_kutta_8")
+    np.testing.assert_allclose(found["angle"], expected["angle"], atol=1e-7)
+
+
+def test_accelerations_and_joint_forces_are_those_of_the_state():
+    """M qdd + Phi_q' lam = Q and Phi_q qdd = -gamma at the end of a step."""
+    system = compile(swing(6.0))
+    simulation = Simulation(system, settings=TIGHT)
+    for _ in range(20):
+        simulation.step(0.01)
+    fine = Simulation(system, settings=Settings(method="runge_kutta_8", tolerance_phi=1e-14))
+    for _ in range(20):
+        fine.step(0.01)
+    np.testing.assert_allclose(simulation.state.qdd, fine.state.qdd, atol=2e-3)
+    np.testing.assert_allclose(simulation.state.lam, fine.state.lam, atol=2e-2)
+
+
+@pytest.mark.parametrize("model", [swing(2.0), bricard.build()], ids=["swing", "redundant row"])
+def test_a_saved_state_continues_bit_for_bit(model):
+    system = compile(model)
+    settings = Settings(method=NAME)
+    whole, first = Simulation(system, settings=settings), Simulation(system, settings=settings)
+    whole.run(1.0, 0.02)
+    first.run(0.5, 0.02)
+    second = Simulation(system)
+    second.restore(first.save())
+    second.run(1.0, 0.02)
+    assert whole.save()[64:] == second.save()[64:]
+
+
+def test_a_step_that_fails_leaves_the_state():
+    settings = Settings(method=NAME, max_iterations=1, max_halvings=0)
+    simulation = Simulation(compile(double_four_bar.build()), settings=settings)
+    before = simulation.state
+    with pytest.raises(SimulationError, match="did not converge"):
+        simulation.step(0.1)
+    np.testing.assert_array_equal(simulation.state.q, before.q)
+    np.testing.assert_array_equal(simulation.state.lam, before.lam)
+
+
+def test_element_states_are_refused():
+    with pytest.raises(SimulationError, match="takes no element states"):
+        simulate(compile(prototype_car.build()), 0.1, 0.01, method=NAME)
