@@ -11,10 +11,11 @@
 enum { MAX_SWEEPS = 3, REFINEMENTS = 2, COMPOSED_PAST = 3 };
 static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
+static const double TWO_MORE = 10.0; /* tolerances: made anew also if two more iterations with the old end above */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
-static const double REFINE_PHI = 1e-2;
+static const double REFINE_PHI = 1e-1;
 static const double EPS_SHARE = 1e-3; /* of eps_rel */
-static const double LEAST_SCALE = 0.5, MOST_SCALE = 2.0; /* of kinetic energies that may be made equal */
+static const double LEAST_RATIO = 0.5, MOST_RATIO = 2.0; /* of kinetic energies that may be made equal */
 
 /* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
  * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones feed the round-off
@@ -35,6 +36,10 @@ static void evaluate(ali3_instance *in, double h) {
     in->rate[i] = inverse * D;
     in->w[i] = D - h * in->now.own[i];
   }
+  if (S->n_flexible > 0) {
+    for (int32_t i = 0; i < nq; i++) in->x[i] = 2.0 * in->rate[i] - in->now.own[i];
+    ali3_flexible_momentum(in, to->q, in->x, in->d0);
+  }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_discrete_rows(in, in->D, to->q, &in->now, to);
   const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h,      0.25 * h * h,
@@ -44,9 +49,29 @@ static void evaluate(ali3_instance *in, double h) {
   ali3_forces(in, &call);
   in->discrete = false;
   in->force_input = in->input;
-  ali3_mass_times(in, in->w, in->r);
+  ali3_constant_mass_times(S, in->w, in->r);
+  if (S->n_flexible > 0) {
+    for (int32_t i = 0; i < nq; i++) in->w[i] *= inverse;
+    ali3_discrete_inertia(in, h, in->hat, in->d0, in->rate, in->w, in->r);
+  }
   ali3_rows_transposed(S, in->A, to->lam, in->x);
   for (int32_t i = 0; i < nq; i++) in->r[i] += c * (in->x[i] - in->Q[i]);
+}
+
+/* Whether in->J0 is Phi_q of v, bit for bit; remembers v. */
+static bool same_place(ali3_instance *in, const ali3_vectors *v) {
+  const ali3_sizes *z = &in->system->size;
+  const double *part[3] = {v->q, v->s, v->on};
+  const int32_t n[3] = {z->nq, z->ng, z->n_switch};
+  bool same = in->has_J0;
+  double *at = in->at_J0;
+  for (int k = 0; k < 3; at += n[k], k++) {
+    const size_t size = (size_t)n[k] * sizeof(double);
+    same = same && memcmp(at, part[k], size) == 0;
+    memcpy(at, part[k], size);
+  }
+  in->has_J0 = true;
+  return same;
 }
 
 /* By how much the worst row is open beyond its round-off, m. */
@@ -107,16 +132,26 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
   return ALI3_OK;
 }
 
-/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. */
+/* The larger of what is left of the balance and of the rows, each in parts of its tolerance. */
+static double error(const ali3_instance *in, double *r, double *v) {
+  *r = in->report.residual / in->settings.tolerance_r;
+  *v = opening(in->system, in->Phi) / in->settings.tolerance_phi;
+  return fmax(*r, *v);
+}
+
+/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. A tangent serves until
+ * the errors, which fall by the same ratio with each iteration, show that a new one is cheaper. */
 static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *iterations) {
   const ali3_settings *settings = &in->settings;
   const bool refine = settings->method == ALI3_METHOD_ENERGY_MOMENTUM;
   const double alpha = 2.0 * weight / (h * h), least_r = refine ? REFINE_R * fabs(h) : 1.0,
                least_v = refine ? REFINE_PHI : 1.0;
-  double last = 0.0;
+  double r, v;
   int32_t refinements = 0;
   bool fresh = true;
   evaluate(in, h);
+  if (!judge(in)) return ALI3_NOT_FINITE;
+  double last = error(in, &r, &v);
   for (*iterations = 0; *iterations < settings->max_iterations;) {
     ali3_status status = fresh ? factorise(in, h, weight) : ALI3_OK;
     if (status == ALI3_OK) status = correct(in, weight, alpha, *iterations);
@@ -124,12 +159,11 @@ static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *i
     ++*iterations;
     evaluate(in, h);
     if (!judge(in)) return ALI3_NOT_FINITE;
-    const double r = in->report.residual / settings->tolerance_r,
-                 v = opening(in->system, in->Phi) / settings->tolerance_phi;
-    const double size = fmax(r, v);
+    const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
     if (r <= least_r && v <= least_v) return ALI3_OK;
-    fresh = *iterations > 1 && size > SLOW * last;
-    if (size <= 1.0 && (refinements++ == REFINEMENTS || fresh)) return ALI3_OK;
+    const bool slow = *iterations > 1 && ratio > SLOW;
+    if (size <= 1.0 && (refinements++ == REFINEMENTS || slow)) return ALI3_OK;
+    fresh = slow || (size > 1.0 && size * ratio * ratio > TWO_MORE);
     last = size;
   }
   return ALI3_NOT_CONVERGED;
@@ -153,10 +187,12 @@ static double project(ali3_instance *in, double weight, const double *b, double 
     ali3_rows_times(S, in->J, v, in->mu);
     for (int32_t k = 0; k < nc; k++) {
       in->mu[k] += b[k];
-      violation = fmax(violation, fabs(in->mu[k]) * S->row_measure[k]);
+      const double size = fabs(in->mu[k]) * S->row_measure[k];
+      if (size > violation) violation = size;
       in->mu[k] *= weight;
     }
-    for (int32_t i = 0; i < nq; i++) scale = fmax(scale, fabs(v[i]));
+    for (int32_t i = 0; i < nq; i++)
+      if (fabs(v[i]) > scale) scale = fabs(v[i]);
     if (sweep == MAX_SWEEPS || violation <= tolerance * scale) return violation;
     ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
     ali3_solve_lu(in, in->F, in->x);
@@ -164,11 +200,31 @@ static double project(ali3_instance *in, double weight, const double *b, double 
   }
 }
 
-static double kinetic_energy(ali3_instance *in, const double *qd) {
-  double twice = 0.0;
-  ali3_mass_times(in, qd, in->x);
-  for (int32_t i = 0; i < in->system->size.nq; i++) twice += in->x[i] * qd[i];
-  return 0.5 * twice;
+/* Ratio of the kinetic energies of two velocities. */
+static double energy_ratio(ali3_instance *in, const double *a, const double *b) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  double of_a = 0.0, of_b = 0.0;
+  for (int32_t i = 0; i < nq; i++) {
+    double sum_a = 0.0, sum_b = 0.0;
+    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) {
+      sum_a += S->mass_val[k] * a[S->mass_col[k]];
+      sum_b += S->mass_val[k] * b[S->mass_col[k]];
+    }
+    of_a += sum_a * a[i];
+    of_b += sum_b * b[i];
+  }
+  if (S->n_flexible > 0) {
+    memset(in->x, 0, (size_t)nq * sizeof(double));
+    memset(in->w, 0, (size_t)nq * sizeof(double));
+    ali3_flexible_mass_times(in, a, in->x);
+    ali3_flexible_mass_times(in, b, in->w);
+    for (int32_t i = 0; i < nq; i++) {
+      of_a += in->x[i] * a[i];
+      of_b += in->w[i] * b[i];
+    }
+  }
+  return of_a / of_b;
 }
 
 /* qd on the constraints with the kinetic energy of v->own, accelerations and multipliers from the last two middles,
@@ -184,11 +240,11 @@ static void report(ali3_instance *in, ali3_vectors *v, double weight) {
   in->report.velocity_violation = project(in, weight, in->Phit, v->qd, VELOCITY_TOLERANCE);
   const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
   ali3_forces(in, &call);
-  const double own = kinetic_energy(in, v->own), projected = kinetic_energy(in, v->qd);
+  const double ratio = energy_ratio(in, v->own, v->qd);
   bool driven = false;
   for (int32_t k = 0; k < nc; k++) driven = driven || in->Phit[k] != 0.0;
-  if (!driven && own > LEAST_SCALE * projected && own < MOST_SCALE * projected) {
-    const double scale = sqrt(own / projected);
+  if (!driven && ratio > LEAST_RATIO && ratio < MOST_RATIO) {
+    const double scale = sqrt(ratio);
     for (int32_t i = 0; i < nq; i++) v->qd[i] *= scale;
   }
   for (int32_t i = 0; i < nq; i++) v->qdd[i] = first * v->past_a[i] + (two ? second * v->past_a[nq + i] : 0.0);
@@ -228,7 +284,8 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];
   for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
-  ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
+  if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
+  if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
   const ali3_status status = newton(in, h, weight, &iterations);
   in->report.iterations += iterations;
   in->report.last_iterations = iterations;
@@ -250,6 +307,8 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   to->h_last[0] = 0.0;
   if (reported) report(in, to, weight);
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
+  same_place(in, to);
+  memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
   const ali3_vectors swap = in->now;
   in->now = in->next;
   in->next = swap;

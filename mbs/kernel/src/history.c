@@ -1,8 +1,11 @@
 /* What the methods carry from step to step beside q, qd, qdd, and the start value that it gives: mean accelerations
  * and multipliers of past steps, extrapolated by the polynomial through their middles. */
+#include <math.h>
 #include <string.h>
 
 #include "ali3_internal.h"
+
+static const double WELL = 1e-4; /* squared relative error of a good guess */
 
 /* Number of past steps, at most `most`; a restored state may hold any number there. */
 static int32_t past(const ali3_vectors *v, int32_t most) {
@@ -19,13 +22,47 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
 }
 
+/* Weights (Lagrange) with which values at the n times extrapolate to time t. */
+static void lagrange(const double *time, int32_t n, double t, double *weight) {
+  for (int32_t k = 0; k < n; k++) {
+    weight[k] = 1.0;
+    for (int32_t j = 0; j < n; j++)
+      if (j != k) weight[k] *= (t - time[j]) / (time[k] - time[j]);
+  }
+}
+
+/* How many of the n past steps to extrapolate from: as many as would have told the last one best, and all of them
+ * where all that came before it would have, or well enough. In a swing that turns within a few steps old ones mislead. */
+static int32_t best_order(const ali3_vectors *v, int32_t nq, int32_t n) {
+  const double *time = v->memory + ALI3_MEMORY_TIME;
+  double least = HUGE_VAL, weight[ALI3_PAST];
+  int32_t best = n;
+  for (int32_t m = n - 1; m > 0; m--) {
+    double error = 0.0, square = 0.0;
+    lagrange(time + 1, m, time[0], weight);
+    for (int32_t i = 0; i < nq; i++) {
+      const double last = v->past_a[i];
+      double miss = -last;
+      for (int32_t k = 0; k < m; k++) miss += weight[k] * v->past_a[(int64_t)(k + 1) * nq + i];
+      error += miss * miss;
+      square += last * last;
+    }
+    if (error < least) {
+      least = error;
+      best = m == n - 1 ? n : m;
+    }
+    if (least <= WELL * square) break;
+  }
+  return best;
+}
+
 /* Mean acceleration a (nq) and multipliers (nc) of the step h that begins now from at most `most` past steps; without
  * a past those of the state. */
 void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
-  const int32_t n = past(v, most);
-  const double *time = v->memory + ALI3_MEMORY_TIME;
+  const int32_t known = past(v, most), n = known > 2 ? best_order(v, nq, known) : known;
+  double weight[ALI3_PAST];
   if (n == 0) {
     memcpy(a, v->qdd, (size_t)nq * sizeof *a);
     memcpy(lam, v->lam, (size_t)nc * sizeof *lam);
@@ -33,13 +70,11 @@ void ali3_history_predict(const ali3_instance *in, double h, int32_t most, doubl
   }
   memset(a, 0, (size_t)nq * sizeof *a);
   memset(lam, 0, (size_t)nc * sizeof *lam);
+  lagrange(v->memory + ALI3_MEMORY_TIME, n, 0.5 * h, weight);
   for (int32_t k = 0; k < n; k++) {
-    double weight = 1.0; /* Lagrange */
-    for (int32_t j = 0; j < n; j++)
-      if (j != k) weight *= (0.5 * h - time[j]) / (time[k] - time[j]);
     const double *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
-    for (int32_t i = 0; i < nq; i++) a[i] += weight * past_a[i];
-    for (int32_t i = 0; i < nc; i++) lam[i] += weight * past_lam[i];
+    for (int32_t i = 0; i < nq; i++) a[i] += weight[k] * past_a[i];
+    for (int32_t i = 0; i < nc; i++) lam[i] += weight[k] * past_lam[i];
   }
 }
 
