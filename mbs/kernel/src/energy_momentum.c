@@ -2,7 +2,8 @@
  *   M (D - h v0) + c (A' lam - Q) = 0,  Phi(q1) = 0,  c = h^2/2,
  * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: rows do no
  * work, springs give back what they take, dampers and inputs account for the rest. The step carries its own velocity;
- * the one that is reported lies on the constraints and has its kinetic energy. */
+ * the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is taken at both
+ * ends (discrete_inertia.c). */
 #include <math.h>
 #include <string.h>
 
@@ -253,6 +254,13 @@ static void report(ali3_instance *in, ali3_vectors *v, double weight) {
   project(in, weight, in->gamma, v->qdd, ACCELERATION_TOLERANCE);
 }
 
+/* Energy bounds what the carried velocity has off the rows, but not in coordinates without mass, which flexible bodies
+ * have many of: there it changes sign with every step and grows with the rate at which they turn. These Systems carry
+ * the reported velocity. Not in a composition, whose steps must be symmetric. */
+static bool carries_projected(const ali3_instance *in) {
+  return in->system->n_flexible > 0 && in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM;
+}
+
 void ali3_energy_momentum_report(ali3_instance *in) {
   const ali3_system *S = in->system;
   const double weight = penalty_weight(in, in->h_last > 0.0 ? in->h_last : 1.0);
@@ -305,7 +313,9 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
     ali3_forces_accept(in, &call);
   }
   to->h_last[0] = 0.0;
-  if (reported) report(in, to, weight);
+  const bool on_rows = carries_projected(in);
+  if (reported || on_rows) report(in, to, weight);
+  if (on_rows) memcpy(to->own, to->qd, (size_t)nq * sizeof(double));
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
   same_place(in, to);
   memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
