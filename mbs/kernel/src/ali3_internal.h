@@ -279,6 +279,10 @@ void ali3_accelerate(ali3_instance *in, int32_t iteration);
 
 /* energy_momentum.c */
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool report);
+double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
+
+/* energy_momentum_report.c */
+void ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v, double weight);
 void ali3_energy_momentum_report(ali3_instance *in);
 
 /* history.c */

@@ -9,20 +9,40 @@
 
 #include "ali3_internal.h"
 
-enum { MAX_SWEEPS = 3, REFINEMENTS = 2, COMPOSED_PAST = 3 };
-static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
+enum { REFINEMENTS = 2, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
 static const double TWO_MORE = 10.0; /* tolerances: made anew also if two more iterations with the old end above */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
-static const double REFINE_PHI = 1e-1;
-static const double EPS_SHARE = 1e-3; /* of eps_rel */
-static const double LEAST_RATIO = 0.5, MOST_RATIO = 2.0; /* of kinetic energies that may be made equal */
+static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 10.0; /* of the tolerance; s^-1 */
+static const double EPS_SHARE = 1e-3;                          /* of eps_rel */
+static const double STRADDLE = 1e5, MOST_RAISED = 100.0;       /* of penalties */
+static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0}; /* factors of the penalty; the last with patience */
 
 /* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
  * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones feed the round-off
  * of rows that turn far in a step back as forces. */
-static double penalty_weight(const ali3_instance *in, double h) {
+double ali3_energy_momentum_penalty(const ali3_instance *in, double h) {
   return 0.5 * h * h * ali3_penalty(in, h) / EPS_SHARE;
+}
+
+/* The penalty of this step. A row that loses its lever a at a singular position has one of either sign at the ends of
+ * the step that crosses it, and the iteration contracts by 1 / (1 + c alpha a_mean a_end): it diverges where that
+ * product lies between -2 and 0. Levers grow with the turn of the rows in a step, so the rule's penalty is raised where
+ * they turn little. */
+static double raised_penalty(const ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  const double weight = ali3_energy_momentum_penalty(in, h);
+  double turn = 0.0;
+  if (in->settings.alpha > 0.0) return weight;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    double square = 0.0;
+    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
+      const double change = in->J[i] - in->J0[i];
+      square += change * change * S->mass_floor_inverse[S->row_col[i]];
+    }
+    if (square > turn) turn = square;
+  }
+  return weight * fmin(MOST_RAISED, fmax(1.0, STRADDLE / (weight * turn)));
 }
 
 static void evaluate(ali3_instance *in, double h) {
@@ -140,34 +160,65 @@ static double error(const ali3_instance *in, double *r, double *v) {
   return fmax(*r, *v);
 }
 
-/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. A tangent serves until
- * the errors, which fall by the same ratio with each iteration, show that a new one is cheaper. */
-static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *iterations) {
-  const ali3_settings *settings = &in->settings;
-  const bool refine = settings->method == ALI3_METHOD_ENERGY_MOMENTUM;
-  const double alpha = 2.0 * weight / (h * h), least_r = refine ? REFINE_R * fabs(h) : 1.0,
-               least_v = refine ? REFINE_PHI : 1.0;
-  double r, v;
-  int32_t refinements = 0;
-  bool fresh = true;
+/* Back to the iterate before the last correction. */
+static ali3_status undo(ali3_instance *in, double h) {
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] -= in->step_q[i];
+  for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] -= in->step_lam[k];
   evaluate(in, h);
-  if (!judge(in)) return ALI3_NOT_FINITE;
-  double last = error(in, &r, &v);
-  for (*iterations = 0; *iterations < settings->max_iterations;) {
+  return judge(in) ? ALI3_OK : ALI3_NOT_FINITE;
+}
+
+/* First guess and all that belongs to it. */
+static bool start(ali3_instance *in, double h) {
+  const int32_t past = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST;
+  ali3_history_predict(in, h, past, in->d0, in->next.lam);
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] = h * in->now.own[i] + 0.5 * h * h * in->d0[i];
+  evaluate(in, h);
+  return judge(in);
+}
+
+/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. A tangent serves until
+ * the errors, which fall by the same ratio with each iteration, show that a new one is cheaper. Without patience an
+ * iteration that new tangents make worse is given up. */
+static ali3_status newton(ali3_instance *in, double h, double weight, bool patient, int32_t *iterations) {
+  const ali3_settings *settings = &in->settings;
+  const bool composed = settings->method != ALI3_METHOD_ENERGY_MOMENTUM;
+  const double alpha = 2.0 * weight / (h * h), refine = fmin(1.0, REFINE_COMPOSED * fabs(h));
+  const double least_r = composed ? refine : REFINE_R * fabs(h), least_v = composed ? refine : REFINE_PHI;
+  double r, v, last = error(in, &r, &v);
+  int32_t refinements = 0, worse = 0;
+  bool fresh = true;
+  for (int32_t k = 0; k < settings->max_iterations; k++) {
     ali3_status status = fresh ? factorise(in, h, weight) : ALI3_OK;
-    if (status == ALI3_OK) status = correct(in, weight, alpha, *iterations);
+    if (status == ALI3_OK) status = correct(in, weight, alpha, k);
     if (status != ALI3_OK) return status;
     ++*iterations;
     evaluate(in, h);
     if (!judge(in)) return ALI3_NOT_FINITE;
     const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
     if (r <= least_r && v <= least_v) return ALI3_OK;
-    const bool slow = *iterations > 1 && ratio > SLOW;
+    if (last <= 1.0 && size > last) return undo(in, h);
+    if (!patient && fresh && size > last && ++worse == MOST_WORSE) return ALI3_NOT_CONVERGED;
+    const bool slow = k > 0 && ratio > SLOW;
     if (size <= 1.0 && (refinements++ == REFINEMENTS || slow)) return ALI3_OK;
     fresh = slow || (size > 1.0 && size * ratio * ratio > TWO_MORE);
     last = size;
   }
   return ALI3_NOT_CONVERGED;
+}
+
+/* The iteration with its penalty, and where it fails with others; *weight is the one that served. */
+static ali3_status solve(ali3_instance *in, double h, double *weight, int32_t *iterations) {
+  if (!start(in, h)) return ALI3_NOT_FINITE;
+  const double usual = raised_penalty(in, h);
+  ali3_status status = ALI3_NOT_CONVERGED;
+  for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+    *weight = ATTEMPT[attempt] * usual;
+    if (attempt > 0 && !start(in, h)) return ALI3_NOT_FINITE;
+    status = newton(in, h, *weight, attempt == ATTEMPTS - 1, iterations);
+    if (status != ALI3_NOT_CONVERGED && status != ALI3_SINGULAR) break;
+  }
+  return status;
 }
 
 /* Takes out of lam what makes no force (redundant rows): round-off that extrapolation would let grow. */
@@ -179,79 +230,28 @@ static void clean(ali3_instance *in, double weight, double *lam) {
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
 }
 
-/* As ali3_project, with the unsymmetric tangent; the part of v that is taken away is spread by A. */
-static double project(ali3_instance *in, double weight, const double *b, double *v, double tolerance) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq, nc = S->size.nc;
-  for (int32_t sweep = 0;; sweep++) {
-    double violation = 0.0, scale = 0.0;
-    ali3_rows_times(S, in->J, v, in->mu);
-    for (int32_t k = 0; k < nc; k++) {
-      in->mu[k] += b[k];
-      const double size = fabs(in->mu[k]) * S->row_measure[k];
-      if (size > violation) violation = size;
-      in->mu[k] *= weight;
-    }
-    for (int32_t i = 0; i < nq; i++)
-      if (fabs(v[i]) > scale) scale = fabs(v[i]);
-    if (sweep == MAX_SWEEPS || violation <= tolerance * scale) return violation;
-    ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
-    ali3_solve_lu(in, in->F, in->x);
-    for (int32_t i = 0; i < nq; i++) v[i] -= in->x[i];
+/* Velocity at the end of the step for the states of elements: the straight line through the mean rates of this step
+ * and the last. What the carried one has beside it changes sign with every step; a brush or a brake that sticks would
+ * take that for a motion, and creep. Over many steps these velocities add up to the way that was made. */
+static void velocity_for_states(const ali3_instance *in, double h, double *v) {
+  const ali3_vectors *from = &in->now;
+  const int32_t nq = in->system->size.nq;
+  const double half = -from->memory[ALI3_MEMORY_TIME]; /* of the last step */
+  if (!(from->memory[ALI3_MEMORY_COUNT] >= 1.0)) {
+    memcpy(v, in->next.own, (size_t)nq * sizeof *v);
+    return;
   }
-}
-
-/* Ratio of the kinetic energies of two velocities. */
-static double energy_ratio(ali3_instance *in, const double *a, const double *b) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq;
-  double of_a = 0.0, of_b = 0.0;
+  const double share = 0.5 * h / (0.5 * h + half);
+  double along = 0.0, square = 0.0;
   for (int32_t i = 0; i < nq; i++) {
-    double sum_a = 0.0, sum_b = 0.0;
-    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) {
-      sum_a += S->mass_val[k] * a[S->mass_col[k]];
-      sum_b += S->mass_val[k] * b[S->mass_col[k]];
-    }
-    of_a += sum_a * a[i];
-    of_b += sum_b * b[i];
+    const double last = from->own[i] - half * from->past_a[i];
+    const double line = share * (in->rate[i] - last), m = in->system->mass_floor[i];
+    v[i] = in->next.own[i] - in->rate[i];
+    along += m * v[i] * line;
+    square += m * v[i] * v[i];
   }
-  if (S->n_flexible > 0) {
-    memset(in->x, 0, (size_t)nq * sizeof(double));
-    memset(in->w, 0, (size_t)nq * sizeof(double));
-    ali3_flexible_mass_times(in, a, in->x);
-    ali3_flexible_mass_times(in, b, in->w);
-    for (int32_t i = 0; i < nq; i++) {
-      of_a += in->x[i] * a[i];
-      of_b += in->w[i] * b[i];
-    }
-  }
-  return of_a / of_b;
-}
-
-/* qd on the constraints with the kinetic energy of v->own, accelerations and multipliers from the last two middles,
- * outputs of the elements. Needs Phi_q in in->J and a factorised tangent. */
-static void report(ali3_instance *in, ali3_vectors *v, double weight) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq, nc = S->size.nc;
-  const double *time = v->memory + ALI3_MEMORY_TIME;
-  const bool two = v->memory[ALI3_MEMORY_COUNT] >= 2.0;
-  const double second = two ? time[0] / (time[1] - time[0]) : 0.0, first = 1.0 - second;
-  ali3_constraint_rate(in, v->q, v, in->Phit);
-  memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
-  in->report.velocity_violation = project(in, weight, in->Phit, v->qd, VELOCITY_TOLERANCE);
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
-  ali3_forces(in, &call);
-  const double ratio = energy_ratio(in, v->own, v->qd);
-  bool driven = false;
-  for (int32_t k = 0; k < nc; k++) driven = driven || in->Phit[k] != 0.0;
-  if (!driven && ratio > LEAST_RATIO && ratio < MOST_RATIO) {
-    const double scale = sqrt(ratio);
-    for (int32_t i = 0; i < nq; i++) v->qd[i] *= scale;
-  }
-  for (int32_t i = 0; i < nq; i++) v->qdd[i] = first * v->past_a[i] + (two ? second * v->past_a[nq + i] : 0.0);
-  for (int32_t k = 0; k < nc; k++) v->lam[k] = first * v->past_lam[k] + (two ? second * v->past_lam[nc + k] : 0.0);
-  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  project(in, weight, in->gamma, v->qdd, ACCELERATION_TOLERANCE);
+  const double part = square > 0.0 ? fmin(1.0, fmax(0.0, along / square)) : 0.0;
+  for (int32_t i = 0; i < nq; i++) v[i] = in->rate[i] + part * v[i];
 }
 
 /* Energy bounds what the carried velocity has off the rows, but not in coordinates without mass, which flexible bodies
@@ -261,40 +261,22 @@ static bool carries_projected(const ali3_instance *in) {
   return in->system->n_flexible > 0 && in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM;
 }
 
-void ali3_energy_momentum_report(ali3_instance *in) {
-  const ali3_system *S = in->system;
-  const double weight = penalty_weight(in, in->h_last > 0.0 ? in->h_last : 1.0);
-  ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
-  memcpy(in->A_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  if (S->n_flexible > 0) {
-    ali3_flexible_prepare(in, in->now.q);
-    ali3_flexible_tangent(in, 0.0, 0.0, in->F);
-  }
-  ali3_mirror(in, in->F);
-  ali3_rows_product(in, in->J, in->J, weight, in->F);
-  if (ali3_factorise_lu(in, in->F) == ALI3_OK) report(in, &in->now, weight);
-}
-
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
  * Inputs go straight from u0 to the present ones; the middle of this step has the given share of the latter. */
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double weight = penalty_weight(in, h);
+  double weight = 0.0;
   ali3_vectors *from = &in->now, *to = &in->next;
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
   ali3_switch_carry(in);
-  ali3_history_predict(in, h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST, in->d0,
-                       to->lam);
-  for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];
   for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
   if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
-  const ali3_status status = newton(in, h, weight, &iterations);
+  const ali3_status status = solve(in, h, &weight, &iterations);
   in->report.iterations += iterations;
   in->report.last_iterations = iterations;
   if (iterations > in->report.max_iterations) in->report.max_iterations = iterations;
@@ -307,14 +289,15 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   clean(in, weight, to->lam);
   ali3_history_append(in, h, in->d0);
   if (S->size.ny > 0) {
-    const ali3_force_call call = {to->q, to->own, from->y, h,       0.5 * h,      0.25 * h * h,
-                                  false, in->Q,   to->y,   to->out, to->potential};
+    velocity_for_states(in, h, in->w);
+    const ali3_force_call call = {to->q, in->w, from->y, h,       0.5 * h,      0.25 * h * h,
+                                  false, in->Q, to->y,   to->out, to->potential};
     ali3_forces(in, &call);
     ali3_forces_accept(in, &call);
   }
   to->h_last[0] = 0.0;
   const bool on_rows = carries_projected(in);
-  if (reported || on_rows) report(in, to, weight);
+  if (reported || on_rows) ali3_energy_momentum_complete(in, to, weight);
   if (on_rows) memcpy(to->own, to->qd, (size_t)nq * sizeof(double));
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
   same_place(in, to);

@@ -3,7 +3,12 @@
 #define ALI3_FLEXIBLE_H
 #include "ali3_internal.h"
 
-enum { ALI3_FLEX_AXES = 0, ALI3_FLEX_FIRST = 9, ALI3_FLEX_SECOND = 12, ALI3_FLEX_COUPLING = 21 }; /* places in the work */
+enum {
+  ALI3_FLEX_AXES = 0,
+  ALI3_FLEX_FIRST = 9,
+  ALI3_FLEX_SECOND = 12,
+  ALI3_FLEX_COUPLING = 21
+}; /* places in the work */
 
 typedef struct {
   int32_t n;                          /* modes */
@@ -35,7 +40,8 @@ static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b)
 }
 
 /* out += M x, M by columns; four columns at once. */
-static inline void ali3_accumulate(int32_t n, const double *restrict M, const double *restrict x, double *restrict out) {
+static inline void ali3_accumulate(int32_t n, const double *restrict M, const double *restrict x,
+                                   double *restrict out) {
   int32_t l = 0;
   for (; l + 3 < n; l += 4) {
     const double *restrict c0 = M + (int64_t)l * n, *restrict c1 = c0 + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;

@@ -85,8 +85,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
   const size_t total = 5 * n_vector + 3 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
-                       5 * (size_t)z->nnz_rows + (size_t)z->front_size + 2 * nq + (size_t)z->ng + (size_t)z->n_switch + 2 * (size_t)z->nsig + n_S + n_work +
-                       (size_t)s->max_front + ny + nout + ne;
+                       5 * (size_t)z->nnz_rows + (size_t)z->front_size + 2 * nq + (size_t)z->ng + (size_t)z->n_switch +
+                       2 * (size_t)z->nsig + n_S + n_work + (size_t)s->max_front + ny + nout + ne;
   const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u;
