@@ -204,7 +204,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
     fresh = slow || (size > 1.0 && size * ratio * ratio > TWO_MORE);
     last = size;
   }
-  return ALI3_NOT_CONVERGED;
+  return last <= 1.0 ? ALI3_OK : ALI3_NOT_CONVERGED;
 }
 
 /* The iteration with its penalty, and where it fails with others; *weight is the one that served. */
