@@ -66,7 +66,7 @@ def test_all_methods_go_to_the_same_motion_at_their_order(
 
 @pytest.mark.parametrize("h", [0.01, 0.002])
 def test_the_energy_momentum_step_keeps_the_energy_of_bodies_that_deform(h: float) -> None:
-    """Their mass matrix moves: M v is taken at both ends of the step, and the difference quotient of v' M v is exact."""
+    """Their mass matrix moves: M v is taken at both ends of the step, with the exact difference quotient of v' M v."""
     run = simulate(swinging(0.0), 2.0, h, settings=Settings(method="energy_momentum"), progress=False)
     assert np.ptp(run["elastic"]) > 0.1 * np.ptp(run["kinetic"])
     assert np.ptp(run["total"]) < KEPT * np.ptp(run["kinetic"])
@@ -75,9 +75,8 @@ def test_the_energy_momentum_step_keeps_the_energy_of_bodies_that_deform(h: floa
 def test_the_energy_momentum_step_carries_a_spinning_beam_to_its_deflection() -> None:
     """Coordinates without mass: what the velocity has off the rows there no energy bounds; it grew by 5 1/s."""
     system = compile(spinning_beam.build())
-    t = simulate(
-        system, spinning_beam.DURATION, 0.02, settings=Settings(method="energy_momentum", max_halvings=0), progress=False
-    )
+    settings = Settings(method="energy_momentum", max_halvings=0)
+    t = simulate(system, spinning_beam.DURATION, 0.02, settings=settings, progress=False)
     when, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
     _, found = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
     assert np.abs(np.interp(when, t.t, found) - expected).max() < DEFLECTION * np.abs(expected).max()

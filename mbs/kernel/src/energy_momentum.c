@@ -13,7 +13,7 @@ enum { REFINEMENTS = 2, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
 static const double TWO_MORE = 10.0; /* tolerances: made anew also if two more iterations with the old end above */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
-static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 10.0; /* of the tolerance; s^-1 */
+static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 50.0; /* of the tolerance; s^-1 */
 static const double EPS_SHARE = 1e-3;                          /* of eps_rel */
 static const double STRADDLE = 1e5, MOST_RAISED = 100.0;       /* of penalties */
 static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0}; /* factors of the penalty; the last with patience */
