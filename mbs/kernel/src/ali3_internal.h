@@ -289,6 +289,7 @@ void ali3_energy_momentum_report(ali3_instance *in);
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
 void ali3_history_predict(const ali3_instance *in, double h, int32_t most, double *a, double *lam);
 void ali3_history_append(ali3_instance *in, double h, const double *a);
+void ali3_history_velocity(const ali3_instance *in, double h, double *v);
 
 /* runge_kutta.c */
 ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h);

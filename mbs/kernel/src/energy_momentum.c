@@ -42,7 +42,8 @@ static double raised_penalty(const ali3_instance *in, double h) {
     }
     if (square > turn) turn = square;
   }
-  return weight * fmin(MOST_RAISED, fmax(1.0, STRADDLE / (weight * turn)));
+  const double most = MOST_RAISED * 0.5 / (in->settings.eps_rel * EPS_SHARE);
+  return fmax(weight, fmin(most, STRADDLE / turn));
 }
 
 static void evaluate(ali3_instance *in, double h) {
@@ -230,30 +231,6 @@ static void clean(ali3_instance *in, double weight, double *lam) {
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
 }
 
-/* Velocity at the end of the step for the states of elements: the straight line through the mean rates of this step
- * and the last. What the carried one has beside it changes sign with every step; a brush or a brake that sticks would
- * take that for a motion, and creep. Over many steps these velocities add up to the way that was made. */
-static void velocity_for_states(const ali3_instance *in, double h, double *v) {
-  const ali3_vectors *from = &in->now;
-  const int32_t nq = in->system->size.nq;
-  const double half = -from->memory[ALI3_MEMORY_TIME]; /* of the last step */
-  if (!(from->memory[ALI3_MEMORY_COUNT] >= 1.0)) {
-    memcpy(v, in->next.own, (size_t)nq * sizeof *v);
-    return;
-  }
-  const double share = 0.5 * h / (0.5 * h + half);
-  double along = 0.0, square = 0.0;
-  for (int32_t i = 0; i < nq; i++) {
-    const double last = from->own[i] - half * from->past_a[i];
-    const double line = share * (in->rate[i] - last), m = in->system->mass_floor[i];
-    v[i] = in->next.own[i] - in->rate[i];
-    along += m * v[i] * line;
-    square += m * v[i] * v[i];
-  }
-  const double part = square > 0.0 ? fmin(1.0, fmax(0.0, along / square)) : 0.0;
-  for (int32_t i = 0; i < nq; i++) v[i] = in->rate[i] + part * v[i];
-}
-
 /* Energy bounds what the carried velocity has off the rows, but not in coordinates without mass, which flexible bodies
  * have many of: there it changes sign with every step and grows with the rate at which they turn. These Systems carry
  * the reported velocity. Not in a composition, whose steps must be symmetric. */
@@ -289,7 +266,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   clean(in, weight, to->lam);
   ali3_history_append(in, h, in->d0);
   if (S->size.ny > 0) {
-    velocity_for_states(in, h, in->w);
+    ali3_history_velocity(in, h, in->w);
     const ali3_force_call call = {to->q, in->w, from->y, h,       0.5 * h,      0.25 * h * h,
                                   false, in->Q, to->y,   to->out, to->potential};
     ali3_forces(in, &call);

@@ -92,3 +92,27 @@ void ali3_history_append(ali3_instance *in, double h, const double *a) {
   memcpy(to->past_a + nq, from->past_a, (ALI3_PAST - 1) * nq * sizeof *a);
   memcpy(to->past_lam + nc, from->past_lam, (ALI3_PAST - 1) * nc * sizeof *a);
 }
+
+/* Velocity at the end of the step for the states of elements: the straight line through the mean rates of this step
+ * and the last. What the carried one has beside it changes sign with every step; a brush or a brake that sticks would
+ * take that for a motion, and creep. Over many steps these velocities add up to the way that was made. */
+void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
+  const ali3_vectors *from = &in->now;
+  const int32_t nq = in->system->size.nq;
+  const double half = -from->memory[ALI3_MEMORY_TIME]; /* of the last step */
+  if (!(from->memory[ALI3_MEMORY_COUNT] >= 1.0)) {
+    memcpy(v, in->next.own, (size_t)nq * sizeof *v);
+    return;
+  }
+  const double share = 0.5 * h / (0.5 * h + half);
+  double along = 0.0, square = 0.0;
+  for (int32_t i = 0; i < nq; i++) {
+    const double last = from->own[i] - half * from->past_a[i];
+    const double line = share * (in->rate[i] - last), m = in->system->mass_floor[i];
+    v[i] = in->next.own[i] - in->rate[i];
+    along += m * v[i] * line;
+    square += m * v[i] * v[i];
+  }
+  const double part = square > 0.0 ? fmin(1.0, fmax(0.0, along / square)) : 0.0;
+  for (int32_t i = 0; i < nq; i++) v[i] = in->rate[i] + part * v[i];
+}
