@@ -16,7 +16,9 @@ TITLES = {
     "semi_recursive_4": "semi-recursive, order 4",
     "radau_5": "Radau IIA, order 5",
 }
-TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13}
+TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13, "eps_rel": 1e-9}
+"""Rows that a singular position nearly loses close by a factor of about eps_rel over the square of their lever in an
+iteration: with the default eps_rel the 200-four-bar does not come below 1e-13 m there within 30 iterations."""
 CONSERVATIVE_ONLY = ("energy_momentum_4",)
 TREE_ONLY = ("semi_recursive", "semi_recursive_4")
 POSITIONS_ONLY = ("radau_5",)

@@ -1,6 +1,7 @@
-"""The PUMA 560 whose hand is pinned and released: ``python -m benchmarks.puma [--json FILE] [--quick]``.
+"""The PUMA 560 whose hand is pinned and released: ``python -m benchmarks.puma [--json FILE] [--quick] [--split]``.
 
 The paper's Table 2 beside ours: distance between the first and the last position of the hand, after eight seconds.
+With `--split` also where that error comes from: large steps in one stage only.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 import mbs
 from benchmarks.command import watched
 from benchmarks.common import describe, median_wall, print_table, write_json
@@ -21,6 +24,14 @@ PAPER = {0.01: (0.53e-3, 6.25), 0.05: (3.4e-3, 1.92), 0.1: (None, None)}  # s: (
 STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
 METHODS = ("ali3p", "energy_momentum")
 ROUNDS = 5
+LARGE, SMALL = 0.05, 0.0005  # s
+SPLIT = {
+    "all stages": (LARGE, LARGE, LARGE),
+    "stage 1, free": (LARGE, SMALL, SMALL),
+    "stage 2, pinned": (SMALL, LARGE, SMALL),
+    "stage 3, free": (SMALL, SMALL, LARGE),
+    "none": (SMALL, SMALL, SMALL),
+}
 TABLE = {
     "method": "",
     "h_s": "g",
@@ -70,11 +81,23 @@ def measure(system: mbs.System, method: str, h: float, rounds: int) -> dict[str,
     }
 
 
+def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
+    """Error with large steps in one stage and small ones elsewhere, and where the hand was when the pin closed."""
+    rows = []
+    for title, steps in SPLIT.items():
+        found = puma.replay(system, steps, mbs.Settings(method=method))
+        held = found.hand[found.times <= puma.STAGES_S[0]]
+        offset = float(np.linalg.norm(held[-1] - puma.held_at()))
+        rows.append({"large steps in": title, "when pinned mm": 1e3 * offset, "error mm": 1e3 * found.error})
+    return rows
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.puma", description=__doc__)
     parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
     parser.add_argument("--quick", action="store_true", help="one method, one round")
+    parser.add_argument("--split", action="store_true", help=f"also the share of each stage at h = {LARGE} s")
     options = parser.parse_args(arguments)
     system = mbs.compile(puma.build())
     rows = [
@@ -82,6 +105,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for method, h in watched([(m, h) for m in (METHODS[:1] if options.quick else METHODS) for h in STEPS])
     ]
     print_table(rows, TABLE)
+    if options.split:
+        print(f"\n{METHODS[0]}, steps of {LARGE} s in one stage and {SMALL} s elsewhere")
+        print_table(split(system, METHODS[0]), {"large steps in": "", "when pinned mm": ".3g", "error mm": ".3g"})
     if options.json is not None:
         write_json(options.json, describe("puma", mbs.Settings(), rounds=ROUNDS), rows)
         print(f"written: {options.json}")

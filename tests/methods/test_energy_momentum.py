@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from mbs import Settings, Simulation, SimulationError, compile, simulate
-from mbs.scenes import bricard, double_four_bar
+from mbs.scenes import bricard, double_four_bar, spatial_chain
 from tests.methods.models import MOVED_S, TRIANGLE_MASSES, driven, hinge, swing, triangle
 
 END = 10.0  # s
 EXACT_J = 1e-8
 ROUND_OFF = 1e-9
+STRADDLED_J = 1e-4  # of 40 loops; it was lost altogether
 EM = Settings(method="energy_momentum", max_halvings=0)
 
 
@@ -132,7 +133,7 @@ def test_a_state_continues_bit_for_bit_and_quiet_steps_change_nothing(four_bar):
 
 
 def test_a_step_that_does_not_converge_is_made_in_halves_and_keeps_the_energy(four_bar):
-    few = Settings(method="energy_momentum", max_iterations=8)
+    few = Settings(method="energy_momentum", max_iterations=4)
     run = simulate(four_bar, END, 0.1, settings=few)
     assert run.report.halvings > 0
     assert run.report.failures == 0
@@ -141,7 +142,7 @@ def test_a_step_that_does_not_converge_is_made_in_halves_and_keeps_the_energy(fo
 
 def test_a_run_that_fails_unseen_leaves_the_last_good_state_complete(four_bar):
     """Steps that nobody looks at leave out what only a reader needs; it is there when a later one fails."""
-    few = Settings(method="energy_momentum", max_iterations=6, max_halvings=0)
+    few = Settings(method="energy_momentum", max_iterations=4, max_halvings=0)
     unseen, seen = Simulation(four_bar, settings=few), Simulation(four_bar, settings=few)
     with pytest.raises(SimulationError, match="did not converge"):
         unseen.run(END, 0.1, every=100)
@@ -162,3 +163,33 @@ def test_the_method_may_change_on_the_way(four_bar):
     run = simulation.run(3.0, 0.01)
     assert spread(run) < EXACT_J
     assert run["energy.total"][0] == middle
+
+
+@pytest.mark.parametrize(
+    ("method", "h"), [("energy_momentum", 0.00025), ("energy_momentum_4", 0.002), ("energy_momentum_4", 0.001)]
+)
+def test_small_steps_cross_singular_positions_of_many_loops(method, h):
+    """Forty rows lose their levers at once; the step that straddles the position has them with either sign."""
+    run = simulate(
+        compile(double_four_bar.build(40)),
+        5.5,
+        h,
+        settings=Settings(method=method, max_halvings=0),
+        every=round(0.1 / h),
+    )
+    assert spread(run) < STRADDLED_J
+    assert np.ptp(run["B0.position.x"]) > 1.0
+
+
+@pytest.mark.parametrize("scene", ["four_bar", "loop"])
+def test_a_step_at_a_small_h_has_one_factorization_and_hardly_more_than_one_iteration(scene, request):
+    report = simulate(request.getfixturevalue(scene), 2.0, 0.001, settings=EM).report
+    assert report.factorizations < 1.01 * report.steps
+    assert report.mean_iterations < 1.5
+
+
+def test_a_guess_of_the_order_that_fits_saves_iterations_where_the_motion_turns_within_a_few_steps():
+    """Four past steps mislead the chain of ten links at 0.05 s, where the iteration had not converged."""
+    run = simulate(compile(spatial_chain.build()), END, 0.05, settings=EM)
+    assert spread(run) < EXACT_J
+    assert run.report.mean_iterations < 7.0

@@ -133,3 +133,14 @@ def test_the_robot_s_error_is_second_order_and_with_order_four_that_of_the_table
     errors = np.array([puma.replay(robot, h).path_error() for h in steps])
     assert 1.8 < np.polyfit(np.log(steps), np.log(errors), 1)[0] < 2.4
     assert puma.replay(robot, 0.01, Settings(method="energy_momentum_4")).path_error() < 5e-5
+
+
+def test_the_robot_s_error_is_made_before_the_pin_closes_and_grows_after(robot):
+    """Torques without feedback: the second-order error of the first stage is amplified by the motion that follows."""
+    small = 0.002
+    whole = puma.replay(robot, 0.02)
+    first, rest = puma.replay(robot, (0.02, small, small)), puma.replay(robot, (small, 0.02, 0.02))
+    at_pin = np.linalg.norm(first.hand[first.times <= 2.0][-1] - puma.held_at())
+    assert first.error == pytest.approx(whole.error, rel=0.1)
+    assert rest.error < 0.1 * whole.error
+    assert first.error > 10.0 * at_pin

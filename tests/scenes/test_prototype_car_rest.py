@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from benchmarks.car_manoeuvres import rise
-from mbs import Pose, compile
+from mbs import Pose, Settings, compile, simulate
 from mbs.elements.road import PlaneRoad
 from mbs.scenes import prototype_car
 from tests.scenes.car import H, car, drive, moved, place
 
 STILL = 1e-3  # m in 100 s
 CREEP = 1e-6  # m/s on a slope of ten per cent
+SETTLED = 1e-5  # m
 GRADE = 0.1
 
 
@@ -30,6 +31,15 @@ def test_a_hundred_seconds_at_rest(case):
     assert t["energy.kinetic"][-1] < 1e-12
     assert t.report.halvings == 0
     assert t.report.mean_iterations < 1.1
+
+
+@pytest.mark.parametrize("h", [0.01, 0.005])
+def test_the_energy_momentum_step_lets_the_braked_car_stand(h):
+    """Its carried velocity rings; brushes and brakes that took that for a motion let the car creep by metres."""
+    settings = Settings(method="energy_momentum")
+    t = simulate(car(), 60.0, h, {"brake": 1.0}, settings, every=10, progress=False)
+    assert moved(t, 0.0, 60.0) < STILL
+    assert moved(t, 20.0, 60.0) < SETTLED
 
 
 @pytest.mark.parametrize("way", ["grade_x", "grade_y"])

@@ -160,6 +160,8 @@ struct ali3_instance {
   double *stage; /* ALI3_STAGES x nq: accelerations, of radau.c residuals too */
   double *middle, *rate; /* nq: position and velocity in the middle of the step */
   double *J0, *A, *A_tangent; /* row pattern: Phi_q at the start, discrete derivative, where F was made */
+  double *at_J0; /* nq, ng, switches: where J0 was made */
+  bool has_J0;
   double *Phi, *Phit, *gamma, *mu, *lam; /* nc */
   double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
   double *F; /* front storage */
@@ -247,6 +249,12 @@ ali3_element_function *ali3_discrete_gradient(int32_t type); /* NULL: the middle
 /* discrete_rows.c */
 void ali3_discrete_rows(ali3_instance *in, const double *D, const double *q1, const ali3_vectors *from,
                         const ali3_vectors *to);
+
+/* discrete_inertia.c */
+void ali3_flexible_momentum(const ali3_instance *in, const double *q, const double *v, double *p);
+void ali3_discrete_inertia(const ali3_instance *in, double h, const double *p0, const double *p1, const double *mean,
+                           const double *half, double *r);
+
 /* flexible_body.c: prepare is for one q, the others use what it left */
 void ali3_flexible_prepare(const ali3_instance *in, const double *q);
 void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *out);
@@ -267,6 +275,7 @@ void ali3_solve_lu(ali3_instance *in, int32_t width, const double *F, double *b)
 
 /* measure.c */
 bool ali3_finite(const double *v, int64_t n);
+void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out);
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
 double ali3_penalty(const ali3_instance *in, double h);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
@@ -302,12 +311,19 @@ void ali3_accelerate(ali3_instance *in, int32_t iteration);
 
 /* energy_momentum.c */
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool report);
+double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
+
+/* energy_momentum_report.c */
+void ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v, double weight);
 void ali3_energy_momentum_report(ali3_instance *in);
 
 /* history.c */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
 void ali3_history_predict(const ali3_instance *in, double when, int32_t most, double *a, double *lam);
+int32_t ali3_history_order(const ali3_instance *in, int32_t most);
+bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h);
 void ali3_history_append(ali3_instance *in, double h, const double *a);
+void ali3_history_velocity(const ali3_instance *in, double h, double *v);
 
 /* index_one.c */
 #define ALI3_INDEX_ONE_PENALTY 1e8 /* of mass-normalised rows, with unit weight of M */

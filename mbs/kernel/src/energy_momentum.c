@@ -2,25 +2,48 @@
  *   M (D - h v0) + c (A' lam - Q) = 0,  Phi(q1) = 0,  c = h^2/2,
  * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: rows do no
  * work, springs give back what they take, dampers and inputs account for the rest. The step carries its own velocity;
- * the one that is reported lies on the constraints and has its kinetic energy. */
+ * the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is taken at both
+ * ends (discrete_inertia.c). */
 #include <math.h>
 #include <string.h>
 
 #include "ali3_internal.h"
 
-enum { MAX_SWEEPS = 3, REFINEMENTS = 2, COMPOSED_PAST = 3 };
-static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
+enum { REFINEMENTS = 2, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
+static const double TWO_MORE = 10.0; /* tolerances: made anew also if two more iterations with the old end above */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
-static const double REFINE_PHI = 1e-2;
-static const double EPS_SHARE = 1e-3; /* of eps_rel */
-static const double LEAST_SCALE = 0.5, MOST_SCALE = 2.0; /* of kinetic energies that may be made equal */
+static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 50.0; /* of the tolerance; s^-1 */
+static const double EPS_SHARE = 1e-3;                          /* of eps_rel */
+static const double STRADDLE = 1e5, MOST_RAISED = 100.0;       /* of penalties */
+static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0}; /* factors of the penalty; the last with patience */
 
 /* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
  * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones feed the round-off
  * of rows that turn far in a step back as forces. */
-static double penalty_weight(const ali3_instance *in, double h) {
+double ali3_energy_momentum_penalty(const ali3_instance *in, double h) {
   return 0.5 * h * h * ali3_penalty(in, h) / EPS_SHARE;
+}
+
+/* The penalty of this step. A row that loses its lever a at a singular position has one of either sign at the ends of
+ * the step that crosses it, and the iteration contracts by 1 / (1 + c alpha a_mean a_end): it diverges where that
+ * product lies between -2 and 0. Levers grow with the turn of the rows in a step, so the rule's penalty is raised where
+ * they turn little. */
+static double raised_penalty(const ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  const double weight = ali3_energy_momentum_penalty(in, h);
+  double turn = 0.0;
+  if (in->settings.alpha > 0.0) return weight;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    double square = 0.0;
+    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
+      const double change = in->J[i] - in->J0[i];
+      square += change * change * S->mass_floor_inverse[S->row_col[i]];
+    }
+    if (square > turn) turn = square;
+  }
+  const double most = MOST_RAISED * 0.5 / (in->settings.eps_rel * EPS_SHARE);
+  return fmax(weight, fmin(most, STRADDLE / turn));
 }
 
 static void evaluate(ali3_instance *in, double h) {
@@ -35,6 +58,10 @@ static void evaluate(ali3_instance *in, double h) {
     in->rate[i] = inverse * D;
     in->w[i] = D - h * in->now.own[i];
   }
+  if (S->n_flexible > 0) {
+    for (int32_t i = 0; i < nq; i++) in->x[i] = 2.0 * in->rate[i] - in->now.own[i];
+    ali3_flexible_momentum(in, to->q, in->x, in->d0);
+  }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_discrete_rows(in, in->D, to->q, &in->now, to);
   ali3_velocity_middle(in, in->A, in->D, in->Phi, in->J);
@@ -45,9 +72,29 @@ static void evaluate(ali3_instance *in, double h) {
   ali3_forces(in, &call);
   in->discrete = false;
   in->force_input = in->input;
-  ali3_mass_times(in, in->w, in->r);
+  ali3_constant_mass_times(S, in->w, in->r);
+  if (S->n_flexible > 0) {
+    for (int32_t i = 0; i < nq; i++) in->w[i] *= inverse;
+    ali3_discrete_inertia(in, h, in->hat, in->d0, in->rate, in->w, in->r);
+  }
   ali3_rows_transposed(S, in->A, to->lam, in->x);
   for (int32_t i = 0; i < nq; i++) in->r[i] += c * (in->x[i] - in->Q[i]);
+}
+
+/* Whether in->J0 is Phi_q of v, bit for bit; remembers v. */
+static bool same_place(ali3_instance *in, const ali3_vectors *v) {
+  const ali3_sizes *z = &in->system->size;
+  const double *part[3] = {v->q, v->s, v->on};
+  const int32_t n[3] = {z->nq, z->ng, z->n_switch};
+  bool same = in->has_J0;
+  double *at = in->at_J0;
+  for (int k = 0; k < 3; at += n[k], k++) {
+    const size_t size = (size_t)n[k] * sizeof(double);
+    same = same && memcmp(at, part[k], size) == 0;
+    memcpy(at, part[k], size);
+  }
+  in->has_J0 = true;
+  return same;
 }
 
 /* By how much the worst row is open beyond its round-off, m. */
@@ -108,32 +155,72 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
   return ALI3_OK;
 }
 
-/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. */
-static ali3_status newton(ali3_instance *in, double h, double weight, int32_t *iterations) {
-  const ali3_settings *settings = &in->settings;
-  const bool refine = settings->method == ALI3_METHOD_ENERGY_MOMENTUM;
-  const double alpha = 2.0 * weight / (h * h), least_r = refine ? REFINE_R * fabs(h) : 1.0,
-               least_v = refine ? REFINE_PHI : 1.0;
-  double last = 0.0;
-  int32_t refinements = 0;
-  bool fresh = true;
+/* The larger of what is left of the balance and of the rows, each in parts of its tolerance. */
+static double error(const ali3_instance *in, double *r, double *v) {
+  *r = in->report.residual / in->settings.tolerance_r;
+  *v = opening(in->system, in->Phi) / in->settings.tolerance_phi;
+  return fmax(*r, *v);
+}
+
+/* Back to the iterate before the last correction. */
+static ali3_status undo(ali3_instance *in, double h) {
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] -= in->step_q[i];
+  for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] -= in->step_lam[k];
   evaluate(in, h);
-  for (*iterations = 0; *iterations < settings->max_iterations;) {
+  return judge(in) ? ALI3_OK : ALI3_NOT_FINITE;
+}
+
+/* First guess and all that belongs to it. */
+static bool start(ali3_instance *in, double h) {
+  const int32_t past = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST;
+  ali3_history_predict(in, 0.5 * h, ali3_history_order(in, past), in->d0, in->next.lam);
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] = h * in->now.own[i] + 0.5 * h * h * in->d0[i];
+  evaluate(in, h);
+  return judge(in);
+}
+
+/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. A tangent serves until
+ * the errors, which fall by the same ratio with each iteration, show that a new one is cheaper. Without patience an
+ * iteration that new tangents make worse is given up. */
+static ali3_status newton(ali3_instance *in, double h, double weight, bool patient, int32_t *iterations) {
+  const ali3_settings *settings = &in->settings;
+  const bool composed = settings->method != ALI3_METHOD_ENERGY_MOMENTUM;
+  const double alpha = 2.0 * weight / (h * h), refine = fmin(1.0, REFINE_COMPOSED * fabs(h));
+  const double least_r = composed ? refine : REFINE_R * fabs(h), least_v = composed ? refine : REFINE_PHI;
+  double r, v, last = error(in, &r, &v);
+  int32_t refinements = 0, worse = 0;
+  bool fresh = true;
+  for (int32_t k = 0; k < settings->max_iterations; k++) {
     ali3_status status = fresh ? factorise(in, h, weight) : ALI3_OK;
-    if (status == ALI3_OK) status = correct(in, weight, alpha, *iterations);
+    if (status == ALI3_OK) status = correct(in, weight, alpha, k);
     if (status != ALI3_OK) return status;
     ++*iterations;
     evaluate(in, h);
     if (!judge(in)) return ALI3_NOT_FINITE;
-    const double r = in->report.residual / settings->tolerance_r,
-                 v = opening(in->system, in->Phi) / settings->tolerance_phi;
-    const double size = fmax(r, v);
+    const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
     if (r <= least_r && v <= least_v) return ALI3_OK;
-    fresh = *iterations > 1 && size > SLOW * last;
-    if (size <= 1.0 && (refinements++ == REFINEMENTS || fresh)) return ALI3_OK;
+    if (last <= 1.0 && size > last) return undo(in, h);
+    if (!patient && fresh && size > last && ++worse == MOST_WORSE) return ALI3_NOT_CONVERGED;
+    const bool slow = k > 0 && ratio > SLOW;
+    if (size <= 1.0 && (refinements++ == REFINEMENTS || slow)) return ALI3_OK;
+    fresh = slow || (size > 1.0 && size * ratio * ratio > TWO_MORE);
     last = size;
   }
-  return ALI3_NOT_CONVERGED;
+  return last <= 1.0 ? ALI3_OK : ALI3_NOT_CONVERGED;
+}
+
+/* The iteration with its penalty, and where it fails with others; *weight is the one that served. */
+static ali3_status solve(ali3_instance *in, double h, double *weight, int32_t *iterations) {
+  if (!start(in, h)) return ALI3_NOT_FINITE;
+  const double usual = raised_penalty(in, h);
+  ali3_status status = ALI3_NOT_CONVERGED;
+  for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+    *weight = ATTEMPT[attempt] * usual;
+    if (attempt > 0 && !start(in, h)) return ALI3_NOT_FINITE;
+    status = newton(in, h, *weight, attempt == ATTEMPTS - 1, iterations);
+    if (status != ALI3_NOT_CONVERGED && status != ALI3_SINGULAR) break;
+  }
+  return status;
 }
 
 /* Takes out of lam what makes no force (redundant rows): round-off that extrapolation would let grow. */
@@ -145,72 +232,11 @@ static void clean(ali3_instance *in, double weight, double *lam) {
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
 }
 
-/* As ali3_project, with the unsymmetric tangent; the part of v that is taken away is spread by A. */
-static double project(ali3_instance *in, double weight, const double *b, double *v, double tolerance) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq, nc = S->size.nc;
-  for (int32_t sweep = 0;; sweep++) {
-    double violation = 0.0, scale = 0.0;
-    ali3_rows_times(S, in->J, v, in->mu);
-    for (int32_t k = 0; k < nc; k++) {
-      in->mu[k] += b[k];
-      violation = fmax(violation, fabs(in->mu[k]) * S->row_measure[k]);
-      in->mu[k] *= weight;
-    }
-    for (int32_t i = 0; i < nq; i++) scale = fmax(scale, fabs(v[i]));
-    if (sweep == MAX_SWEEPS || violation <= tolerance * scale) return violation;
-    ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
-    ali3_solve_lu(in, 1, in->F, in->x);
-    for (int32_t i = 0; i < nq; i++) v[i] -= in->x[i];
-  }
-}
-
-static double kinetic_energy(ali3_instance *in, const double *qd) {
-  double twice = 0.0;
-  ali3_mass_times(in, qd, in->x);
-  for (int32_t i = 0; i < in->system->size.nq; i++) twice += in->x[i] * qd[i];
-  return 0.5 * twice;
-}
-
-/* qd on the constraints with the kinetic energy of v->own, accelerations and multipliers from the last two middles,
- * outputs of the elements. Needs Phi_q in in->J and a factorised tangent. */
-static void report(ali3_instance *in, ali3_vectors *v, double weight) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq, nc = S->size.nc;
-  const double *time = v->memory + ALI3_MEMORY_TIME;
-  const bool two = v->memory[ALI3_MEMORY_COUNT] >= 2.0;
-  const double second = two ? time[0] / (time[1] - time[0]) : 0.0, first = 1.0 - second;
-  ali3_constraint_rate(in, v->q, v, in->Phit);
-  memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
-  in->report.velocity_violation = project(in, weight, in->Phit, v->qd, VELOCITY_TOLERANCE);
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
-  ali3_forces(in, &call);
-  const double own = kinetic_energy(in, v->own), projected = kinetic_energy(in, v->qd);
-  bool driven = false;
-  for (int32_t k = 0; k < nc; k++) driven = driven || in->Phit[k] != 0.0;
-  if (!driven && own > LEAST_SCALE * projected && own < MOST_SCALE * projected) {
-    const double scale = sqrt(own / projected);
-    for (int32_t i = 0; i < nq; i++) v->qd[i] *= scale;
-  }
-  for (int32_t i = 0; i < nq; i++) v->qdd[i] = first * v->past_a[i] + (two ? second * v->past_a[nq + i] : 0.0);
-  for (int32_t k = 0; k < nc; k++) v->lam[k] = first * v->past_lam[k] + (two ? second * v->past_lam[nc + k] : 0.0);
-  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  project(in, weight, in->gamma, v->qdd, ACCELERATION_TOLERANCE);
-}
-
-void ali3_energy_momentum_report(ali3_instance *in) {
-  const ali3_system *S = in->system;
-  const double weight = penalty_weight(in, in->h_last > 0.0 ? in->h_last : 1.0);
-  ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
-  memcpy(in->A_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  if (S->n_flexible > 0) {
-    ali3_flexible_prepare(in, in->now.q);
-    ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
-  }
-  ali3_mirror(in, in->F);
-  ali3_rows_product(in, in->J, in->J, weight, in->F);
-  if (ali3_factorise_lu(in, 1, in->F) == ALI3_OK) report(in, &in->now, weight);
+/* Energy bounds what the carried velocity has off the rows, but not in coordinates without mass, which flexible bodies
+ * have many of: there it changes sign with every step and grows with the rate at which they turn. These Systems carry
+ * the reported velocity. Not in a composition, whose steps must be symmetric. */
+static bool carries_projected(const ali3_instance *in) {
+  return in->system->n_flexible > 0 && in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM;
 }
 
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
@@ -218,19 +244,17 @@ void ali3_energy_momentum_report(ali3_instance *in) {
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double weight = penalty_weight(in, h);
+  double weight = 0.0;
   ali3_vectors *from = &in->now, *to = &in->next;
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
   ali3_switch_carry(in);
-  ali3_history_predict(in, 0.5 * h, in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST,
-                       in->d0, to->lam);
-  for (int32_t i = 0; i < nq; i++) in->D[i] = h * from->own[i] + 0.5 * h * h * in->d0[i];
   for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
-  ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
-  const ali3_status status = newton(in, h, weight, &iterations);
+  if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
+  if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
+  const ali3_status status = solve(in, h, &weight, &iterations);
   in->report.iterations += iterations;
   in->report.last_iterations = iterations;
   if (iterations > in->report.max_iterations) in->report.max_iterations = iterations;
@@ -243,15 +267,20 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   clean(in, weight, to->lam);
   ali3_history_append(in, h, in->d0);
   if (S->size.ny > 0) {
-    const ali3_force_call call = {to->q, to->own, from->y, h,       0.5 * h,      0.25 * h * h,
-                                  false, in->Q,   to->y,   to->out, to->potential};
+    ali3_history_velocity(in, h, in->w);
+    const ali3_force_call call = {to->q, in->w, from->y, h,       0.5 * h,      0.25 * h * h,
+                                  false, in->Q, to->y,   to->out, to->potential};
     ali3_forces(in, &call);
     ali3_forces_accept(in, &call);
   }
   to->h_last[0] = 0.0;
-  if (reported && S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
-  if (reported) report(in, to, weight);
+  if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
+  const bool on_rows = carries_projected(in);
+  if (reported || on_rows) ali3_energy_momentum_complete(in, to, weight);
+  if (on_rows) memcpy(to->own, to->qd, (size_t)nq * sizeof(double));
   if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
+  same_place(in, to);
+  memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
   const ali3_vectors swap = in->now;
   in->now = in->next;
   in->next = swap;

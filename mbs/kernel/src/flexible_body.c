@@ -5,91 +5,31 @@
  * Sums over modes run along columns, so that their order does not depend on the width of vectors. */
 #include <string.h>
 
-#include "ali3_internal.h"
-
-enum { AXES = 0, FIRST = 9, SECOND = 12, COUPLING = 21 }; /* places in the work space of a body */
-
-typedef struct {
-  int32_t n;                          /* modes */
-  const int32_t *frame, *mode, *loc;  /* 12, n, 12 + n */
-  const double *P, *c, *E, *H, *K, *C, *gravity;
-  double *A, *S, *J, *D;              /* axes; P eta; J - J0; 9 x n */
-} ali3_flexible;
-
-static ali3_flexible body_of(const ali3_instance *in, int32_t b) {
-  const ali3_system *s = in->system;
-  const int64_t first = s->flex_mode_ptr[b], n = s->flex_mode_ptr[b + 1] - first, square = s->flex_square[b];
-  double *work = in->flex + COUPLING * (int64_t)b + 9 * first;
-  const ali3_flexible f = {(int32_t)n,
-                           s->flex_frame + 12 * (int64_t)b,
-                           s->flex_mode + first,
-                           s->flex_loc + 12 * (int64_t)b + first,
-                           s->flex_P + 3 * first,
-                           s->flex_c + 9 * first,
-                           s->flex_T + 9 * square,
-                           s->flex_T + 9 * square + 6 * n * n,
-                           s->flex_K + square,
-                           s->flex_C + square,
-                           s->flex_gravity + 3 * (int64_t)b,
-                           work + AXES,
-                           work + FIRST,
-                           work + SECOND,
-                           work + COUPLING};
-  return f;
-}
-
-/* out += M x, M by columns; four columns at once. */
-static void accumulate(int32_t n, const double *restrict M, const double *restrict x, double *restrict out) {
-  int32_t l = 0;
-  for (; l + 3 < n; l += 4) {
-    const double *restrict c0 = M + (int64_t)l * n, *restrict c1 = c0 + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
-    const double x0 = x[l], x1 = x[l + 1], x2 = x[l + 2], x3 = x[l + 3];
-    for (int32_t i = 0; i < n; i++) out[i] += (c0[i] * x0 + c1[i] * x1) + (c2[i] * x2 + c3[i] * x3);
-  }
-  for (; l < n; l++) {
-    const double *restrict column = M + (int64_t)l * n, factor = x[l];
-    for (int32_t i = 0; i < n; i++) out[i] += column[i] * factor;
-  }
-}
-
-static double dot(int32_t n, const double *restrict a, const double *restrict b) {
-  double even = 0.0, odd = 0.0;
-  int32_t i = 0;
-  for (; i + 1 < n; i += 2) {
-    even += a[i] * b[i];
-    odd += a[i + 1] * b[i + 1];
-  }
-  if (i < n) even += a[i] * b[i];
-  return even + odd;
-}
-
-static void gather(int32_t n, const int32_t *index, const double *from, double *to) {
-  for (int32_t i = 0; i < n; i++) to[i] = from[index[i]];
-}
+#include "flexible.h"
 
 static void prepare_body(const ali3_instance *in, const ali3_flexible *f, const double *q) {
   const int32_t n = f->n;
   const int64_t square = (int64_t)n * n;
   double *restrict eta = in->flex_work, *restrict even = eta + n, *restrict odd = even + n;
-  gather(9, f->frame + 3, q, f->A);
-  gather(n, f->mode, q, eta);
+  ali3_gather(9, f->frame + 3, q, f->A);
+  ali3_gather(n, f->mode, q, eta);
   memcpy(f->D, f->c, 9 * (size_t)n * sizeof(double));
-  for (int i = 0; i < 3; i++) accumulate(n, f->E + i * square, eta, f->D + 4 * i * n);
+  for (int i = 0; i < 3; i++) ali3_accumulate(n, f->E + i * square, eta, f->D + 4 * i * n);
   for (int p = 0; p < 3; p++) { /* the pairs yz, zx, xy: sum m phi_i phi_k' = E - H, its transpose E + H */
     const int i = (p + 1) % 3, k = (p + 2) % 3;
     double *restrict ik = f->D + (3 * i + k) * n, *restrict ki = f->D + (3 * k + i) * n;
     memset(even, 0, 2 * (size_t)n * sizeof(double));
-    accumulate(n, f->E + (3 + p) * square, eta, even);
-    accumulate(n, f->H + p * square, eta, odd);
+    ali3_accumulate(n, f->E + (3 + p) * square, eta, even);
+    ali3_accumulate(n, f->H + p * square, eta, odd);
     for (int32_t j = 0; j < n; j++) {
       ik[j] += even[j] - odd[j];
       ki[j] += even[j] + odd[j];
     }
   }
   for (int i = 0; i < 3; i++) {
-    f->S[i] = dot(n, f->P + i * n, eta);
+    f->S[i] = ali3_dot(n, f->P + i * n, eta);
     for (int k = 0; k <= i; k++) {
-      const double value = dot(n, f->c + (3 * k + i) * n, eta) + dot(n, f->D + (3 * i + k) * n, eta);
+      const double value = ali3_dot(n, f->c + (3 * k + i) * n, eta) + ali3_dot(n, f->D + (3 * i + k) * n, eta);
       f->J[3 * i + k] = f->J[3 * k + i] = value;
     }
   }
@@ -97,7 +37,7 @@ static void prepare_body(const ali3_instance *in, const ali3_flexible *f, const 
 
 void ali3_flexible_prepare(const ali3_instance *in, const double *q) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
-    const ali3_flexible f = body_of(in, b);
+    const ali3_flexible f = ali3_flexible_of(in, b);
     prepare_body(in, &f, q);
   }
 }
@@ -105,12 +45,12 @@ void ali3_flexible_prepare(const ali3_instance *in, const double *q) {
 /* out += (M(q) - constant part) x at the q that was prepared. */
 void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
-    const ali3_flexible f = body_of(in, b);
+    const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
     double *restrict rate = in->flex_work, *restrict force = rate + n;
     double v[12], local[3], local_r[3] = {0.0, 0.0, 0.0};
-    gather(12, f.frame, x, v);
-    gather(n, f.mode, x, rate);
+    ali3_gather(12, f.frame, x, v);
+    ali3_gather(n, f.mode, x, rate);
     memset(force, 0, (size_t)n * sizeof(double));
     for (int i = 0; i < 4; i++) { /* r_o, then the axes */
       const double *a = v + 3 * i;
@@ -118,7 +58,7 @@ void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *
       for (int l = 0; l < 3; l++) {
         const double *restrict row = i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n;
         const double *axis = f.A + 3 * l, back = axis[0] * a[0] + axis[1] * a[1] + axis[2] * a[2];
-        local[l] = dot(n, row, rate);
+        local[l] = ali3_dot(n, row, rate);
         for (int32_t j = 0; j < n; j++) force[j] += row[j] * back;
         for (int k = 0; k < 3; k++) total[k] += axis[k] * local[l];
       }
@@ -136,32 +76,34 @@ void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *
   }
 }
 
-/* Q += Q_v, weight beside its constant part, elastic and damping forces, at the q that was prepared. */
+/* Q += Q_v, weight beside its constant part, elastic and damping forces, at the q that was prepared. Without Q_v in a
+ * step by discrete gradients, whose inertia is in discrete_inertia.c. */
 void ali3_flexible_forces(const ali3_instance *in, const double *q, const double *qd, double *Q) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
-    const ali3_flexible f = body_of(in, b);
+    const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
     double *restrict x = in->flex_work, *restrict sum = x + n, *restrict rate = sum + n;
-    const double *g = f.gravity;
+    const double *g = f.gravity, turning = in->discrete ? 0.0 : 1.0;
     double Ad[9];
-    gather(9, f.frame + 3, qd, Ad);
-    gather(n, f.mode, qd, rate);
-    gather(n, f.mode, q, x);
+    ali3_gather(9, f.frame + 3, qd, Ad);
+    for (int i = 0; i < 9; i++) Ad[i] *= turning;
+    ali3_gather(n, f.mode, qd, rate);
+    ali3_gather(n, f.mode, q, x);
     memset(sum, 0, (size_t)n * sizeof(double));
-    accumulate(n, f.K, x, sum);
-    accumulate(n, f.C, rate, sum);
+    ali3_accumulate(n, f.K, x, sum);
+    ali3_accumulate(n, f.C, rate, sum);
     for (int p = 0; p < 3; p++) { /* A'Ad is skew: of sum m phi_j' A'Ad phi_l only H = (sum m phi_i phi_k' - ...)/2 */
       const double *ai = f.A + 3 * ((p + 1) % 3), *ak = f.A + 3 * ((p + 2) % 3);
       const double *di = Ad + 3 * ((p + 1) % 3), *dk = Ad + 3 * ((p + 2) % 3);
       const double spin =
           0.5 * ((ai[0] * dk[0] + ai[1] * dk[1] + ai[2] * dk[2]) - (ak[0] * di[0] + ak[1] * di[1] + ak[2] * di[2]));
       for (int32_t j = 0; j < n; j++) x[j] = 4.0 * spin * rate[j];
-      accumulate(n, f.H + p * (int64_t)n * n, x, sum);
+      ali3_accumulate(n, f.H + p * (int64_t)n * n, x, sum);
     }
     for (int i = 0; i < 4; i++) {
       double total[3] = {0.0, 0.0, 0.0};
       for (int l = 0; l < 3; l++) {
-        const double local = -2.0 * dot(n, i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n, rate);
+        const double local = -2.0 * ali3_dot(n, i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n, rate);
         for (int k = 0; k < 3; k++) total[k] += Ad[3 * l + k] * local;
       }
       for (int k = 0; k < 3; k++) Q[f.frame[3 * i + k]] += total[k] + (i > 0 ? f.S[i - 1] * g[k] : 0.0);
@@ -178,12 +120,12 @@ void ali3_flexible_forces(const ali3_instance *in, const double *q, const double
 /* Energy of the weight beside its constant part, and elastic energy, J. */
 void ali3_flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
-    const ali3_flexible f = body_of(in, b);
+    const ali3_flexible f = ali3_flexible_of(in, b);
     double *eta = in->flex_work, *force = eta + f.n;
-    gather(f.n, f.mode, q, eta);
+    ali3_gather(f.n, f.mode, q, eta);
     memset(force, 0, (size_t)f.n * sizeof(double));
-    accumulate(f.n, f.K, eta, force);
-    *elastic += 0.5 * dot(f.n, force, eta);
+    ali3_accumulate(f.n, f.K, eta, force);
+    *elastic += 0.5 * ali3_dot(f.n, force, eta);
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }
@@ -211,7 +153,7 @@ static void add_moduli(const ali3_flexible *f, int32_t size, double wC, double w
 void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, double *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
-    const ali3_flexible f = body_of(in, b);
+    const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n, front = s->flex_front[b], size = s->front_ptr[front + 1] - s->front_ptr[front];
     const int32_t *mode = f.loc + 12;
     double *block = F + s->front_off[front];
@@ -237,7 +179,7 @@ void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double
 void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
-    const ali3_flexible f = body_of(in, b);
+    const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t front = s->flex_front[b], size = s->front_ptr[front + 1] - s->front_ptr[front];
     add_moduli(&f, size, 0.0, weight, F + s->front_off[front]);
   }
@@ -246,11 +188,11 @@ void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
 /* out += weight K x. */
 void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
-    const ali3_flexible f = body_of(in, b);
+    const ali3_flexible f = ali3_flexible_of(in, b);
     double *eta = in->flex_work, *force = eta + f.n;
-    gather(f.n, f.mode, x, eta);
+    ali3_gather(f.n, f.mode, x, eta);
     memset(force, 0, (size_t)f.n * sizeof(double));
-    accumulate(f.n, f.K, eta, force);
+    ali3_accumulate(f.n, f.K, eta, force);
     for (int32_t j = 0; j < f.n; j++) out[f.mode[j]] += weight * force[j];
   }
 }

@@ -107,6 +107,40 @@ ALI3_INLINED static inline void gather(const int32_t *idx, int32_t width, int32_
     for (int32_t s = 0; s < width; s++) x[width * i + s] = b[width * idx[i] + s];
 }
 
+/* x becomes L^-1 x in the pivots, reduced by them in the rest; two columns at a time. */
+static void forward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
+  int32_t p = 0;
+  for (; p + 1 < n_pivot; p += 2) {
+    const double *restrict a = block + (int64_t)p * n, *restrict b = a + n;
+    const double first = x[p], second = x[p + 1] - a[p + 1] * first;
+    x[p + 1] = second;
+    for (int32_t i = p + 2; i < n; i++) x[i] -= a[i] * first + b[i] * second;
+  }
+  if (p < n_pivot) {
+    const double *restrict a = block + (int64_t)p * n, first = x[p];
+    for (int32_t i = p + 1; i < n; i++) x[i] -= a[i] * first;
+  }
+}
+
+/* The pivots of x become the solution, the rest of which is there already; down the columns of U, two at a time. */
+static void backward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
+  int32_t j = n - 1;
+  for (; j > n_pivot; j -= 2) {
+    const double *restrict b = block + (int64_t)j * n, *restrict a = b - n;
+    const double first = x[j - 1], second = x[j];
+    for (int32_t i = 0; i < n_pivot; i++) x[i] -= a[i] * first + b[i] * second;
+  }
+  if (j == n_pivot) {
+    const double *restrict a = block + (int64_t)j * n, first = x[j];
+    for (int32_t i = 0; i < n_pivot; i++) x[i] -= a[i] * first;
+  }
+  for (int32_t p = n_pivot - 1; p >= 0; p--) {
+    const double *restrict column = block + (int64_t)p * n, factor = x[p] * column[p];
+    x[p] = factor;
+    for (int32_t i = 0; i < p; i++) x[i] -= factor * column[i];
+  }
+}
+
 /* b becomes the solution. */
 ALI3_INLINED static inline void solve(ali3_instance *in, int32_t width, const double *F, double *b) {
   const ali3_system *S = in->system;
@@ -119,10 +153,7 @@ ALI3_INLINED static inline void solve(ali3_instance *in, int32_t width, const do
     const int32_t *idx = S->front_idx + S->front_ptr[f];
     const double *block = F + square * S->front_off[f];
     gather(idx, width, coordinates, b, x);
-    for (int32_t p = 0; p < n_pivot; p++) {
-      const double *restrict left = block + (int64_t)p * n, factor = x[p];
-      for (int32_t i = p + 1; i < n; i++) x[i] -= factor * left[i];
-    }
+    forward(block, x, n_pivot, n);
     for (int32_t i = 0; i < coordinates; i++)
       for (int32_t s = 0; s < width; s++) b[width * idx[i] + s] = x[width * i + s];
   }
@@ -130,15 +161,8 @@ ALI3_INLINED static inline void solve(ali3_instance *in, int32_t width, const do
     const int32_t first = S->front_col[f], n_pivot = width * (S->front_col[f + 1] - first);
     const int32_t coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n = width * coordinates;
     const int32_t *idx = S->front_idx + S->front_ptr[f];
-    const double *block = F + square * S->front_off[f];
     gather(idx, width, coordinates, b, x);
-    for (int32_t j = n - 1; j >= 0; j--) { /* down the columns of U */
-      const double *restrict column = block + (int64_t)j * n;
-      if (j < n_pivot) x[j] *= column[j];
-      const double factor = x[j];
-      const int32_t last = j < n_pivot ? j : n_pivot;
-      for (int32_t i = 0; i < last; i++) x[i] -= factor * column[i];
-    }
+    backward(F + square * S->front_off[f], x, n_pivot, n);
     for (int32_t p = 0; p < n_pivot; p++) b[width * first + p] = x[p];
   }
 }

@@ -1,8 +1,13 @@
 /* What the methods carry from step to step beside q, qd, qdd, and the start value that it gives: mean accelerations
  * and multipliers of past steps, extrapolated by the polynomial through their middles. */
+#include <math.h>
 #include <string.h>
 
 #include "ali3_internal.h"
+
+static const double WELL = 1e-4;   /* squared relative error of a good guess */
+static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
+static const double FAR = 2.0;     /* times the last step that the next may be long */
 
 /* Number of past steps, at most `most`; a restored state may hold any number there. */
 static int32_t past(const ali3_vectors *v, int32_t most) {
@@ -19,13 +24,67 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
 }
 
+/* Weights (Lagrange) with which values at the n times extrapolate to time t. */
+static void lagrange(const double *time, int32_t n, double t, double *weight) {
+  for (int32_t k = 0; k < n; k++) {
+    weight[k] = 1.0;
+    for (int32_t j = 0; j < n; j++)
+      if (j != k) weight[k] *= (t - time[j]) / (time[k] - time[j]);
+  }
+}
+
+/* How many of `most` past steps to extrapolate from: as many as would have told the last one best, and all of them
+ * where all that came before it would have, or well enough. In a swing that turns within a few steps old ones mislead. */
+int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
+  const ali3_vectors *v = &in->now;
+  const int32_t nq = in->system->size.nq, n = past(v, most);
+  const double *time = v->memory + ALI3_MEMORY_TIME;
+  double least = HUGE_VAL, weight[ALI3_PAST];
+  int32_t best = n;
+  if (n <= 2) return n;
+  for (int32_t m = n - 1; m > 0; m--) {
+    double error = 0.0, square = 0.0;
+    lagrange(time + 1, m, time[0], weight);
+    for (int32_t i = 0; i < nq; i++) {
+      const double last = v->past_a[i];
+      double miss = -last;
+      for (int32_t k = 0; k < m; k++) miss += weight[k] * v->past_a[(int64_t)(k + 1) * nq + i];
+      error += miss * miss;
+      square += last * last;
+    }
+    if (error < least) {
+      least = error;
+      best = m == n - 1 ? n : m;
+    }
+    if (least <= WELL * square) break;
+  }
+  return best;
+}
+
+/* Whether the n steps before the last would have told the last much better than that nothing changes. */
+bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
+  const int32_t nq = in->system->size.nq;
+  const double *memory = in->now.memory, *time = memory + ALI3_MEMORY_TIME, *a = in->now.past_a;
+  double weight[ALI3_PAST], error = 0.0, change = 0.0;
+  if (!(memory[ALI3_MEMORY_COUNT] > (double)n && h < FAR * (time[0] - time[1]))) return false;
+  lagrange(time + 1, n, time[0], weight);
+  for (int32_t i = 0; i < nq; i++) {
+    const double m = in->system->mass_floor[i], one = a[i] - a[nq + i];
+    double all = a[i];
+    for (int32_t k = 0; k < n; k++) all -= weight[k] * a[(int64_t)(k + 1) * nq + i];
+    error += m * all * all;
+    change += m * one * one;
+  }
+  return error < SMOOTH * SMOOTH * change;
+}
+
 /* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from at most `most` past ones; without a past
  * those of the state. */
 void ali3_history_predict(const ali3_instance *in, double when, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   const int32_t n = past(v, most);
-  const double *time = v->memory + ALI3_MEMORY_TIME;
+  double weight[ALI3_PAST];
   if (n == 0) {
     memcpy(a, v->qdd, (size_t)nq * sizeof *a);
     memcpy(lam, v->lam, (size_t)nc * sizeof *lam);
@@ -33,13 +92,11 @@ void ali3_history_predict(const ali3_instance *in, double when, int32_t most, do
   }
   memset(a, 0, (size_t)nq * sizeof *a);
   memset(lam, 0, (size_t)nc * sizeof *lam);
+  lagrange(v->memory + ALI3_MEMORY_TIME, n, when, weight);
   for (int32_t k = 0; k < n; k++) {
-    double weight = 1.0; /* Lagrange */
-    for (int32_t j = 0; j < n; j++)
-      if (j != k) weight *= (when - time[j]) / (time[k] - time[j]);
     const double *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
-    for (int32_t i = 0; i < nq; i++) a[i] += weight * past_a[i];
-    for (int32_t i = 0; i < nc; i++) lam[i] += weight * past_lam[i];
+    for (int32_t i = 0; i < nq; i++) a[i] += weight[k] * past_a[i];
+    for (int32_t i = 0; i < nc; i++) lam[i] += weight[k] * past_lam[i];
   }
 }
 
@@ -56,4 +113,28 @@ void ali3_history_append(ali3_instance *in, double h, const double *a) {
   memcpy(to->past_lam, to->lam, nc * sizeof *a);
   memcpy(to->past_a + nq, from->past_a, (ALI3_PAST - 1) * nq * sizeof *a);
   memcpy(to->past_lam + nc, from->past_lam, (ALI3_PAST - 1) * nc * sizeof *a);
+}
+
+/* Velocity at the end of the step for the states of elements: the straight line through the mean rates of this step
+ * and the last. What the carried one has beside it changes sign with every step; a brush or a brake that sticks would
+ * take that for a motion, and creep. Over many steps these velocities add up to the way that was made. */
+void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
+  const ali3_vectors *from = &in->now;
+  const int32_t nq = in->system->size.nq;
+  const double half = -from->memory[ALI3_MEMORY_TIME]; /* of the last step */
+  if (!(from->memory[ALI3_MEMORY_COUNT] >= 1.0)) {
+    memcpy(v, in->next.own, (size_t)nq * sizeof *v);
+    return;
+  }
+  const double share = 0.5 * h / (0.5 * h + half);
+  double along = 0.0, square = 0.0;
+  for (int32_t i = 0; i < nq; i++) {
+    const double last = from->own[i] - half * from->past_a[i];
+    const double line = share * (in->rate[i] - last), m = in->system->mass_floor[i];
+    v[i] = in->next.own[i] - in->rate[i];
+    along += m * v[i] * line;
+    square += m * v[i] * v[i];
+  }
+  const double part = square > 0.0 ? fmin(1.0, fmax(0.0, along / square)) : 0.0;
+  for (int32_t i = 0; i < nq; i++) v[i] = in->rate[i] + part * v[i];
 }

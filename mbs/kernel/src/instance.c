@@ -89,8 +89,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
   const size_t stages = ali3_without_memory(s) ? ALI3_RADAU : 0;
   const size_t total = 5 * n_vector + 3 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
-                       5 * (size_t)z->nnz_rows + (size_t)z->front_size + nq + 2 * (size_t)z->nsig + n_S + n_work +
-                       ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
+                       5 * (size_t)z->nnz_rows + (size_t)z->front_size + 2 * nq + (size_t)z->ng + (size_t)z->n_switch +
+                       2 * (size_t)z->nsig + n_S + n_work + ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
                        stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + (stages + 1) * (size_t)z->front_size);
   const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
@@ -146,6 +146,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->J = take(&pool, (size_t)z->nnz_rows);
   in->J_tangent = take(&pool, (size_t)z->nnz_rows);
   in->J0 = take(&pool, (size_t)z->nnz_rows);
+  in->at_J0 = take(&pool, nq + (size_t)z->ng + (size_t)z->n_switch);
   in->A = take(&pool, (size_t)z->nnz_rows);
   in->A_tangent = take(&pool, (size_t)z->nnz_rows);
   in->F = take(&pool, (size_t)z->front_size);

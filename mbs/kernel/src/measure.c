@@ -11,14 +11,17 @@ bool ali3_finite(const double *v, int64_t n) {
   return sum == 0.0;
 }
 
-void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
-  const ali3_system *S = in->system;
+void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out) {
   for (int32_t i = 0; i < S->size.nq; i++) {
     double sum = 0.0;
     for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += S->mass_val[k] * x[S->mass_col[k]];
     out[i] = sum;
   }
-  if (S->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
+}
+
+void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
+  ali3_constant_mass_times(in->system, x, out);
+  if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
 }
 
 /* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies

@@ -8,32 +8,9 @@
 #include "ali3_internal.h"
 
 enum { PARABOLA = 3 };
-static const double SMOOTH =
-    0.25; /* error of the parabola at the last step, by the change of the accelerations there */
-static const double FAR = 2.0; /* times the last step that the next may be long */
 /* Share of the change of the multipliers that is taken: no step corrects what they have along dependent rows, and
  * whole extrapolations of it would grow. */
 static const double SHARE = 0.9;
-
-/* Whether the parabola through the three steps before the last would have told the last. */
-static bool smooth(const ali3_instance *in, double h) {
-  const int32_t nq = in->system->size.nq;
-  const double *memory = in->now.memory, *time = memory + ALI3_MEMORY_TIME, *a = in->now.past_a;
-  double weight[PARABOLA], error = 0.0, change = 0.0;
-  if (!(memory[ALI3_MEMORY_COUNT] > (double)PARABOLA && h < FAR * (time[0] - time[1]))) return false;
-  for (int32_t k = 0; k < PARABOLA; k++) {
-    weight[k] = 1.0; /* Lagrange */
-    for (int32_t j = 0; j < PARABOLA; j++)
-      if (j != k) weight[k] *= (time[0] - time[j + 1]) / (time[k + 1] - time[j + 1]);
-  }
-  for (int32_t i = 0; i < nq; i++) {
-    const double m = in->system->mass_floor[i], one = a[i] - a[nq + i];
-    const double all = a[i] - weight[0] * a[nq + i] - weight[1] * a[2 * nq + i] - weight[2] * a[3 * nq + i];
-    error += m * all * all;
-    change += m * one * one;
-  }
-  return error < SMOOTH * SMOOTH * change;
-}
 
 void ali3_predict(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
@@ -45,7 +22,7 @@ void ali3_predict(ali3_instance *in, double h) {
     return;
   }
   ali3_history_own(in, in->settings.method, from->qdd);
-  const bool goes_on = in->settings.predictor == ALI3_PREDICTOR_PARABOLA && smooth(in, h);
+  const bool goes_on = in->settings.predictor == ALI3_PREDICTOR_PARABOLA && ali3_history_smooth(in, PARABOLA, h);
   ali3_history_predict(in, 0.5 * h, goes_on ? PARABOLA : 0, in->x, lam);
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] = from->lam[k] + SHARE * (lam[k] - from->lam[k]);
   for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * in->x[i];

@@ -91,8 +91,17 @@ class Replay:
         return float(np.linalg.norm(self.hand - expected, axis=1)[on_table].max())
 
 
-def replay(system: System, h: float, settings: Settings | None = None) -> Replay:
+def replay(system: System, h: float | tuple[float, float, float], settings: Settings | None = None) -> Replay:
     """Two seconds from rest to rest, four with the hand pinned, two back: torques from the table, steps of `h`.
+
+    Parameters
+    ----------
+    system : System
+        Of `build`.
+    h : float or tuple of float
+        s; one step, or one for each stage.
+    settings : Settings, optional
+        Of the solver.
 
     Raises
     ------
@@ -102,7 +111,8 @@ def replay(system: System, h: float, settings: Settings | None = None) -> Replay
     simulation = Simulation(system, settings=settings)
     table, end = _table(), 0.0
     times, hand, jumps = [], [], []
-    for stage, duration in enumerate(STAGES_S, start=1):
+    steps = h if isinstance(h, tuple) else (h,) * len(STAGES_S)
+    for stage, (duration, step) in enumerate(zip(STAGES_S, steps, strict=True), start=1):
         part = table[table[:, 0] == stage]
         if stage > 1:
             for name, value in zip(TORQUES, part[0, 2:8].tolist(), strict=True):
@@ -110,10 +120,16 @@ def replay(system: System, h: float, settings: Settings | None = None) -> Replay
             jumps.append(simulation.set_switch(PIN, stage == 2))
         end += duration
         inputs = {name: (part[:, 1], part[:, 2 + k]) for k, name in enumerate(TORQUES)}
-        run = simulation.run(end, h, inputs=inputs, progress=False)
+        run = simulation.run(end, step, inputs=inputs, progress=False)
         times.append(run.t)
         hand.append(np.column_stack([run[f"hand.position.{c}"] for c in "xyz"]))
     return Replay(np.concatenate(times), np.concatenate(hand), (jumps[0], jumps[1]))
+
+
+def held_at() -> NDArray[np.float64]:
+    """Where the path that the torques were made for has the hand while it is pinned, m; shape (3,)."""
+    table = _table()
+    return np.array(table[table[:, 0] == 2][0, 8:11])
 
 
 def _table() -> NDArray[np.float64]:
