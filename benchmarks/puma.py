@@ -22,7 +22,7 @@ from mbs.scenes import puma
 
 PAPER = {0.01: (0.53e-3, 6.25), 0.05: (3.4e-3, 1.92), 0.1: (None, None)}  # s: (m, s), Table 2; 0.1: no convergence
 STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
-METHODS = ("ali3p", "energy_momentum")
+METHODS = ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
 ROUNDS = 5
 LARGE, SMALL = 0.05, 0.0005  # s
 SPLIT = {
