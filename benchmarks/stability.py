@@ -20,7 +20,7 @@ from benchmarks.baselines.run import run
 from benchmarks.cases import CASES, exact_of, size_of, system_of
 from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table
-from benchmarks.kernel_methods import TITLES, suits
+from benchmarks.kernel_methods import TITLES, TREE_ONLY, suits
 from benchmarks.stability_chart import draw
 from mbs.settings import METHODS as KERNEL
 
@@ -177,29 +177,33 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
             BAUMGARTE[1:2],
         )
     todo: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
+    values: list[float | None]
     system = system_of(scene)
     for method in KERNEL:
         if not suits(method, case.conservative, system):
             continue
-        todo += [(kernel_point, method, float(h), e) for h in steps for e in [None, *map(float, eps)]]
+        tried = () if method in TREE_ONLY else map(float, eps)  # relative coordinates have no penalty
+        values = [None, *tried]
+        todo += [(kernel_point, method, float(h), e) for h in steps for e in values]
     for method in CLASSICAL if case.classical else ():
-        values: Sequence[float | None] = penalties
+        values = list(penalties)
         if method in PARAMETER:
-            values = (None,) if PARAMETER[method] == "none" else factors
+            values = [None] if PARAMETER[method] == "none" else list(factors)
         todo += [(classical_point, method, float(h), v) for h in classical for v in values]
     return [point(scene, method, h, value) for point, method, h, value in watched(todo)]
 
 
 def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """How far the default settings lie inside the fine region: the span of steps over which they are fine without a
-    gap, and the decades of eps to either side up to the first that is not fine, over that span and at its middle.
+    gap, and the decades of eps to either side up to the first that is not fine, over that span and at the usual step;
+    none where a method has no penalty.
     """
     lines = []
     for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["parameter"].startswith("eps")):
         part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
         defaults = sorted((r["h_s"], r["outcome"]) for r in part if r["value"] is None)
         good = _longest([h for h, _ in defaults], [o == "fine" for _, o in defaults])
-        found = {h: _decades(part, h) for h in good}
+        found = {h: _decades(part, h) for h in good} if any(r["value"] is not None for r in part) else {}
         usual = min(good, key=lambda h: abs(np.log(h / (USUAL_STEP * SQUEEZED.get(scene, 1.0)))), default=None)
         lines.append(
             {
@@ -211,8 +215,8 @@ def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
                 "decades_below": min((d[0] for d in found.values()), default=None),
                 "decades_above": min((d[1] for d in found.values()), default=None),
                 "usual_h_s": usual,
-                "usual_below": found[usual][0] if usual is not None else None,
-                "usual_above": found[usual][1] if usual is not None else None,
+                "usual_below": found[usual][0] if usual in found else None,
+                "usual_above": found[usual][1] if usual in found else None,
             }
         )
     return lines
