@@ -47,6 +47,7 @@ def draw(rows: Sequence[dict[str, Any]], title: str, file: Path) -> None:
         ax.set_ylabel(part[0]["parameter"] if values else "no penalty", fontsize=7)
         ax.set_title(textwrap.fill(method, 30), fontsize=8)
         ax.tick_params(axis="x", labelsize=7)
+        ax.locator_params(axis="x", nbins=5)
         ax.set_xlabel("log10 of the step, s", fontsize=7)
     for ax in list(axes.flat)[len(methods) :]:
         ax.set_visible(False)

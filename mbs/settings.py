@@ -87,7 +87,7 @@ class Settings:
     def __post_init__(self) -> None:
         for name in ("alpha", "eps_rel", "tolerance_r", "tolerance_phi", "rho_infinity"):
             value = getattr(self, name)
-            if not isinstance(value, numbers.Real) or isinstance(value, bool) or not math.isfinite(value):
+            if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
                 raise ValueError(f"Setting {name!r} is {value!r}; it must be a finite number.")
         for name in ("project", "geometric"):
             if not isinstance(getattr(self, name), bool):
