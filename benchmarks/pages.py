@@ -16,7 +16,8 @@ from typing import Any
 import mbs
 from benchmarks.cases import CASES
 from benchmarks.kernel_methods import TITLES
-from benchmarks.stability import OUTCOMES, SQUEEZED, USUAL_STEP
+from benchmarks.stability import OUTCOMES
+from benchmarks.stability_margins import SQUEEZED, USUAL_STEP
 from benchmarks.work_precision import LEVELS, compare, time_at_error
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"

@@ -10,8 +10,9 @@ import pytest
 from benchmarks import dissipative, growth, pages, puma, stability, work_precision
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.kernel_methods import TITLES, TREE_ONLY
+from benchmarks.stability_margins import margins
 from benchmarks.work_precision_chart import KERNEL as COLOURED
-from mbs import compile
+from mbs import Settings, compile
 from mbs.scenes import double_four_bar
 from mbs.settings import METHODS as KERNEL
 
@@ -132,11 +133,11 @@ def test_margins_count_decades_around_the_default_and_stop_at_the_first_gap():
         return {"scene": "s", "method": "m", "h_s": h, "parameter": "eps", "value": value, "outcome": outcome}
 
     rows = [row(h, None, "fine" if h < 0.1 else "wrong") for h in (1e-3, 1e-2, 0.1)]
-    centre = stability.mbs.Settings().eps_rel
+    centre = Settings().eps_rel
     rows += [
         row(h, centre * 10.0**k, "fine" if -2 <= k <= 1 else "refused") for h in (1e-3, 1e-2) for k in range(-3, 3)
     ]
-    (line,) = stability.margins(rows)
+    (line,) = margins(rows)
     assert (line["smallest_fine_h_s"], line["largest_fine_h_s"]) == (1e-3, 1e-2)
     assert line["first_break"] == "wrong at 0.1 s"
     assert line["decades_below"] == pytest.approx(3.0)
