@@ -7,10 +7,8 @@ and steer of a bicycle: a benchmark and review", Proceedings of the Royal Societ
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,8 +19,8 @@ from scipy.optimize import brentq
 import mbs
 from benchmarks import references
 from benchmarks.cases import CASES, SAMPLES, exact_of, system_of
-from benchmarks.command import watched
-from benchmarks.common import describe, print_table, write_json
+from benchmarks.command import parser_of, save_rows, watched
+from benchmarks.common import describe, print_table
 from benchmarks.kernel_methods import suits
 from benchmarks.rolling import RollingBicycle
 from mbs.scenes import bicycle
@@ -107,8 +105,7 @@ def measure(method: str, h: float) -> dict[str, Any]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.bicycle", description=__doc__)
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
+    parser = parser_of("bicycle", __doc__)
     parser.add_argument("--quick", action="store_true", help="one step size")
     options = parser.parse_args(arguments)
     straight = linear()
@@ -118,9 +115,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     steps = STEPS[1:2] if options.quick else STEPS
     rows = [measure(method, h) for method, h in watched([(m, h) for m in methods for h in steps])]
     print_table(rows, TABLE)
-    if options.json is not None:
-        write_json(options.json, describe("bicycle", mbs.Settings(), linear=straight), rows)
-        print(f"written: {options.json}")
+    save_rows(options.json, describe("bicycle", mbs.Settings(), linear=straight), rows)
     return 0
 
 

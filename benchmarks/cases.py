@@ -57,6 +57,8 @@ class Case:
         Of a run of the stability maps.
     classical : bool
         Whether the dense methods in Python are run.
+    unit : str
+        Of the output point.
     """
 
     title: str
@@ -70,6 +72,7 @@ class Case:
     energy_stays: bool = True
     most_steps: int = 10000
     classical: bool = True
+    unit: str = "m"
 
 
 def _xy(name: str) -> tuple[str, ...]:
@@ -180,6 +183,7 @@ CASES: dict[str, Case] = {
         (1, 2, 4, 10, 20, 40, 100, 200),
         references.rolling_bicycle,
         2.0,
+        unit="rad",
     ),
     "spatial_chain": Case(
         "chain of ten links: smooth, no loop",
@@ -221,5 +225,5 @@ def exact_of(name: str, end: float | None = None, samples: int = SAMPLES) -> Arr
 
 
 def size_of(name: str) -> float:
-    """Extent of the motion of the output point, m: what errors are compared with."""
+    """Extent of the motion of the output point, in its unit: what errors are compared with."""
     return float(np.linalg.norm(np.ptp(exact_of(name), axis=0)))

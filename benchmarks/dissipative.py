@@ -6,7 +6,6 @@ smaller step, or a balance. Every method of the kernel over a few steps: fine, w
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -19,8 +18,8 @@ import numpy as np
 
 import mbs
 from benchmarks import assembly_defect, ladder_runs
-from benchmarks.command import watched
-from benchmarks.common import describe, print_table, write_json
+from benchmarks.command import parser_of, save_rows, watched
+from benchmarks.common import describe, print_table
 from benchmarks.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TITLES, TREE_ONLY
 from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
 from mbs.scenes.prototype_car.car_data import GRAVITY, TOTAL_MASS
@@ -137,9 +136,8 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.dissipative", description=__doc__)
+    parser = parser_of("dissipative", __doc__)
     parser.add_argument("--scene", action="append", choices=list(SCENES), help="a scene; may be given again")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
     parser.add_argument("--quick", action="store_true", help="two scenes, the default method, one step")
     options = parser.parse_args(arguments)
     rows = []
@@ -147,9 +145,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for method in ("ali3p",) if options.quick else METHODS:
             rows += [measure(name, method, h) for h in ((0.01,) if options.quick else SCENES[name].steps)]
     print_table(rows, TABLE)
-    if options.json is not None:
-        write_json(options.json, describe("dissipative", mbs.Settings()), rows)
-        print(f"written: {options.json}")
+    save_rows(options.json, describe("dissipative", mbs.Settings()), rows)
     return 0
 
 

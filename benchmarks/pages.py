@@ -17,10 +17,12 @@ import mbs
 from benchmarks.cases import CASES
 from benchmarks.kernel_methods import TITLES
 from benchmarks.stability import OUTCOMES
+from benchmarks.stability_margins import SQUEEZED, USUAL_STEP
 from benchmarks.work_precision import LEVELS, compare, time_at_error
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 PAGES = ("speed_and_accuracy.md", "stability.md")
+FAR = 0.03  # of the usual step: what is fine below it alone is not fine in practice
 Row = Mapping[str, Any]
 
 
@@ -107,7 +109,9 @@ def _default(margins: Sequence[Row]) -> str:
     """What the margins say about the default method, in words."""
     name = TITLES[mbs.Settings().method]
     lines = [m for m in margins if m["method"] == name]
-    fine = [m for m in lines if m["largest_fine_h_s"] is not None]
+    reach = {m["scene"]: m["largest_fine_h_s"] for m in lines}
+    usual = {m["scene"]: USUAL_STEP * SQUEEZED.get(m["scene"], 1.0) for m in lines}
+    fine = [m for m in lines if (reach[m["scene"]] or 0.0) > FAR * usual[m["scene"]]]
 
     def worst(key: str, unit: str) -> str:
         """The smallest value and its scenes."""
@@ -116,13 +120,15 @@ def _default(margins: Sequence[Row]) -> str:
         return f"{least:.2g}{unit} ({'all of them' if len(scenes) == len(fine) else ', '.join(scenes)})"
 
     said = (
-        f"{name}, the default: fine with its default settings on {len(fine)} of {len(lines)} scenes, from the smallest "
-        f"step tried up to at least {worst('largest_fine_h_s', ' s')}. At the step nearest to 0.01 s (a hundredth of "
-        f"that for the squeezer) the first eps that is not fine is {worst('usual_below', ' decades')} or more below "
-        f"the default and {worst('usual_above', ' decades')} or more above; over all fine steps together "
-        f"{worst('decades_below', '')} and {worst('decades_above', '')}."
+        f"{name}, the default: fine at usual steps with its default settings on {len(fine)} of {len(lines)} scenes, "
+        f"there from the smallest step tried up to at least {worst('largest_fine_h_s', ' s')}. At the step nearest to "
+        f"{USUAL_STEP:g} s (a hundredth of that for the squeezer) the first eps that is not fine is "
+        f"{worst('usual_below', ' decades')} or more below the default and {worst('usual_above', ' decades')} or more "
+        f"above; over all fine steps together {worst('decades_below', '')} and {worst('decades_above', '')}."
     )
-    none = [m["scene"] for m in lines if m["largest_fine_h_s"] is None]
+    small = [f"{scene} (up to {h:.2g} s)" for scene, h in reach.items() if h and h <= FAR * usual[scene]]
+    none = [scene for scene, h in reach.items() if h is None]
+    said += f" Fine at small steps alone: {', '.join(small)}." if small else ""
     return said + (f" Not fine at any step: {', '.join(none)}." if none else "")
 
 

@@ -6,18 +6,16 @@ With `--split` also where that error comes from: large steps in one stage only.
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import mbs
-from benchmarks.command import watched
-from benchmarks.common import describe, median_wall, print_table, write_json
+from benchmarks.command import parser_of, save_rows, watched
+from benchmarks.common import describe, median_wall, print_table
 from mbs.scenes import puma
 
 PAPER = {0.01: (0.53e-3, 6.25), 0.05: (3.4e-3, 1.92), 0.1: (None, None)}  # s: (m, s), Table 2; 0.1: no convergence
@@ -94,8 +92,7 @@ def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.puma", description=__doc__)
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
+    parser = parser_of("puma", __doc__)
     parser.add_argument("--quick", action="store_true", help="one method, one round")
     parser.add_argument("--split", action="store_true", help=f"also the share of each stage at h = {LARGE} s")
     options = parser.parse_args(arguments)
@@ -108,9 +105,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.split:
         print(f"\n{METHODS[0]}, steps of {LARGE} s in one stage and {SMALL} s elsewhere")
         print_table(split(system, METHODS[0]), {"large steps in": "", "when pinned mm": ".3g", "error mm": ".3g"})
-    if options.json is not None:
-        write_json(options.json, describe("puma", mbs.Settings(), rounds=ROUNDS), rows)
-        print(f"written: {options.json}")
+    save_rows(options.json, describe("puma", mbs.Settings(), rounds=ROUNDS), rows)
     return 0
 
 

@@ -29,13 +29,6 @@ def pendulum(t: Array, length: float = 1.0, gravity: float = 9.81) -> Array:
     return length * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
-def pendulum_period(length: float = 1.0, gravity: float = 9.81) -> float:
-    """From rest at 90 degrees: 4 sqrt(L/g) K(1/2)."""
-    from scipy.special import ellipk
-
-    return float(4.0 * np.sqrt(length / gravity) * ellipk(0.5))
-
-
 def four_bar(windows: int, t: Array) -> Array:
     """B0 (n, 2): the cranks stay parallel, [(N+1)/3 + N] theta'' = [(N+1)/2 + N] g sin(theta)."""
     factor = ((windows + 1) / 2 + windows) / ((windows + 1) / 3 + windows) * double_four_bar.GRAVITY

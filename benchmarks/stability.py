@@ -20,8 +20,9 @@ from benchmarks.baselines.run import run
 from benchmarks.cases import CASES, exact_of, size_of, system_of
 from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table
-from benchmarks.kernel_methods import TITLES, suits
+from benchmarks.kernel_methods import TITLES, TREE_ONLY, suits
 from benchmarks.stability_chart import draw
+from benchmarks.stability_margins import SQUEEZED, margins
 from mbs.settings import METHODS as KERNEL
 
 SAMPLES = 10  # instants of a run at which it is compared
@@ -33,10 +34,8 @@ PENALTIES = (1e3, 1e5, 1e7, 1e9)  # mass-normalised, 1/s2
 BAUMGARTE = (0.0, 10.0, 100.0, 1000.0)  # 1/s
 MOST_STEPS, COORDINATE_STEPS = 10000, 120000  # a run at a small step ends earlier: steps, steps times coordinates
 MOST_CLASSICAL, FEW_CLASSICAL = 1000, 200  # in Python; the second below a millisecond
-SQUEEZED = {"squeezer": 0.01}  # scenes whose steps are this share of the others'
 WRONG = 0.05  # of the extent of the motion over the window (at least a hundredth of the whole)
 ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
-USUAL_STEP = 0.01  # s
 QUICK = ("double_four_bar",)
 OUTCOMES = ("fine", "wrong", "refused", "diverged")
 WHY = {  # one line a classical method; the table adds rank and time as found
@@ -177,66 +176,20 @@ def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
             BAUMGARTE[1:2],
         )
     todo: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
+    values: list[float | None]
     system = system_of(scene)
     for method in KERNEL:
         if not suits(method, case.conservative, system):
             continue
-        todo += [(kernel_point, method, float(h), e) for h in steps for e in [None, *map(float, eps)]]
+        tried = () if method in TREE_ONLY else map(float, eps)  # relative coordinates have no penalty
+        values = [None, *tried]
+        todo += [(kernel_point, method, float(h), e) for h in steps for e in values]
     for method in CLASSICAL if case.classical else ():
-        values: Sequence[float | None] = penalties
+        values = list(penalties)
         if method in PARAMETER:
-            values = (None,) if PARAMETER[method] == "none" else factors
+            values = [None] if PARAMETER[method] == "none" else list(factors)
         todo += [(classical_point, method, float(h), v) for h in classical for v in values]
     return [point(scene, method, h, value) for point, method, h, value in watched(todo)]
-
-
-def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """How far the default settings lie inside the fine region: the span of steps over which they are fine without a
-    gap, and the decades of eps to either side up to the first that is not fine, over that span and at its middle.
-    """
-    lines = []
-    for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["parameter"].startswith("eps")):
-        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
-        defaults = sorted((r["h_s"], r["outcome"]) for r in part if r["value"] is None)
-        good = _longest([h for h, _ in defaults], [o == "fine" for _, o in defaults])
-        found = {h: _decades(part, h) for h in good}
-        usual = min(good, key=lambda h: abs(np.log(h / (USUAL_STEP * SQUEEZED.get(scene, 1.0)))), default=None)
-        lines.append(
-            {
-                "scene": scene,
-                "method": method,
-                "smallest_fine_h_s": good[0] if good else None,
-                "largest_fine_h_s": good[-1] if good else None,
-                "first_break": next((f"{o} at {h:.3g} s" for h, o in defaults if good and h > good[-1]), "-"),
-                "decades_below": min((d[0] for d in found.values()), default=None),
-                "decades_above": min((d[1] for d in found.values()), default=None),
-                "usual_h_s": usual,
-                "usual_below": found[usual][0] if usual is not None else None,
-                "usual_above": found[usual][1] if usual is not None else None,
-            }
-        )
-    return lines
-
-
-def _decades(rows: Sequence[dict[str, Any]], h: float) -> tuple[float, float]:
-    """Decades of eps below and above the default up to the first that is not fine (or one beyond those tried)."""
-    centre = np.log10(mbs.Settings().eps_rel)
-    values = sorted((np.log10(r["value"]), r["outcome"]) for r in rows if r["h_s"] == h and r["value"] is not None)
-    lower = [v for v, o in values if o != "fine" and v < centre - 1e-9]
-    upper = [v for v, o in values if o != "fine" and v > centre + 1e-9]
-    below = centre - (lower[-1] if lower else values[0][0] - 1.0)
-    above = (upper[0] if upper else values[-1][0] + 1.0) - centre
-    return float(below), float(above)
-
-
-def _longest(steps: list[float], fine: list[bool]) -> list[float]:
-    """The longest run of neighbouring steps that are fine."""
-    best: list[float] = []
-    now: list[float] = []
-    for h, good in zip(steps, fine, strict=True):
-        now = [*now, h] if good else []
-        best = now if len(now) > len(best) else best
-    return best
 
 
 def explain(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -43,9 +44,10 @@ def draw(rows: Sequence[dict[str, Any]], title: str, file: Path) -> None:
         ax.set_yticks(([-1.5] if any(r["value"] is None for r in part) else []) + ticks)
         names = [f"{v:.0e}".replace("e+0", "e").replace("e-0", "e-") for v in values]
         ax.set_yticklabels((["default"] if any(r["value"] is None for r in part) else []) + names, fontsize=7)
-        ax.set_ylabel(part[0]["parameter"], fontsize=7)
-        ax.set_title(method, fontsize=8)
+        ax.set_ylabel(part[0]["parameter"] if values else "no penalty", fontsize=7)
+        ax.set_title(textwrap.fill(method, 30), fontsize=8)
         ax.tick_params(axis="x", labelsize=7)
+        ax.locator_params(axis="x", nbins=5)
         ax.set_xlabel("log10 of the step, s", fontsize=7)
     for ax in list(axes.flat)[len(methods) :]:
         ax.set_visible(False)

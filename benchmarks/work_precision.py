@@ -6,7 +6,6 @@ they are installed, and the ratio of our time to the best of theirs at equal err
 
 from __future__ import annotations
 
-import argparse
 import statistics
 import sys
 from collections.abc import Callable, Sequence
@@ -20,8 +19,8 @@ from benchmarks import peers
 from benchmarks.baselines.run import LANGUAGE, run
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.cases import CASES, SAMPLES, SHARED, exact_of, size_of, system_of
-from benchmarks.command import watched
-from benchmarks.common import describe, print_table, write_json
+from benchmarks.command import parser_of, save_rows, watched
+from benchmarks.common import describe, print_table
 from benchmarks.kernel_methods import all_settings
 from benchmarks.work_precision_chart import draw
 
@@ -212,9 +211,8 @@ def compare(rows: Sequence[dict[str, Any]], scene: str) -> list[dict[str, Any]]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.work_precision", description=__doc__)
+    parser = parser_of("work_precision", __doc__)
     parser.add_argument("--scene", action="append", choices=list(CASES), help="a scene; may be given again")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
     parser.add_argument("--charts", type=Path, metavar="DIR", help="draw a PNG per scene")
     parser.add_argument("--quick", action="store_true", help="two scenes, two steps, one round")
     parser.add_argument("--rounds", type=int, default=ROUNDS, help=f"timed runs of each row; default {ROUNDS}")
@@ -230,7 +228,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for scene in scenes:
         part = measure(scene, options.quick, engines, options.rounds)
         rows += part
-        print(f"\n{CASES[scene].title}; extent of the motion {size_of(scene):.3g} m", flush=True)
+        print(f"\n{CASES[scene].title}; extent of the motion {size_of(scene):.3g} {CASES[scene].unit}", flush=True)
         print_table(part, {k: v for k, v in TABLE.items() if k != "scene"})
         if engines and scene in SHARED:
             lines = compare(rows, scene)
@@ -247,7 +245,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             }
             print_table(lines, form)
         if options.charts is not None:
-            draw(part, scene, CASES[scene].title, LOST * size_of(scene), options.charts / f"work_{scene}.png")
+            draw(part, CASES[scene], LOST * size_of(scene), options.charts / f"work_{scene}.png")
     meta = describe(
         "work_precision",
         mbs.Settings(),
@@ -259,9 +257,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         scenes={s: CASES[s].title for s in scenes},
         ratios=ratios,
     )
-    if options.json is not None:
-        write_json(options.json, meta, rows)
-        print(f"written: {options.json}")
+    save_rows(options.json, meta, rows)
     return 0
 
 

@@ -6,26 +6,39 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from benchmarks.cases import Case
 from benchmarks.command import pyplot, save_chart
 from benchmarks.common import machine
+from benchmarks.kernel_methods import TITLES
 
-COLOURS = ("#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00", "#000000", "#882255", "#999999", "#44AA99")
-"""Okabe and Ito, then wine, grey and teal of Tol."""
-MARKERS = "osD^vPX*<>"
-LINES = {"kernel": "-", "classical": ":"}
-PEERS = "--"
+KERNEL = {
+    TITLES["ali3p"]: ("#0072B2", "o"),
+    TITLES["ali3p_generalised_alpha"]: ("#56B4E9", "s"),
+    TITLES["energy_momentum"]: ("#D55E00", "D"),
+    TITLES["energy_momentum_4"]: ("#E69F00", "^"),
+    TITLES["runge_kutta_8"]: ("#000000", "v"),
+    TITLES["semi_recursive"]: ("#882255", "P"),
+    TITLES["semi_recursive_4"]: ("#CC79A7", "X"),
+    TITLES["radau_5"]: ("#009E73", "*"),
+}
+"""Colours of Okabe and Ito, and wine of Tol, the same in every chart; methods that are not here are in the tables."""
+OTHERS = {"classical": ("#777777", ":"), "exudyn": ("#444444", "--"), "mujoco": ("#999999", "--")}
+MARKERS = "osD^vPX"
+PANELS = {"wall_s": ("kernel", "exudyn", "mujoco"), "factorizations": ("kernel", "classical")}
+"""What is compared: times of compiled programs, factorizations of the methods that count them."""
 
 
-def draw(rows: Sequence[dict[str, Any]], scene: str, title: str, lost: float, file: Path) -> None:
-    """Left: wall time; right: factorizations, for the methods that count them. Runs that lost the motion are left out.
+def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) -> None:
+    """Left: wall time of the kernel and of other engines; right: factorizations of the kernel and of methods in Python.
+    Runs that lost the motion are left out.
 
     Parameters
     ----------
     rows : sequence of dict
         Of one scene.
-    scene, title : str
+    case : Case
     lost : float
-        Error, m, from which a run has no point.
+        Error, in the unit of the case, from which a run has no point.
     file : Path
         PNG.
     """
@@ -33,38 +46,34 @@ def draw(rows: Sequence[dict[str, Any]], scene: str, title: str, lost: float, fi
     from matplotlib.ticker import NullFormatter
 
     figure, axes = plt.subplots(1, 2, figsize=(11.0, 4.6), sharey=True, layout="constrained")
-    families: dict[str, list[str]] = {}
-    for r in rows:
-        methods = families.setdefault(r["family"], [])
-        if r["method"] not in methods:
-            methods.append(r["method"])
-    for ax, key in zip(axes, ("wall_s", "factorizations"), strict=True):
-        for family, methods in families.items():
-            for k, method in enumerate(methods):
+    for ax, (key, families) in zip(axes, PANELS.items(), strict=True):
+        for family in families:
+            for k, method in enumerate(dict.fromkeys(r["method"] for r in rows if r["family"] == family)):
                 points = [
                     (r[key], r["position_error_m"])
                     for r in rows
                     if r["method"] == method and r["wall_s"] and r[key] and r["position_error_m"] < lost
                 ]
-                if points:
-                    ax.loglog(
-                        *zip(*points, strict=True),
-                        LINES.get(family, PEERS),
-                        marker=MARKERS[k % len(MARKERS)],
-                        color=COLOURS[k % len(COLOURS)]
-                        if family in LINES
-                        else ("#000000", "#999999")[family == "mujoco"],
-                        fillstyle="full" if family == "kernel" else "none",
-                        linewidth=2.0 if family == "kernel" else 1.2,
-                        markersize=5.5,
-                        label=method,
-                    )
+                if not points or (family == "kernel" and method not in KERNEL):
+                    continue
+                colour, line = OTHERS.get(family, ("", "-"))
+                colour, marker = KERNEL.get(method, (colour, MARKERS[k % len(MARKERS)]))
+                ax.loglog(
+                    *zip(*points, strict=True),
+                    line,
+                    marker=marker,
+                    color=colour,
+                    fillstyle="full" if family == "kernel" else "none",
+                    linewidth=1.8 if family == "kernel" else 1.1,
+                    markersize=5.5,
+                    label=method,
+                )
         ax.grid(True, which="major", alpha=0.35)
         ax.xaxis.set_minor_formatter(NullFormatter())
     axes[0].set_xlabel(f"wall time of the steps, s ({machine()['processor']})")
     axes[1].set_xlabel("factorizations")
-    axes[0].set_ylabel("largest position error, m")
+    axes[0].set_ylabel(f"largest error of the output point, {case.unit}")
     handles = {label: handle for ax in axes for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="outside right center", fontsize=7.5, frameon=False)
-    figure.suptitle(f"{title}   (solid: kernel, C; dotted: Python; dashed: other engines)", fontsize=10)
+    figure.suptitle(f"{case.title}   (solid: kernel, C; dotted: Python; dashed: other engines, C++)", fontsize=10)
     save_chart(figure, file)

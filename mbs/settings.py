@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 from dataclasses import asdict, dataclass
 
 UPDATES = ("linearised", "paper")
@@ -49,17 +50,20 @@ class Settings:
     geometric : bool
         Exact geometric term of the quadratic constraints in the tangent (23).
     method : str
-        One of `METHODS`: "ali3p" the paper's, trapezoidal rule with projections; "ali3p_no_projection" without them;
-        "ali3p_generalised_alpha" with the dissipative rule of Chung and Hulbert; "energy_momentum" keeps the energy of
-        a conservative model and takes out of any other what its dampers take; "energy_momentum_4" composes five such
-        steps to order four, for conservative models without element states only;
-        "runge_kutta_8" is explicit, of order eight, for smooth motion without stiff forces, element states or singular
-        positions;
-        "semi_recursive" is the same rule in relative coordinates along a spanning tree of rigid bodies on revolute and
-        prismatic joints, many times as fast; "semi_recursive_4" the same with the classical rule of order four, for
-        coarse errors;
-        "radau_5" is implicit, of order five, and damps what is too fast for the step: for stiff, dissipative
-        models without element states.
+        One of `METHODS`; `docs/stability.md` says where each must not be used.
+
+        - "ali3p", the default: that of the paper, trapezoidal rule with projections; takes every System.
+        - "ali3p_no_projection": the same without projections, for comparison.
+        - "ali3p_generalised_alpha": the same with the dissipative rule of Chung and Hulbert.
+        - "energy_momentum": keeps the energy of a conservative model and takes out of any other what its dampers take.
+        - "energy_momentum_4": five such steps composed to order four; conservative models without element states.
+        - "runge_kutta_8": explicit, order eight; smooth motion without stiff forces, element states or singular
+          positions.
+        - "semi_recursive": the same rule in relative coordinates along a spanning tree of rigid bodies on revolute and
+          prismatic joints, many times as fast.
+        - "semi_recursive_4": the same with the classical rule of order four, for coarse errors.
+        - "radau_5": implicit, order five, damps what is too fast for the step; stiff, dissipative models without
+          element states or rolling.
     predictor : {"parabola", "acceleration"}
         Start value of a step of ALi3-P: accelerations and multipliers of past steps go on along a parabola where they
         are smooth, or the present ones stay, as in the paper. The first needs fewer iterations.
@@ -81,9 +85,13 @@ class Settings:
     rho_infinity: float = 0.8
 
     def __post_init__(self) -> None:
-        for name, value in asdict(self).items():
-            if isinstance(value, float) and not math.isfinite(value):
-                raise ValueError(f"Setting {name!r} is {value}; it must be a finite number.")
+        for name in ("alpha", "eps_rel", "tolerance_r", "tolerance_phi", "rho_infinity"):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
+                raise ValueError(f"Setting {name!r} is {value!r}; it must be a finite number.")
+        for name in ("project", "geometric"):
+            if not isinstance(getattr(self, name), bool):
+                raise ValueError(f"Setting {name!r} is {getattr(self, name)!r}; it must be True or False.")
         if self.alpha < 0.0:
             raise ValueError(
                 f"Setting 'alpha' is {self.alpha}; it must be positive, or 0 for the rule 1/(eps_rel h^2)."
@@ -95,13 +103,11 @@ class Settings:
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
                 raise ValueError(f"Setting {name!r} is {value!r}; it must be a whole number from {least} to {most}.")
-        for name, words in (("update", UPDATES), ("predictor", PREDICTORS)):
+        for name, words in (("update", UPDATES), ("predictor", PREDICTORS), ("method", tuple(METHODS))):
             if getattr(self, name) not in words:
                 raise ValueError(
                     f"Setting {name!r} is {getattr(self, name)!r}; it must be one of {', '.join(map(repr, words))}."
                 )
-        if self.method not in METHODS:
-            raise ValueError(f"Setting 'method' is {self.method!r}; it must be one of {', '.join(map(repr, METHODS))}.")
         if not 0.0 <= self.rho_infinity <= 1.0:
             raise ValueError(f"Setting 'rho_infinity' is {self.rho_infinity}; it must lie between 0 and 1.")
 

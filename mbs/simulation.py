@@ -299,13 +299,11 @@ class Simulation:
     def _error(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
         report = self.instance.report()
         message = f"{what}: {error.message}"
-        if error.status == WRONG_METHOD:
-            return SimulationError(
-                f"{message} The method is {self.settings.method!r}.", self.time, error.status, trajectory
-            )
-        if error.status == NO_TREE:
-            reason = f"Here {self._meta['report']['no_tree']}. The method is {self.settings.method!r}."
-            return SimulationError(f"{message} {reason}", self.time, error.status, trajectory)
+        if error.status in (WRONG_METHOD, NO_TREE):
+            if error.status == NO_TREE:
+                message += f" Here {self._meta['report']['no_tree']}."
+            message += f" The method is {self.settings.method!r}; 'ali3p' takes every System."
+            return SimulationError(message, self.time, error.status, trajectory)
         if error.status == BELOW_ROAD:
             message += f" {self.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
             return SimulationError(message, self.time, error.status, trajectory)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 import mbs
 from fmu_src.description import number
+from fmu_src.description_fmi3 import to_bytes
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 _NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
@@ -89,12 +90,7 @@ def reference_files(name: str, run: ReferenceRun, stop_time: float, step: float)
     )
     ElementTree.SubElement(experiment, "References", source=result)
     return {
-        f"{FOLDER}/fmi-ls-manifest.xml": _xml(manifest),
-        f"{FOLDER}/experiments.xml": _xml(experiments),
+        f"{FOLDER}/fmi-ls-manifest.xml": to_bytes(manifest),
+        f"{FOLDER}/experiments.xml": to_bytes(experiments),
         f"{FOLDER}/{result}": text.encode(),
     }
-
-
-def _xml(root: ElementTree.Element) -> bytes:
-    ElementTree.indent(root)
-    return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"

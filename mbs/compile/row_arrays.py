@@ -14,8 +14,6 @@ from mbs.compile.polynomial import Polynomial, RowTerms
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-SCALED = ("row_lin", "row_const", "quad_h", "angle_hc", "angle_hs", "gterm_h", "velocity_h")
-
 
 class RowArrays:
     """The row arrays of the System file by name in `arrays`, with coefficients as written by the joints until `scale`.

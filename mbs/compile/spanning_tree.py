@@ -146,7 +146,9 @@ def rows_of(model: Model, cut: Cut) -> tuple[int, int]:
 def _check_size(model: Model, n_joints: int, cuts: list[Cut]) -> None:
     rows = sum(sum(rows_of(model, cut)) for cut in cuts)
     if n_joints > MOST_JOINTS or rows > MOST_CUT_ROWS:
-        raise NoTreeError(f"{n_joints} joints and {rows} rows of loops are more than {MOST_JOINTS} and {MOST_CUT_ROWS}")
+        raise NoTreeError(
+            f"{n_joints} joints and {rows} rows of loops are there, at most {MOST_JOINTS} and {MOST_CUT_ROWS} may be"
+        )
     for cut in cuts:
         if cut.joint.type == "prismatic":
             raise NoTreeError(f"the prismatic joint '{cut.joint.name}' closes a loop of prismatic joints")

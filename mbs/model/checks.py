@@ -17,6 +17,7 @@ __all__ = ["Vector", "direction", "inertia_matrix", "not_negative", "number", "p
 
 def vector(value: ArrayLike, dimension: int, what: str) -> Vector:
     """`dimension` finite numbers, shape (dimension,)."""
+    what = _capital(what)
     try:
         v = np.array(value, dtype=float)
     except (TypeError, ValueError):
@@ -33,8 +34,12 @@ def direction(value: ArrayLike, dimension: int, what: str) -> Vector:
     v = vector(value, dimension, what)
     length = float(np.linalg.norm(v))
     if length == 0.0:
-        raise ModelError(f"{what} is zero; it must have a direction.")
+        raise ModelError(f"{_capital(what)} is zero; it must have a direction.")
     return v / length
+
+
+def _capital(what: str) -> str:
+    return what[:1].upper() + what[1:]
 
 
 def perpendicular(axis: Vector) -> tuple[Vector, Vector]:

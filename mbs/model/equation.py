@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from mbs.affine import Affine, AffineVector
 
 Product = tuple[float, Affine, Affine]
@@ -72,8 +69,3 @@ class Equation:
 def dot_products(a: AffineVector, b: AffineVector, factor: float = 1.0) -> list[Product]:
     """The terms of ``factor * a . b``."""
     return [(factor, x, y) for x, y in zip(a.components, b.components, strict=True)]
-
-
-def products_value(products: Sequence[Product], q_full: NDArray[np.float64]) -> float:
-    """Value of a sum of products at full coordinates."""
-    return sum(c * a.value(q_full) * b.value(q_full) for c, a, b in products)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.affine import Affine, AffineVector, sum_affine
+from mbs.affine import Affine, AffineVector
 from mbs.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals
@@ -265,13 +265,6 @@ def located(body: Body, position: ArrayLike, what: str) -> Body:
 def bends(body: Body) -> bool:
     """Whether vectors of the body turn with its deformation."""
     return isinstance(body, Interface) and body.bends
-
-
-def node_displacement(body: FlexibleBody, node: str | int, direction: ArrayLike) -> Affine:
-    """Displacement of a node in the floating frame along a direction (earth axes, reference configuration), m."""
-    d = vector(direction, 3, f"the direction at node {node!r} of flexible body '{body.name}'")
-    motion = body.interface(node).translation
-    return sum_affine(body.amplitude(int(j)) * float(d @ motion[:, j]) for j in np.flatnonzero(d @ motion))
 
 
 def _without_round_off(X: NDArray[np.float64]) -> NDArray[np.float64]:

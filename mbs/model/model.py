@@ -113,18 +113,47 @@ class Model(ForceVocabulary, SensorVocabulary):
         axis: ArrayLike | None = None,
         level: float = 0.0,
     ) -> Joint:
-        """A wheel of the given radius (m) with a knife edge that rolls without slip on the plane z = level.
+        """A wheel with a knife edge that rolls without slip on a level plane; it always touches.
 
-        It is a rigid body with `centre` and `axis`, or a spin, which has them. It always touches, and neither slips nor
-        lifts.
+        Parameters
+        ----------
+        name : str
+        wheel : Body or Spin
+            A rigid body, or a spin on its carrier.
+        radius : float
+            m.
+        centre, axis : array_like, shape (3,)
+            As drawn, in earth axes, m and without unit; of a body, a spin has them.
+        level : float
+            Height z of the plane, m.
+
+        Raises
+        ------
+        ModelError
+            The wheel lies flat, misses the plane by more than a thousandth of its radius, or is no rigid body of this
+            spatial model.
         """
         return self._join(rolling(self, name, wheel, radius, centre, axis, level))
 
     def skate(
         self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, switch: bool | None = None
     ) -> Joint:
-        """A knife edge: the point of the body moves along a direction of the body only, seen from above; its height is
-        free. `switch`: with a switch of the same name, on or off at the start.
+        """A knife edge: a point of a body moves along a direction of the body only, seen from above.
+
+        Parameters
+        ----------
+        name : str
+        body : Body
+            A rigid body.
+        point, direction : array_like, shape (2,) or (3,)
+            As drawn, in earth axes, m and without unit; the height is free.
+        switch : bool, optional
+            With a switch of the same name, on or off at the start.
+
+        Raises
+        ------
+        ModelError
+            The direction is upright, or the body is not a rigid one of this model.
         """
         return self._join(skate(self, name, body, point, direction, switch))
 

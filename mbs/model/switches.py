@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from mbs.errors import ModelError
 from mbs.model.core import ModelCore
 
 
@@ -18,6 +19,8 @@ class Switch:
 
 def new_switch(model: ModelCore, name: str, on: bool) -> Switch:
     """Register a switch."""
-    switch = Switch(model.unique("switch", name), len(model.switches), bool(on))
+    if not isinstance(on, bool):
+        raise ModelError(f"The switch '{name}' is {on!r} at the start; it must be True or False.")
+    switch = Switch(model.unique("switch", name), len(model.switches), on)
     model.switches.append(switch)
     return switch

@@ -9,7 +9,10 @@ import pytest
 
 from benchmarks import dissipative, growth, pages, puma, stability, work_precision
 from benchmarks.baselines.run import METHODS as CLASSICAL
-from mbs import compile
+from benchmarks.kernel_methods import TITLES, TREE_ONLY
+from benchmarks.stability_margins import margins
+from benchmarks.work_precision_chart import KERNEL as COLOURED
+from mbs import Settings, compile
 from mbs.scenes import double_four_bar
 from mbs.settings import METHODS as KERNEL
 
@@ -39,6 +42,8 @@ def test_work_precision_runs_every_method_and_the_default_gets_better_with_the_s
     assert set(CLASSICAL) <= {r["method"] for r in rows}
     lagrange = sorted((r["h_s"], r["position_error_m"]) for r in rows if r["method"] == "index-1 Lagrange, Baumgarte")
     assert lagrange[0][1] < 0.5 * lagrange[-1][1]
+    blocks = pages.work_blocks(rows)
+    assert all(f"| double_four_bar | {method} |" in blocks["times"] for method in {r["method"] for r in rows})
     refused = [r for r in rows if r["ended"].startswith("refused")]
     assert any(r["method"] == "velocity transformation" for r in refused)
     assert (tmp_path / "work_double_four_bar.png").read_bytes().startswith(PNG)
@@ -55,6 +60,11 @@ def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, ca
     assert fixed
     assert all(r["outcome"] == "refused" and r["reason"] for r in fixed)
     assert all(m["largest_fine_h_s"] >= 0.003 for m in meta["margins"])
+    by_method = {m["method"]: m for m in meta["margins"]}
+    assert {name for name, m in by_method.items() if m["decades_below"] is None} == {TITLES[m] for m in TREE_ONLY}
+    blocks = pages.stability_blocks([{"meta": meta, "rows": rows}])
+    assert "on 1 of 1 scenes" in blocks["default"]
+    assert all(f"| {title} |" in blocks["margins"] for title in by_method)
     assert set(stability.WHY) == set(CLASSICAL)
     assert (tmp_path / "stability_double_four_bar.png").read_bytes().startswith(PNG)
     assert "dead point" in capsys.readouterr().out
@@ -123,15 +133,48 @@ def test_margins_count_decades_around_the_default_and_stop_at_the_first_gap():
         return {"scene": "s", "method": "m", "h_s": h, "parameter": "eps", "value": value, "outcome": outcome}
 
     rows = [row(h, None, "fine" if h < 0.1 else "wrong") for h in (1e-3, 1e-2, 0.1)]
-    centre = stability.mbs.Settings().eps_rel
+    centre = Settings().eps_rel
     rows += [
         row(h, centre * 10.0**k, "fine" if -2 <= k <= 1 else "refused") for h in (1e-3, 1e-2) for k in range(-3, 3)
     ]
-    (line,) = stability.margins(rows)
+    (line,) = margins(rows)
     assert (line["smallest_fine_h_s"], line["largest_fine_h_s"]) == (1e-3, 1e-2)
     assert line["first_break"] == "wrong at 0.1 s"
     assert line["decades_below"] == pytest.approx(3.0)
     assert line["decades_above"] == pytest.approx(2.0)
+
+
+def test_every_method_has_a_title_and_all_but_those_for_comparison_a_colour_of_their_own():
+    assert set(TITLES) == set(KERNEL)
+    assert set(TITLES.values()) - set(COLOURED) == {TITLES["ali3p_no_projection"]}
+    assert len({colour for colour, _ in COLOURED.values()}) == len({mark for _, mark in COLOURED.values()}) == 8
+
+
+def test_what_is_said_of_the_default_parts_usual_steps_small_ones_and_none():
+    def line(scene, largest):
+        row = {"scene": scene, "method": TITLES["ali3p"], "largest_fine_h_s": largest}
+        return row | dict.fromkeys(("usual_below", "usual_above", "decades_below", "decades_above"), 3.0)
+
+    said = pages.stability_blocks(
+        [
+            {
+                "meta": {
+                    "margins": [
+                        line("a", 0.05) | {"smallest_fine_h_s": 1e-6, "first_break": "-", "usual_h_s": 0.01},
+                        line("squeezer", 3e-4) | {"smallest_fine_h_s": 1e-8, "first_break": "-", "usual_h_s": 1e-4},
+                        line("b", 1e-6) | {"smallest_fine_h_s": 1e-6, "first_break": "-", "usual_h_s": 1e-6},
+                        line("c", None) | {"smallest_fine_h_s": None, "first_break": "-", "usual_h_s": None},
+                    ],
+                    "classical": [],
+                    "why": {},
+                },
+                "rows": [],
+            }
+        ]
+    )["default"]
+    assert "on 2 of 4 scenes" in said
+    assert "0.0003 s (squeezer)" in said
+    assert said.endswith("Fine at small steps alone: b (up to 1e-06 s). Not fine at any step: c.")
 
 
 def test_the_puma_table_has_the_paper_beside_it(tmp_path):

@@ -11,10 +11,12 @@ from pathlib import Path
 import fmpy
 import pytest
 
+from benchmarks.cases import CASES
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
 from fmu_src.variables import variable_table
 from hosts.manoeuvre import manoeuvre_names
+from mbs.settings import METHODS
 
 ROOT = Path(__file__).parents[2]
 PLATFORM = fmpy.platform
@@ -101,6 +103,24 @@ def test_links_and_named_files_exist(file):
         assert (file.parent / target).exists(), target
     for name in re.findall(rf"`((?:mbs|fmu_src|hosts|benchmarks|tests|docs|examples)/{FILE})`", text):
         assert (ROOT / name).is_file(), name
+
+
+@pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)
+def test_linked_headings_exist(file):
+    for target, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", file.read_text(encoding="utf-8")):
+        page = (file.parent / target if target else file).read_text(encoding="utf-8")
+        headings = re.findall(r"^#+ (.*)$", page, re.MULTILINE)
+        assert anchor in {re.sub(r"[^\w -]", "", h.lower()).replace(" ", "-") for h in headings}, (target, anchor)
+
+
+def test_the_pages_name_every_method_and_the_readme_counts_methods_and_scenes():
+    stability = (ROOT / "docs" / "stability.md").read_text(encoding="utf-8")
+    for text, heading in ((stability, "## Where each method must not be used"), (THEORY, "## Other methods")):
+        section = text.partition(heading)[2].partition("\n## ")[0]
+        assert re.findall(r"^\| `(\w+)`", section, re.MULTILINE) == list(METHODS)
+    words = {9: "nine", 13: "thirteen"}
+    assert f"the {words[len(METHODS)]} methods" in README
+    assert f"has {words[len(CASES)]} scenes" in README
 
 
 def test_theory_names_functions_that_exist():

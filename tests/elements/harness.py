@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -109,14 +109,6 @@ class Element:
         n = self.n_inputs if n_inputs is None else n_inputs
         text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(e.integer), n, n_roads)
         return None if text is None else text.decode()
-
-    def with_real(self, **values: float) -> Element:
-        """The same element with some reals changed by name, as a parameter would."""
-        e = self.element
-        real = list(e.real)
-        for key, value in values.items():
-            real[list(e.real_names).index(key)] = value
-        return replace(self, element=replace(e, real=real))
 
     def __call__(
         self,

@@ -9,6 +9,7 @@ from mbs.compile import compile
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.model import Model
 from mbs.system import System
+from tests.altered_system import altered, put
 from tests.flexible_engine.bodies import cloud
 
 
@@ -20,47 +21,32 @@ def system() -> System:
     return compile(m)
 
 
-def _with(system: System, **changes: object) -> bytes:
-    arrays = {name: np.array(values) for name, values in system.arrays.items()}
-    for name, change in changes.items():
-        arrays[name] = change(arrays[name])  # type: ignore[operator]
-    return System(arrays, system.meta).to_bytes()
-
-
-def _put(index: int, value: float) -> object:
-    def change(values: np.ndarray) -> np.ndarray:
-        values[index] = value
-        return values
-
-    return change
-
-
 BAD = [
     ("flex_mode_ptr", lambda v: v[:-1], "'flex_mode_ptr'"),
-    ("flex_mode_ptr", _put(1, 4), "'flex_mode_ptr' runs"),
+    ("flex_mode_ptr", put(1, 4), "'flex_mode_ptr' runs"),
     ("flex_frame", lambda v: v[:-1], "'flex_frame' has 11 items instead of 12"),
-    ("flex_frame", _put(0, 1000), "'flex_frame'"),
+    ("flex_frame", put(0, 1000), "'flex_frame'"),
     ("flex_frame", lambda v: np.roll(v, 1), "is not in front"),
     ("flex_mode", lambda v: v[::-1].copy(), "is not in front"),
-    ("flex_front", _put(0, -1), "'flex_front'"),
-    ("flex_loc", _put(0, 10_000), "is not in front"),
+    ("flex_front", put(0, -1), "'flex_front'"),
+    ("flex_loc", put(0, 10_000), "is not in front"),
     ("flex_loc", lambda v: v[:-1], "'flex_loc'"),
     ("flex_gravity", lambda v: v[:2], "'flex_gravity'"),
     ("flex_P", lambda v: v[:-1], "'flex_P'"),
     ("flex_c", lambda v: v[:-1], "'flex_c'"),
     ("flex_T", lambda v: v[:-1], "'flex_T'"),
     ("flex_K", lambda v: v[:-1], "'flex_K'"),
-    ("flex_K", _put(1, 1e9), "'flex_K' of flexible body 0 is not symmetric"),
-    ("flex_C", _put(1, 1e9), "'flex_C' of flexible body 0 is not symmetric"),
-    ("flex_T", _put(1, 1e9), "'flex_T' of flexible body 0 is not symmetric"),
-    ("flex_K", _put(0, np.nan), "is not a finite number"),
+    ("flex_K", put(1, 1e9), "'flex_K' of flexible body 0 is not symmetric"),
+    ("flex_C", put(1, 1e9), "'flex_C' of flexible body 0 is not symmetric"),
+    ("flex_T", put(1, 1e9), "'flex_T' of flexible body 0 is not symmetric"),
+    ("flex_K", put(0, np.nan), "is not a finite number"),
 ]
 
 
 @pytest.mark.parametrize(("name", "change", "text"), BAD, ids=[f"{n}-{k}" for k, (n, _, _) in enumerate(BAD)])
 def test_refused(system: System, name: str, change: object, text: str) -> None:
     with pytest.raises(KernelError) as caught:
-        LoadedSystem(_with(system, **{name: change}))
+        LoadedSystem(altered(system, **{name: change}))
     assert text in str(caught.value)
 
 
@@ -70,7 +56,7 @@ def test_a_body_without_modes_is_refused(system: System) -> None:
         empty[name] = lambda v: v[:0]
     empty["flex_loc"] = lambda v: v[:12]
     with pytest.raises(KernelError, match="has no modes"):
-        LoadedSystem(_with(system, **empty))
+        LoadedSystem(altered(system, **empty))
 
 
 def test_state_goes_on_bit_for_bit(system: System) -> None:
@@ -89,7 +75,7 @@ def test_altered_integers_never_crash(system: System) -> None:
     rng = np.random.default_rng(7)
     for name in ("flex_mode_ptr", "flex_frame", "flex_mode", "flex_front", "flex_loc"):
         for index in range(len(system.arrays[name])):
-            data = _with(system, **{name: _put(index, int(rng.integers(-3, 200)))})
+            data = altered(system, **{name: put(index, int(rng.integers(-3, 200)))})
             try:
                 instance = Instance(LoadedSystem(data))
                 instance.initialise()

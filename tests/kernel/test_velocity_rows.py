@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from scipy.optimize import root
 
 from mbs.kernel.binding import Instance, LoadedSystem
-from mbs.settings import METHODS, Settings
+from mbs.settings import Settings
+from tests.methods.rolling_models import ROLLING
 
 from .scenes import sleigh
 
 SEED = 5
 H = 0.01
-ROLLING = [m for m in METHODS if m != "radau_5" and not m.startswith("semi_recursive")]  # the others refuse them
 DIFFERENCE = 1e-6
 FD_TOLERANCE = 1e-8  # of central differences with that step
 Array = NDArray[np.float64]

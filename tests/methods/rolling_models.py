@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from benchmarks.kernel_methods import POSITIONS_ONLY, TREE_ONLY
 from mbs import Model
+from mbs.settings import METHODS
+
+ROLLING = [method for method in METHODS if method not in (*TREE_ONLY, *POSITIONS_ONLY)]  # the others refuse them
 
 GRAVITY = 9.81
 MASS, RADIUS = 2.0, 0.5  # of the disc, kg, m

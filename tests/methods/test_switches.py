@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks.kernel_methods import TREE_ONLY
 from mbs import Model, ModelError, Settings, Simulation, compile
 from mbs.scenes import puma
 from mbs.settings import METHODS
@@ -34,7 +35,7 @@ def system():
     return compile(pendulum())
 
 
-@pytest.mark.parametrize("method", [m for m in METHODS if not m.startswith("semi_recursive")])  # no switches
+@pytest.mark.parametrize("method", [m for m in METHODS if m not in TREE_ONLY])  # no switches
 def test_a_point_is_held_where_it_is_and_let_go(system, method):
     simulation = Simulation(system, settings=Settings(method=method))
     free = simulation.run(CATCH, H)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from mbs import Settings, Simulation, SimulationError, compile, simulate
-from mbs.settings import METHODS
 from tests.methods.rolling_models import (
     ARM,
     AXIAL,
@@ -14,6 +13,7 @@ from tests.methods.rolling_models import (
     GRAVITY,
     MASS,
     RADIUS,
+    ROLLING,
     ROLY_DEPTH,
     ROLY_INERTIA,
     ROLY_MASS,
@@ -26,7 +26,6 @@ from tests.methods.rolling_models import (
     sleigh,
 )
 
-ROLLING = [m for m in METHODS if m != "radau_5" and not m.startswith("semi_recursive")]  # the others refuse them
 TIGHT = {"eps_rel": 1e-9, "tolerance_r": 1e-13, "tolerance_phi": 1e-13}
 SECOND_ORDER = ("ali3p", "ali3p_no_projection", "ali3p_generalised_alpha", "energy_momentum")
 EXACT = 1e-11

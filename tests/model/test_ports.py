@@ -75,7 +75,7 @@ def test_what_ports_refuse():
     body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
     with pytest.raises(ModelError, match="Ports belong to a rigid body in space, not to 'ground'"):
         m.ported(m.ground, {"p": LEFT})
-    with pytest.raises(ModelError, match="the port 'p' of body 'b'"):
+    with pytest.raises(ModelError, match="The port 'p' of body 'b'"):
         m.ported(body, {"p": (1.0, 2.0)})
     ports = m.ported(body, {"p": LEFT})
     with pytest.raises(ModelError, match="needs a body with ports, not 'b'"):

@@ -113,6 +113,10 @@ def test_a_skate_needs_a_direction_in_the_plane():
         m.skate("edge", body, point=(0, 0, 0), direction=(0, 0, 0))
     with pytest.raises(ModelError, match="which is upright; it must lie in the plane"):
         m.skate("edge", body, point=(0, 0, 0), direction=(0, 0, 1))
+    with pytest.raises(ModelError, match="The switch 'edge' is 'down' at the start; it must be True or False"):
+        m.skate("edge", body, point=(0, 0, 0), direction=(1, 0, 0), switch="down")
+    with pytest.raises(ModelError, match=r"^The point of skate 'edge' on body 'disc' is .* all numbers must be finite"):
+        m.skate("edge", body, point=(np.nan, 0, 0), direction=(1, 0, 0))
     m.skate("edge", body, point=(0, 0, 0), direction=(2, 0, 0))
     with pytest.raises(ModelError, match="already has a joint named 'edge'"):
         m.skate("edge", body, point=(0, 0, 0), direction=(1, 0, 0))

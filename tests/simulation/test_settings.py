@@ -22,6 +22,12 @@ from tests.simulation.scenes import pendulum
         ("max_iterations", 0, "'max_iterations' is 0; it must be a whole number from 1 to 1000"),
         ("max_iterations", 2.5, "'max_iterations' is 2.5; it must be a whole number from 1 to 1000"),
         ("max_halvings", -1, "'max_halvings' is -1; it must be a whole number from 0 to 16"),
+        ("alpha", "1", "'alpha' is '1'; it must be a finite number"),
+        ("rho_infinity", None, "'rho_infinity' is None; it must be a finite number"),
+        ("project", "no", "'project' is 'no'; it must be True or False"),
+        ("geometric", 2, "'geometric' is 2; it must be True or False"),
+        ("method", ["ali3p"], "'method' is ..ali3p..; it must be one of 'ali3p', .*'radau_5'"),
+        ("predictor", "x", "'predictor' is 'x'; it must be one of 'parabola', 'acceleration'"),
         ("update", "newton", "'update' is 'newton'; it must be one of 'linearised', 'paper'"),
     ],
 )

@@ -1,0 +1,63 @@
+"""How far the default settings lie inside the fine region of the maps of `benchmarks.stability`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+import mbs
+
+USUAL_STEP = 0.01  # s
+SQUEEZED = {"squeezer": 0.01}  # scenes whose steps are this share of the others'
+
+
+def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """How far the default settings lie inside the fine region: the span of steps over which they are fine without a
+    gap, and the decades of eps to either side up to the first that is not fine, over that span and at the usual step;
+    none where a method has no penalty.
+    """
+    lines = []
+    for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["parameter"].startswith("eps")):
+        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
+        defaults = sorted((r["h_s"], r["outcome"]) for r in part if r["value"] is None)
+        good = _longest([h for h, _ in defaults], [o == "fine" for _, o in defaults])
+        found = {h: _decades(part, h) for h in good} if any(r["value"] is not None for r in part) else {}
+        usual = min(good, key=lambda h: abs(np.log(h / (USUAL_STEP * SQUEEZED.get(scene, 1.0)))), default=None)
+        lines.append(
+            {
+                "scene": scene,
+                "method": method,
+                "smallest_fine_h_s": good[0] if good else None,
+                "largest_fine_h_s": good[-1] if good else None,
+                "first_break": next((f"{o} at {h:.3g} s" for h, o in defaults if good and h > good[-1]), "-"),
+                "decades_below": min((d[0] for d in found.values()), default=None),
+                "decades_above": min((d[1] for d in found.values()), default=None),
+                "usual_h_s": usual,
+                "usual_below": found[usual][0] if usual in found else None,
+                "usual_above": found[usual][1] if usual in found else None,
+            }
+        )
+    return lines
+
+
+def _decades(rows: Sequence[dict[str, Any]], h: float) -> tuple[float, float]:
+    """Decades of eps below and above the default up to the first that is not fine (or one beyond those tried)."""
+    centre = np.log10(mbs.Settings().eps_rel)
+    values = sorted((np.log10(r["value"]), r["outcome"]) for r in rows if r["h_s"] == h and r["value"] is not None)
+    lower = [v for v, o in values if o != "fine" and v < centre - 1e-9]
+    upper = [v for v, o in values if o != "fine" and v > centre + 1e-9]
+    below = centre - (lower[-1] if lower else values[0][0] - 1.0)
+    above = (upper[0] if upper else values[-1][0] + 1.0) - centre
+    return float(below), float(above)
+
+
+def _longest(steps: list[float], fine: list[bool]) -> list[float]:
+    """The longest run of neighbouring steps that are fine."""
+    best: list[float] = []
+    now: list[float] = []
+    for h, good in zip(steps, fine, strict=True):
+        now = [*now, h] if good else []
+        best = now if len(now) > len(best) else best
+    return best
