@@ -250,5 +250,9 @@ void ali3_semi_recursive_report(ali3_instance *in) {
   ali3_tree_move(in->system->tree, w);
   in->sampled = false;
   ali3_vectors_copy(in, &in->next, &in->now);
-  if (show(in, &in->next) == ALI3_OK) ali3_vectors_copy(in, &in->now, &in->next);
+  if (show(in, &in->next) != ALI3_OK) { /* nothing but the motion */
+    ali3_tree_write(in, in->next.q, in->next.qd, in->next.qdd);
+    memset(in->next.lam, 0, (size_t)in->system->size.nc * sizeof(double));
+  }
+  ali3_vectors_copy(in, &in->now, &in->next);
 }

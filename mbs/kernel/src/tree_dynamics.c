@@ -2,7 +2,7 @@
 #include "tree.h"
 
 /* Inertia of each body about the origin of the earth, and the forces its velocity and gravity ask for. */
-static void bodies(const ali3_tree *T, ali3_tree_work *w) {
+void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) {
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
     double c[3], e[3], rc[3];
@@ -103,8 +103,6 @@ static void momenta(const ali3_tree *T, ali3_tree_work *w) {
                    (s0 * w->force[0][b] + s1 * w->force[1][b] + s2 * w->force[2][b]));
   }
 }
-
-void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) { bodies(T, w); }
 
 /* M: row j for the bodies on its path to the ground, from whole runs of neighbours. */
 void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
