@@ -174,7 +174,8 @@ struct ali3_instance {
   double *shifted; /* nq */
   double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
   double wC, wK; /* weights of the last forces */
-  /* of radau.c, empty where it is refused: stages of the rows, of Phi_q and of where the tangent saw it, of corrections */
+  /* of radau.c, empty where states have memory: stages of the rows, of Phi_q, of where the tangent saw it, of
+   * corrections */
   double *stage_Phi, *stage_lam, *stage_J, *stage_J_tangent, *stage_x;
   double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;

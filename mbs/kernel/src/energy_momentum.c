@@ -2,8 +2,8 @@
  *   M (D - h v0) + c (A' lam - Q) = 0,  Phi(q1) = 0,  c = h^2/2,
  * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: rows do no
  * work, springs give back what they take, dampers and inputs account for the rest. The step carries its own velocity;
- * the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is taken at both
- * ends (discrete_inertia.c). */
+ * the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is taken at
+ * both ends (discrete_inertia.c). */
 #include <math.h>
 #include <string.h>
 

@@ -25,7 +25,8 @@ void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
 }
 
 /* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
- * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as fast. */
+ * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as
+ * fast. */
 double ali3_penalty(const ali3_instance *in, double h) {
   const ali3_settings *s = &in->settings;
   const double stiff = 0.25 * h * h * in->system->flex_rate;

@@ -1,7 +1,8 @@
-/* Explicit Runge-Kutta method of order eight with twelve stages (coefficients of Dormand and Prince, in Hairer, Norsett,
- * Wanner, "Solving Ordinary Differential Equations I", second edition) on the equations of index one: every stage solves
- * for accelerations and multipliers, positions and velocities return to the rows at the end of a step. For smooth
- * motion without stiff forces, away from singular positions; the last stage of a step is the first of the next. */
+/* Explicit Runge-Kutta method of order eight with twelve stages (coefficients of Dormand and Prince, in Hairer,
+ * Norsett, Wanner, "Solving Ordinary Differential Equations I", second edition) on the equations of index one: every
+ * stage solves for accelerations and multipliers, positions and velocities return to the rows at the end of a step. For
+ * smooth motion without stiff forces, away from singular positions; the last stage of a step is the first of the
+ * next. */
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,8 @@
 /* Semi-recursive formulation: explicit Runge-Kutta rules on the relative coordinates of a spanning tree (J. Garcia de
  * Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapters 5 and 8). Loops are closed by a
  * second transformation to independent rates; positions and velocities return to the rows at the end of a step. What
- * goes from step to step lies in the state's memory of the method; natural coordinates are written when somebody looks. */
+ * goes from step to step lies in the state's memory of the method; natural coordinates are written when somebody
+ * looks. */
 #include <math.h>
 #include <string.h>
 

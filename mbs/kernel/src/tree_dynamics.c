@@ -121,7 +121,8 @@ void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* row -= f p + g q from `first` to `last`, in whole pairs: what lies beside the path is zero, above the diagonal unread. */
+/* row -= f p + g q from `first` to `last`, in whole pairs: what lies beside the path is zero, above the diagonal
+ * unread. */
 static void subtract(double *restrict row, const double *restrict p, double f, const double *restrict q, double g,
                      int32_t first, int32_t last) {
   ALI3_SHORT

@@ -142,7 +142,8 @@ void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* The chosen rows in the order chosen: L U of J_d, inverse pivots on the diagonal, then G in the columns of the others. */
+/* The chosen rows in the order chosen: L U of J_d, inverse pivots on the diagonal, then G in the columns of the
+ * others. */
 void ali3_loops_factorise(const ali3_tree *T, ali3_tree_work *w) {
   const int32_t r = w->rank, n = T->n;
   for (int32_t i = 0; i < r; i++) {
