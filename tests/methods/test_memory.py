@@ -13,6 +13,7 @@ from mbs import Model, compile
 from mbs.kernel.binding import BAD_STATE, Instance, KernelError, LoadedSystem
 from mbs.scenes import bricard, double_four_bar, prototype_car, spatial_chain
 from mbs.settings import METHODS
+from tests.methods.rolling_models import sleigh
 from tests.methods.trees import branching
 
 H = 0.005  # s
@@ -157,3 +158,57 @@ def test_a_memory_of_any_content_gives_no_infinite_state(build: Callable[[], Mod
             except KernelError:
                 instance.set_settings(**GOOD)
         assert all(np.isfinite(np.array(part)).all() for part in instance.get_state())
+
+
+def act(instance: Instance, rng: np.random.Generator) -> int:
+    """One call at random; its status."""
+    z, kind, h = instance.system.sizes, rng.random(), float(rng.choice([1e-3, 5e-3, 0.01, 0.05, 0.3]))
+    try:
+        if kind < 0.3:
+            choose(
+                instance, rng.choice(list(METHODS)), max_halvings=rng.integers(3), max_iterations=rng.choice([1, 30])
+            )
+        elif kind < 0.4 and z.n_switch:
+            instance.set_switch(0, bool(rng.integers(2)))
+        elif kind < 0.5 and z.nu:
+            instance.set_input(0, rng.standard_normal())
+        elif kind < 0.7:
+            instance.step(h)
+        else:
+            n = int(rng.integers(1, 6))
+            inputs = rng.standard_normal((n, z.nu)) if z.nu else None
+            if z.nu and rng.random() < 0.4:
+                inputs[rng.integers(n)] = np.nan
+            instance.run(h, n, inputs, 2, np.empty((n // 2, z.ns)) if n > 1 else None)
+    except KernelError as refusal:
+        return refusal.status
+    return 0
+
+
+@pytest.mark.parametrize(
+    "build",
+    [lambda: sleigh(switch=True), lambda: branching(True), bricard.build],
+    ids=["skate", "branching", "Bricard"],
+)
+def test_after_any_calls_three_instances_go_on_alike(build: Callable[[], Model]) -> None:
+    """One that went the whole way, a fresh one and one that went another way before."""
+    system = LoadedSystem(compile(build()).to_bytes())
+    rng = np.random.default_rng(SEED)
+    refused = 0
+    for _ in range(40):
+        three = [Instance(system) for _ in range(3)]
+        for instance in three:
+            instance.initialise()
+        for _ in range(4):
+            act(three[0], rng)
+            act(three[2], rng)
+        state = three[0].save()
+        for other in three[1:]:
+            other.restore(state)
+        for _ in range(4):
+            seed = int(rng.integers(1 << 30))
+            statuses = {act(instance, np.random.default_rng(seed)) for instance in three}
+            assert len(statuses) == 1
+            assert len({instance.save() for instance in three}) == 1
+            refused += statuses != {0}
+    assert 5 < refused < 150
