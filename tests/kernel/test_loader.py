@@ -7,8 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from mbs import Model, compile
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.scenes import bricard, spatial_chain
+from mbs.settings import METHODS
 
 from .scenes import everything, four_bar, sleigh
 from .system_builder import INTS, REALS, SystemBuilder, pack, seal
@@ -175,3 +178,36 @@ def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> No
 )
 def test_a_velocity_row_that_is_more_or_less_is_refused(changes: dict[str, list[float]], said: str) -> None:
     assert said in refused(pack(sleigh().arrays() | changes))
+
+
+@pytest.mark.parametrize("build", [bricard.build, spatial_chain.build], ids=["Bricard", "chain"])
+def test_a_hostile_tree_never_crashes_nor_gives_infinite_coordinates(build: Callable[[], Model]) -> None:
+    """Every integer of the tree out of range or out of place, and reals at random."""
+    arrays = dict(compile(build()).arrays)
+    rng = np.random.default_rng(SEED + 2)
+    names = sorted(name for name in arrays if name.startswith("tree_") and len(arrays[name]))
+    accepted = 0
+    for name in names:
+        integers = name in INTS
+        for k in range(len(arrays[name])):
+            for value in (-1, 0, 1, 7, 66, 1 << 30) if integers else (rng.choice([0.0, -1.0, 1e-300, 1e150, -1e300]),):
+                hostile = np.array(arrays[name])
+                hostile[k] = value
+                accepted += walked(pack(arrays | {name: hostile, "meta": b""}))
+    assert accepted > 50
+
+
+def walked(data: bytes) -> bool:
+    try:
+        instance = Instance(LoadedSystem(data))
+    except KernelError:
+        return False
+    for method in ("semi_recursive_4", "runge_kutta_8", "semi_recursive"):
+        try:
+            instance.initialise(0.0)
+            instance.set_settings(**METHODS[method])
+            instance.run(0.01, 2)
+        except KernelError:
+            pass
+        assert all(np.isfinite(np.array(part)).all() for part in instance.get_state())
+    return True

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.sparse import csr_array
 
 from mbs import Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import bricard, double_four_bar, spatial_chain
@@ -26,6 +27,15 @@ def carried(x, start, h):
     for d in np.diff(x):
         v.append(2.0 * d / h - v[-1])
     return np.array(v)
+
+
+def off_rows(simulation):
+    """Largest second rate of a row beside what the velocities alone would make of it."""
+    s, arrays = simulation.state, simulation.system.arrays
+    value = simulation.instance.evaluate(s.q, s.qd)
+    J = csr_array((np.array(value["jacobian"]), arrays["row_col"], arrays["row_ptr"]))
+    gamma = np.array(value["gamma"])
+    return np.abs(J @ s.qdd + gamma).max() / np.abs(gamma).max()
 
 
 @pytest.fixture(scope="module")
@@ -152,7 +162,9 @@ def test_a_run_that_fails_unseen_leaves_the_last_good_state_complete(four_bar):
     a, b = unseen.state, seen.state
     assert np.array_equal(a.q, b.q)
     np.testing.assert_allclose(a.qd, b.qd, atol=1e-8)
-    np.testing.assert_allclose(a.qdd, b.qdd, atol=1e-4)
+    for simulation in (unseen, seen):  # accelerations differ by their error, which is of the first order in the step
+        assert off_rows(simulation) < 1e-4
+    assert np.abs(a.qdd - b.qdd).max() < 0.2 * np.abs(b.qdd).max()
 
 
 def test_the_method_may_change_on_the_way(four_bar):

@@ -1,17 +1,19 @@
-/* A step by the method of the settings, in halves where it does not converge. */
+/* A step by the method of the settings, in halves where it does not converge. What a method leaves as it is, switches
+ * among it, it finds in in->next. */
 #include "ali3_internal.h"
 
 static ali3_status by_method(ali3_instance *in, double t, double h) {
-  switch (in->settings.method) {
+  const int32_t method = in->settings.method;
+  if (method == ALI3_METHOD_SEMI_RECURSIVE || method == ALI3_METHOD_SEMI_RECURSIVE_4)
+    return ali3_semi_recursive(in, t, h); /* fills in->next only when somebody looks */
+  ali3_vectors_copy(in, &in->next, &in->now);
+  switch (method) {
   case ALI3_METHOD_ENERGY_MOMENTUM:
     return ali3_energy_momentum(in, t, h, in->now.used, 0.5, !in->quiet);
   case ALI3_METHOD_ENERGY_MOMENTUM_4:
     return ali3_composition(in, t, h);
   case ALI3_METHOD_RUNGE_KUTTA_8:
     return ali3_runge_kutta(in, t, h);
-  case ALI3_METHOD_SEMI_RECURSIVE:
-  case ALI3_METHOD_SEMI_RECURSIVE_4:
-    return ali3_semi_recursive(in, t, h);
   case ALI3_METHOD_RADAU_5:
     return ali3_radau(in, t, h);
   default:

@@ -82,7 +82,7 @@ struct ali3_system {
   int32_t max_front; /* largest front */
   double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
   int32_t n_flexible, max_modes; /* flexible bodies, most modes of one */
-  bool senses_rows; /* a sensor reads multipliers */
+  bool senses_rows; /* a sensor reads multipliers or violations */
   /* derived at load, in one block */
   void *derived;
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q */
@@ -174,7 +174,8 @@ struct ali3_instance {
   double *shifted; /* nq */
   double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
   double wC, wK; /* weights of the last forces */
-  /* of radau.c, empty where it is refused: stages of the rows, of Phi_q and of where the tangent saw it, of corrections */
+  /* of radau.c, empty where states have memory: stages of the rows, of Phi_q, of where the tangent saw it, of
+   * corrections */
   double *stage_Phi, *stage_lam, *stage_J, *stage_J_tangent, *stage_x;
   double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;
@@ -279,6 +280,7 @@ void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
 double ali3_penalty(const ali3_instance *in, double h);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
+double ali3_opening(const ali3_system *S, const double *Phi);
 bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
 
 /* energy_watch.c */
@@ -344,6 +346,8 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h);
 
 /* composition.c */
 ali3_status ali3_composition(ali3_instance *in, double t, double h);
+
+/* check_method.c */
 bool ali3_without_memory(const ali3_system *S);
 ali3_status ali3_check_method(ali3_instance *in);
 
@@ -353,7 +357,6 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start);
 
 /* switches.c */
 void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J);
-void ali3_switch_carry(ali3_instance *in);
 void ali3_switch_values(const ali3_instance *in, double *v);
 
 /* statics.c */
@@ -369,6 +372,10 @@ void ali3_sensors_tangent(const ali3_instance *in, double *out);
 /* instance.c */
 ali3_status ali3_parameters_apply(ali3_instance *in);
 bool ali3_settings_valid(const ali3_settings *s);
+
+/* vectors.c */
+double *ali3_take(double **pool, size_t n);
 size_t ali3_vector_count(const ali3_system *s); /* doubles in ali3_vectors */
+void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 #endif

@@ -18,7 +18,8 @@ static void correct_guided(const ali3_instance *in, const double *D, const doubl
   }
 }
 
-/* ali3_cos(theta) S - ali3_sin(theta) C: with mean cosine, sine, S, C and the exact difference quotients of cosine and sine. */
+/* ali3_cos(theta) S - ali3_sin(theta) C: with mean cosine, sine, S, C and the exact difference quotients of cosine and
+ * sine. */
 static void correct_angle(const ali3_instance *in, const double *D, const double *q1, int64_t i) {
   const ali3_system *S = in->system;
   const int32_t theta = S->angle_theta_col[i];

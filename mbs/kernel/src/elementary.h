@@ -1,5 +1,6 @@
 /* Elementary functions of the kernel's own: those of the C libraries differ in the last bit from platform to platform.
- * Errors below 2 units in the last place (tanh, atan2, asin: 4); arguments of sine and cosine up to 2^20 turns keep that. */
+ * Errors below 2 units in the last place (tanh, atan2, asin: 4); arguments of sine and cosine up to 2^20 turns keep
+ * that. */
 #ifndef ALI3_ELEMENTARY_H
 #define ALI3_ELEMENTARY_H
 

@@ -2,8 +2,8 @@
  *   M (D - h v0) + c (A' lam - Q) = 0,  Phi(q1) = 0,  c = h^2/2,
  * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: rows do no
  * work, springs give back what they take, dampers and inputs account for the rest. The step carries its own velocity;
- * the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is taken at both
- * ends (discrete_inertia.c). */
+ * the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is taken at
+ * both ends (discrete_inertia.c). */
 #include <math.h>
 #include <string.h>
 
@@ -97,16 +97,6 @@ static bool same_place(ali3_instance *in, const ali3_vectors *v) {
   return same;
 }
 
-/* By how much the worst row is open beyond its round-off, m. */
-static double opening(const ali3_system *S, const double *Phi) {
-  double largest = 0.0;
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    const double v = fabs(Phi[k]) * S->row_measure[k] - S->row_round[k];
-    if (v > largest) largest = v;
-  }
-  return largest;
-}
-
 /* Fills the report. Returns false when something is not finite. */
 static bool judge(ali3_instance *in) {
   const ali3_system *S = in->system;
@@ -158,7 +148,7 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
 /* The larger of what is left of the balance and of the rows, each in parts of its tolerance. */
 static double error(const ali3_instance *in, double *r, double *v) {
   *r = in->report.residual / in->settings.tolerance_r;
-  *v = opening(in->system, in->Phi) / in->settings.tolerance_phi;
+  *v = ali3_opening(in->system, in->Phi) / in->settings.tolerance_phi;
   return fmax(*r, *v);
 }
 
@@ -249,7 +239,6 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
-  ali3_switch_carry(in);
   for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);

@@ -40,8 +40,8 @@ double ali3_projection_work(ali3_instance *in, double h, double *kinetic) {
   return given + 0.5 * h * power;
 }
 
-/* Books an error of the energy and, where no row is driven, judges it beside the kinetic energy, what the forces in in->Q can give in a step and what the
- * tolerance of the residual leaves open. */
+/* Books an error of the energy and, where no row is driven, judges it beside the kinetic energy, what the forces in
+ * in->Q can give in a step and what the tolerance of the residual leaves open. */
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic) {
   const ali3_system *S = in->system;
   const double open = 2.0 * in->settings.tolerance_r / h;

@@ -54,7 +54,7 @@ static inline void ali3_accumulate(int32_t n, const double *restrict M, const do
   }
 }
 
-static inline double ali3_dot(int32_t n, const double *restrict a, const double *restrict b) {
+static inline double ali3_inner(int32_t n, const double *restrict a, const double *restrict b) {
   double even = 0.0, odd = 0.0;
   int32_t i = 0;
   for (; i + 1 < n; i += 2) {

@@ -27,9 +27,9 @@ static void prepare_body(const ali3_instance *in, const ali3_flexible *f, const 
     }
   }
   for (int i = 0; i < 3; i++) {
-    f->S[i] = ali3_dot(n, f->P + i * n, eta);
+    f->S[i] = ali3_inner(n, f->P + i * n, eta);
     for (int k = 0; k <= i; k++) {
-      const double value = ali3_dot(n, f->c + (3 * k + i) * n, eta) + ali3_dot(n, f->D + (3 * i + k) * n, eta);
+      const double value = ali3_inner(n, f->c + (3 * k + i) * n, eta) + ali3_inner(n, f->D + (3 * i + k) * n, eta);
       f->J[3 * i + k] = f->J[3 * k + i] = value;
     }
   }
@@ -58,7 +58,7 @@ void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *
       for (int l = 0; l < 3; l++) {
         const double *restrict row = i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n;
         const double *axis = f.A + 3 * l, back = axis[0] * a[0] + axis[1] * a[1] + axis[2] * a[2];
-        local[l] = ali3_dot(n, row, rate);
+        local[l] = ali3_inner(n, row, rate);
         for (int32_t j = 0; j < n; j++) force[j] += row[j] * back;
         for (int k = 0; k < 3; k++) total[k] += axis[k] * local[l];
       }
@@ -103,7 +103,7 @@ void ali3_flexible_forces(const ali3_instance *in, const double *q, const double
     for (int i = 0; i < 4; i++) {
       double total[3] = {0.0, 0.0, 0.0};
       for (int l = 0; l < 3; l++) {
-        const double local = -2.0 * ali3_dot(n, i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n, rate);
+        const double local = -2.0 * ali3_inner(n, i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n, rate);
         for (int k = 0; k < 3; k++) total[k] += Ad[3 * l + k] * local;
       }
       for (int k = 0; k < 3; k++) Q[f.frame[3 * i + k]] += total[k] + (i > 0 ? f.S[i - 1] * g[k] : 0.0);
@@ -125,7 +125,7 @@ void ali3_flexible_energy(const ali3_instance *in, const double *q, double *grav
     ali3_gather(f.n, f.mode, q, eta);
     memset(force, 0, (size_t)f.n * sizeof(double));
     ali3_accumulate(f.n, f.K, eta, force);
-    *elastic += 0.5 * ali3_dot(f.n, force, eta);
+    *elastic += 0.5 * ali3_inner(f.n, force, eta);
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }

@@ -34,7 +34,8 @@ static void lagrange(const double *time, int32_t n, double t, double *weight) {
 }
 
 /* How many of `most` past steps to extrapolate from: as many as would have told the last one best, and all of them
- * where all that came before it would have, or well enough. In a swing that turns within a few steps old ones mislead. */
+ * where all that came before it would have, or well enough. In a swing that turns within a few steps old ones
+ * mislead. */
 int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, n = past(v, most);
@@ -78,8 +79,8 @@ bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   return error < SMOOTH * SMOOTH * change;
 }
 
-/* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from at most `most` past ones; without a past
- * those of the state. */
+/* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from at most `most` past ones; without a
+ * past those of the state. */
 void ali3_history_predict(const ali3_instance *in, double when, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;

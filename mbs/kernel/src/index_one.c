@@ -1,5 +1,5 @@
-/* The equations of index one at given positions and velocities: M qdd + Phi_q' lam = Q, Phi_q qdd = -gamma, by the augmented
- * Lagrangian, which does not ask for independent rows. */
+/* The equations of index one at given positions and velocities: M qdd + Phi_q' lam = Q, Phi_q qdd = -gamma, by the
+ * augmented Lagrangian, which does not ask for independent rows. */
 #include <string.h>
 
 #include "ali3_internal.h"

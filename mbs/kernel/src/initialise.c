@@ -6,7 +6,7 @@
 
 #include "ali3_internal.h"
 
-static const double ALPHA = 1e8; /* of mass-normalised rows with unit weight of M */
+static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 static const double CLOSED = 1e-12; /* violation that needs no work, m */
 static const double ASSEMBLED = 1e-9; /* violation accepted when nothing better can be had, m */
 static const double LONGEST_STEP = 0.5; /* m or rad per iteration */

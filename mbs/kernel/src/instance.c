@@ -26,50 +26,6 @@ const char *ali3_status_text(ali3_status s) {
 
 uint32_t ali3_version(void) { return ALI3_SYSTEM_VERSION; }
 
-static double *take(double **pool, size_t n) {
-  double *piece = *pool;
-  *pool += n;
-  return piece;
-}
-
-size_t ali3_vector_count(const ali3_system *s) {
-  const ali3_sizes *z = &s->size;
-  const size_t of_coordinates = 4 + ALI3_PAST + (s->n_flexible > 0 ? 2 : 0);
-  return of_coordinates * (size_t)z->nq + (1 + ALI3_PAST) * (size_t)z->nc + 2 * (size_t)z->ny + 3 * (size_t)z->ng +
-         (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + (size_t)z->n_switch + (z->n_switch > 0 ? (size_t)z->nc : 0) +
-         ALI3_MEMORY + 1;
-}
-
-static void place_vectors(const ali3_system *s, ali3_vectors *v, double **pool) {
-  const ali3_sizes *z = &s->size;
-  const size_t n_mean = s->n_flexible > 0 ? (size_t)z->nq : 0;
-  v->q = take(pool, (size_t)z->nq); /* first: copies and saves start here */
-  v->qd = take(pool, (size_t)z->nq);
-  v->qdd = take(pool, (size_t)z->nq);
-  v->lam = take(pool, (size_t)z->nc);
-  v->y = take(pool, (size_t)z->ny);
-  v->s = take(pool, (size_t)z->ng);
-  v->sd = take(pool, (size_t)z->ng);
-  v->sdd = take(pool, (size_t)z->ng);
-  v->out = take(pool, (size_t)z->nout);
-  v->potential = take(pool, (size_t)z->ne);
-  v->used = take(pool, (size_t)z->nu);
-  v->y_last = take(pool, (size_t)z->ny);
-  v->h_last = take(pool, 1);
-  v->on = take(pool, (size_t)z->n_switch);
-  v->anchor = take(pool, z->n_switch > 0 ? (size_t)z->nc : 0);
-  v->memory = take(pool, ALI3_MEMORY);
-  v->own = take(pool, (size_t)z->nq);
-  v->past_a = take(pool, ALI3_PAST * (size_t)z->nq);
-  v->past_lam = take(pool, ALI3_PAST * (size_t)z->nc);
-  v->mean = take(pool, n_mean);
-  v->mean_before = take(pool, n_mean);
-}
-
-void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
-  memcpy(to->q, from->q, in->n_vector * sizeof(double));
-}
-
 static size_t signal_work(const ali3_system *s) {
   size_t largest = 0;
   for (int32_t e = 0; e < s->size.ne; e++) {
@@ -91,7 +47,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t total = 5 * n_vector + 3 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
                        5 * (size_t)z->nnz_rows + (size_t)z->front_size + 2 * nq + (size_t)z->ng + (size_t)z->n_switch +
                        2 * (size_t)z->nsig + n_S + n_work + ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
-                       stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + (stages + 1) * (size_t)z->front_size);
+                       stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + stages * (size_t)z->front_size) +
+                       (stages > 0 ? 2 * (size_t)z->front_size : 0);
   const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
@@ -109,65 +66,65 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
     ali3_tree_start(s, in->tree);
   }
   in->n_vector = n_vector;
-  place_vectors(s, &in->now, &pool);
-  place_vectors(s, &in->next, &pool);
-  place_vectors(s, &in->start, &pool);
-  place_vectors(s, &in->whole, &pool);
-  place_vectors(s, &in->tangent, &pool);
-  in->input = take(&pool, nu);
-  in->input_work = take(&pool, nu);
-  in->input_middle = take(&pool, nu);
+  ali3_vectors_place(s, &in->now, &pool);
+  ali3_vectors_place(s, &in->next, &pool);
+  ali3_vectors_place(s, &in->start, &pool);
+  ali3_vectors_place(s, &in->whole, &pool);
+  ali3_vectors_place(s, &in->tangent, &pool);
+  in->input = ali3_take(&pool, nu);
+  in->input_work = ali3_take(&pool, nu);
+  in->input_middle = ali3_take(&pool, nu);
   in->force_input = in->input;
-  in->parameter = take(&pool, np);
-  in->parameter_work = take(&pool, np);
-  in->el_real = take(&pool, (size_t)s->n_el_real);
-  in->guide_real = take(&pool, (size_t)s->n_guide_real);
-  in->road_real = take(&pool, (size_t)s->n_road_real);
-  in->D = take(&pool, nq);
-  in->d0 = take(&pool, nq);
-  in->r = take(&pool, nq);
-  in->x = take(&pool, nq);
-  in->w = take(&pool, nq);
-  in->shifted = take(&pool, nq);
-  in->hat = take(&pool, nq);
-  in->middle = take(&pool, nq);
-  in->rate = take(&pool, nq);
-  in->stage = take(&pool, ALI3_STAGES * nq);
-  in->Q = take(&pool, nq);
-  in->Phi = take(&pool, nc);
-  in->Phit = take(&pool, nc);
-  in->gamma = take(&pool, nc);
-  in->mu = take(&pool, nc);
-  in->lam = take(&pool, nc);
-  in->correction_q = take(&pool, nq);
-  in->step_q = take(&pool, nq);
-  in->correction_lam = take(&pool, nc);
-  in->step_lam = take(&pool, nc);
-  in->J = take(&pool, (size_t)z->nnz_rows);
-  in->J_tangent = take(&pool, (size_t)z->nnz_rows);
-  in->J0 = take(&pool, (size_t)z->nnz_rows);
-  in->at_J0 = take(&pool, nq + (size_t)z->ng + (size_t)z->n_switch);
-  in->A = take(&pool, (size_t)z->nnz_rows);
-  in->A_tangent = take(&pool, (size_t)z->nnz_rows);
-  in->F = take(&pool, (size_t)z->front_size);
-  in->u = take(&pool, (size_t)z->nsig);
-  in->ud = take(&pool, (size_t)z->nsig);
-  in->S = take(&pool, n_S);
-  in->SB = take(&pool, n_work);
-  in->local = take(&pool, ALI3_RADAU * (size_t)s->max_front);
-  in->stage_Phi = take(&pool, stages * nc);
-  in->stage_lam = take(&pool, stages * nc);
-  in->stage_J = take(&pool, stages * (size_t)z->nnz_rows);
-  in->stage_J_tangent = take(&pool, stages * (size_t)z->nnz_rows);
-  in->stage_x = take(&pool, stages * nq);
-  in->F_stages = take(&pool, stages * stages * (size_t)z->front_size);
-  in->F_C = take(&pool, stages > 0 ? (size_t)z->front_size : 0);
-  in->F_K = take(&pool, stages > 0 ? (size_t)z->front_size : 0);
-  in->flex = take(&pool, n_flex);
-  in->flex_work = take(&pool, n_flex_work);
-  in->y_work = take(&pool, ny);
-  in->out_work = take(&pool, nout);
-  in->potential_work = take(&pool, ne);
+  in->parameter = ali3_take(&pool, np);
+  in->parameter_work = ali3_take(&pool, np);
+  in->el_real = ali3_take(&pool, (size_t)s->n_el_real);
+  in->guide_real = ali3_take(&pool, (size_t)s->n_guide_real);
+  in->road_real = ali3_take(&pool, (size_t)s->n_road_real);
+  in->D = ali3_take(&pool, nq);
+  in->d0 = ali3_take(&pool, nq);
+  in->r = ali3_take(&pool, nq);
+  in->x = ali3_take(&pool, nq);
+  in->w = ali3_take(&pool, nq);
+  in->shifted = ali3_take(&pool, nq);
+  in->hat = ali3_take(&pool, nq);
+  in->middle = ali3_take(&pool, nq);
+  in->rate = ali3_take(&pool, nq);
+  in->stage = ali3_take(&pool, ALI3_STAGES * nq);
+  in->Q = ali3_take(&pool, nq);
+  in->Phi = ali3_take(&pool, nc);
+  in->Phit = ali3_take(&pool, nc);
+  in->gamma = ali3_take(&pool, nc);
+  in->mu = ali3_take(&pool, nc);
+  in->lam = ali3_take(&pool, nc);
+  in->correction_q = ali3_take(&pool, nq);
+  in->step_q = ali3_take(&pool, nq);
+  in->correction_lam = ali3_take(&pool, nc);
+  in->step_lam = ali3_take(&pool, nc);
+  in->J = ali3_take(&pool, (size_t)z->nnz_rows);
+  in->J_tangent = ali3_take(&pool, (size_t)z->nnz_rows);
+  in->J0 = ali3_take(&pool, (size_t)z->nnz_rows);
+  in->at_J0 = ali3_take(&pool, nq + (size_t)z->ng + (size_t)z->n_switch);
+  in->A = ali3_take(&pool, (size_t)z->nnz_rows);
+  in->A_tangent = ali3_take(&pool, (size_t)z->nnz_rows);
+  in->F = ali3_take(&pool, (size_t)z->front_size);
+  in->u = ali3_take(&pool, (size_t)z->nsig);
+  in->ud = ali3_take(&pool, (size_t)z->nsig);
+  in->S = ali3_take(&pool, n_S);
+  in->SB = ali3_take(&pool, n_work);
+  in->local = ali3_take(&pool, ALI3_RADAU * (size_t)s->max_front);
+  in->stage_Phi = ali3_take(&pool, stages * nc);
+  in->stage_lam = ali3_take(&pool, stages * nc);
+  in->stage_J = ali3_take(&pool, stages * (size_t)z->nnz_rows);
+  in->stage_J_tangent = ali3_take(&pool, stages * (size_t)z->nnz_rows);
+  in->stage_x = ali3_take(&pool, stages * nq);
+  in->F_stages = ali3_take(&pool, stages * stages * (size_t)z->front_size);
+  in->F_C = ali3_take(&pool, stages > 0 ? (size_t)z->front_size : 0);
+  in->F_K = ali3_take(&pool, stages > 0 ? (size_t)z->front_size : 0);
+  in->flex = ali3_take(&pool, n_flex);
+  in->flex_work = ali3_take(&pool, n_flex_work);
+  in->y_work = ali3_take(&pool, ny);
+  in->out_work = ali3_take(&pool, nout);
+  in->potential_work = ali3_take(&pool, ne);
   const ali3_status status = ali3_reset(in);
   if (status != ALI3_OK) {
     s->memory.release(block);

@@ -25,7 +25,8 @@ void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
 }
 
 /* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
- * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as fast. */
+ * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as
+ * fast. */
 double ali3_penalty(const ali3_instance *in, double h) {
   const ali3_settings *s = &in->settings;
   const double stiff = 0.25 * h * h * in->system->flex_rate;
@@ -40,6 +41,16 @@ double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
       largest = v;
       *worst = k;
     }
+  }
+  return largest;
+}
+
+/* By how much the worst row is open beyond its round-off, m; of finite rows. */
+double ali3_opening(const ali3_system *S, const double *Phi) {
+  double largest = 0.0;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const double v = fabs(Phi[k]) * S->row_measure[k] - S->row_round[k];
+    if (v > largest) largest = v;
   }
   return largest;
 }

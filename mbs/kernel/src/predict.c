@@ -1,8 +1,8 @@
-/* First guess of the increment and the multipliers of an ALi3-P step. Where the motion has been smooth, mean accelerations
- * and multipliers go on along the parabola through those of the last three steps; else the present ones stay. Flexible
- * bodies have modes that vibrate faster than the step can follow; the trapezoidal rule lets their rates and accelerations
- * ring, and with them those of all that is tied to them, but not the positions. There the mean rates of the last two
- * steps go on. */
+/* First guess of the increment and the multipliers of an ALi3-P step. Where the motion has been smooth, mean
+ * accelerations and multipliers go on along the parabola through those of the last three steps; else the present ones
+ * stay. Flexible bodies have modes that vibrate faster than the step can follow; the trapezoidal rule lets their rates
+ * and accelerations ring, and with them those of all that is tied to them, but not the positions. There the mean rates
+ * of the last two steps go on. */
 #include <string.h>
 
 #include "ali3_internal.h"

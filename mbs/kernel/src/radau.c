@@ -162,13 +162,9 @@ static ali3_status correct(ali3_instance *in, double h, double alpha) {
   return ALI3_OK;
 }
 
-/* By how much the worst row of all stages is open beyond its round-off, m. */
 static double opening(const ali3_instance *in) {
-  const ali3_system *S = in->system;
   double largest = 0.0;
-  for (int i = 0; i < STAGES; i++)
-    for (int32_t k = 0; k < S->size.nc; k++)
-      largest = fmax(largest, fabs(of_rows(in, in->stage_Phi, i)[k]) * S->row_measure[k] - S->row_round[k]);
+  for (int i = 0; i < STAGES; i++) largest = fmax(largest, ali3_opening(in->system, of_rows(in, in->stage_Phi, i)));
   return largest;
 }
 
@@ -267,7 +263,6 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   const double alpha = ali3_penalty(in, h) / EPS_SHARE;
   ali3_vectors *from = &in->now, *to = &in->next;
   ali3_history_own(in, ALI3_METHOD_RADAU_5, from->qdd);
-  ali3_switch_carry(in);
   predict(in, h);
   in->force_input = in->input_middle;
   ali3_status status = newton(in, t, h, alpha);

@@ -42,14 +42,13 @@ static ali3_status step(ali3_instance *in, double h) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
-  const bool may_halve = in->settings.max_halvings > 0;
   const double energy_error = in->report.energy_error;
-  if (may_halve) ali3_vectors_copy(in, &in->start, &in->now);
+  ali3_vectors_copy(in, &in->start, &in->now); /* halves and a new owner of the memory change in->now */
   in->h_whole = h;
   const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    if (may_halve) ali3_vectors_copy(in, &in->now, &in->start);
+    ali3_vectors_copy(in, &in->now, &in->start);
     in->report.energy_error = energy_error;
     in->report.failures++;
     return status;
@@ -68,11 +67,15 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   return status == ALI3_OK ? step(in, h) : status;
 }
 
-/* After quiet steps the last good state may lack what only a reader needs. */
-static ali3_status give_up(ali3_instance *in, ali3_status status) {
-  if (in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM) ali3_energy_momentum_report(in);
-  if (in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE && in->tree != NULL)
-    ali3_semi_recursive_report(in);
+/* After a quiet or sampled step the last good state lacks what only a reader needs. */
+static ali3_status give_up(ali3_instance *in, ali3_status status, bool quiet, bool sampled) {
+  const double owner = in->now.memory[ALI3_MEMORY_OWNER];
+  ali3_vectors_copy(in, &in->start, &in->now);
+  in->force_input = in->start.used; /* the present inputs are those of the step that failed */
+  if (quiet && owner == (double)ALI3_METHOD_ENERGY_MOMENTUM) ali3_energy_momentum_report(in);
+  if (sampled && owner == (double)ALI3_METHOD_SEMI_RECURSIVE) ali3_semi_recursive_report(in);
+  in->force_input = in->input;
+  if (!ali3_finite(in->now.q, (int64_t)in->n_vector)) ali3_vectors_copy(in, &in->now, &in->start);
   return status;
 }
 
@@ -83,17 +86,20 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   const int32_t nu = in->system->size.nu, ns = in->system->size.ns;
   const ali3_status method = ali3_check_method(in);
   if (method != ALI3_OK) return method;
+  bool quiet = false, sampled = false; /* the last good step */
   for (int64_t n = 0; n < n_steps; n++) {
     if (inputs != NULL)
       for (int32_t i = 0; i < nu; i++) {
         const ali3_status status = ali3_set_input(in, i, inputs[n * nu + i]);
-        if (status != ALI3_OK) return give_up(in, status);
+        if (status != ALI3_OK) return give_up(in, status, quiet, sampled);
       }
     const bool recorded = out != NULL && (n + 1) % every == 0;
     in->quiet = !recorded && n + 1 < n_steps;
     in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h);
-    if (status != ALI3_OK) return give_up(in, status);
+    if (status != ALI3_OK) return give_up(in, status, quiet, sampled);
+    quiet = in->quiet;
+    sampled = in->sampled;
     if (done != NULL) *done = n + 1;
     if (recorded) ali3_sensors_evaluate(in, out + ((n + 1) / every - 1) * ns);
   }

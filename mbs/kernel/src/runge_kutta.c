@@ -1,7 +1,8 @@
-/* Explicit Runge-Kutta method of order eight with twelve stages (coefficients of Dormand and Prince, in Hairer, Norsett,
- * Wanner, "Solving Ordinary Differential Equations I", second edition) on the equations of index one: every stage solves
- * for accelerations and multipliers, positions and velocities return to the rows at the end of a step. For smooth
- * motion without stiff forces, away from singular positions; the last stage of a step is the first of the next. */
+/* Explicit Runge-Kutta method of order eight with twelve stages (coefficients of Dormand and Prince, in Hairer,
+ * Norsett, Wanner, "Solving Ordinary Differential Equations I", second edition) on the equations of index one: every
+ * stage solves for accelerations and multipliers, positions and velocities return to the rows at the end of a step. For
+ * smooth motion without stiff forces, away from singular positions; the last stage of a step is the first of the
+ * next. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +12,7 @@ enum { STAGES = ALI3_STAGES, SWEEPS = 3 };
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 static const double VELOCITY_TOLERANCE = 1e-12;
 
-/* Power of the forces in in->Q and of drives at the state that accelerate() has just solved. */
+/* Power of the forces in in->Q and of drives at the state that has just been solved. */
 static double power(ali3_instance *in, const ali3_vectors *v) {
   double sum = 0.0;
   ali3_constraint_rate(in, v->q, v, in->Phit);
@@ -74,16 +75,13 @@ static ali3_status close(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
+/* From in->now to in->next, a copy of it; in->now changes only when the step is good. t is the time at its end. */
 ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const int64_t before = in->report.iterations;
   ali3_vectors *from = &in->now, *to = &in->next;
-  ali3_switch_carry(in);
   memcpy(in->stage, from->qdd, (size_t)nq * sizeof(double));
-  memcpy(to->qdd, from->qdd, (size_t)nq * sizeof(double));
-  memcpy(to->lam, from->lam, (size_t)S->size.nc * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   const bool watched = S->n_flexible == 0; /* else M changes, and in->Q has inertia forces */
   const double kinetic = watched ? half_product(in, from->qd, from->qd) : 0.0;

@@ -1,7 +1,8 @@
 /* Semi-recursive formulation: explicit Runge-Kutta rules on the relative coordinates of a spanning tree (J. Garcia de
  * Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapters 5 and 8). Loops are closed by a
  * second transformation to independent rates; positions and velocities return to the rows at the end of a step. What
- * goes from step to step lies in the state's memory of the method; natural coordinates are written when somebody looks. */
+ * goes from step to step lies in the state's memory of the method; natural coordinates are written when somebody
+ * looks. */
 #include <math.h>
 #include <string.h>
 
@@ -250,5 +251,9 @@ void ali3_semi_recursive_report(ali3_instance *in) {
   ali3_tree_move(in->system->tree, w);
   in->sampled = false;
   ali3_vectors_copy(in, &in->next, &in->now);
-  if (show(in, &in->next) == ALI3_OK) ali3_vectors_copy(in, &in->now, &in->next);
+  if (show(in, &in->next) != ALI3_OK) { /* nothing but the motion */
+    ali3_tree_write(in, in->next.q, in->next.qd, in->next.qdd);
+    memset(in->next.lam, 0, (size_t)in->system->size.nc * sizeof(double));
+  }
+  ali3_vectors_copy(in, &in->now, &in->next);
 }

@@ -14,6 +14,7 @@ typedef struct { /* 40 bytes without holes */
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'S', 'T', 'A', '\n'};
 enum { CHECKED_FROM = 28 }; /* the checksum covers what follows it */
+static const int64_t MOST_COUNTED = (int64_t)1 << 53; /* steps: doubles no longer tell two neighbours apart */
 
 size_t ali3_state_size(const ali3_system *s) {
   if (s == NULL) return 0;
@@ -54,6 +55,13 @@ static bool numbers_finite(const unsigned char *p, size_t n) {
   return true;
 }
 
+static bool counted(int64_t n) { return n >= 0 && n < MOST_COUNTED; }
+
+static bool report_valid(const ali3_report *r) {
+  return counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
+         counted(r->halvings) && counted(r->failures) && r->energy_error - r->energy_error == 0.0;
+}
+
 static void get(void *to, const unsigned char **from, size_t size) {
   if (size > 0) memcpy(to, *from, size);
   *from += size;
@@ -65,17 +73,20 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   const size_t fixed = sizeof(ali3_state_header) + sizeof(ali3_settings) + sizeof(ali3_report);
   ali3_state_header header;
   ali3_settings settings;
+  ali3_report report;
   if (size != ali3_state_size(in->system)) return ALI3_BAD_STATE;
   const unsigned char *p = bytes;
   get(&header, &p, sizeof header);
   if (memcmp(header.magic, MAGIC, sizeof MAGIC) != 0 || header.version != ALI3_STATE_VERSION || header.size != size ||
-      header.system_crc != in->system->crc || header.initialised > 1 || header.count < 0 ||
+      header.system_crc != in->system->crc || header.initialised > 1 || !counted(header.count) ||
       header.crc != ali3_crc32((const unsigned char *)bytes + CHECKED_FROM, size - CHECKED_FROM))
     return ALI3_BAD_STATE;
   get(&settings, &p, sizeof settings);
+  get(&report, &p, sizeof report);
   const unsigned char *numbers = (const unsigned char *)bytes + fixed,
                       *inputs = numbers + (2 + in->n_vector) * sizeof(double);
-  if (!ali3_settings_valid(&settings) || !numbers_finite(numbers, (size - fixed) / sizeof(double)))
+  if (!ali3_settings_valid(&settings) || !report_valid(&report) ||
+      !numbers_finite(numbers, (size - fixed) / sizeof(double)))
     return ALI3_BAD_STATE;
   for (int32_t i = 0; i < z->np; i++) {
     double v;
@@ -91,9 +102,9 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
     return ALI3_BAD_STATE;
   }
   in->settings = settings;
+  in->report = report;
   in->initialised = (int32_t)header.initialised;
   in->count = header.count;
-  get(&in->report, &p, sizeof in->report);
   get(&in->t_base, &p, sizeof(double));
   get(&in->h_last, &p, sizeof(double));
   get(in->now.q, &p, in->n_vector * sizeof(double));

@@ -114,7 +114,6 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_quiet_start(in, h);
   int32_t iterations = 0;
   ali3_guides_step(in, from, to, t, h);
-  ali3_switch_carry(in);
   ali3_predict(in, h);
   if (is_alpha)
     ali3_alpha_rule(in, h);

@@ -28,14 +28,6 @@ void ali3_switch_values(const ali3_instance *in, double *v) {
     if (S->row_switch[k] >= 0 && in->now.on[S->row_switch[k]] == 0.0) v[k] = 0.0;
 }
 
-/* Switches stay over a step. */
-void ali3_switch_carry(ali3_instance *in) {
-  const ali3_sizes *z = &in->system->size;
-  if (z->n_switch == 0) return;
-  memcpy(in->next.on, in->now.on, (size_t)z->n_switch * sizeof(double));
-  memcpy(in->next.anchor, in->now.anchor, (size_t)z->nc * sizeof(double));
-}
-
 static double kinetic_energy(ali3_instance *in) {
   double twice = 0.0;
   ali3_flexible_prepare(in, in->now.q);

@@ -1,7 +1,7 @@
 /* Relative coordinates along a spanning tree of the bodies: what the files of the semi-recursive method share.
  * Everything is in earth axes with respect to the origin of the earth, so that what belongs to a body adds up along the
- * tree without transformations. Most quantities are arrays over bodies ("lanes"), body 0 is the ground; loops over lanes
- * have no branches and no dependence from body to body, recursions along the tree have little arithmetic. */
+ * tree without transformations. Most quantities are arrays over bodies ("lanes"), body 0 is the ground; loops over
+ * lanes have no branches and no dependence from body to body, recursions along the tree have little arithmetic. */
 #ifndef ALI3_TREE_H
 #define ALI3_TREE_H
 #include "ali3_internal.h"

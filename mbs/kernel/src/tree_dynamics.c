@@ -2,7 +2,7 @@
 #include "tree.h"
 
 /* Inertia of each body about the origin of the earth, and the forces its velocity and gravity ask for. */
-static void bodies(const ali3_tree *T, ali3_tree_work *w) {
+void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) {
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
     double c[3], e[3], rc[3];
@@ -104,8 +104,6 @@ static void momenta(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) { bodies(T, w); }
-
 /* M: row j for the bodies on its path to the ground, from whole runs of neighbours. */
 void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
   composite(T, w);
@@ -123,7 +121,8 @@ void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* row -= f p + g q from `first` to `last`, in whole pairs: what lies beside the path is zero, above the diagonal unread. */
+/* row -= f p + g q from `first` to `last`, in whole pairs: what lies beside the path is zero, above the diagonal
+ * unread. */
 static void subtract(double *restrict row, const double *restrict p, double f, const double *restrict q, double g,
                      int32_t first, int32_t last) {
   ALI3_SHORT

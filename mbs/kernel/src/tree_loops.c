@@ -3,6 +3,7 @@
  *     J_d x_d + J_i x_i = -b,     x_d = g - G x_i,     R' M R x_i = R' (load - M (g, 0)),     R = (-G, 1). */
 #include <math.h>
 
+#include "element_math.h"
 #include "tree.h"
 
 static const double RANK = 1e-7; /* a pivot below this part of the largest is of a redundant row */
@@ -12,14 +13,6 @@ typedef struct {
   double p[3], n[2][3], r[3],
       z[3]; /* point and normals of the first body, point and axis of the second, in earth axes */
 } cut;
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static cut cut_of(const ali3_system *S, const ali3_tree_work *w, int32_t c) {
   const double *place = S->tree_cut_place + 15 * (int64_t)c;
@@ -45,9 +38,9 @@ static void path(const ali3_tree *T, ali3_tree_work *w, const cut *k, int32_t bo
   for (int32_t j = body; j > 0; j = T->parent[j]) {
     const double t[3] = {w->turn[0][j], w->turn[1][j], w->turn[2][j]};
     double v[3];
-    cross(t, point, v);
+    ali3_cross(t, point, v);
     for (int i = 0; i < k->points; i++) w->row[row + i][j] += sign * (w->shift[i][j] + v[i]);
-    for (int i = 0; i < k->axes; i++) w->row[row + k->points + i][j] += sign * dot(t, arm[i]);
+    for (int i = 0; i < k->axes; i++) w->row[row + k->points + i][j] += sign * ali3_dot(t, arm[i]);
   }
 }
 
@@ -58,10 +51,10 @@ void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients) {
   for (int32_t c = 0; c < T->n_cut; c++) {
     const cut k = cut_of(S, w, c);
     for (int i = 0; i < k.points; i++) w->Phi[row + i] = k.p[i] - k.r[i];
-    for (int i = 0; i < k.axes; i++) w->Phi[row + k.points + i] = dot(k.n[i], k.z);
+    for (int i = 0; i < k.axes; i++) w->Phi[row + k.points + i] = ali3_dot(k.n[i], k.z);
     if (gradients) {
       double arm[2][3];
-      for (int i = 0; i < k.axes; i++) cross(k.n[i], k.z, arm[i]);
+      for (int i = 0; i < k.axes; i++) ali3_cross(k.n[i], k.z, arm[i]);
       for (int32_t i = row; i < row + k.points + k.axes; i++) {
         ALI3_SHORT
         for (int32_t j = 1; j <= T->n; j++) w->row[i][j] = 0.0;
@@ -78,10 +71,10 @@ static void point_bias(const ali3_tree_work *w, int32_t b, const double r[3], do
   const double o[3] = {w->spin[0][b], w->spin[1][b], w->spin[2][b]};
   const double a[3] = {w->spin_rate[0][b], w->spin_rate[1][b], w->spin_rate[2][b]};
   double v[3], turned[3];
-  cross(o, r, v);
+  ali3_cross(o, r, v);
   for (int i = 0; i < 3; i++) v[i] += w->drift[i][b];
-  cross(o, v, turned);
-  cross(a, r, out);
+  ali3_cross(o, v, turned);
+  ali3_cross(a, r, out);
   for (int i = 0; i < 3; i++) out[i] += w->drift_rate[i][b] + turned[i];
 }
 
@@ -102,13 +95,13 @@ void ali3_loops_bias(const ali3_system *S, ali3_tree_work *w) {
     }
     for (int i = 0; i < k.axes; i++) { /* rate of (o1 - o2) . (n x z) */
       double arm[3], nd[3], zd[3], part[3], other[3];
-      cross(k.n[i], k.z, arm);
-      cross(o[0], k.n[i], nd);
-      cross(o[1], k.z, zd);
-      cross(nd, k.z, part);
-      cross(k.n[i], zd, other);
+      ali3_cross(k.n[i], k.z, arm);
+      ali3_cross(o[0], k.n[i], nd);
+      ali3_cross(o[1], k.z, zd);
+      ali3_cross(nd, k.z, part);
+      ali3_cross(k.n[i], zd, other);
       for (int m = 0; m < 3; m++) part[m] += other[m];
-      w->gamma[row + k.points + i] = dot(bend, arm) + dot(turn, part);
+      w->gamma[row + k.points + i] = ali3_dot(bend, arm) + ali3_dot(turn, part);
     }
     row += k.points + k.axes;
   }
@@ -149,7 +142,8 @@ void ali3_loops_choose(const ali3_tree *T, ali3_tree_work *w) {
   }
 }
 
-/* The chosen rows in the order chosen: L U of J_d, inverse pivots on the diagonal, then G in the columns of the others. */
+/* The chosen rows in the order chosen: L U of J_d, inverse pivots on the diagonal, then G in the columns of the
+ * others. */
 void ali3_loops_factorise(const ali3_tree *T, ali3_tree_work *w) {
   const int32_t r = w->rank, n = T->n;
   for (int32_t i = 0; i < r; i++) {

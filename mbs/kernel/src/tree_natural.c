@@ -1,4 +1,5 @@
 /* Between the relative coordinates of a tree and the natural coordinates of its System. */
+#include "element_math.h"
 #include "tree.h"
 
 static double signal(const ali3_system *S, int32_t i, const double *x, bool rate) {
@@ -6,14 +7,6 @@ static double signal(const ali3_system *S, int32_t i, const double *x, bool rate
   for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
   return sum;
 }
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 typedef struct {
   double origin[3], axis[3][3], velocity[3], spin[3];
@@ -34,7 +27,7 @@ static frame frame_of(const ali3_system *S, int32_t b, const double *q, const do
       f.axis[k][i] = signal(S, number[3 + 3 * k + i], q, false);
       rate[i] = signal(S, number[3 + 3 * k + i], qd, true);
     }
-    cross(f.axis[k], rate, part);
+    ali3_cross(f.axis[k], rate, part);
     for (int i = 0; i < 3; i++) f.spin[i] += 0.5 * part[i];
   }
   return f;
@@ -57,14 +50,14 @@ void ali3_tree_read(ali3_instance *in, const double *q, const double *qd, double
     }
     if (T->slide[b] != 0.0) {
       for (int i = 0; i < 3; i++) arm[i] += gap[i];
-      cross(parent.spin, arm, moved);
-      x[b - 1] = dot(base[2], gap);
+      ali3_cross(parent.spin, arm, moved);
+      x[b - 1] = ali3_dot(base[2], gap);
       for (int i = 0; i < 3; i++) moved[i] = own.velocity[i] - parent.velocity[i] - moved[i];
-      x[T->n + b - 1] = dot(base[2], moved);
+      x[T->n + b - 1] = ali3_dot(base[2], moved);
     } else {
-      x[b - 1] = ali3_atan2(dot(base[1], own.axis[0]), dot(base[0], own.axis[0]));
+      x[b - 1] = ali3_atan2(ali3_dot(base[1], own.axis[0]), ali3_dot(base[0], own.axis[0]));
       for (int i = 0; i < 3; i++) moved[i] = own.spin[i] - parent.spin[i];
-      x[T->n + b - 1] = dot(base[2], moved);
+      x[T->n + b - 1] = ali3_dot(base[2], moved);
     }
   }
 }
@@ -83,10 +76,10 @@ void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd
       spin[i] = w->spin[i][b];
       rate[i] = w->spin_rate[i][b];
     }
-    cross(spin, r, v);
+    ali3_cross(spin, r, v);
     for (int i = 0; i < 3; i++) v[i] += o * w->drift[i][b];
-    cross(rate, r, vd);
-    cross(spin, v, turned);
+    ali3_cross(rate, r, vd);
+    ali3_cross(spin, v, turned);
     for (int i = 0; i < 3; i++) {
       bent[i] = o * w->drift_rate[i][b] + vd[i] + turned[i];
       if (column[i] < 0) continue;
@@ -110,7 +103,7 @@ void ali3_tree_load(const ali3_instance *in, const double *Q) {
              (w->frame[b][i][0] * local[1] + w->frame[b][i][1] * local[2] + w->frame[b][i][2] * local[3]);
       force[i] = column[i] < 0 ? 0.0 : Q[column[i]];
     }
-    cross(r, force, torque);
+    ali3_cross(r, force, torque);
     for (int i = 0; i < 3; i++) {
       w->force[i][b] -= o * force[i];
       w->torque[i][b] -= torque[i];
