@@ -26,6 +26,7 @@ ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   const ali3_status status = by_method(in, t, h);
   if (status == ALI3_OK || depth <= 0) return status;
   in->report.halvings++;
+  ali3_keep(in);
   const ali3_status first = ali3_advance(in, t - 0.5 * h, 0.5 * h, depth - 1);
   return first == ALI3_OK ? ali3_advance(in, t, 0.5 * h, depth - 1) : first;
 }

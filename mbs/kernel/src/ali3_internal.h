@@ -148,6 +148,7 @@ struct ali3_instance {
   /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
   ali3_vectors now, next, start, whole, tangent;
   ali3_rule rule;
+  bool kept; /* in->start holds the state before the step */
   bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
   bool sampled; /* only sensors will look at it */
   size_t n_vector;
@@ -378,4 +379,5 @@ double *ali3_take(double **pool, size_t n);
 size_t ali3_vector_count(const ali3_system *s); /* doubles in ali3_vectors */
 void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
+void ali3_keep(ali3_instance *in);
 #endif

@@ -19,6 +19,7 @@ static int32_t past(const ali3_vectors *v, int32_t most) {
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   double *memory = in->now.memory;
   if (memory[ALI3_MEMORY_OWNER] == (double)method) return;
+  ali3_keep(in);
   memset(memory, 0, ALI3_MEMORY * sizeof *memory);
   memory[ALI3_MEMORY_OWNER] = (double)method;
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
@@ -27,9 +28,13 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
 /* Weights (Lagrange) with which values at the n times extrapolate to time t. */
 static void lagrange(const double *time, int32_t n, double t, double *weight) {
   for (int32_t k = 0; k < n; k++) {
-    weight[k] = 1.0;
-    for (int32_t j = 0; j < n; j++)
-      if (j != k) weight[k] *= (t - time[j]) / (time[k] - time[j]);
+    double above = 1.0, below = 1.0;
+    for (int32_t j = 0; j < n; j++) {
+      if (j == k) continue;
+      above *= t - time[j];
+      below *= time[k] - time[j];
+    }
+    weight[k] = above / below;
   }
 }
 

@@ -43,12 +43,12 @@ static ali3_status step(ali3_instance *in, double h) {
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const double energy_error = in->report.energy_error;
-  ali3_vectors_copy(in, &in->start, &in->now); /* halves and a new owner of the memory change in->now */
+  in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
   in->h_whole = h;
   const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    ali3_vectors_copy(in, &in->now, &in->start);
+    if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);
     in->report.energy_error = energy_error;
     in->report.failures++;
     return status;

@@ -46,3 +46,10 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool) {
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
   memcpy(to->q, from->q, in->n_vector * sizeof(double));
 }
+
+/* Once a step, before anything changes in->now: what it goes back to when the step fails. */
+void ali3_keep(ali3_instance *in) {
+  if (in->kept) return;
+  ali3_vectors_copy(in, &in->start, &in->now);
+  in->kept = true;
+}
