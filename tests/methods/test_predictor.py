@@ -25,7 +25,7 @@ def both(system, t_end, h):
 
 @pytest.mark.parametrize(
     ("scene", "h", "share"),
-    [(double_four_bar, 0.01, 0.7), (bricard, 0.005, 0.6), (spatial_chain, 0.005, 0.75)],
+    [(double_four_bar, 0.01, 0.7), (bricard, 0.005, 0.9), (spatial_chain, 0.005, 0.75)],
 )
 def test_a_smooth_motion_needs_fewer_iterations_and_is_the_same(scene, h, share):
     (places, expected), (report, paper) = both(compile(scene.build()), 2.0, h)
@@ -38,6 +38,13 @@ def test_large_steps_need_hardly_more_iterations_and_no_halves(loop, h):
     _, (report, paper) = both(loop, LONG, h)
     assert report.halvings == paper.halvings == 0
     assert report.iterations < 1.1 * paper.iterations
+
+
+def test_a_thousand_loops_pass_a_singular_position_in_small_steps():
+    """Multipliers of rows that nearly lose their lever are all round-off; with 0.8 of their change it stops at 0.72 s."""
+    report = simulate(compile(double_four_bar.build(1000)), 1.0, 0.002, progress=False).report
+    assert report.halvings == 0
+    assert report.mean_iterations < 1.5
 
 
 def test_multipliers_of_dependent_rows_stay_bounded(loop):

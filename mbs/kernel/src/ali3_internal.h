@@ -305,7 +305,7 @@ void ali3_alpha_accept(ali3_instance *in, double h);
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
 
 /* predict.c */
-void ali3_predict(ali3_instance *in, double h);
+bool ali3_predict(ali3_instance *in, double h, bool from_past);
 void ali3_predict_accept(ali3_instance *in, double h);
 void ali3_predict_rates(ali3_instance *in, double h);
 

@@ -8,24 +8,27 @@
 #include "ali3_internal.h"
 
 enum { PARABOLA = 3 };
-/* Share of the change of the multipliers that is taken: no step corrects what they have along dependent rows, and
- * whole extrapolations of it would grow. */
-static const double SHARE = 0.9;
+/* Share of the change of the multipliers that is taken: no step corrects what they have along dependent rows or has
+ * right about rows that lose their lever, and whole extrapolations of that would grow. */
+static const double SHARE = 0.5;
 
-void ali3_predict(ali3_instance *in, double h) {
+/* Returns whether past steps told; `from_past` false leaves them aside. */
+bool ali3_predict(ali3_instance *in, double h, bool from_past) {
   const ali3_system *S = in->system;
   const ali3_vectors *from = &in->now;
   double *lam = in->next.lam;
   if (S->n_flexible > 0) {
     for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * (2.0 * from->mean[i] - from->mean_before[i]);
     memcpy(lam, from->lam, (size_t)S->size.nc * sizeof *lam);
-    return;
+    return false;
   }
   ali3_history_own(in, in->settings.method, from->qdd);
-  const bool goes_on = in->settings.predictor == ALI3_PREDICTOR_PARABOLA && ali3_history_smooth(in, PARABOLA, h);
+  const bool goes_on =
+      from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA && ali3_history_smooth(in, PARABOLA, h);
   ali3_history_predict(in, 0.5 * h, goes_on ? PARABOLA : 0, in->x, lam);
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] = from->lam[k] + SHARE * (lam[k] - from->lam[k]);
   for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * in->x[i];
+  return goes_on;
 }
 
 /* Keeps the mean acceleration and the multipliers of the step from in->now to in->next. */

@@ -75,13 +75,16 @@ static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration) {
   return ALI3_OK;
 }
 
-static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t *iterations) {
+static ali3_status newton(ali3_instance *in, double h, double alpha) {
   const ali3_settings *settings = &in->settings;
   evaluate(in, h, true);
-  for (*iterations = 0; *iterations < settings->max_iterations;) {
-    const ali3_status status = correct(in, alpha, *iterations);
+  in->report.last_iterations = 0;
+  while (in->report.last_iterations < settings->max_iterations) {
+    const ali3_status status = correct(in, alpha, in->report.last_iterations);
     if (status != ALI3_OK) return status;
-    ++*iterations;
+    in->report.iterations++;
+    in->report.last_iterations++;
+    if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
     double *J = in->J;
     in->J = in->J_tangent;
     in->J_tangent = J;
@@ -112,9 +115,8 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
   const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_quiet_start(in, h);
-  int32_t iterations = 0;
   ali3_guides_step(in, from, to, t, h);
-  ali3_predict(in, h);
+  const bool from_past = ali3_predict(in, h, true);
   if (is_alpha)
     ali3_alpha_rule(in, h);
   else
@@ -124,10 +126,11 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
   /* derivatives of a step are those of the trapezoidal rule, also in a quiet start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
-  const ali3_status status = newton(in, h, alpha, &iterations);
-  in->report.iterations += iterations;
-  in->report.last_iterations = iterations;
-  if (iterations > in->report.max_iterations) in->report.max_iterations = iterations;
+  ali3_status status = newton(in, h, alpha);
+  if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
+    ali3_predict(in, h, false);
+    status = newton(in, h, alpha);
+  }
   if (status != ALI3_OK) return status;
   for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;
   if (is_alpha)
