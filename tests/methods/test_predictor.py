@@ -41,7 +41,7 @@ def test_large_steps_need_hardly_more_iterations_and_no_halves(loop, h):
 
 
 def test_a_thousand_loops_pass_a_singular_position_in_small_steps():
-    """Multipliers of rows that nearly lose their lever are all round-off; with 0.8 of their change it stops at 0.72 s."""
+    """Multipliers of rows that lose their lever are all round-off; with 0.8 of their change it stops at 0.72 s."""
     report = simulate(compile(double_four_bar.build(1000)), 1.0, 0.002, progress=False).report
     assert report.halvings == 0
     assert report.mean_iterations < 1.5
