@@ -279,6 +279,9 @@ void ali3_solve_lu(ali3_instance *in, int32_t width, const double *F, double *b)
 bool ali3_finite(const double *v, int64_t n);
 void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out);
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
+double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work);
+bool ali3_judge(ali3_instance *in, const double *r);
+void ali3_iterations_since(ali3_instance *in, int64_t before);
 double ali3_penalty(const ali3_instance *in, double h);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
 double ali3_opening(const ali3_system *S, const double *Phi);
@@ -290,6 +293,7 @@ double ali3_projection_work(ali3_instance *in, double h, double *kinetic);
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic);
 
 /* projection.c */
+bool ali3_rates_closed(ali3_instance *in, const double *b, const double *v, double tolerance, double *violation);
 double ali3_project(ali3_instance *in, double factor, const double *b, double *v, double *lam, double tolerance,
                     int32_t sweeps);
 
@@ -380,4 +384,6 @@ size_t ali3_vector_count(const ali3_system *s); /* doubles in ali3_vectors */
 void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 void ali3_keep(ali3_instance *in);
+ali3_status ali3_accept(ali3_instance *in);
+void ali3_input_between(ali3_instance *in, const double *u0, double share);
 #endif

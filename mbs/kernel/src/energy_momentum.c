@@ -97,22 +97,6 @@ static bool same_place(ali3_instance *in, const ali3_vectors *v) {
   return same;
 }
 
-/* Fills the report. Returns false when something is not finite. */
-static bool judge(ali3_instance *in) {
-  const ali3_system *S = in->system;
-  double largest = 0.0;
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    const double size = fabs(in->r[i]) * S->mass_floor_inverse[i];
-    if (!(size <= largest) && largest == largest) { /* a NaN stays */
-      largest = size;
-      in->report.worst_coordinate = i;
-    }
-  }
-  in->report.residual = largest;
-  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
-  return in->report.residual < 1e300 && in->report.violation < 1e300;
-}
-
 /* The exact tangent M + h^2/4 (K + sum lam_k H_k) + h/2 C + weight A' Phi_q(q1), slightly unsymmetric. */
 static ali3_status factorise(ali3_instance *in, double h, double weight) {
   const ali3_system *S = in->system;
@@ -157,7 +141,7 @@ static ali3_status undo(ali3_instance *in, double h) {
   for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] -= in->step_q[i];
   for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] -= in->step_lam[k];
   evaluate(in, h);
-  return judge(in) ? ALI3_OK : ALI3_NOT_FINITE;
+  return ali3_judge(in, in->r) ? ALI3_OK : ALI3_NOT_FINITE;
 }
 
 /* First guess and all that belongs to it. */
@@ -166,7 +150,7 @@ static bool start(ali3_instance *in, double h) {
   ali3_history_predict(in, 0.5 * h, ali3_history_order(in, past), in->d0, in->next.lam);
   for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] = h * in->now.own[i] + 0.5 * h * h * in->d0[i];
   evaluate(in, h);
-  return judge(in);
+  return ali3_judge(in, in->r);
 }
 
 /* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. A tangent serves until
@@ -186,7 +170,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
     if (status != ALI3_OK) return status;
     ++*iterations;
     evaluate(in, h);
-    if (!judge(in)) return ALI3_NOT_FINITE;
+    if (!ali3_judge(in, in->r)) return ALI3_NOT_FINITE;
     const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
     if (r <= least_r && v <= least_v) return ALI3_OK;
     if (last <= 1.0 && size > last) return undo(in, h);
@@ -239,14 +223,13 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
-  for (int32_t i = 0; i < S->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
+  ali3_input_between(in, u0, share);
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
   if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
   const ali3_status status = solve(in, h, &weight, &iterations);
   in->report.iterations += iterations;
-  in->report.last_iterations = iterations;
-  if (iterations > in->report.max_iterations) in->report.max_iterations = iterations;
+  ali3_iterations_since(in, in->report.iterations - iterations);
   if (status != ALI3_OK) return status;
   for (int32_t i = 0; i < nq; i++) {
     to->own[i] = 2.0 / h * in->D[i] - from->own[i];
@@ -267,11 +250,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   const bool on_rows = carries_projected(in);
   if (reported || on_rows) ali3_energy_momentum_complete(in, to, weight);
   if (on_rows) memcpy(to->own, to->qd, (size_t)nq * sizeof(double));
-  if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
   same_place(in, to);
   memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
-  const ali3_vectors swap = in->now;
-  in->now = in->next;
-  in->next = swap;
-  return ALI3_OK;
+  return ali3_accept(in);
 }

@@ -12,50 +12,14 @@ static const double LEAST_RATIO = 0.5, MOST_RATIO = 2.0; /* of kinetic energies 
 /* As ali3_project, with the unsymmetric tangent; the part of v that is taken away is spread by A. */
 static double project(ali3_instance *in, double weight, const double *b, double *v, double tolerance) {
   const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq, nc = S->size.nc;
-  for (int32_t sweep = 0;; sweep++) {
-    double violation = 0.0, scale = 0.0;
-    ali3_rows_times(S, in->J, v, in->mu);
-    for (int32_t k = 0; k < nc; k++) {
-      in->mu[k] += b[k];
-      const double size = fabs(in->mu[k]) * S->row_measure[k];
-      if (size > violation) violation = size;
-      in->mu[k] *= weight;
-    }
-    for (int32_t i = 0; i < nq; i++)
-      if (fabs(v[i]) > scale) scale = fabs(v[i]);
-    if (sweep == MAX_SWEEPS || violation <= tolerance * scale) return violation;
+  double violation = 0.0;
+  for (int32_t sweep = 0; !ali3_rates_closed(in, b, v, tolerance, &violation) && sweep < MAX_SWEEPS; sweep++) {
+    for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] *= weight;
     ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
     ali3_solve_lu(in, 1, in->F, in->x);
-    for (int32_t i = 0; i < nq; i++) v[i] -= in->x[i];
+    for (int32_t i = 0; i < S->size.nq; i++) v[i] -= in->x[i];
   }
-}
-
-/* Ratio of the kinetic energies of two velocities. */
-static double energy_ratio(ali3_instance *in, const double *a, const double *b) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq;
-  double of_a = 0.0, of_b = 0.0;
-  for (int32_t i = 0; i < nq; i++) {
-    double sum_a = 0.0, sum_b = 0.0;
-    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) {
-      sum_a += S->mass_val[k] * a[S->mass_col[k]];
-      sum_b += S->mass_val[k] * b[S->mass_col[k]];
-    }
-    of_a += sum_a * a[i];
-    of_b += sum_b * b[i];
-  }
-  if (S->n_flexible > 0) {
-    memset(in->x, 0, (size_t)nq * sizeof(double));
-    memset(in->w, 0, (size_t)nq * sizeof(double));
-    ali3_flexible_mass_times(in, a, in->x);
-    ali3_flexible_mass_times(in, b, in->w);
-    for (int32_t i = 0; i < nq; i++) {
-      of_a += in->x[i] * a[i];
-      of_b += in->w[i] * b[i];
-    }
-  }
-  return of_a / of_b;
+  return violation;
 }
 
 /* qd on the constraints with the kinetic energy of v->own, accelerations and multipliers from the last two middles,
@@ -71,7 +35,7 @@ void ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v, double we
   in->report.velocity_violation = project(in, weight, in->Phit, v->qd, VELOCITY_TOLERANCE);
   const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
   ali3_forces(in, &call);
-  const double ratio = energy_ratio(in, v->own, v->qd);
+  const double ratio = ali3_mass_product(in, v->own, v->own, in->x) / ali3_mass_product(in, v->qd, v->qd, in->x);
   bool driven = false;
   for (int32_t k = 0; k < nc; k++) driven = driven || in->Phit[k] != 0.0;
   if (!driven && ratio > LEAST_RATIO && ratio < MOST_RATIO) {

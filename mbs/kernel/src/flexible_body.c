@@ -117,15 +117,21 @@ void ali3_flexible_forces(const ali3_instance *in, const double *q, const double
   }
 }
 
+/* K eta with the amplitudes eta of x, which stay in in->flex_work. */
+static const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
+  double *eta = in->flex_work, *force = eta + f->n;
+  ali3_gather(f->n, f->mode, x, eta);
+  memset(force, 0, (size_t)f->n * sizeof(double));
+  ali3_accumulate(f->n, f->K, eta, force);
+  return force;
+}
+
 /* Energy of the weight beside its constant part, and elastic energy, J. */
 void ali3_flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
-    double *eta = in->flex_work, *force = eta + f.n;
-    ali3_gather(f.n, f.mode, q, eta);
-    memset(force, 0, (size_t)f.n * sizeof(double));
-    ali3_accumulate(f.n, f.K, eta, force);
-    *elastic += 0.5 * ali3_inner(f.n, force, eta);
+    const double *force = elastic_force(in, &f, q);
+    *elastic += 0.5 * ali3_inner(f.n, force, in->flex_work);
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }
@@ -189,10 +195,7 @@ void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {
 void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
-    double *eta = in->flex_work, *force = eta + f.n;
-    ali3_gather(f.n, f.mode, x, eta);
-    memset(force, 0, (size_t)f.n * sizeof(double));
-    ali3_accumulate(f.n, f.K, eta, force);
+    const double *force = elastic_force(in, &f, x);
     for (int32_t j = 0; j < f.n; j++) out[f.mode[j]] += weight * force[j];
   }
 }

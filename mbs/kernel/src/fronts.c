@@ -1,20 +1,6 @@
 /* Multifrontal L D L' of the tangent: dense column-major fronts, no pivoting, Schur complements added into the parent.
  * In the columns of its pivots a factorised front holds L below the diagonal and 1/D on it. */
-#include <math.h>
-
-#include "ali3_internal.h"
-
-enum { PANEL = 4 };
-
-/* A pivot D must neither vanish beside the mass of its coordinate nor be infinite. */
-static ali3_status check_pivot(ali3_instance *in, int32_t coordinate, double d) {
-  if (fabs(d) > 1e-14 * in->system->mass_floor[coordinate] && fabs(d) < 1e300) {
-    if (d < 0.0) in->report.negative_pivots++;
-    return ALI3_OK;
-  }
-  in->report.worst_coordinate = coordinate;
-  return d == d ? ALI3_SINGULAR : ALI3_NOT_FINITE;
-}
+#include "fronts.h"
 
 static void subtract(double *restrict target, const double *restrict column, double factor, int32_t from, int32_t n) {
   for (int32_t i = from; i < n; i++) target[i] -= factor * column[i];
@@ -38,7 +24,7 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
       double *column = block + (int64_t)p * n;
       for (int32_t k = start; k < p; k++)
         subtract(column, block + (int64_t)k * n, block[(int64_t)k * n + p] * inverse[k - start], p, n);
-      const ali3_status status = check_pivot(in, first + p, column[p]);
+      const ali3_status status = ali3_check_pivot(in, first + p, column[p]);
       if (status != ALI3_OK) return status;
       inverse[p - start] = 1.0 / column[p];
     }
@@ -81,22 +67,6 @@ ali3_status ali3_factorise(ali3_instance *in, double *F) {
   return ALI3_OK;
 }
 
-/* x becomes D^-1 L^-1 x in the pivots, reduced by them in the rest; two columns at a time. */
-static void forward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
-  int32_t p = 0;
-  for (; p + 1 < n_pivot; p += 2) {
-    const double *restrict a = block + (int64_t)p * n, *restrict b = a + n;
-    const double first = x[p], second = x[p + 1] - a[p + 1] * first;
-    x[p + 1] = second;
-    for (int32_t i = p + 2; i < n; i++) x[i] -= a[i] * first + b[i] * second;
-  }
-  if (p < n_pivot) {
-    const double *restrict a = block + (int64_t)p * n, first = x[p];
-    for (int32_t i = p + 1; i < n; i++) x[i] -= a[i] * first;
-  }
-  for (p = 0; p < n_pivot; p++) x[p] *= block[(int64_t)p * n + p];
-}
-
 /* Sum of column and x from `from` on, in two sums so that additions need not wait for each other. */
 static double product(const double *restrict column, const double *restrict x, int32_t from, int32_t n) {
   double even = 0.0, odd = 0.0;
@@ -118,7 +88,9 @@ void ali3_solve(ali3_instance *in, const double *F, double *b) {
     const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
     const int32_t *idx = S->front_idx + S->front_ptr[f];
     for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
-    forward(F + S->front_off[f], x, n_pivot, n);
+    const double *block = F + S->front_off[f];
+    ali3_front_forward(block, x, n_pivot, n);
+    for (int32_t p = 0; p < n_pivot; p++) x[p] *= block[(int64_t)p * n + p];
     for (int32_t i = 0; i < n; i++) b[idx[i]] = x[i];
   }
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {

@@ -2,21 +2,9 @@
  * whole blocks instead of lower triangles, no pivoting. A factorised front holds L below the diagonal (ones on it are
  * not stored) and U above, with the inverse of its diagonal. A coordinate may stand for several unknowns (`width`), one
  * beside the other in vectors and fronts. */
-#include <math.h>
+#include "fronts.h"
 
-#include "ali3_internal.h"
-
-enum { PANEL = 4 };
 #define ALI3_INLINED __attribute__((always_inline)) /* compiled apart for each width */
-
-static ali3_status check_pivot(ali3_instance *in, int32_t coordinate, double d) {
-  if (fabs(d) > 1e-14 * in->system->mass_floor[coordinate] && fabs(d) < 1e300) {
-    if (d < 0.0) in->report.negative_pivots++;
-    return ALI3_OK;
-  }
-  in->report.worst_coordinate = coordinate;
-  return d == d ? ALI3_SINGULAR : ALI3_NOT_FINITE;
-}
 
 /* Panels of pivots: columns of the panel among themselves, then the others lose the panel at once. */
 static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n,
@@ -29,7 +17,7 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
         const double *restrict left = block + (int64_t)k * n, factor = column[k];
         for (int32_t i = k + 1; i < n; i++) column[i] -= factor * left[i];
       }
-      const ali3_status status = check_pivot(in, first + p / width, column[p]);
+      const ali3_status status = ali3_check_pivot(in, first + p / width, column[p]);
       if (status != ALI3_OK) return status;
       const double inverse = 1.0 / column[p];
       column[p] = inverse;
@@ -107,21 +95,6 @@ ALI3_INLINED static inline void gather(const int32_t *idx, int32_t width, int32_
     for (int32_t s = 0; s < width; s++) x[width * i + s] = b[width * idx[i] + s];
 }
 
-/* x becomes L^-1 x in the pivots, reduced by them in the rest; two columns at a time. */
-static void forward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
-  int32_t p = 0;
-  for (; p + 1 < n_pivot; p += 2) {
-    const double *restrict a = block + (int64_t)p * n, *restrict b = a + n;
-    const double first = x[p], second = x[p + 1] - a[p + 1] * first;
-    x[p + 1] = second;
-    for (int32_t i = p + 2; i < n; i++) x[i] -= a[i] * first + b[i] * second;
-  }
-  if (p < n_pivot) {
-    const double *restrict a = block + (int64_t)p * n, first = x[p];
-    for (int32_t i = p + 1; i < n; i++) x[i] -= a[i] * first;
-  }
-}
-
 /* The pivots of x become the solution, the rest of which is there already; down the columns of U, two at a time. */
 static void backward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
   int32_t j = n - 1;
@@ -153,7 +126,7 @@ ALI3_INLINED static inline void solve(ali3_instance *in, int32_t width, const do
     const int32_t *idx = S->front_idx + S->front_ptr[f];
     const double *block = F + square * S->front_off[f];
     gather(idx, width, coordinates, b, x);
-    forward(block, x, n_pivot, n);
+    ali3_front_forward(block, x, n_pivot, n);
     for (int32_t i = 0; i < coordinates; i++)
       for (int32_t s = 0; s < width; s++) b[width * idx[i] + s] = x[width * i + s];
   }

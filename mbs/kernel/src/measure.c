@@ -24,6 +24,14 @@ void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
   if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
 }
 
+/* a' M b, M of the last q prepared; M b stays in `work` (nq). */
+double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work) {
+  double sum = 0.0;
+  ali3_mass_times(in, b, work);
+  for (int32_t i = 0; i < in->system->size.nq; i++) sum += work[i] * a[i];
+  return sum;
+}
+
 /* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
  * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as
  * fast. */
@@ -59,4 +67,26 @@ bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance) {
   for (int32_t k = 0; k < S->size.nc; k++)
     if (!(fabs(Phi[k]) * S->row_measure[k] <= tolerance + S->row_round[k])) return false;
   return true;
+}
+
+/* The balance r (nq) and the rows in in->Phi go into the report. Returns false when something is not finite. */
+bool ali3_judge(ali3_instance *in, const double *r) {
+  const ali3_system *S = in->system;
+  double largest = 0.0;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    const double size = fabs(r[i]) * S->mass_floor_inverse[i];
+    if (!(size <= largest) && largest == largest) { /* a NaN stays */
+      largest = size;
+      in->report.worst_coordinate = i;
+    }
+  }
+  in->report.residual = largest;
+  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+  return in->report.residual < 1e300 && in->report.violation < 1e300;
+}
+
+/* One step has made its iterations; `before` it there were so many. */
+void ali3_iterations_since(ali3_instance *in, int64_t before) {
+  in->report.last_iterations = (int32_t)(in->report.iterations - before);
+  if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
 }

@@ -41,8 +41,7 @@ static void place(ali3_instance *in, double t, double h, int i) {
     to->q[k] = from->q[k] +
                h * (node[i] * from->qd[k] + h * (second[i][0] * a0[k] + second[i][1] * a1[k] + second[i][2] * a2[k]));
   }
-  for (int32_t k = 0; k < in->system->size.nu; k++)
-    in->input_middle[k] = from->used[k] + node[i] * (in->input[k] - from->used[k]);
+  ali3_input_between(in, from->used, node[i]);
   ali3_guides_time(in, to, t - (1.0 - node[i]) * h);
 }
 
@@ -267,8 +266,7 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   in->force_input = in->input_middle;
   ali3_status status = newton(in, t, h, alpha);
   in->force_input = in->input;
-  in->report.last_iterations = (int32_t)(in->report.iterations - before);
-  if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
+  ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->qdd, acceleration(in, LAST), nq * sizeof(double));
@@ -280,9 +278,5 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = to->q[i] - from->q[i];
   ali3_predict_rates(in, h);
   to->h_last[0] = 0.0;
-  if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
-  const ali3_vectors swap = in->now;
-  in->now = in->next;
-  in->next = swap;
-  return ALI3_OK;
+  return ali3_accept(in);
 }

@@ -21,14 +21,6 @@ static double power(ali3_instance *in, const ali3_vectors *v) {
   return sum;
 }
 
-/* 1/2 qd' M x, M constant. */
-static double half_product(ali3_instance *in, const double *qd, const double *x) {
-  double sum = 0.0;
-  ali3_mass_times(in, x, in->r);
-  for (int32_t i = 0; i < in->system->size.nq; i++) sum += 0.5 * qd[i] * in->r[i];
-  return sum;
-}
-
 /* Where stage `stage` looks: positions and velocities from the accelerations of the stages before it. `row` are its
  * weights, `second` those of the double integral. */
 static void combine(ali3_instance *in, double h, double time, const double *row, int stages) {
@@ -84,14 +76,13 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   memcpy(in->stage, from->qdd, (size_t)nq * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   const bool watched = S->n_flexible == 0; /* else M changes, and in->Q has inertia forces */
-  const double kinetic = watched ? half_product(in, from->qd, from->qd) : 0.0;
-  double work = watched ? 2.0 * h * ali3_order_8.weight[0] * half_product(in, from->qd, from->qdd) : 0.0;
+  const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->r) : 0.0;
+  double work = watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, from->qdd, in->r) : 0.0;
   ali3_status status = ALI3_OK;
   in->force_input = in->input_middle;
   for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
     combine(in, h, ali3_order_8.node[stage], ali3_order_8.stage_weight[stage], stage);
-    for (int32_t i = 0; i < S->size.nu; i++)
-      in->input_middle[i] = from->used[i] + ali3_order_8.node[stage] * (in->input[i] - from->used[i]);
+    ali3_input_between(in, from->used, ali3_order_8.node[stage]);
     ali3_guides_time(in, to, t - (1.0 - ali3_order_8.node[stage]) * h);
     status = ali3_index_one(in, to);
     if (watched) work += h * ali3_order_8.weight[stage] * power(in, to);
@@ -105,19 +96,14 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   }
   if (status == ALI3_OK) status = ali3_index_one(in, to);
   if (status == ALI3_OK && watched) {
-    const double gained = half_product(in, to->qd, to->qd) - kinetic;
+    const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->r) - kinetic;
     status = ali3_energy_watch(in, h, gained - work, kinetic + fmax(gained, 0.0));
   }
-  in->report.last_iterations = (int32_t)(in->report.iterations - before);
-  if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
+  ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
   for (int32_t i = 0; i < nq; i++) in->D[i] = to->q[i] - from->q[i];
   ali3_predict_rates(in, h);
   to->h_last[0] = 0.0;
-  if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
-  const ali3_vectors swap = in->now;
-  in->now = in->next;
-  in->next = swap;
-  return ALI3_OK;
+  return ali3_accept(in);
 }

@@ -202,8 +202,7 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
   for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
     combine(in, h, rule->stage_weight[stage], stage);
-    for (int32_t i = 0; i < S->size.nu; i++)
-      in->input_middle[i] = in->now.used[i] + rule->node[stage] * (in->input[i] - in->now.used[i]);
+    ali3_input_between(in, in->now.used, rule->node[stage]);
     place(in, w->sum);
     position(in);
     memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));
@@ -215,8 +214,7 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
     status = close(in);
   }
   if (status == ALI3_OK) status = accelerations(in, w->sum + n, w->qdd);
-  in->report.last_iterations = (int32_t)(in->report.iterations - before);
-  if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
+  ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   if (!ali3_finite(w->sum, 2 * n) || !ali3_finite(w->qdd, n)) return ALI3_NOT_FINITE;
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
@@ -226,7 +224,6 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
     v = &in->next;
     ali3_vectors_copy(in, v, &in->now);
     status = show(in, v);
-    if (status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector)) status = ALI3_NOT_FINITE;
     if (status != ALI3_OK) return status;
   }
   keep(in, v->own);
@@ -234,11 +231,7 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   v->memory[ALI3_MEMORY_COUNT] = 0.0;
   v->h_last[0] = 0.0;
   memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
-  if (v == &in->now) return ALI3_OK;
-  const ali3_vectors swap = in->now;
-  in->now = in->next;
-  in->next = swap;
-  return ALI3_OK;
+  return in->quiet ? ALI3_OK : ali3_accept(in);
 }
 
 /* After quiet steps: the natural coordinates of the last one. */

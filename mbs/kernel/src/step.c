@@ -30,22 +30,11 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
   for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
 }
 
-/* Residual with the multipliers; fills the report. Returns false when something is not finite. */
+/* Judges the residual with the multipliers. */
 static bool judge(ali3_instance *in) {
-  const ali3_system *S = in->system;
-  const double c = in->rule.c;
-  double largest = 0.0;
-  ali3_rows_transposed(S, in->J, in->next.lam, in->x);
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    const double size = fabs(in->r[i] + c * in->x[i]) * S->mass_floor_inverse[i];
-    if (!(size <= largest) && largest == largest) { /* a NaN stays */
-      largest = size;
-      in->report.worst_coordinate = i;
-    }
-  }
-  in->report.residual = largest;
-  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
-  return in->report.residual < 1e300 && in->report.violation < 1e300;
+  ali3_rows_transposed(in->system, in->J, in->next.lam, in->x);
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->x[i] = in->r[i] + in->rule.c * in->x[i];
+  return ali3_judge(in, in->x);
 }
 
 /* One Newton correction (21) with the tangent (23) and the multiplier update. */
@@ -153,9 +142,5 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   } else {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0);
   }
-  if (!ali3_finite(to->q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
-  const ali3_vectors swap = in->now;
-  in->now = in->next;
-  in->next = swap;
-  return ALI3_OK;
+  return ali3_accept(in);
 }

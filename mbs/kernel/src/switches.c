@@ -29,11 +29,8 @@ void ali3_switch_values(const ali3_instance *in, double *v) {
 }
 
 static double kinetic_energy(ali3_instance *in) {
-  double twice = 0.0;
   ali3_flexible_prepare(in, in->now.q);
-  ali3_mass_times(in, in->now.qd, in->w);
-  for (int32_t i = 0; i < in->system->size.nq; i++) twice += in->w[i] * in->now.qd[i];
-  return 0.5 * twice;
+  return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
 }
 
 static void set(ali3_instance *in, int32_t number, bool on) {

@@ -53,3 +53,17 @@ void ali3_keep(ali3_instance *in) {
   ali3_vectors_copy(in, &in->start, &in->now);
   in->kept = true;
 }
+
+/* in->next becomes the state when all of it is finite. */
+ali3_status ali3_accept(ali3_instance *in) {
+  if (!ali3_finite(in->next.q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
+  const ali3_vectors swap = in->now;
+  in->now = in->next;
+  in->next = swap;
+  return ALI3_OK;
+}
+
+/* Inputs go straight from u0 (nu) to the present ones; in->input_middle becomes those at a share of the way. */
+void ali3_input_between(ali3_instance *in, const double *u0, double share) {
+  for (int32_t i = 0; i < in->system->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
+}
