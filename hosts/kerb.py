@@ -108,7 +108,7 @@ def moments(result: Result, step: float) -> list[dict[str, float | str]]:
 def draw(result: Result, step: float, file: Path) -> None:
     """Moments as differences from rest, as gauges measure them."""
     figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")
-    for axes, gauge in zip(panels.T.flat, ("SG1", "SG2", "SG3", "SG4"), strict=True):
+    for axes, gauge in zip(panels.T.flat, GAUGES, strict=True):
         x = result[f"bending_moment.{gauge}"]
         axes.plot(result.time, x - x[0], color=BLUE, linewidth=0.9, label="unfiltered")
         axes.plot(result.time, low_pass(x - x[0], step, FREQUENCY), color=RED, linewidth=1.8, label="low-pass 10 Hz")
