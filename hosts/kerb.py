@@ -17,7 +17,7 @@ import numpy as np
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
-from hosts.drive import write_csv
+from hosts.drive import make_folder, write_csv
 from hosts.errors import HostError
 from hosts.fmu import Fmu
 from hosts.low_pass import low_pass
@@ -63,7 +63,7 @@ def _kerb(path: Path, fidelity: float | None, step: float, out: Path) -> int:
         result = run(fmu, Manoeuvre("kerb_test", np.zeros(0), {}, DURATION, start), step)
     if result["stress.computed"][0] != 1.0:
         raise HostError("At this fidelity the moments are not computed (stress.computed is 0); take 1, 2 or 3.")
-    out.mkdir(parents=True, exist_ok=True)
+    make_folder(out)
     table, picture = out / "kerb_test.csv", out / "kerb_test.png"
     write_csv(result, table)
     rows = moments(result, step)
