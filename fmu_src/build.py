@@ -17,7 +17,7 @@ from fmu_src.native.faces import FMI2, FMI3
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.variables import check_variants, variable_table
-from mbs.kernel import binding, build
+from mbs.kernel import build
 
 Say = Callable[[str], None]
 _PATIENCE = 2.0
@@ -112,7 +112,7 @@ def build_fmu(
 
 def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, told: Telling) -> None:
     # PythonFMU is needed for this kind only.
-    from fmu_src.python_slave.package import Contents, pack
+    from fmu_src.python_slave.package import pack
     from fmu_src.python_slave.shell_build import compile_shell
 
     kernels, shells = {}, {}
@@ -125,22 +125,7 @@ def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path,
                 kernels[platform] = build.compile_library(TARGETS[platform][0], library)
                 shells[platform] = compile_shell(platform, place)
         with told("packing"):
-            pack(
-                Contents(
-                    contents.model_name,
-                    contents.description,
-                    contents.version,
-                    [s.to_bytes() for s in contents.systems],
-                    contents.table,
-                    contents.rows,
-                    contents.stop_time,
-                    contents.step_size,
-                    Path(binding.__file__),
-                    kernels,
-                    shells,
-                ),
-                file,
-            )
+            pack(contents, kernels, shells, file)
 
 
 @contextmanager

@@ -107,23 +107,29 @@ def model_description(head: Description, table: Sequence[Variable]) -> bytes:
             ElementTree.SubElement(files, "File", name=name)
     units(root, table)
     _types(root, table)
-    categories = ElementTree.SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
-        ElementTree.SubElement(categories, "Category", name=name, description=text)
-    ElementTree.SubElement(
-        root,
-        "DefaultExperiment",
-        startTime="0.0",
-        stopTime=number(head.stop_time),
-        stepSize=number(head.step_size),
-    )
+    categories_and_experiment(root, head)
     variables = ElementTree.SubElement(root, "ModelVariables")
     types = declared_types(table)
     for reference, v in enumerate(table):
         _variable(variables, reference, v, types)
     _structure(root, table)
+    return to_bytes(root)
+
+
+def to_bytes(root: ElementTree.Element) -> bytes:
+    """UTF-8 text of a document, indented."""
     ElementTree.indent(root)
     return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
+
+
+def categories_and_experiment(root: ElementTree.Element, head: Description) -> None:
+    """Log categories and default experiment; the same in FMI 2.0 and 3.0."""
+    categories = ElementTree.SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        ElementTree.SubElement(categories, "Category", name=name, description=text)
+    ElementTree.SubElement(
+        root, "DefaultExperiment", startTime="0.0", stopTime=number(head.stop_time), stepSize=number(head.step_size)
+    )
 
 
 def units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
@@ -164,11 +170,12 @@ def declared_types(table: Sequence[Variable]) -> dict[str, dict[str, str]]:
     """Attributes of all declared types by name, sorted."""
     types: dict[str, dict[str, str]] = {}
     for v in table:
-        types.setdefault(_unique_type(v, types), type_attributes(v))
+        types.setdefault(declared_type(v, types), type_attributes(v))
     return dict(sorted(types.items()))
 
 
-def _unique_type(v: Variable, types: dict[str, dict[str, str]]) -> str:
+def declared_type(v: Variable, types: dict[str, dict[str, str]]) -> str:
+    """Name of a variable's type among the declared ones; a new name if none of them is it."""
     name, k = type_name(v), 2
     while name in types and types[name] != type_attributes(v):
         name, k = f"{type_name(v)}_{k}", k + 1
@@ -193,7 +200,7 @@ def _variable(parent: ElementTree.Element, reference: int, v: Variable, types: d
     if v.causality != "input":
         attributes["initial"] = "calculated" if v.causality == "output" else "exact"
     scalar = ElementTree.SubElement(parent, "ScalarVariable", attributes)
-    real = {"declaredType": _unique_type(v, types), "unit": v.unit}
+    real = {"declaredType": declared_type(v, types), "unit": v.unit}
     if v.display_unit is not None:
         real["displayUnit"] = v.display_unit
     for key, value in (("min", v.min), ("max", v.max), ("start", v.start)):

@@ -8,10 +8,12 @@ from xml.etree import ElementTree
 from fmu_src.arrays import Array
 from fmu_src.description import (
     GENERATION_DATE,
-    LOG_CATEGORIES,
     Description,
+    categories_and_experiment,
+    declared_type,
     declared_types,
     number,
+    to_bytes,
     type_attributes,
     units,
 )
@@ -60,12 +62,7 @@ def model_description_fmi3(head: Description, table: Sequence[Variable], arrays:
     definitions = ElementTree.SubElement(root, "TypeDefinitions")
     for name, attributes in types.items():
         ElementTree.SubElement(definitions, "Float64Type", {"name": name} | attributes)
-    categories = ElementTree.SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
-        ElementTree.SubElement(categories, "Category", name=name, description=text)
-    ElementTree.SubElement(
-        root, "DefaultExperiment", startTime="0.0", stopTime=number(head.stop_time), stepSize=number(head.step_size)
-    )
+    categories_and_experiment(root, head)
     variables = ElementTree.SubElement(root, "ModelVariables")
     for reference, array in enumerate(arrays):
         _variable(variables, reference, array, types)
@@ -118,12 +115,6 @@ def terminals(arrays: Sequence[Array]) -> bytes | None:
     return to_bytes(root)
 
 
-def to_bytes(root: ElementTree.Element) -> bytes:
-    """UTF-8 text of a document, indented."""
-    ElementTree.indent(root)
-    return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
-
-
 def _variable(parent: ElementTree.Element, reference: int, array: Array, types: dict[str, dict[str, str]]) -> None:
     v = array.of
     attributes = {"name": array.name, "valueReference": str(reference)}
@@ -131,7 +122,7 @@ def _variable(parent: ElementTree.Element, reference: int, array: Array, types: 
         attributes["description"] = array.description
     attributes |= {"causality": v.causality, "variability": v.variability}
     own = type_attributes(v)
-    attributes["declaredType"] = next(name for name, given in types.items() if given == own)
+    attributes["declaredType"] = declared_type(v, types)
     if v.causality == "parameter":
         attributes["initial"] = "exact"
     attributes |= {key: own[key] for key in ("unit", "displayUnit", "min", "max") if key in own}

@@ -60,10 +60,7 @@ def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float
     course = driver.course if driver is not None else None
     outline = (driver.settings.vehicle_length, driver.settings.vehicle_width) if driver is not None else (0.0, 0.0)
     rows = summary(result, step, course, outline)
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise HostError(f"The folder {out} cannot be made: {error.strerror}.") from None
+    make_folder(out)
     stem = out / f"{_words(path.stem)}_{manoeuvre.name}"
     table, picture = stem.with_name(stem.name + ".csv"), stem.with_name(stem.name + ".png")
     write_csv(result, table)
@@ -75,6 +72,14 @@ def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float
         print(f"FMU: {message}")
     print(f"written: {table}, {picture}")
     return 1 if result.failed_steps else 0
+
+
+def make_folder(out: Path) -> None:
+    """The folder for results, if it is not there."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise HostError(f"The folder {out} cannot be made: {error.strerror}.") from None
 
 
 def write_csv(result: Result, file: Path) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
-from hosts.drive import write_csv
+from hosts.drive import make_folder, write_csv
 from hosts.errors import HostError
 from hosts.fmu import Fmu
 from hosts.low_pass import low_pass
@@ -63,7 +63,7 @@ def _kerb(path: Path, fidelity: float | None, step: float, out: Path) -> int:
         result = run(fmu, Manoeuvre("kerb_test", np.zeros(0), {}, DURATION, start), step)
     if result["stress.computed"][0] != 1.0:
         raise HostError("At this fidelity the moments are not computed (stress.computed is 0); take 1, 2 or 3.")
-    out.mkdir(parents=True, exist_ok=True)
+    make_folder(out)
     table, picture = out / "kerb_test.csv", out / "kerb_test.png"
     write_csv(result, table)
     rows = moments(result, step)
@@ -108,7 +108,7 @@ def moments(result: Result, step: float) -> list[dict[str, float | str]]:
 def draw(result: Result, step: float, file: Path) -> None:
     """Moments as differences from rest, as gauges measure them."""
     figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")
-    for axes, gauge in zip(panels.T.flat, ("SG1", "SG2", "SG3", "SG4"), strict=True):
+    for axes, gauge in zip(panels.T.flat, GAUGES, strict=True):
         x = result[f"bending_moment.{gauge}"]
         axes.plot(result.time, x - x[0], color=BLUE, linewidth=0.9, label="unfiltered")
         axes.plot(result.time, low_pass(x - x[0], step, FREQUENCY), color=RED, linewidth=1.8, label="low-pass 10 Hz")

@@ -25,7 +25,7 @@ Telling = Callable[..., AbstractContextManager[None]]
 
 @dataclass(frozen=True)
 class NativeContents:
-    """What goes into a native FMU.
+    """What goes into an FMU, whatever its kind.
 
     Parameters
     ----------

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from fmu_src.description import number
-from fmu_src.description_fmi3 import to_bytes
+from fmu_src.description import number, to_bytes
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 _NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"

@@ -8,6 +8,7 @@ from mbs.kernel import build
 
 HERE = Path(__file__).parent / "src"
 KERNEL_INCLUDE = build.HERE / "include"
+_OTHER = {"fmi2": "fmi3", "fmi3": "fmi2"}
 
 
 def shell_files(face: str) -> list[Path]:
@@ -18,8 +19,7 @@ def shell_files(face: str) -> list[Path]:
     face : str
         ``fmi2`` or ``fmi3``.
     """
-    other = {"fmi2": "fmi3", "fmi3": "fmi2"}[face]
-    return sorted(f for f in HERE.glob("*.c") if not f.name.startswith(other))
+    return sorted(f for f in HERE.glob("*.c") if not f.name.startswith(_OTHER[face]))
 
 
 def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
@@ -36,9 +36,8 @@ def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
     dict of str to bytes
         By path with forward slashes.
     """
-    other = {"fmi2": "fmi3", "fmi3": "fmi2"}[face]
     files = {f.name: f.read_bytes() for f in shell_files(face)}
-    files |= {f.name: f.read_bytes() for f in HERE.glob("*.h") if not f.name.startswith(other)}
+    files |= {f.name: f.read_bytes() for f in HERE.glob("*.h") if not f.name.startswith(_OTHER[face])}
     files |= {f"kernel/src/{f.name}": f.read_bytes() for f in (build.HERE / "src").glob("*.[ch]")}
     # once for the kernel's own files and once where every compiler of source FMUs looks
     header = (KERNEL_INCLUDE / "ali3.h").read_bytes()

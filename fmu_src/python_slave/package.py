@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
 
 import pythonfmu
@@ -12,8 +11,10 @@ import pythonfmu
 from fmu_src.archive import identity_of, licence, write_zip
 from fmu_src.description import Description, model_description
 from fmu_src.documentation import documentation
+from fmu_src.native.package import NativeContents
 from fmu_src.platforms import SUFFIXES
-from fmu_src.variables import Variable, table_records
+from fmu_src.variables import table_records
+from mbs.kernel import binding
 
 _HERE = Path(__file__).parent
 _PYTHONFMU = Path(pythonfmu.__file__).parent
@@ -21,50 +22,15 @@ _PYTHONFMU_MODULES = ("_version", "default_experiment", "enums", "fmi2slave", "l
 _PYTHONFMU_LIBRARY = {"linux64": "libpythonfmu-export.so", "win64": "pythonfmu-export.dll"}
 
 
-@dataclass(frozen=True)
-class Contents:
-    """What goes into an FMU.
-
-    Parameters
-    ----------
-    model_name : str
-        A Python and C identifier, also the model identifier.
-    description : str
-        One sentence.
-    version : str
-        Of the product.
-    systems : sequence of bytes
-        System files, one per fidelity.
-    table : sequence of Variable
-    rows : sequence of sequences of str
-        Names of the constraint rows of each System, for messages.
-    stop_time, step_size : float
-        Default experiment, s.
-    binding : Path
-        The ctypes binding of the kernel, self-contained.
-    kernels, shells : mapping of str to Path
-        Compiled libraries by FMI platform name.
-    """
-
-    model_name: str
-    description: str
-    version: str
-    systems: Sequence[bytes]
-    table: Sequence[Variable]
-    rows: Sequence[Sequence[str]]
-    stop_time: float
-    step_size: float
-    binding: Path
-    kernels: Mapping[str, Path]
-    shells: Mapping[str, Path]
-
-
-def pack(contents: Contents, file: Path) -> str:
+def pack(contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[str, Path], file: Path) -> str:
     """Write the FMU.
 
     Parameters
     ----------
-    contents : Contents
+    contents : NativeContents
+        The same as for the native kinds.
+    kernels, shells : mapping of str to Path
+        Compiled libraries by FMI platform name.
     file : Path
         Where to; an older file is replaced only when the new one is whole.
 
@@ -74,7 +40,7 @@ def pack(contents: Contents, file: Path) -> str:
         The GUID, a hash of all the content.
     """
     records = table_records(contents.table)
-    entries = _package_files(contents)
+    entries = _package_files(contents, kernels, shells)
     template = (_HERE / "main_template.py").read_text(encoding="utf-8")
     identity, guid = identity_of(
         entries | {"main": template.encode()},
@@ -90,7 +56,7 @@ def pack(contents: Contents, file: Path) -> str:
     files |= {
         f"resources/{main}.py": script.encode(),
         f"resources/{package}/fmu.json": json.dumps(
-            {"identity": identity, "variables": records, "rows": [list(r) for r in contents.rows]}, indent=1
+            {"identity": identity, "variables": records, "rows": contents.rows}, indent=1
         ).encode(),
         "resources/slavemodule.txt": main.encode(),
         "resources/guid.txt": guid.encode(),
@@ -123,22 +89,23 @@ def pack(contents: Contents, file: Path) -> str:
     return guid
 
 
-def _package_files(contents: Contents) -> dict[str, bytes]:
+def _package_files(
+    contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[str, Path]
+) -> dict[str, bytes]:
     """All files but those that carry the identity."""
     entries = {
         "__init__.py": b"",
         "slave.py": (_HERE / "slave.py").read_bytes(),
-        "binding.py": contents.binding.read_bytes(),
-        **{f"system_{k}.ali3": system for k, system in enumerate(contents.systems)},
+        "binding.py": Path(binding.__file__).read_bytes(),
+        **{f"system_{k}.ali3": system.to_bytes() for k, system in enumerate(contents.systems)},
         "pythonfmu/__init__.py": b"",
     }
     for module in _PYTHONFMU_MODULES:
         entries[f"pythonfmu/{module}.py"] = (_PYTHONFMU / f"{module}.py").read_bytes()
-    for platform in contents.kernels:
-        kernel = contents.kernels[platform]
+    for platform, kernel in kernels.items():
         entries[f"{platform}/{kernel.name}"] = kernel.read_bytes()
         stem, suffix = f"binaries/{platform}/{contents.model_name}", SUFFIXES[platform]
-        entries[stem + suffix] = contents.shells[platform].read_bytes()
+        entries[stem + suffix] = shells[platform].read_bytes()
         library = _PYTHONFMU / "resources" / "binaries" / platform / _PYTHONFMU_LIBRARY[platform]
         entries[f"{stem}-pythonfmu{suffix}"] = library.read_bytes()
     return entries

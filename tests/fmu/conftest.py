@@ -21,7 +21,6 @@ from fmu_src.scene_registry import load_scene
 
 SCENES = Path(__file__).parent / "scenes.py"
 PLATFORM = fmpy.platform
-PYTHONFMU_RUNS = sys.platform in ("linux", "win32") and platform.machine().lower() in ("x86_64", "amd64")
 OK, WARNING, DISCARD, ERROR = range(4)
 
 
@@ -53,13 +52,24 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
 
 
 @pytest.fixture(scope="session")
-def build(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+def need() -> Callable[[str], None]:
+    """Skips a test where a kind of FMU cannot run."""
+    pythonfmu_runs = sys.platform in ("linux", "win32") and platform.machine().lower() in ("x86_64", "amd64")
+
+    def check(kind: str) -> None:
+        if kind == "python" and not pythonfmu_runs:
+            pytest.skip("PythonFMU ships libraries for x86-64 Linux and Windows only")
+
+    return check
+
+
+@pytest.fixture(scope="session")
+def build(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> Callable[..., Path]:
     """Builds the FMU of a function of `scenes.py` once."""
     made: dict[tuple[str, str], Path] = {}
 
     def make(scene: str, kind: str = "native") -> Path:
-        if kind == "python" and not PYTHONFMU_RUNS:
-            pytest.skip("PythonFMU has libraries for x86-64 Linux and Windows only")
+        need(kind)
         if (scene, kind) not in made:
             name, system = load_scene(f"{SCENES}:{scene}")
             made[scene, kind] = build_fmu(system, name, tmp_path_factory.mktemp(scene), [PLATFORM], kind=kind)

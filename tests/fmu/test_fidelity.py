@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import fmpy
@@ -11,7 +12,6 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
 from fmu_src.build import build_fmu
-from fmu_src.platforms import PYTHON_PLATFORMS
 from fmu_src.scene_registry import SceneError, load_variants
 from fmu_src.variables import check_variants
 from hosts.errors import HostError
@@ -24,13 +24,12 @@ H = 0.01
 
 
 @pytest.fixture(scope="module", params=["native", "python"])
-def kerb(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def kerb(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> Path:
+    need(request.param)
     return build_kerb(request.param, tmp_path_factory)
 
 
 def build_kerb(kind: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    if kind == "python" and fmpy.platform not in PYTHON_PLATFORMS:
-        pytest.skip("PythonFMU has libraries for Linux and Windows only")
     name, systems, default = load_variants("kerb_test")
     return build_fmu(systems, name, tmp_path_factory.mktemp("kerb"), [fmpy.platform], kind=kind, fidelity=default)
 

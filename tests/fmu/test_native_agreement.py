@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -28,9 +27,8 @@ END = 2.0
 
 
 @pytest.fixture(scope="session")
-def cars(tmp_path_factory: pytest.TempPathFactory) -> tuple[mbs.System, dict[str, Path]]:
-    if sys.platform not in ("linux", "win32"):
-        pytest.skip("PythonFMU has libraries for Linux and Windows only")
+def cars(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> tuple[mbs.System, dict[str, Path]]:
+    need("python")
     name, system = load_scene("prototype_car")
     folder = tmp_path_factory.mktemp("cars")
     kinds = ("native", "python", "fmi3")

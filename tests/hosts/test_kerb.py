@@ -49,6 +49,12 @@ def test_what_it_refuses(
     assert said in capsys.readouterr().err
 
 
+def test_a_folder_that_cannot_be_made_is_named(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "file").write_text("")
+    assert kerb.main([str(fmu), "--out", str(tmp_path / "file" / "out")]) == 2
+    assert "cannot be made" in capsys.readouterr().err
+
+
 def test_a_missing_fmu_is_named(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
