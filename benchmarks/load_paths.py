@@ -32,7 +32,7 @@ def port_forces(name: str) -> NDArray[np.float64]:
     manoeuvre = car_manoeuvres.load(name)
     parameters, pose = car_manoeuvres.start_of(manoeuvre)
     system = compile(prototype_car.build(fidelity=QUASI_STATIC))
-    signals = InputSignals({k: (manoeuvre.time, v) for k, v in manoeuvre.inputs.items()}, system.meta["inputs"])
+    signals = InputSignals(car_manoeuvres.inputs_of(manoeuvre), system.meta["inputs"])
     car = Simulation(system, parameters=parameters, pose=pose)
     names = [row["name"] for row in system.meta["rows"]]
     rows = [[k for k, row in enumerate(names) if row == f"chassis.{node}"] for node in INTERFACES]

@@ -83,9 +83,7 @@ def compile(model: Model) -> System:
     shape = start if len(placing) == len(holding) else RowArrays(placing, new)
     stiffness = deformation_metric(model, full, new)
     drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
-    q = close_position(
-        placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0)
-    )
+    q = close_position(placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
     qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
     _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
