@@ -24,7 +24,6 @@ import numpy as np
 from benchmarks import car_manoeuvres, car_references
 from benchmarks.command import parser_of, pyplot, save_chart, save_rows, watched
 from benchmarks.common import describe, median_wall, print_table
-from benchmarks.step_time import step_time
 from mbs import Settings, Trajectory
 
 STEPS = (0.01, 0.005, 0.002, 0.001)  # s
@@ -45,15 +44,6 @@ COLUMNS = {
     "us_per_step_fmpy": ".1f",
     "realtime_factor_fmpy": ".0f",
 }
-
-
-def wall_of_kernel(name: str, h: float, repeats: int) -> float:
-    """Median wall time of all steps of a manoeuvre, s; start and input table are made before."""
-    manoeuvre = car_manoeuvres.load(name)
-    parameters, pose = car_manoeuvres.start_of(manoeuvre)
-    inputs = {k: (manoeuvre.time, v) for k, v in manoeuvre.inputs.items()}
-    system = car_manoeuvres.system_of(name)
-    return step_time(system, manoeuvre.stop_time, h, repeats, time.perf_counter, inputs, parameters, pose)
 
 
 def wall_of_fmu(file: Path, name: str, h: float, repeats: int) -> float:
@@ -90,7 +80,8 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int) -> dict[str, An
         )
     error = car_references.path_error(found, values)
     duration = float(found.t[-1])
-    wall = wall_of_kernel(name, h, repeats)
+    system, manoeuvre = car_manoeuvres.system_of(name), car_manoeuvres.load(name)
+    wall = car_manoeuvres.time_on(system, manoeuvre, h, repeats, time.perf_counter)
     row: dict[str, Any] = {
         "manoeuvre": name,
         "h_s": h,

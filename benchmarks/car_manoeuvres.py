@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.step_time import step_time
 from hosts.driver import make_driver
 from hosts.manoeuvre import Manoeuvre, load_manoeuvre
 from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulate
 from mbs.elements.road import GridRoad
+from mbs.input_signals import Signal
 from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car.tyre_data import FRICTION
 
@@ -59,22 +62,38 @@ def start_of(manoeuvre: Manoeuvre) -> tuple[dict[str, float], Pose | None]:
     return parameters, Pose(**pose) if pose else None
 
 
+def inputs_of(manoeuvre: Manoeuvre) -> dict[str, Signal]:
+    """Inputs over time as `mbs.simulate` takes them."""
+    return {name: (manoeuvre.time, values) for name, values in manoeuvre.inputs.items()}
+
+
 def run(name: str, h: float, *, every: int = 1, settings: Settings | None = None) -> Trajectory:
     """Drive a manoeuvre in the kernel with steps of `h` seconds, recording after every so many."""
-    manoeuvre = load(name)
+    return run_on(system_of(name), load(name), h, every=every, settings=settings)
+
+
+def run_on(
+    system: System, manoeuvre: Manoeuvre, h: float, *, every: int = 1, settings: Settings | None = None
+) -> Trajectory:
+    """The same with any car."""
     parameters, pose = start_of(manoeuvre)
-    inputs = {k: (manoeuvre.time, v) for k, v in manoeuvre.inputs.items()}
     return simulate(
-        system_of(name),
+        system,
         manoeuvre.stop_time,
         h,
-        inputs,
+        inputs_of(manoeuvre),
         settings,
         parameters,
         every=every,
         pose=pose,
         progress=False,
     )
+
+
+def time_on(system: System, manoeuvre: Manoeuvre, h: float, repeats: int, clock: Callable[[], float]) -> float:
+    """Median time of all steps of a manoeuvre by a clock, s; start and input table are made before."""
+    parameters, pose = start_of(manoeuvre)
+    return step_time(system, manoeuvre.stop_time, h, repeats, clock, inputs_of(manoeuvre), parameters, pose)
 
 
 def sampling(name: str) -> float:

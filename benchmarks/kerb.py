@@ -18,7 +18,7 @@ import numpy as np
 from benchmarks import ladder_runs
 from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table
-from benchmarks.ladder import RUNGS, modes_of
+from benchmarks.ladder import RUNGS, size_of
 from hosts.low_pass import low_pass
 from mbs import Settings, Simulation, Trajectory
 from mbs.scenes import kerb_test
@@ -73,14 +73,11 @@ def measure(rung: int | str, h: float, repeats: int) -> dict[str, Any]:
     found = ladder_runs.run("kerb_test", rung, h)
     report = found.report
     assert report is not None
-    arrays = ladder_runs.system_of("kerb_test", rung).arrays
     spent = ladder_runs.cpu_time("kerb_test", rung, h, repeats)
     row: dict[str, Any] = {
         "rung": str(rung),
         "h_s": h,
-        "coordinates": len(arrays["q0"]),
-        "rows": len(arrays["row_const"]),
-        "modes": modes_of(rung),
+        **size_of("kerb_test", rung),
         "iterations_mean": report.mean_iterations,
         "iterations_max": report.max_iterations,
         "seconds": spent,

@@ -71,6 +71,12 @@ def modes_of(rung: int | str) -> int:
     return 0 if rung in (0, 1) else reduced_chassis(rung).n_modes
 
 
+def size_of(name: str, rung: int | str) -> dict[str, int]:
+    """Columns of the size of a model."""
+    arrays = ladder_runs.system_of(name, rung).arrays
+    return {"coordinates": len(arrays["q0"]), "rows": len(arrays["row_const"]), "modes": modes_of(rung)}
+
+
 def measure(name: str, rung: int | str, h: float, repeats: int) -> dict[str, Any]:
     """One row; errors of stresses are None where there are none."""
     found = ladder_runs.run(name, rung, h)
@@ -82,14 +88,11 @@ def measure(name: str, rung: int | str, h: float, repeats: int) -> dict[str, Any
         error |= dict.fromkeys(STRESSES)
     duration = float(found.t[-1])
     spent = ladder_runs.cpu_time(name, rung, h, repeats)
-    arrays = ladder_runs.system_of(name, rung).arrays
     return {
         "manoeuvre": name,
         "rung": str(rung),
         "h_s": h,
-        "coordinates": len(arrays["q0"]),
-        "rows": len(arrays["row_const"]),
-        "modes": modes_of(rung),
+        **size_of(name, rung),
         **error,
         "iterations_mean": report.mean_iterations,
         "iterations_max": report.max_iterations,

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import car_manoeuvres
-from benchmarks.step_time import step_time
 from hosts.low_pass import low_pass
 from hosts.manoeuvre import Manoeuvre
-from mbs import Settings, System, Trajectory, compile, simulate
+from mbs import Settings, System, Trajectory, compile
 from mbs.scenes import kerb_test, prototype_car
 from mbs.scenes.prototype_car.frame import GAUGES
 
@@ -46,19 +45,12 @@ def manoeuvre_of(name: str) -> Manoeuvre:
 
 def run(name: str, rung: int | str, h: float, settings: Settings | None = None) -> Trajectory:
     """Every step is recorded."""
-    m = manoeuvre_of(name)
-    parameters, pose = car_manoeuvres.start_of(m)
-    inputs = {k: (m.time, v) for k, v in m.inputs.items()}
-    system = system_of(name, rung)
-    return simulate(system, m.stop_time, h, inputs, settings, parameters, pose=pose, progress=False)
+    return car_manoeuvres.run_on(system_of(name, rung), manoeuvre_of(name), h, settings=settings)
 
 
 def cpu_time(name: str, rung: int | str, h: float, repeats: int) -> float:
     """Median processor time of all steps of a run, s; start and input table are made before."""
-    m = manoeuvre_of(name)
-    parameters, pose = car_manoeuvres.start_of(m)
-    inputs = {k: (m.time, v) for k, v in m.inputs.items()}
-    return step_time(system_of(name, rung), m.stop_time, h, repeats, time.process_time, inputs, parameters, pose)
+    return car_manoeuvres.time_on(system_of(name, rung), manoeuvre_of(name), h, repeats, time.process_time)
 
 
 def sampled(found: Trajectory, h: float) -> dict[str, NDArray[np.float64]]:

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from benchmarks import car_manoeuvres
 from benchmarks.command import parser_of, watched
@@ -32,7 +33,7 @@ def port_forces(name: str) -> NDArray[np.float64]:
     manoeuvre = car_manoeuvres.load(name)
     parameters, pose = car_manoeuvres.start_of(manoeuvre)
     system = compile(prototype_car.build(fidelity=QUASI_STATIC))
-    signals = InputSignals({k: (manoeuvre.time, v) for k, v in manoeuvre.inputs.items()}, system.meta["inputs"])
+    signals = InputSignals(car_manoeuvres.inputs_of(manoeuvre), system.meta["inputs"])
     car = Simulation(system, parameters=parameters, pose=pose)
     names = [row["name"] for row in system.meta["rows"]]
     rows = [[k for k, row in enumerate(names) if row == f"chassis.{node}"] for node in INTERFACES]
@@ -46,14 +47,7 @@ def port_forces(name: str) -> NDArray[np.float64]:
         car.step(H)
         if k % EVERY == 0:
             s = car.sensors
-            w, x, y, z = (s[f"chassis.q{c}"] for c in "wxyz")
-            A = np.array(
-                [
-                    [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                    [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                    [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-                ]
-            )
+            A = Rotation.from_quat([s[f"chassis.q{c}"] for c in "xyzw"]).as_matrix()
             lam = car.state.lam * scale
             found.append(np.concatenate([A.T @ lam[r] for r in rows]))
     return np.array(found).T

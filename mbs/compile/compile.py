@@ -78,16 +78,16 @@ def compile(model: Model) -> System:
 
     guides, guide_rates = guide_start(model)
     holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
-    start = RowArrays(holding, new)
+    start = arrays if len(holding) == len(rows) else RowArrays(holding, new)
     placing = [row for row in holding if not row.rates]
+    shape = start if len(placing) == len(holding) else RowArrays(placing, new)
     stiffness = deformation_metric(model, full, new)
     drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
-    q = close_position(
-        placing, RowArrays(placing, new), mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0)
-    )
+    q = close_position(placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
     qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
     _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
+    rank = rank_at(Phiq, mass.diagonal())
     _, Phiq, _ = arrays.evaluate(q, guides)
     scale, measure = row_scale(rows, Phiq, mass.diagonal())
     arrays.scale(scale)
@@ -122,7 +122,7 @@ def compile(model: Model) -> System:
         **signals.arrays(),
     }
     report = {
-        **structure_report(model, fronts, rank_at(start.evaluate(q, guides)[1], mass.diagonal()), len(rows)),
+        **structure_report(model, fronts, rank, len(rows)),
         "linear_equations": len(linear),
         "redundant_equations": redundant,
         "dependent_rows": dependent,

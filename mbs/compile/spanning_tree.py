@@ -37,6 +37,8 @@ class Group:
     ----------
     number : int
         In depth-first order; 0 is the ground.
+    depth : int
+        Joints between the ground and it.
     origin, axes : ndarray, shapes (3,) and (3, 3)
         The frame (columns x, y, z) in the drawing.
     base : ndarray, shape (12,)
@@ -45,17 +47,13 @@ class Group:
 
     bodies: list[Body]
     number: int = 0
+    depth: int = 0
     parent: Group | None = None
     children: list[Group] = field(default_factory=list)
     slides: bool = False
     origin: Array = field(default_factory=lambda: np.zeros(3))
     axes: Array = field(default_factory=lambda: np.eye(3))
     base: Array = field(default_factory=lambda: np.zeros(12))
-
-    @property
-    def depth(self) -> int:
-        """Joints between the ground and it."""
-        return 0 if self.parent is None else 1 + self.parent.depth
 
     @property
     def height(self) -> int:
@@ -95,14 +93,18 @@ def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
     for joint, _, (first, second) in joints:
         if first is second:
             raise NoTreeError(f"joint '{joint.name}' joins bodies that are welded to each other")
+    forming: dict[int, list[int]] = {}
+    for n, (joint, _, ends) in enumerate(joints):
+        if joint.type in FORMED:
+            for group in ends:
+                forming.setdefault(id(group), []).append(n)
     reached, formed = {id(ground)}, set()
     # prismatic joints first because they cannot be cut, the others breadth first: short paths, little work
     heap: list[tuple[bool, int, int]] = []
 
     def offer(group: Group) -> None:
-        for n, (joint, _, ends) in enumerate(joints):
-            if joint.type in FORMED and group in ends:
-                heapq.heappush(heap, (joint.type != "prismatic", group.depth, n))
+        for n in forming.get(id(group), ()):
+            heapq.heappush(heap, (joints[n][0].type != "prismatic", group.depth, n))
 
     offer(ground)
     while heap:
@@ -177,7 +179,7 @@ def _ends(places: JointPlaces, group_of: dict[int, Group]) -> tuple[Group, Group
 def _attach(group: Group, parent: Group, places: JointPlaces, side: int, slides: bool) -> None:
     """The frames of a joint on both bodies; `side` is the group's."""
     own, other = (None, None) if places.axes is None else (places.axes[side], places.axes[1 - side])
-    group.parent, group.slides = parent, slides
+    group.parent, group.depth, group.slides = parent, parent.depth + 1, slides
     group.origin, group.axes = in_space(places.points[side]), frame_along(own)
     turned = parent.axes.T @ frame_along(other)
     group.base = np.concatenate([parent.local(in_space(places.points[1 - side])), turned.T.ravel()])

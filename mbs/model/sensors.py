@@ -80,9 +80,11 @@ class SensorVocabulary(ModelCore):
         signals: Sequence[Affine] = (),
         integers: Sequence[int] = (),
         reals: Sequence[float] = (),
+        joint: Joint | None = None,
+        joints: Sequence[Joint] = (),
     ) -> Sensor:
         self.unique("sensor", name)
-        sensor = Sensor(name, unit, description, type, signals, integers, reals)
+        sensor = Sensor(name, unit, description, type, signals, integers, reals, joint, joints)
         self.sensors.append(sensor)
         return sensor
 
@@ -325,10 +327,7 @@ class SensorVocabulary(ModelCore):
             k = component_number(component, self.dimension, f"sensor '{name}'")
             rows, weights = rows[k : k + 1], [-found.rows_weight]
         found.keep = True
-        self.unique("sensor", name)
-        sensor = Sensor(name, unit, description, 9, integers=rows, reals=weights, joint=found)
-        self.sensors.append(sensor)
-        return sensor
+        return self._sense(name, unit, description, 9, integers=rows, reals=weights, joint=found)
 
     def sense_quasi_static(
         self,
@@ -361,12 +360,8 @@ class SensorVocabulary(ModelCore):
             )
         signals = [*body.point(origin).components, *(s for e in np.eye(3) for s in body.vector(e).components)]
         weights = np.concatenate([relief.forces[output], relief.acceleration[output], relief.rotation[output]])
-        self.unique("sensor", name)
-        sensor = Sensor(
-            name, unit, description, 17, signals, [n], [*self.gravity, *weights], joints=list(body.ports.values())
-        )
-        self.sensors.append(sensor)
-        return sensor
+        reals = [*self.gravity, *weights]
+        return self._sense(name, unit, description, 17, signals, [n], reals, joints=list(body.ports.values()))
 
     def sense_constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Sensor:
         """A number that does not change."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -89,6 +90,15 @@ def floating():
     return m
 
 
+def long_chain():
+    """Longer than Python's stack is deep."""
+    m = Model("long", dimension=2)
+    links = [m.ground, *(m.body(f"link {k}", mass=1.0, com=(k + 0.5, 0.0), inertia=0.1) for k in range(1100))]
+    for k, (one, other) in enumerate(pairwise(links)):
+        m.revolute(f"pin {k}", one, other, point=(float(k), 0.0))
+    return m
+
+
 @pytest.mark.parametrize(
     ("build", "reason"),
     [
@@ -97,8 +107,9 @@ def floating():
         (spatial_slider_crank.build, "joint 'C' is neither revolute, prismatic, spherical nor a weld"),
         (floating, "no revolute or prismatic joints lead from the ground to body 'first'"),
         (lambda: double_four_bar.build(40), "81 joints and 80 rows of loops are there, at most 64 and 64 may be"),
+        (long_chain, "1100 joints and 0 rows of loops are there, at most 64 and 64 may be"),
     ],
-    ids=["point", "flexible", "distance", "floating", "large"],
+    ids=["point", "flexible", "distance", "floating", "large", "long"],
 )
 def test_what_has_no_tree_says_why_and_has_empty_arrays(build, reason):
     system = compile(build())

@@ -1,11 +1,13 @@
-"""Small models for the tests of methods: a triangle of masses, a damped swing, an angle with a spring, a driven arm."""
+"""Small models for the tests of methods: a triangle of masses, a damped swing, an angle with a spring, a driven arm;
+and what the tests of several methods ask of a run.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 from scipy.interpolate import PPoly
 
-from mbs import Model
+from mbs import Model, Simulation, simulate
 from mbs.elements.spring_damper import EndStops
 
 
@@ -80,3 +82,20 @@ def driven() -> Model:
     m.sense_position("bob.y", bob, (1.0, -0.6), "y")
     m.sense_energy("energy", "total")
     return m
+
+
+def end(system, names, t_end, h, settings):
+    """Sensors at the end of a run."""
+    run = simulate(system, t_end, h, settings=settings, every=round(t_end / h))
+    return np.array([run[n][-1] for n in names])
+
+
+def assert_saved_state_continues(system, settings):
+    """A run that is saved half way and restored elsewhere, settings too, goes on bit for bit."""
+    whole, first = Simulation(system, settings=settings), Simulation(system, settings=settings)
+    whole.run(1.0, 0.02)
+    first.run(0.5, 0.02)
+    second = Simulation(system)
+    second.restore(first.save())
+    second.run(1.0, 0.02)
+    assert whole.save()[64:] == second.save()[64:]

@@ -8,21 +8,16 @@ from scipy.integrate import solve_ivp
 
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import bricard, double_four_bar, flyball, prototype_car
-from tests.methods.models import driven, hinge, swing
+from tests.methods.models import assert_saved_state_continues, driven, end, hinge, swing
 
 NAME = "radau_5"
 TIGHT = Settings(method=NAME, tolerance_r=1e-13, tolerance_phi=1e-13)
 STAGES = 3
 
 
-def end(system, names, t_end, h, settings=TIGHT):
-    run = simulate(system, t_end, h, settings=settings, every=round(t_end / h))
-    return np.array([run[n][-1] for n in names])
-
-
 def order(system, names, t_end, steps, settings=TIGHT):
     """Fitted order at the end, and the least error; the reference is the method itself with a much smaller step."""
-    reference = end(system, names, t_end, 0.1 * steps[-1])
+    reference = end(system, names, t_end, 0.1 * steps[-1], TIGHT)
     errors = [np.linalg.norm(end(system, names, t_end, h, settings) - reference) for h in steps]
     return np.polyfit(np.log(steps), np.log(errors), 1)[0], errors[-1]
 
@@ -83,7 +78,7 @@ def test_a_damped_oscillator_has_the_motion_and_the_energy_of_the_closed_form():
     v = -np.exp(-decay * t_end) * stiffness / rate * np.sin(rate * t_end)
     expected = np.array([x, v, 0.5 * v**2 + 0.5 * stiffness * x**2])
     steps = (0.1, 0.05, 0.04, 0.025)
-    errors = np.array([np.abs(end(system, ["x", "v", "energy"], t_end, h) - expected) for h in steps])
+    errors = np.array([np.abs(end(system, ["x", "v", "energy"], t_end, h, TIGHT) - expected) for h in steps])
     for component in errors.T:
         assert np.polyfit(np.log(steps), np.log(component), 1)[0] > 4.5
 
@@ -158,15 +153,7 @@ def test_accelerations_and_joint_forces_are_those_of_the_state():
 
 @pytest.mark.parametrize("model", [swing(2.0), bricard.build()], ids=["swing", "redundant row"])
 def test_a_saved_state_continues_bit_for_bit(model):
-    system = compile(model)
-    settings = Settings(method=NAME)
-    whole, first = Simulation(system, settings=settings), Simulation(system, settings=settings)
-    whole.run(1.0, 0.02)
-    first.run(0.5, 0.02)
-    second = Simulation(system)
-    second.restore(first.save())
-    second.run(1.0, 0.02)
-    assert whole.save()[64:] == second.save()[64:]
+    assert_saved_state_continues(compile(model), Settings(method=NAME))
 
 
 def test_a_step_that_fails_leaves_the_state():

@@ -5,17 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs import Settings, Simulation, SimulationError, compile, simulate
+from mbs import Settings, SimulationError, compile, simulate
 from mbs.scenes import bricard, prototype_car, spatial_chain
-from tests.methods.models import driven, swing
+from tests.methods.models import assert_saved_state_continues, driven, end, swing
 
 TIGHT = Settings(method="runge_kutta_8", tolerance_phi=1e-14)
 TWELVE = 12  # evaluations a step
-
-
-def end(system, names, t_end, h, settings=TIGHT):
-    run = simulate(system, t_end, h, settings=settings, every=round(t_end / h))
-    return np.array([run[n][-1] for n in names])
 
 
 @pytest.mark.parametrize(
@@ -29,8 +24,8 @@ def end(system, names, t_end, h, settings=TIGHT):
 )
 def test_order_eight_with_redundant_rows_dampers_and_trees(model, names, t_end, steps):
     system = compile(model)
-    reference = end(system, names, t_end, 0.1 * steps[-1])
-    errors = [np.linalg.norm(end(system, names, t_end, h) - reference) for h in steps]
+    reference = end(system, names, t_end, 0.1 * steps[-1], TIGHT)
+    errors = [np.linalg.norm(end(system, names, t_end, h, TIGHT) - reference) for h in steps]
     assert np.polyfit(np.log(steps), np.log(errors), 1)[0] > 6.5
     assert errors[-1] < 1e-5
 
@@ -38,7 +33,7 @@ def test_order_eight_with_redundant_rows_dampers_and_trees(model, names, t_end, 
 def test_it_agrees_with_the_implicit_steps_also_where_a_guide_drives():
     system, names = compile(driven()), ["bob.x", "bob.y"]
     expected = end(system, names, 2.0, 0.0005, Settings())
-    np.testing.assert_allclose(end(system, names, 2.0, 0.02), expected, atol=2e-5)
+    np.testing.assert_allclose(end(system, names, 2.0, 0.02, TIGHT), expected, atol=2e-5)
 
 
 def test_the_rows_and_their_rates_hold_and_a_step_costs_twelve_evaluations():
@@ -50,14 +45,7 @@ def test_the_rows_and_their_rates_hold_and_a_step_costs_twelve_evaluations():
 
 
 def test_a_saved_state_continues_bit_for_bit():
-    system = compile(swing(2.0))
-    whole, first = Simulation(system, settings=TIGHT), Simulation(system, settings=TIGHT)
-    whole.run(1.0, 0.02)
-    first.run(0.5, 0.02)
-    second = Simulation(system)
-    second.restore(first.save())
-    second.run(1.0, 0.02)
-    assert whole.save()[64:] == second.save()[64:]
+    assert_saved_state_continues(compile(swing(2.0)), TIGHT)
 
 
 def test_element_states_are_refused():

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
+from benchmarks.double_four_bar import exact
 from mbs import Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import double_four_bar
-from mbs.scenes.double_four_bar import GRAVITY
 
 END = 10.0  # s
 CROSSINGS = (0.7144, 1.2282, 2.6568, 3.1707, 4.5994, 5.1132, 6.5419, 7.0557, 8.4844, 8.9982)  # s, exact
@@ -17,21 +16,6 @@ ENERGY_BOUND = {0.01: 0.10, 0.03: 1.0, 0.05: 3.2}  # J at h in s; the paper's Ta
 TIGHT = Settings(tolerance_r=1e-12, tolerance_phi=1e-12)
 # (16) turns the round-off of Phi into multipliers, which bounds the residual it can reach
 PAPER_UPDATE = Settings(update="paper", tolerance_r=1e-7)
-
-
-def exact(windows, t):
-    """Position (n, 2) of B0: the cranks stay parallel and the couplers only translate."""
-    factor = ((windows + 1) / 2 + windows) / ((windows + 1) / 3 + windows) * GRAVITY
-    theta = solve_ivp(
-        lambda _, x: [x[1], factor * np.sin(x[0])],
-        (0.0, t[-1]),
-        [0.0, 1.0],
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-13,
-        t_eval=t,
-    ).y[0]
-    return np.column_stack([np.sin(theta), np.cos(theta)])
 
 
 def tip(trajectory):
