@@ -49,6 +49,7 @@ enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, I
 #define SLOW_SPEED 1e-5 /* m/s, added to the transport speed; small so that a parked car creeps by micrometres only */
 #define ROLL_SPEED 1.0 /* m/s, from which effective radius and trail are those of the rolling tyre */
 #define NO_LOAD 1e-9 /* N */
+#define NO_GRIP 1e-6 /* of the reference friction */
 
 typedef struct {
   double load, friction; /* sums or load-weighted means of the contacts */
@@ -139,10 +140,13 @@ static double friction_ratio(const double *p, const patch *contact) {
 static void carcass(const ali3_element_args *a, const patch *contact, const double v[2], double w, double F[2],
                     double C[3]) {
   const double *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
-  const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, friction_ratio(p, contact));
+  const double grip = friction_ratio(p, contact);
+  const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, grip);
   const double n[2] = {v[0] / (t.scale[0] * w), v[1] / (t.scale[1] * w)};
   double gradient[2], J[2][2], safe[2], offset[2], D[2], full[2];
-  const double secant = ali3_tmeasy_secant(&t, n, gradient);
+  double secant = ali3_tmeasy_secant(&t, n, gradient);
+  if (!(grip > NO_GRIP)) /* else the slope of a grip of next to nothing would hold at rest */
+    secant = gradient[0] = gradient[1] = 0.0;
   for (int i = 0; i < 2; i++) {
     const double per_slip = q / (t.scale[i] * w), g = per_slip * secant;
     const double theta = ali3_theta(a->h, c[i] / (d[i] + g)), b = a->h * theta;
