@@ -79,7 +79,7 @@ def test_gears_on_a_free_carrier_leave_its_momentum_alone(method):
     assert np.array([own, first]) == pytest.approx(np.linalg.solve(M, [0.0, 0.3]), rel=close(method))
 
 
-@pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8"])
 def test_geared_spins_count_from_their_carriers(method):
     """A torque on the carrier about the axis of two geared wheels: they must turn with it."""
     m = at_rest("spins", 3)
@@ -122,7 +122,7 @@ def bevel(method, h):
     return run(m, method, h=h)
 
 
-@pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8"])
 def test_bevel_gears_in_a_tumbling_housing_keep_energy_and_ratio(method):
     r = bevel(method, 0.001)
     assert np.ptp(r["w.z"]) > 0.5
