@@ -126,7 +126,8 @@ def _road_parameters(m: Model, road: Road | None, ground: int) -> None:
             0.0,
             2.0,
             "1",
-            f"friction coefficient: largest longitudinal tyre force over load at {NOMINAL_LOAD:g} N",
+            ("factor on the friction of the road" if isinstance(road, GridRoad) else "friction coefficient")
+            + f": largest longitudinal tyre force over load at {NOMINAL_LOAD:g} N",
             targets=[(target, names.index("friction"), 1.0)],
         )
     if road is None:
