@@ -15,14 +15,13 @@ from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.flexible import FlexibleBody
-from mbs.model.joints.joint import Joint
+from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.ports import PortedBody
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
 SOLVER = ("iterations", "violation", "residual", "factorizations", "halvings", "status")
 SOLVER_UNITS = ("1", "m", "m", "1", "1", "1")
-SCALAR_FORCES = {"distance": "tension", "drive": "drive", "gear": "torque", "rack": "force", "screw": "force"}
 RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
 
 

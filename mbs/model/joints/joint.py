@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 FORCE_KINDS = ("point", "line", "distance", "drive", "gear", "rack", "thread")
 """Kinds of equations whose multipliers are a force or a torque that can be read."""
+SCALAR_FORCES = {"distance": "tension", "drive": "drive", "gear": "torque", "rack": "force", "screw": "force"}
+"""What the one force or torque of a type of joint is called."""
 
 
 @dataclass(frozen=True)
