@@ -56,6 +56,18 @@ def test_a_gear_train_has_the_reduced_inertia(method, ratio):
     assert r.units["teeth.torque"] == "N m"
 
 
+@pytest.mark.parametrize("method", ["semi_recursive", "semi_recursive_4"])
+def test_relative_coordinates_refuse_a_gear_or_obey_it(method):
+    m, _ = gear_train(3.0)
+    try:
+        r = run(m, method, {"torque": 0.15})
+    except (ModelError, mbs.SimulationError) as refusal:
+        assert "this method needs" in str(refusal)
+    else:
+        acceleration = 0.15 / (0.02 + 0.3 / 9.0)
+        assert r["angle.1"][-1] - 0.4 == pytest.approx(0.5 * acceleration, rel=1e-5)
+
+
 @pytest.mark.parametrize("method", STEPPERS)
 def test_gears_on_a_free_carrier_leave_its_momentum_alone(method):
     """A motor in a free housing drives a wheel; the other turns by the gear: the reactions sum up to nothing."""
