@@ -60,12 +60,11 @@ def test_a_gear_train_has_the_reduced_inertia(method, ratio):
 def test_relative_coordinates_refuse_a_gear_or_obey_it(method):
     m, _ = gear_train(3.0)
     try:
-        r = run(m, method, {"torque": 0.15})
-    except (ModelError, mbs.SimulationError) as refusal:
-        assert "this method needs" in str(refusal)
-    else:
-        acceleration = 0.15 / (0.02 + 0.3 / 9.0)
-        assert r["angle.1"][-1] - 0.4 == pytest.approx(0.5 * acceleration, rel=1e-5)
+        found = run(m, method, {"torque": 0.15})["angle.1"][-1]
+    except mbs.SimulationError as refusal:
+        found = str(refusal)
+    acceleration = 0.15 / (0.02 + 0.3 / 9.0)
+    assert "this method needs" in found if isinstance(found, str) else abs(found - 0.4 - 0.5 * acceleration) < 1e-5
 
 
 @pytest.mark.parametrize("method", STEPPERS)
