@@ -10,10 +10,12 @@ from dataclasses import astuple, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.input_signals import InputSignals, Signal
+from mbs.input_signals import InputSignals, Signal, unit_text
 from mbs.kernel.binding import (
     BELOW_ROAD,
     NO_TREE,
+    TOO_FAR,
+    TOO_STIFF,
     UNRESOLVED,
     WRONG_METHOD,
     Instance,
@@ -28,6 +30,7 @@ from mbs.system import System
 from mbs.trajectory import Trajectory
 
 SINGULAR = {"switches": "switch"}
+STIFF_STEP = 2.5  # fastest rate times step that an explicit method follows, at least
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -122,7 +125,7 @@ class Simulation:
         for name, value in (inputs or {}).items():
             self.set_input(name, value)
         if pose is not None:
-            self._call("The starting pose was refused", lambda: self.instance.set_pose(*astuple(pose)))
+            self._call(f"The starting {pose} was refused", lambda: self.instance.set_pose(*astuple(pose)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
 
     @property
@@ -156,7 +159,7 @@ class Simulation:
         entry = self._meta["parameters"][index]
         if not entry["min"] <= value <= entry["max"]:
             raise ValueError(
-                f"Parameter {name!r} is set to {value:g} {entry['unit']}; "
+                f"Parameter {name!r} is set to {value:g}{unit_text(entry['unit'])}; "
                 f"it must lie between {entry['min']:g} and {entry['max']:g}."
             )
         self.instance.set_parameter(index, value)
@@ -307,13 +310,19 @@ class Simulation:
         if error.status == BELOW_ROAD:
             message += f" {self.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
             return SimulationError(message, self.time, error.status, trajectory)
+        if error.status == TOO_STIFF:
+            rate = report["fastest_rate"]
+            message += (
+                f" Its rate is {rate:.3g} 1/s here: steps of about {STIFF_STEP / rate:.1g} s follow it; implicit methods "
+                "('ali3p', 'radau_5') need not."
+            )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
-        if not report["factorizations"] or error.status == UNRESOLVED:
+        if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):
             return SimulationError(message, self.time, error.status, trajectory)
         worst = open_row(report, [row["name"] for row in self._meta["rows"]])
         if worst:
             message += f" Worst constraint: {worst}."
-        if 0.0 < report["residual"] < math.inf:
+        if self.settings.tolerance_r < report["residual"] < math.inf:
             name = self._meta["coordinates"][int(report["worst_coordinate"])]
             message += f" Worst balance: {name!r}, residual {report['residual']:.3g}."
         return SimulationError(message, self.time, error.status, trajectory)

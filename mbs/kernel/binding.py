@@ -29,8 +29,14 @@ from typing import Any
     BELOW_ROAD,
     UNRESOLVED,
     NO_TREE,
-) = range(1, 14)
+    TOO_STIFF,
+    TOO_FAR,
+) = range(1, 16)
 """Codes of `ali3_status` beside 0."""
+OPEN = 1e-9
+"""A row that is open by less, m, is not why something failed: ALI3_OPEN."""
+FARTHEST, FASTEST = 1e8, 1e6
+"""Largest distance, m, and speed, m/s, of a start: ALI3_FARTHEST, ALI3_FASTEST."""
 
 
 class KernelError(RuntimeError):
@@ -51,9 +57,9 @@ class KernelError(RuntimeError):
 
 
 def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
-    """Name and gap of the row farthest from closed; empty where there is no finite figure of it."""
+    """Name and gap of the row farthest from closed; empty where it is closed or there is no finite figure of it."""
     row, violation = int(report["worst_row"]), report["violation"]
-    if not (0 <= row < len(names) and 0.0 <= violation < math.inf):
+    if not (0 <= row < len(names) and OPEN < violation < math.inf):
         return ""
     return f"'{names[row]}', open by {violation:.3g} m"
 
@@ -104,6 +110,8 @@ class ReportFields(Structure):
         ("speed_peak", c_double),
         ("velocity_path", c_double),
         ("predictor_path", c_double),
+        ("fastest_rate", c_double),
+        ("open_power", c_double),
     )
 
 
@@ -361,7 +369,7 @@ class Instance:
             return
         report = self.report()
         text = _status_text(self._library, status)
-        if 1e-9 < report["violation"] < math.inf:
+        if OPEN < report["violation"] < math.inf:
             text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
         raise KernelError(status, text)
 

@@ -33,6 +33,7 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
 
 /* The energy of in->now, from which the next step counts. */
 void ali3_books_open(ali3_instance *in) {
+  in->report.open_power = 0.0;
   if (!ali3_keeps_books(in)) return;
   ali3_flexible_prepare(in, in->now.q);
   const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
@@ -77,6 +78,7 @@ void ali3_books_step(ali3_instance *in, double h) {
 /* The books as they were before a step that was refused. */
 void ali3_books_back(ali3_report *report, const ali3_report *before) {
   report->energy_error = before->energy_error;
+  report->open_power = before->open_power;
   report->energy = before->energy;
   report->work = before->work;
   report->kinetic_peak = before->kinetic_peak;
