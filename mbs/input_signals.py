@@ -66,9 +66,8 @@ class InputSignals:
         if not good.all():
             k = int(np.argmin(good))
             right = f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
-            raise ValueError(
-                f"Input {self._names[i]!r} is {values[k]:g}{unit_text(self._units[i])} at t = {t[k]:g} s; it must {right}."
-            )
+            value = f"{values[k]:g}{unit_text(self._units[i])}"
+            raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {right}.")
 
 
 def _checked(name: str, signal: Signal) -> Signal:

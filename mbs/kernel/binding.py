@@ -157,6 +157,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
+    "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
     "ali3_time": (c_double, [c_void_p]),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
@@ -420,6 +421,12 @@ class Instance:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def energy_balance(self) -> float:
+        """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return float(self._library.ali3_energy_balance(byref(fields)))
 
     @property
     def time(self) -> float:
