@@ -36,7 +36,7 @@ SUSPECT_MISS = {
     "semi_recursive_4": 1.0,
     "radau_5": 1.0,
 }
-"""Summed predictor differences of velocity over the largest one, from which on a run is suspect; a third to a half of the
+"""Summed predictor differences of velocity over the largest one, from which on a run is suspect; a third to half of the
 smallest of a wrong run in the survey. Not of runge_kutta_8, which is right far beyond what its predictor tells."""
 BOOKS_DECIDE = ("ali3p", "ali3p_generalised_alpha")  # the quadrature of runge_kutta_8 errs where it is stiff
 COORDINATES = "1"
