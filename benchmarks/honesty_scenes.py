@@ -16,7 +16,7 @@ import mbs
 from benchmarks import car_manoeuvres, car_references
 from benchmarks.cases import CASES, SAMPLES, Array, exact_of, system_of
 from benchmarks.kernel_methods import KERNEL, suits
-from mbs.accuracy import instants, judged_sensors
+from mbs.accuracy import extent, instants, judged_sensors
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "modelling.md"
 CLOSE = (
@@ -72,10 +72,10 @@ class Scene:
         """
         worst, told = 0.0, float("nan")
         estimate = found.accuracy.sensors if found.accuracy is not None else {}
-        for names in self.units().values():
+        for unit, names in self.units().items():
             true = self.truth()
             rows = instants(len(found.t))
-            size = max(float(np.ptp(true[n])) for n in names)
+            size = extent(unit, [true[n] for n in names])
             for name in names:
                 error = float(np.abs(found[name] - true[name])[rows].max()) / size
                 if error >= worst:

@@ -89,7 +89,7 @@ typedef struct {
   /* what says whether the run is right, see ali3_energy_balance; the first three of methods with books of energy */
   double energy; /* kinetic and potential energy of the state, J */
   double work; /* what inputs, drives, dampers and tyres gave and took: sum of their shares of the steps, J */
-  double kinetic_peak; /* largest kinetic energy, J */
+  double kinetic_peak; /* largest kinetic energy, at least that of 1e-6 m/s, J */
   /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity (over the largest: radians
    * that the motion has turned), sum of what steps are off v + h a of their start */
   double speed_peak, velocity_path, predictor_path;
