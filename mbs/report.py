@@ -29,6 +29,13 @@ class Report:
     energy_error : float
         Work that constraint forces and projections did in all steps, J; 0 in the exact motion. Measured by the ALi3-P
         methods, and by Runge-Kutta without flexible bodies.
+    branch_changes : int
+        Changes of the assembly mode of closed loops.
+    branch_time : float
+        Of the first one, s.
+    branch_kind : int
+        Of the first one: 1 a loop went through a dead centre, or another position, into a mode that is not its own; 2 a
+        step jumped.
     """
 
     steps: int
@@ -45,6 +52,9 @@ class Report:
     velocity_violation: float
     energy_jump: float = 0.0
     energy_error: float = 0.0
+    branch_changes: int = 0
+    branch_time: float = 0.0
+    branch_kind: int = 0
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.branch_warning import BranchWarning
 from mbs.input_signals import InputSignals, Signal
 from mbs.kernel.binding import (
     BELOW_ROAD,
@@ -139,6 +141,11 @@ class Simulation:
     def report(self) -> Report:
         """Counters since the start and residuals of the last step."""
         return Report.from_kernel(self.instance.report())
+
+    @property
+    def branch_change(self) -> str:
+        """A sentence about the first change of the assembly mode of a closed loop since the start; empty: none."""
+        return self.instance.branch_text()
 
     @property
     def state(self) -> State:
@@ -371,6 +378,11 @@ def simulate(
     ------
     SimulationError
         When a step fails; its `trajectory` holds what was recorded.
+
+    Warns
+    -----
+    BranchWarning
+        When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
     _check_step(h)
     if method is not None:
@@ -386,7 +398,11 @@ def simulate(
         pose=pose,
         t0=t0,
     )
-    return simulation.run(t_end, h, inputs=inputs, every=every, progress=progress)
+    try:
+        return simulation.run(t_end, h, inputs=inputs, every=every, progress=progress)
+    finally:
+        if simulation.branch_change:
+            warnings.warn(simulation.branch_change, BranchWarning, stacklevel=2)
 
 
 def _check_step(h: float) -> None:

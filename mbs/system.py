@@ -36,6 +36,7 @@ el_loc_ptr el_loc guide_type guide_input guide_real_ptr road_type road_real_ptr 
 sen_int_ptr sen_int sen_real_ptr row_switch switch_start velocity_row velocity_ptr velocity_a velocity_b
 flex_mode_ptr flex_frame flex_mode flex_front flex_loc
 tree_parent tree_slides tree_frame tree_out_body tree_out_col tree_cut_body tree_cut_rows
+mode_triad_ptr mode_triad mode_cell_ptr mode_cell mode_name_ptr mode_name
 """
 FLOATS = frozenset(_FLOAT_NAMES.split())
 INTEGERS = frozenset(_INTEGER_NAMES.split())

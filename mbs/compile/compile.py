@@ -8,6 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from mbs.affine import Affine
+from mbs.compile.assembly_modes import mode_arrays
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
 from mbs.compile.equilibrium import equilibrium
@@ -97,6 +98,7 @@ def compile(model: Model) -> System:
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = tree_arrays(model, signals, kept, new)
+    modes = mode_arrays(model, holding, full, q[new], guides, signals)
     tables: dict[str, Any] = {
         "q0": q,
         "qd0": qd,
@@ -119,6 +121,7 @@ def compile(model: Model) -> System:
         **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, kept, of_z, q[new], order),
         **tree,
+        **modes,
         **signals.arrays(),
     }
     report = {

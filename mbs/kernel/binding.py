@@ -98,6 +98,11 @@ class ReportFields(Structure):
         ("worst_coordinate", c_int32),
         ("energy_jump", c_double),
         ("energy_error", c_double),
+        ("branch_changes", c_int64),
+        ("branch_time", c_double),
+        ("branch_kind", c_int32),
+        ("branch_loop", c_int32),
+        ("branch_triad", c_int32),
     )
 
 
@@ -143,6 +148,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
+    "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_time": (c_double, [c_void_p]),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
@@ -406,6 +412,12 @@ class Instance:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def branch_text(self) -> str:
+        """A sentence about the first change of the assembly mode of a closed loop; empty where there was none."""
+        text = ctypes.create_string_buffer(1024)
+        self._check(self._library.ali3_branch_text(self._handle, text, len(text)))
+        return text.value.decode(errors="ignore")
 
     @property
     def time(self) -> float:

@@ -49,12 +49,14 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
                        2 * (size_t)z->nsig + n_S + n_work + ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
                        stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + stages * (size_t)z->front_size) +
                        (stages > 0 ? 2 * (size_t)z->front_size : 0);
+  const size_t triads = (size_t)ali3_triad_count(s), loops = (size_t)ali3_loop_count(s);
+  const size_t n_modes = 5 * triads + loops + (triads > 0 ? n_vector : 0);
   const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
                tree = s->tree != NULL ? (sizeof(ali3_tree_work) + 15u) / 16u * 16u : 0;
   *out = NULL;
-  char *block = s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work) * sizeof(double));
+  char *block = s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work + n_modes) * sizeof(double));
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
   double *pool = (double *)(block + head + roads + tree);
@@ -125,6 +127,13 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->y_work = ali3_take(&pool, ny);
   in->out_work = ali3_take(&pool, nout);
   in->potential_work = ali3_take(&pool, ne);
+  in->mode_sine = ali3_take(&pool, triads);
+  in->mode_cosine = ali3_take(&pool, triads);
+  in->sine_before = ali3_take(&pool, triads);
+  in->sine_after = ali3_take(&pool, triads);
+  in->sine_few = ali3_take(&pool, triads);
+  in->mode_left = ali3_take(&pool, loops);
+  if (triads > 0) ali3_vectors_place(s, &in->before, &pool);
   const ali3_status status = ali3_reset(in);
   if (status != ALI3_OK) {
     s->memory.release(block);
@@ -190,6 +199,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   in->t_base = in->h_last = 0.0;
   in->count = 0;
   in->initialised = 0;
+  in->mode_known = false;
   memset(in->now.q, 0, in->n_vector * sizeof(double));
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);

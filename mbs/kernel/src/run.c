@@ -15,6 +15,7 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   in->t_base = t0;
   in->h_last = 0.0;
   in->count = 0;
+  in->mode_known = false;
   in->initialised = 1;
   return ALI3_OK;
 }
@@ -45,7 +46,9 @@ static ali3_status step(ali3_instance *in, double h) {
   const double energy_error = in->report.energy_error;
   in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
   in->h_whole = h;
-  const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
+  ali3_branch_before(in);
+  ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
+  if (status == ALI3_OK) status = ali3_branch_after(in, t_base + (double)count * h, h);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);
