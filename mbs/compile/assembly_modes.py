@@ -79,7 +79,8 @@ def mode_arrays(
 
 def _items(triad: Triad, signals: Signals, ring: int) -> list[int]:
     """What the kernel knows of a triad."""
-    return [*(signals.number(c) for c in triad.components), int(triad.turned), ring]
+    planar = not triad.n[0].terms and not triad.n[1].terms and all(v[2] == Affine() for v in (triad.a, triad.b))
+    return [*(signals.number(c) for c in triad.components), int(triad.turned) + 2 * int(planar), ring]
 
 
 def _modes(
@@ -118,7 +119,7 @@ def _modes(
 
 
 def _is_dead_centre(sine: Array, steps: Array) -> bool:
-    """Whether some angle turns back wherever the sine of a triad changes its sign; `steps` of all angles, a row a step."""
+    """Whether some angle turns back wherever the sine of a triad changes its sign; `steps`: a row of all angles."""
     crossings = np.flatnonzero(sine[1:] * sine[:-1] < 0.0)
     back = np.any(steps * np.roll(steps, 1, axis=0) < 0.0, axis=1)
     near = np.array([np.any(np.take(back, range(i - ASTRIDE, i + ASTRIDE + 1), mode="wrap")) for i in crossings])

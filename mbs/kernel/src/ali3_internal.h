@@ -190,7 +190,7 @@ struct ali3_instance {
   bool mode_known, branch_kept;
 };
 
-enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 }; /* of mode_triad: 9 signals, turned, ring; of a loop */
+enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 }; /* of mode_triad: 9 signals, kind, ring; of a loop */
 
 enum { ALI3_LOCAL = ALI3_MAX_SIGNALS };
 

@@ -10,7 +10,8 @@
 static const double DEFINITE = 0.15 * 0.15; /* square of a sine or cosine from which on a sign counts: as compile's */
 static const double NOTHING = 1e-24; /* of the squares of the lengths: arms without an angle, along the axis */
 
-enum { SIGNALS = 9, TURNED = 9, RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
+enum { SIGNALS = 9, KIND = 9, RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
+enum { TURNED = 1, PLANAR = 2 }; /* bits of the kind: from the perpendicular of arm b; n is z, the arms lie across */
 
 static const int32_t *triad(const ali3_system *S, int64_t k) { return S->mode_triad + ITEMS * k; }
 
@@ -21,7 +22,7 @@ static ali3_status check_loop(const ali3_system *s, int64_t loop, ali3_message m
     return ali3_bad(m, "loop %lld has %d items of triads and %d of modes", (long long)loop, (int)n, (int)cells);
   for (int32_t k = first; k < first + n; k += ITEMS) {
     CHECK(ali3_check_indices(m, "mode_triad", s->mode_triad + k, SIGNALS, 0, s->size.nsig));
-    CHECK(ali3_check_indices(m, "mode_triad", s->mode_triad + k + TURNED, 1, 0, 2));
+    CHECK(ali3_check_indices(m, "mode_triad", s->mode_triad + k + KIND, 1, 0, 4));
     CHECK(ali3_check_indices(m, "mode_triad", s->mode_triad + k + RING, 1, 0, n / ITEMS));
   }
   return ali3_check_indices(m, "mode_cell", s->mode_cell + s->mode_cell_ptr[loop], cells, 0,
@@ -50,18 +51,29 @@ static double value(const ali3_system *S, const double *q, int32_t signal) {
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Signed squares of sine and cosine of the angle from arm a to arm b seen along n; both 0 where there is none. */
+/* Signed squares of sine and cosine from numbers proportional to both; 0 where these are nothing beside `lengths`. */
+static void put(int32_t kind, double ss, double cc, double lengths, double *sine, double *cosine) {
+  const double size = fabs(ss) + fabs(cc), scale = size > NOTHING * lengths ? 1.0 / size : 0.0;
+  *sine = scale * (kind & TURNED ? cc : ss);
+  *cosine = scale * (kind & TURNED ? -ss : cc);
+}
+
+/* Of the angle from arm a to arm b seen along n. */
 static void angle(const ali3_system *S, const double *q, const int32_t *t, double *sine, double *cosine) {
   double v[SIGNALS];
-  for (int i = 0; i < SIGNALS; i++) v[i] = value(S, q, t[i]);
   const double *n = v, *a = v + 3, *b = v + 6;
+  if (t[KIND] & PLANAR) {
+    for (int i = 3; i < SIGNALS; i++)
+      if (i != 5 && i != 8) v[i] = value(S, q, t[i]);
+    const double det = a[0] * b[1] - a[1] * b[0], c = a[0] * b[0] + a[1] * b[1];
+    put(t[KIND], det * fabs(det), c * fabs(c), 0.0, sine, cosine);
+    return;
+  }
+  for (int i = 0; i < SIGNALS; i++) v[i] = value(S, q, t[i]);
   const double nn = dot(n, n), det = n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2]) +
                                      n[2] * (a[0] * b[1] - a[1] * b[0]);
   const double c = nn * dot(a, b) - dot(n, a) * dot(n, b); /* (n x a) . (n x b) */
-  const double ss = nn * det * fabs(det), cc = c * fabs(c), size = fabs(ss) + fabs(cc);
-  const double scale = size > NOTHING * nn * nn * dot(a, a) * dot(b, b) ? 1.0 / size : 0.0;
-  *sine = scale * (t[TURNED] ? cc : ss);
-  *cosine = scale * (t[TURNED] ? -ss : cc);
+  put(t[KIND], nn * det * fabs(det), c * fabs(c), nn * nn * dot(a, a) * dot(b, b), sine, cosine);
 }
 
 /* Of all triads, signed squares of sines in in->mode_sine and of cosines in in->mode_cosine. */
@@ -75,30 +87,38 @@ static uint32_t bit(double v, int k, uint32_t *definite) {
   return v > 0.0 ? (uint32_t)1 << k : 0;
 }
 
-/* The first triad of a loop that belongs to none of its modes, or -1: of the mode that fits best, the first misfit. */
+/* Of a loop that has none of its modes, the first misfit to the one that fits best. */
+static int32_t misfit(const ali3_system *S, int64_t loop, uint32_t signs, uint32_t definite) {
+  uint32_t best = 0;
+  int fewest = 2 * ALI3_MOST_TRIADS + 1;
+  for (int32_t i = S->mode_cell_ptr[loop]; i < S->mode_cell_ptr[loop + 1]; i += 2) {
+    const uint32_t wrong = (signs ^ (uint32_t)S->mode_cell[i]) & (uint32_t)S->mode_cell[i + 1] & definite;
+    int count = 0;
+    for (uint32_t rest = wrong; rest != 0; rest &= rest - 1) count++;
+    if (count < fewest) {
+      fewest = count;
+      best = wrong;
+    }
+  }
+  int32_t k = 0;
+  while ((best >> 2 * k & 3) == 0) k++;
+  return k;
+}
+
+/* The triad of a loop, counted in it, that belongs to none of its modes, or -1. */
 int32_t ali3_mode_left(const ali3_instance *in, int64_t loop) {
   const ali3_system *S = in->system;
-  const int32_t first = S->mode_triad_ptr[loop] / ITEMS, n = S->mode_triad_ptr[loop + 1] / ITEMS - first;
-  uint32_t signs = 0, definite = 0, best = 0;
-  int fewest = 2 * ALI3_MOST_TRIADS + 1;
+  const int32_t cell = S->mode_cell_ptr[loop], end = S->mode_cell_ptr[loop + 1],
+                first = S->mode_triad_ptr[loop] / ITEMS, n = S->mode_triad_ptr[loop + 1] / ITEMS - first;
+  uint32_t signs = 0, definite = 0;
+  if (cell == end) return -1;
   for (int32_t k = 0; k < n; k++) {
     signs |= bit(in->mode_sine[first + k], 2 * k, &definite);
     signs |= bit(in->mode_cosine[first + k], 2 * k + 1, &definite);
   }
-  for (int32_t i = S->mode_cell_ptr[loop]; i < S->mode_cell_ptr[loop + 1]; i += 2) {
-    const uint32_t misfit = (signs ^ (uint32_t)S->mode_cell[i]) & (uint32_t)S->mode_cell[i + 1] & definite;
-    int count = 0;
-    for (uint32_t rest = misfit; rest != 0; rest &= rest - 1) count++;
-    if (count == 0) return -1;
-    if (count < fewest) {
-      fewest = count;
-      best = misfit;
-    }
-  }
-  if (best == 0) return -1; /* a loop without known modes */
-  int32_t k = 0;
-  while ((best >> 2 * k & 3) == 0) k++;
-  return k;
+  for (int32_t i = cell; i < end; i += 2)
+    if (((signs ^ (uint32_t)S->mode_cell[i]) & (uint32_t)S->mode_cell[i + 1] & definite) == 0) return -1;
+  return misfit(S, loop, signs, definite);
 }
 
 static size_t put_name(const ali3_system *S, int64_t k, char *text, size_t used, size_t size) {
