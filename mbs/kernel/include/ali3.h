@@ -34,6 +34,7 @@ typedef enum {
   ALI3_BELOW_ROAD,        /* a start with a tyre deeper in the road than its radius; see ali3_start_lift */
   ALI3_UNRESOLVED, /* the motion is too fast for the step: energy came or went without a force, also in halves */
   ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
+  ALI3_NO_EQUILIBRIUM,    /* a scene that starts in static equilibrium has none with the parameters it was given */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -126,7 +127,9 @@ ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double
  * velocities are projected, accelerations and multipliers solved anew; report.energy_jump says what that took. */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
-/* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
+/* Where the file starts in static equilibrium and parameters of elements or guides are not those of the file: that
+ * equilibrium first, at the place of the drawing, then the pose. Coordinates given by ali3_set_q stay as they are.
+ * Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
  * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* How much higher, m, a start must be that was refused with ALI3_BELOW_ROAD: there no tyre touches the road. 0: good. */

@@ -25,7 +25,8 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
   in->report = none;
   ali3_vectors_copy(in, &in->start, &in->now);
-  const ali3_status status = ali3_solve_initial(in, t0);
+  ali3_status status = ali3_start_in_equilibrium(in, t0);
+  if (status == ALI3_OK) status = ali3_solve_initial(in, t0);
   return begin(in, status == ALI3_OK && ali3_start_lift(in) > 0.0 ? ALI3_BELOW_ROAD : status, t0);
 }
 

@@ -112,6 +112,7 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   in->initialised = (int32_t)header.initialised;
   in->count = header.count;
   in->mode_known = false;
+  in->placed = ALI3_PLACED_BY_Q; /* a start from here is from these coordinates */
   get(&in->t_base, &p, sizeof(double));
   get(&in->h_last, &p, sizeof(double));
   get(in->now.q, &p, in->n_vector * sizeof(double));
