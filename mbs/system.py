@@ -42,6 +42,8 @@ static_start static_par pose_partner
 """
 FLOATS = frozenset(_FLOAT_NAMES.split())
 INTEGERS = frozenset(_INTEGER_NAMES.split())
+OPTIONAL = frozenset(n for n in FLOATS | INTEGERS if n.startswith(("mode_", "static_"))) | {"pose_partner"}
+"""Arrays that may be missing: then nothing is known of assembly modes or of a start in equilibrium."""
 
 
 class SystemFileError(ValueError):
@@ -61,12 +63,12 @@ class System:
 
     def __init__(self, arrays: Mapping[str, ArrayLike], meta: Mapping[str, Any]) -> None:
         names = set(arrays)
-        if names != FLOATS | INTEGERS:
-            wrong = sorted(names ^ (FLOATS | INTEGERS))
+        if names | OPTIONAL != FLOATS | INTEGERS:
+            wrong = sorted((names | OPTIONAL) ^ (FLOATS | INTEGERS))
             raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
         frozen: dict[str, NDArray[Any]] = {}
-        for name in sorted(names):
-            values = np.array(arrays[name], dtype=np.float64 if name in FLOATS else np.int32)
+        for name in sorted(FLOATS | INTEGERS):
+            values = np.array(arrays.get(name, ()), dtype=np.float64 if name in FLOATS else np.int32)
             values.setflags(write=False)
             frozen[name] = values
         self.arrays: Mapping[str, NDArray[Any]] = MappingProxyType(frozen)

@@ -77,7 +77,7 @@ def pose_partners(
     signals: Signals,
     order: Index,
 ) -> Index:
-    """`pose_partner` in elimination order: of a component x minus, of y plus the signal of the other one, from 1; else 0.
+    """`pose_partner` in elimination order: of x components minus, of y ones plus the other's signal, from 1; else 0.
 
     With it a pose can move a scene from another position than the one the `pose_` arrays were made at.
     """

@@ -15,6 +15,10 @@ enum { TURNED = 1, PLANAR = 2 }; /* bits of the kind: from the perpendicular of 
 
 static const int32_t *triad(const ali3_system *S, int64_t k) { return S->mode_triad + ITEMS * k; }
 
+int64_t ali3_loop_count(const ali3_system *S) { return S->n_mode_triad_ptr > 0 ? S->n_mode_triad_ptr - 1 : 0; }
+
+int64_t ali3_triad_count(const ali3_system *S) { return S->n_mode_triad / ITEMS; }
+
 static ali3_status check_loop(const ali3_system *s, int64_t loop, ali3_message m) {
   const int32_t first = s->mode_triad_ptr[loop], n = s->mode_triad_ptr[loop + 1] - first,
                 cells = s->mode_cell_ptr[loop + 1] - s->mode_cell_ptr[loop];
@@ -30,8 +34,12 @@ static ali3_status check_loop(const ali3_system *s, int64_t loop, ali3_message m
 }
 
 ali3_status ali3_check_modes(const ali3_system *s, ali3_message m) {
-  const int64_t loops = s->n_mode_triad_ptr - 1;
-  if (loops < 0) return ali3_bad(m, "'mode_triad_ptr' is empty");
+  const int64_t loops = ali3_loop_count(s);
+  if (s->n_mode_triad_ptr == 0) {
+    CHECK(ali3_check_length(m, "mode_triad", s->n_mode_triad, 0));
+    CHECK(ali3_check_length(m, "mode_cell", s->n_mode_cell, 0));
+    return ali3_check_length(m, "mode_name", s->n_mode_name, 0);
+  }
   CHECK(ali3_check_pointers(m, "mode_triad_ptr", s->mode_triad_ptr, s->n_mode_triad_ptr, loops, s->n_mode_triad));
   CHECK(ali3_check_pointers(m, "mode_cell_ptr", s->mode_cell_ptr, s->n_mode_cell_ptr, loops, s->n_mode_cell));
   for (int64_t loop = 0; loop < loops; loop++) CHECK(check_loop(s, loop, m));
@@ -39,9 +47,6 @@ ali3_status ali3_check_modes(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_pointers(m, "mode_name_ptr", s->mode_name_ptr, s->n_mode_name_ptr, names, s->n_mode_name));
   return ali3_check_indices(m, "mode_name", s->mode_name, s->n_mode_name, 1, 256);
 }
-
-int64_t ali3_loop_count(const ali3_system *S) { return S->n_mode_triad_ptr - 1; }
-int64_t ali3_triad_count(const ali3_system *S) { return S->n_mode_triad / ITEMS; }
 
 static double value(const ali3_system *S, const double *q, int32_t signal) {
   double sum = S->sig_const[signal];
@@ -169,8 +174,10 @@ ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size) {
   n = snprintf(text + used, size - used, " left its assembly mode at ");
   used = n > 0 && (size_t)n < size - used ? used + (size_t)n : size - 1;
   used = put_name(S, S->mode_triad_ptr[r->branch_loop] / ITEMS + r->branch_triad, text, used, size);
-  snprintf(text + used, size - used,
-           ": it went through a position where its bodies lie in line and came out on the other side. What follows is "
-           "the motion of a mechanism assembled otherwise than drawn.");
+  snprintf(
+      text + used, size - used,
+      ": the bodies there are now on the other side of the position in which they lie in line. What follows is the "
+      "motion of a mechanism assembled otherwise than drawn. End stops would hold it; where the step leapt, a "
+      "shorter one.");
   return ALI3_OK;
 }

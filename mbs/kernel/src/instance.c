@@ -57,7 +57,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
                tree = s->tree != NULL ? (sizeof(ali3_tree_work) + 15u) / 16u * 16u : 0;
   *out = NULL;
-  char *block = s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work + n_modes + n_start) * sizeof(double));
+  char *block =
+      s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work + n_modes + n_start) * sizeof(double));
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
   double *pool = (double *)(block + head + roads + tree);
@@ -266,8 +267,8 @@ ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, doubl
   const ali3_system *S = in->system;
   const double c = ali3_cos(yaw), s = ali3_sin(yaw);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    in->now.q[i] =
-        in->pose_0[i] + c * in->pose_cos[i] + s * in->pose_sin[i] + x * S->pose_x[i] + y * S->pose_y[i] + z * S->pose_z[i];
+    in->now.q[i] = in->pose_0[i] + c * in->pose_cos[i] + s * in->pose_sin[i] + x * S->pose_x[i] + y * S->pose_y[i] +
+                   z * S->pose_z[i];
     in->now.qd[i] = speed * (c * S->pose_x[i] + s * S->pose_y[i] + S->pose_speed[i]);
   }
   memcpy(in->pose, given, sizeof given);

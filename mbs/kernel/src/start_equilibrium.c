@@ -11,11 +11,16 @@ static const double SAME = 1e-9; /* m: an equilibrium that close to the file's i
 enum { ITERATIONS = 400, ROAD = 2 };
 
 ali3_status ali3_check_start(const ali3_system *s, ali3_message m) {
-  CHECK(ali3_check_length(m, "static_start", s->n_static_start, 1));
-  CHECK(ali3_check_indices(m, "static_start", s->static_start, 1, 0, 2));
+  if (s->n_static_start != 0) CHECK(ali3_check_length(m, "static_start", s->n_static_start, 1));
+  CHECK(ali3_check_indices(m, "static_start", s->static_start, s->n_static_start, 0, 2));
   CHECK(ali3_check_length(m, "static_value", s->n_static_value, s->n_static_par));
   CHECK(ali3_check_indices(m, "static_par", s->static_par, s->n_static_par, 0, s->size.np));
-  CHECK(ali3_check_length(m, "pose_partner", s->n_pose_partner, s->n_pose_0));
+  for (int64_t i = 0; i < s->n_static_par; i++)
+    if (!(s->static_value[i] >= s->par_min[s->static_par[i]] && s->static_value[i] <= s->par_max[s->static_par[i]]))
+      return ali3_bad(m, "the search for the equilibrium sets parameter %d to %g, outside its range",
+                      (int)s->static_par[i], s->static_value[i]);
+  if (s->n_static_start > 0 || s->n_pose_partner > 0)
+    CHECK(ali3_check_length(m, "pose_partner", s->n_pose_partner, s->n_pose_0));
   return ali3_check_indices(m, "pose_partner", s->pose_partner, s->n_pose_partner, -(int64_t)s->size.nsig,
                             (int64_t)s->size.nsig + 1);
 }
@@ -63,16 +68,17 @@ static bool changed(const ali3_instance *in) {
 }
 
 /* Roads of the file, the values for the search, the inputs' start values; the instance's own stay in *_work. */
-static void prepare(ali3_instance *in) {
+static ali3_status prepare(ali3_instance *in) {
   const ali3_system *S = in->system;
   memcpy(in->parameter_work, in->parameter, (size_t)S->size.np * sizeof(double));
   memcpy(in->input_work, in->input, (size_t)S->size.nu * sizeof(double));
   for (int64_t i = 0; i < S->n_static_par; i++) in->parameter[S->static_par[i]] = S->static_value[i];
-  ali3_parameters_apply(in);
+  const ali3_status status = ali3_parameters_apply(in);
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
       if (S->par_target[k] == ROAD) in->road_real[S->par_index[k]] = S->par_scale[k] * S->par_value[p];
   memcpy(in->input, S->input_start, (size_t)S->size.nu * sizeof(double));
+  return status;
 }
 
 static void put_back(ali3_instance *in) {
@@ -98,14 +104,14 @@ static ali3_status search(ali3_instance *in, double t) {
 /* Before a start at time t: moves it to the equilibrium of the parameters, unless coordinates were given. */
 ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
-  if (!S->static_start[0] || in->placed == ALI3_PLACED_BY_Q) return ALI3_OK;
+  if (S->n_static_start == 0 || S->static_start[0] == 0 || in->placed == ALI3_PLACED_BY_Q) return ALI3_OK;
   const bool solve = changed(in);
   if (!solve && !in->start_moved) return ALI3_OK;
   ali3_start_of_file(in);
   in->start_moved = false;
   if (solve) {
-    prepare(in);
-    const ali3_status status = search(in, t);
+    ali3_status status = prepare(in);
+    if (status == ALI3_OK) status = search(in, t);
     put_back(in);
     if (status != ALI3_OK) return status;
     double most = 0.0;
