@@ -56,7 +56,8 @@ def test_a_suspension_that_turns_inside_out_is_told_by_name_and_time(thrown: Sys
 def test_a_suspension_that_comes_back_is_not_told() -> None:
     run = simulate(compile(suspension(5.0)), 0.3, 5e-4)
     assert run["wheel.z"].max() > 0.48  # of 0.53 where the wishbones lock
-    assert run.report is not None and run.report.branch_changes == 0
+    assert run.report is not None
+    assert run.report.branch_changes == 0
 
 
 def test_the_mode_is_left_at_the_same_time_with_other_steps_and_methods(thrown: System) -> None:
@@ -64,12 +65,14 @@ def test_the_mode_is_left_at_the_same_time_with_other_steps_and_methods(thrown: 
         for h in (2e-3, 2.5e-4):
             with pytest.warns(BranchWarning, match="'tie rod'"):
                 run = simulate(thrown, 0.15, h, method=method)
-            assert run.report is not None and run.report.branch_time == pytest.approx(0.093, abs=0.003)
+            assert run.report is not None
+            assert run.report.branch_time == pytest.approx(0.093, abs=0.003)
 
 
 def test_a_loop_without_springs_swings_as_it_likes() -> None:
     run = simulate(compile(suspension(15.0, sprung=False)), 0.3, 5e-4)
-    assert run.report is not None and run.report.branch_changes == 0
+    assert run.report is not None
+    assert run.report.branch_changes == 0
 
 
 @pytest.mark.parametrize("h", [0.04, 0.05, 0.1])
@@ -77,26 +80,30 @@ def test_a_step_that_jumps_the_branch_is_told(defect: System, h: float) -> None:
     with pytest.warns(BranchWarning, match=r"t = 1\.6 s the closed loop of 'B', 'C' .*take a shorter one"):
         run = simulate(defect, 2.5, h)
     assert run["coupler.My"].min() < -11.0  # -9.1 on the branch of short steps
-    assert run.report is not None and run.report.branch_kind == 2
+    assert run.report is not None
+    assert run.report.branch_kind == 2
 
 
 def test_short_steps_stay_on_the_branch(defect: System) -> None:
     run = simulate(defect, 10.0, 0.02)
     assert run["coupler.My"].min() == pytest.approx(-9.1, abs=0.1)
-    assert run.report is not None and run.report.branch_changes == 0
+    assert run.report is not None
+    assert run.report.branch_changes == 0
 
 
 @pytest.mark.parametrize("h", [0.002, 0.01, 0.03])
 @pytest.mark.parametrize("scene", [double_four_bar, bricard, slider_crank, spatial_slider_crank])
 def test_singular_positions_on_the_smooth_branch_are_no_alarm(scene, h: float) -> None:
     run = simulate(compile(scene.build()), 10.0, h)
-    assert run.report is not None and run.report.branch_changes == 0
+    assert run.report is not None
+    assert run.report.branch_changes == 0
 
 
 def test_many_cranks_in_a_row_and_the_squeezer_are_no_alarm() -> None:
     for system, t_end, h in ((compile(double_four_bar.build(9)), 5.0, 0.01), (compile(squeezer.build()), 0.03, 1e-4)):
         run = simulate(system, t_end, h)
-        assert run.report is not None and run.report.branch_changes == 0
+        assert run.report is not None
+        assert run.report.branch_changes == 0
 
 
 @pytest.mark.parametrize("side", [1, -1])
@@ -105,7 +112,8 @@ def test_many_cranks_in_a_row_and_the_squeezer_are_no_alarm() -> None:
 )
 def test_four_bars_of_all_kinds_are_no_alarm(lengths: tuple[float, float, float, float], side: int) -> None:
     run = simulate(compile(four_bar(lengths, 1.0, side, 6.0)), 5.0, 0.005)
-    assert run.report is not None and run.report.branch_changes == 0
+    assert run.report is not None
+    assert run.report.branch_changes == 0
 
 
 def test_a_step_onto_the_other_circuit_is_told() -> None:
@@ -122,7 +130,8 @@ def test_watching_changes_no_bit(defect: System) -> None:
             warnings.simplefilter("ignore", BranchWarning)
             seen, unseen = (simulate(s, t_end, h) for s in (system, without_modes(system)))
         assert all(np.array_equal(seen[name], unseen[name]) for name in unseen)
-        assert seen.report is not None and unseen.report is not None
+        assert seen.report is not None
+        assert unseen.report is not None
         assert replace(seen.report, branch_changes=0, branch_time=0.0, branch_kind=0) == unseen.report
 
 
