@@ -29,7 +29,9 @@ from typing import Any
     BELOW_ROAD,
     UNRESOLVED,
     NO_TREE,
-) = range(1, 14)
+    NO_EQUILIBRIUM,
+    BRANCH_CHANGED,
+) = range(1, 16)
 """Codes of `ali3_status` beside 0."""
 
 

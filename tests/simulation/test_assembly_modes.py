@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbs import BranchWarning, Model, Settings, Simulation, System, compile, simulate
-from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding import BRANCH_CHANGED, KernelError, LoadedSystem
 from mbs.scenes import (
     assembly_defect_four_bar,
     bricard,
@@ -122,6 +122,17 @@ def test_a_step_onto_the_other_circuit_is_told() -> None:
     with pytest.warns(BranchWarning, match="t = 0.15 s the closed loop of 'B', 'C' left its assembly mode at 'C'"):
         simulate(system, 0.15, 0.15, settings=Settings(max_halvings=0))
     assert simulate(system, 0.6, 0.001).report.branch_changes == 0  # type: ignore[union-attr]
+
+
+def test_the_sensor_of_the_status_tells_it_from_then_on() -> None:
+    m = suspension(15.0)
+    m.sense_solver("solver.status", "status")
+    with pytest.warns(BranchWarning):
+        run = simulate(compile(m), 0.15, 5e-4)
+    assert run.report is not None
+    after = run.t >= run.report.branch_time - 1e-9
+    assert np.all(run["solver.status"][after] == BRANCH_CHANGED)
+    assert np.all(run["solver.status"][~after] == 0.0)
 
 
 def test_watching_changes_no_bit(defect: System) -> None:

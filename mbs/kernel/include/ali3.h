@@ -35,6 +35,7 @@ typedef enum {
   ALI3_UNRESOLVED, /* the motion is too fast for the step: energy came or went without a force, also in halves */
   ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
   ALI3_NO_EQUILIBRIUM,    /* a scene that starts in static equilibrium has none with the parameters it was given */
+  ALI3_BRANCH_CHANGED,    /* told by ali3_run_status only: a closed loop changed its assembly mode */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -149,6 +150,8 @@ ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigne
  * the factorised tangent (23). ALI3_NOT_INITIALISED before the first step. */
 ALI3_API ali3_status ali3_input_derivative(ali3_instance *in, const double *direction, double *out);
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
+/* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
+ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */
 ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);

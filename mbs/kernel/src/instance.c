@@ -21,6 +21,7 @@ const char *ali3_status_text(ali3_status s) {
       "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
       "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
       "with these parameters there is no static equilibrium near the drawing to start from",
+      "a closed loop changed its assembly mode",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
