@@ -2,7 +2,18 @@
 #include "road.h"
 #include "element_math.h"
 
-#define FLATTEST 0.05 /* least sine between wheel axis and road normal used as a divisor */
+#define FLATTEST 0.05 /* least cosine of an edge used as a divisor */
+/* Sine between wheel axis and road normal below which the width of a wheel tells: lying flat it touches with its
+ * centre LYING/2 radii high, half as high as it is wide, and is 4/LYING^2 times as stiff as upright. */
+#define LYING 0.5
+
+/* What stands for the sine as a divisor, and its slope: the sine itself, and below LYING a parabola of the same slope
+ * there. */
+static double upright(double sine, double *slope) {
+  const double part = sine / LYING;
+  *slope = part < 1.0 ? part : 1.0;
+  return part < 1.0 ? 0.5 * LYING * (1.0 + part * part) : sine;
+}
 
 enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_REALS };
 enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_REALS };
@@ -20,10 +31,10 @@ static double half_space(const double centre[3], const double axis[3], double ra
   if (size < 1e-9) { /* the wheel lies flat: any direction in its plane */
     const double other[3] = {fabs(axis[0]) < 0.6 ? 1.0 : 0.0, fabs(axis[0]) < 0.6 ? 0.0 : 1.0, 0.0};
     ali3_cross(axis, other, inplane);
+    out->cosine = upright(0.0, &out->leaning);
     size = ali3_norm(inplane);
-    out->cosine = FLATTEST;
   } else {
-    out->cosine = size > FLATTEST ? size : FLATTEST;
+    out->cosine = upright(size, &out->leaning);
   }
   const double distance = height / out->cosine;
   out->penetration = radius - distance;
@@ -57,6 +68,7 @@ static int edge_line(const double centre[3], const double axis[3], double radius
   const double size = ali3_norm(g);
   out->penetration = radius - distance;
   out->cosine = 1.0 / size > FLATTEST ? 1.0 / size : FLATTEST;
+  out->leaning = 1.0;
   for (int i = 0; i < 3; i++) {
     out->normal[i] = g[i] / size;
     out->down[i] = w[i] / distance;

@@ -22,8 +22,10 @@ typedef struct {
   double point[3]; /* nearest point of the road in the wheel plane, m, earth axes */
   double normal[3]; /* unit normal of the road (of the contact line at an edge), upwards */
   double down[3]; /* unit, in the wheel plane, towards the road: point = centre + (radius - penetration) down */
-  double cosine; /* -normal . down = sine of the angle between wheel axis and normal, > 0 */
+  double cosine; /* -normal . down = sine of the angle between wheel axis and normal; more, above 0, where the wheel
+                    * lies nearly flat */
   double friction;
+  double leaning; /* d(cosine)/d(sine between axis and normal): 1, less where the wheel lies nearly flat */
 } ali3_contact;
 
 /* Writes one or two contacts (also open ones, so that outputs stay continuous) and returns their number.
