@@ -57,8 +57,9 @@ GUIDING_FORCE = 2e3  # N, along the car at the origin of the floating frame
 STIFF_PAIRS = tuple((f"{a}{s}", f"{b}{s}") for a, b in (("LF", "LR"), ("UF", "UR"), ("AF", "AR")) for s in "LR")
 
 
-GROUND_PATH = ("LF", "TF", "AF", "TR")
-"""Suspension joints, left and right, through which the ground's forces on the chassis go into a flexible frame."""
+GROUND_PATH = ("LF", "AF", "AR", "TR")
+"""Suspension joints, left and right, through which the ground's forces on the chassis go into a flexible frame: those that
+the final drive ties together anyway and one more, since each makes the tangent wider."""
 
 
 @dataclass(frozen=True)
