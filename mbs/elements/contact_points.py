@@ -68,9 +68,7 @@ class ContactPoints:
             for v, name in ((mass, "mass"), (depth, "depth"), (onset, "onset"))
         )
         stiffness = m * gravity / (0.5 * d * d / w if d < w else d - 0.5 * w)
-        return ContactPoints(
-            stiffness, stiffness, 2.0 * math.sqrt(stiffness * m), w, loss, friction_factor, radius
-        )
+        return ContactPoints(stiffness, stiffness, 2.0 * math.sqrt(stiffness * m), w, loss, friction_factor, radius)
 
     def record(
         self, name: str, origin: AffineVector, axes: Sequence[AffineVector], points: ArrayLike, road: int

@@ -57,7 +57,9 @@ class EndStops:
             name: not_negative(getattr(self, name), f"The {name.replace('_', ' ')} of {what}")
             for name in (*names, "metal_onset", "bump_loss", "rebound_loss")
         }
-        if not any(v > 0.0 for name, v in numbers.items() if name not in ("metal_onset", "bump_travel", "rebound_travel")):
+        if not any(
+            v > 0.0 for name, v in numbers.items() if name not in ("metal_onset", "bump_travel", "rebound_travel")
+        ):
             return {}
         if self.metal_stiffness > 0.0:
             positive(self.metal_onset, f"The metal onset of {what}")

@@ -56,7 +56,7 @@ def _hard(name, fidelity, h):
     assert r["chassis.z"][-1] > 0.3
     assert r["chassis.ground_force"][-1] == 0.0  # it drives on
     for w in WHEELS:
-        assert -0.19 < r[f"wheel_{w}.travel"].min()
+        assert r[f"wheel_{w}.travel"].min() > -0.19
         assert r[f"wheel_{w}.travel"].max() < 0.20
 
 
@@ -181,7 +181,9 @@ def test_wild_driving_at_every_fidelity(fidelity):
 
 def test_contact_changes_nothing_where_nothing_touches():
     """Same bits with the ground's contact switched off by data: points far above never enter the equations."""
-    r = mbs.simulate(_system("plane", 0), 3.0, 0.005, inputs={"steering": 0.3}, pose=mbs.Pose(speed=10.0), progress=False)
+    r = mbs.simulate(
+        _system("plane", 0), 3.0, 0.005, inputs={"steering": 0.3}, pose=mbs.Pose(speed=10.0), progress=False
+    )
     assert r["chassis.ground_force"].max() == 0.0
     model = prototype_car.build(ROADS["plane"])
     model.elements = [e for e in model.elements if e.name != "ground contact"]

@@ -23,7 +23,7 @@ def block(road, speed=(0.0, 0.0, 0.0), lift=0.0, points=CORNERS, contact=CONTACT
     m = mbs.Model("block", gravity=(0.0, 0.0, -gravity))
     m.floating = True
     number = m.road(road)
-    place = np.array(com) + [0.0, 0.0, lift]
+    place = np.add(com, (0.0, 0.0, lift))
     inertia = MASS / 12.0 * np.array([0.4**2 + 0.2**2, 0.6**2 + 0.2**2, 0.6**2 + 0.4**2])
     body = m.body("block", mass=MASS, com=place, inertia=inertia)
     m.contact_points("feet", body, place + np.array(points), road=number, contact=contact)

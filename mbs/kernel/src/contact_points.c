@@ -99,8 +99,7 @@ static touch press(ali3_element_args *a, const double local[3], int by_gradients
     if (!(depth[0] > 0.0 || depth[1] > 0.0)) continue;
     const double now = ali3_contact_force(&law, depth[1], &slope, &a->potential);
     const double mean = by_gradients ? ali3_contact_mean(&law, depth[0], depth[1]) : now;
-    if (by_gradients && fabs(depth[1] - depth[0]) > 1e-9)
-      slope = 2.0 * (now - mean) / (depth[1] - depth[0]);
+    if (by_gradients && fabs(depth[1] - depth[0]) > 1e-9) slope = 2.0 * (now - mean) / (depth[1] - depth[0]);
     const double factor = ali3_contact_loss(&law, -ali3_dot(c->gradient, velocity), &loss_slope);
     const double size = ali3_norm(c->gradient), force = mean * factor, load = force * size;
     if (!(load > 0.0)) continue;
@@ -208,5 +207,5 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 extern const ali3_element_type ali3_contact_points;
-const ali3_element_type ali3_contact_points = {
-    evaluate, 0, SIGNALS, -1, INTEGERS, -ALI3_CONTACT_STATES, OUTPUTS, check};
+const ali3_element_type ali3_contact_points = {evaluate, 0,    SIGNALS, -1, INTEGERS, -ALI3_CONTACT_STATES,
+                                               OUTPUTS,  check};

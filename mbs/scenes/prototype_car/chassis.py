@@ -58,8 +58,8 @@ STIFF_PAIRS = tuple((f"{a}{s}", f"{b}{s}") for a, b in (("LF", "LR"), ("UF", "UR
 
 
 GROUND_PATH = ("LF", "AF", "AR", "TR")
-"""Suspension joints, left and right, through which the ground's forces on the chassis go into a flexible frame: those that
-the final drive ties together anyway and one more, since each makes the tangent wider."""
+"""Suspension joints, left and right, through which the ground's forces on the chassis go into a flexible frame: those
+that the final drive ties together anyway and one more, since each makes the tangent wider."""
 
 
 @dataclass(frozen=True)
