@@ -203,3 +203,11 @@ def test_plain_stops_keep_their_seven_numbers():
     (d,) = vectors(3)
     assert len(SpringDamper(1.0, 0.0, 1.0, EndStops(0.5, 1.0, 2.0, 1.0)).record("s", d).real) == 7
     assert len(progressive_stop().element.real) == 15
+
+
+def test_a_stop_without_stiffness_has_no_metal_end_either():
+    (d,) = vectors(3)
+    bump = EndStops(0.6, 8e4, bump_progression=0.02, metal_stiffness=1e6)
+    e = Element(SpringDamper(0.0, 0.0, 0.75, bump).record("stop", d))
+    assert not np.any(e(np.array([0.0, 0.0, 0.9]), np.ones(3)).f)
+    assert e(np.array([0.0, 0.0, 0.55]), np.zeros(3)).out["force"] < -8e4 * 0.05

@@ -13,7 +13,7 @@ void ali3_end_stops(const double *p, int32_t nreal, ali3_contact_law law[2]) {
     law[side].stiffness = p[side ? ALI3_SPRING_REBOUND_STIFFNESS : ALI3_SPRING_BUMP_STIFFNESS];
     law[side].progression = progressive ? q[0] : 0.0;
     law[side].end = progressive ? q[1] : 0.0;
-    law[side].hard_stiffness = progressive ? p[ALI3_SPRING_METAL_STIFFNESS] : 0.0;
+    law[side].hard_stiffness = progressive && law[side].stiffness > 0.0 ? p[ALI3_SPRING_METAL_STIFFNESS] : 0.0;
     law[side].onset = progressive ? p[ALI3_SPRING_METAL_ONSET] : 0.0;
     law[side].loss = progressive ? p[ALI3_SPRING_STOP_LOSS + side] : 0.0;
   }

@@ -24,6 +24,23 @@ BUMP_PROGRESSION, BUMP_TRAVEL = 0.020, 0.035  # m
 REBOUND_PROGRESSION, REBOUND_TRAVEL = 0.010, 0.006  # m
 METAL_STIFFNESS, METAL_ONSET = 10.0e6, 0.003  # N/m, m
 LOSS = 1.0  # s/m
+STEERING_LENGTH = 0.296  # m from the outer end of the tie rod to the front pivot of the lower wishbone: 0.72 rad
+STEERING_STIFFNESS, STEERING_TRAVEL = 400.0e3, 0.004  # N/m, m
+
+
+def steering_stop() -> EndStops:
+    """The stop of the knuckle on the lower wishbone, as a bump stop between the two points above.
+
+    Rack and wheel travel within the end stops stay clear of it; pulled out at full lock the knuckle would turn over.
+    """
+    return EndStops(
+        STEERING_LENGTH,
+        STEERING_STIFFNESS,
+        bump_travel=STEERING_TRAVEL,
+        metal_stiffness=METAL_STIFFNESS,
+        metal_onset=METAL_ONSET,
+        bump_loss=LOSS,
+    )
 
 
 def end_stops(axle: str, lower: Point, upper: Point) -> EndStops:
