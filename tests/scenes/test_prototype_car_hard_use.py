@@ -111,6 +111,8 @@ def test_car_on_its_roof_slides_and_rests(h):
     assert r["chassis.ground_points"][-1] >= 3
     assert r["chassis.z"][-1] > 0.6
     assert all(r[f"wheel_{w}.Fz"][-1] == 0.0 for w in WHEELS)
+    (notice,) = r.notices
+    assert notice.startswith("The chassis touches the ground: 'chassis.ground_force' is not 0 from t = 0.")
 
 
 @pytest.mark.parametrize("fidelity", [1, 2])
@@ -185,6 +187,7 @@ def test_contact_changes_nothing_where_nothing_touches():
         _system("plane", 0), 3.0, 0.005, inputs={"steering": 0.3}, pose=mbs.Pose(speed=10.0), progress=False
     )
     assert r["chassis.ground_force"].max() == 0.0
+    assert r.notices == ()
     model = prototype_car.build(ROADS["plane"])
     model.elements = [e for e in model.elements if e.name != "ground contact"]
     model.sensors = [s for s in model.sensors if not s.name.startswith("chassis.ground")]

@@ -41,12 +41,13 @@ def ground_contact(m: Model, chassis: Chassis, road: int) -> None:
     points = np.array([places[j[:-1] + side] for j in JOINTS for side in "LR"])
     origin, axes, place = chassis.contact_frame
     m.add(contact.record(NAME, origin, axes, points - place, road))
-    m.sense_element(
+    force = m.sense_element(
         "chassis.ground_force",
         NAME,
         "normal_force",
         description="sum of the normal forces of the ground on the chassis itself; 0 while only tyres touch",
     )
+    m.notice(force, "The chassis touches the ground")
     m.sense_element(
         "chassis.ground_points",
         NAME,
