@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq
 
 import mbs
-from mbs.elements import ContactPoints, GridRoad, PlaneRoad
+from mbs.elements import ContactPoints, EndStops, GridRoad, PlaneRoad
 from mbs.errors import ModelError
 
 G, MASS, HALF, HEIGHT = 9.81, 40.0, (0.3, 0.2), 0.1
@@ -177,3 +177,34 @@ def test_vocabulary_refuses_by_name():
     with pytest.raises(ModelError, match=r"shape \(2,\)"):
         m.contact_points("feet", body, [0.0, 1.0], road=0, contact=CONTACT)
     assert m.contact_point("foot", body, (0.0, 0.0, 0.0), road=0, contact=CONTACT).integer == (0, 1)
+
+
+def test_energy_momentum_keeps_energy_on_a_curved_road():
+    x = np.linspace(-5.0, 5.0, 41)
+    bowl = GridRoad((-5.0, -5.0), (0.25, 0.25), 0.1 * (x[:, None] ** 2 + x[None, :] ** 2), 0.5)
+    contact = ContactPoints(2e5, 2e5, 1e3, onset=0.01, friction_factor=0.0)
+    r = run(block(bowl, (1.5, 0.5, 0.0), 0.1, contact=contact), 1.0, 2e-3, method="energy_momentum")
+    assert r["touching"].max() >= 2
+    assert np.abs(r["energy"] - r["energy"][0]).max() < 1e-6 * (1.0 + abs(r["energy"][0]))
+
+
+@pytest.mark.parametrize("loss", [0.0, 0.5])
+def test_energy_momentum_in_a_progressive_stop(loss):
+    m = mbs.Model("stop")
+    mass = m.point_mass("mass", mass=30.0, position=(0.0, 0.0, 0.7))
+    stops = EndStops(
+        0.6, 8e4, 0.8, 8e4, 0.02, 0.02, 0.03, 0.03, metal_stiffness=5e6, metal_onset=0.003,
+        bump_loss=loss, rebound_loss=loss,
+    )  # fmt: skip
+    m.spring_damper("spring", mass, (m.ground, (0.0, 0.0, 0.0)), stiffness=2e3, stops=stops)
+    m.initial_velocity(mass, linear=(0.3, 0.0, -3.0))
+    m.sense_energy("energy", "total")
+    m.sense_element("length", "spring", "length")
+    r = run(mbs.compile(m), 1.0, 1e-3, method="energy_momentum")
+    assert r["length"].min() < 0.58  # the metal end
+    assert r["length"].max() > 0.8
+    if loss == 0.0:
+        assert np.abs(r["energy"] - r["energy"][0]).max() < 1e-6 * 135.0
+    else:
+        assert np.diff(r["energy"]).max() < 1e-6
+        assert r["energy"][-1] < r["energy"][0] - 50.0
