@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq
 
 import mbs
-from mbs.elements import ContactPoints, EndStops, GridRoad, PlaneRoad
+from mbs.elements import ContactPoints, EndStops, GridRoad, KerbRoad, PlaneRoad
 from mbs.errors import ModelError
 
 G, MASS, HALF, HEIGHT = 9.81, 40.0, (0.3, 0.2), 0.1
@@ -208,3 +208,13 @@ def test_energy_momentum_in_a_progressive_stop(loss):
     else:
         assert np.diff(r["energy"]).max() < 1e-6
         assert r["energy"][-1] < r["energy"][0] - 50.0
+
+
+def test_energy_momentum_keeps_energy_on_the_edge_of_a_kerb():
+    kerb = KerbRoad(0.01, 0.303, -0.3, "after")  # its top 3 mm above the foot that runs into it
+    contact = ContactPoints(2e5, 2e5, 1e3, onset=0.01, friction_factor=0.0)
+    system = block(kerb, (0.5, 0.0, 0.0), 0.0, [(0.0, 0.0, -HEIGHT)], contact, gravity=0.0)
+    r = run(system, 0.3, 1e-3, method="energy_momentum")
+    assert r["fx"].min() < -5.0
+    assert r["fz"].max() > 10.0
+    assert np.abs(r["energy"] - r["energy"][0]).max() < 1e-8 * r["energy"][0]
