@@ -86,7 +86,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __repr__(self) -> str:
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
-        return f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors{known})"
+        told = "".join(f" {notice}" for notice in self.notices)
+        samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
+        return f"Trajectory({samples}, {len(self)} sensors{known}){told}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write one column per sensor, headed ``name [unit]``, with all digits."""

@@ -40,7 +40,8 @@ def block(road, speed=(0.0, 0.0, 0.0), lift=0.0, points=CORNERS, contact=CONTACT
 
 
 def run(system, t, h, **more):
-    return mbs.simulate(system, t, h, progress=False, **more)
+    # blocks that tumble are sensitive: what is asserted here is what holds for every step
+    return mbs.simulate(system, t, h, progress=False, estimate_error=False, **more)
 
 
 def test_block_slides_to_rest():
