@@ -62,13 +62,15 @@ void ali3_branch_before(ali3_instance *in) {
     for (int32_t k = first; k < end && !in->branch_kept; k++)
       in->branch_kept = in_line(in, in->mode_sine, k, first, end);
   }
-  if (in->branch_kept) ali3_vectors_copy(in, &in->before, &in->now);
+  if (!in->branch_kept) return;
+  ali3_vectors_copy(in, &in->before, &in->now);
+  in->report_before = in->report; /* books of energy go on from it */
 }
 
 /* The step from in->before in n equal parts, the angles at its end; false where a part fails. */
 static bool in_parts(ali3_instance *in, double t, double h, int n) {
   ali3_vectors_copy(in, &in->now, &in->before);
-  in->h_whole = h;
+  in->report = in->report_before;
   for (int i = 1; i <= n; i++) {
     in->kept = false;
     if (ali3_advance(in, t - h + h * (double)i / n, h / n, 0) != ALI3_OK) return false;
@@ -112,8 +114,8 @@ static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
   const ali3_report whole = in->report;
   const int32_t triad = jumped(in, t, h, first, end);
   ali3_vectors_copy(in, &in->now, &in->before);
+  in->report = in->report_before;
   in->kept = false;
-  in->h_whole = h;
   const ali3_status status = ali3_advance(in, t, h, in->settings.max_halvings);
   in->report = whole;
   if (status == ALI3_OK && triad >= 0) report(in, loop, triad, ALI3_BRANCH_JUMP, t);
