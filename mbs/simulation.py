@@ -437,6 +437,8 @@ def simulate(
     signals = InputSignals(inputs or {}, system.meta["inputs"])
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
 
+    made: list[Simulation] = []
+
     def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
         start = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
         simulation = Simulation(
@@ -447,29 +449,23 @@ def simulate(
             pose=pose,
             t0=t0,
         )
+        made.append(simulation)
         return simulation._march(t_end, step, inputs, every, progress, look)
 
-    look = estimate_error is not False and not accuracy.has_motion_sensor(system)
-    with progress_for(progress) as bar:
-        first = 1.0 / 3.0 if estimate_error else 1.0
-        try:
+    try:
+        look = estimate_error is not False and not accuracy.has_motion_sensor(system)
+        with progress_for(progress) as bar:
+            first = 1.0 / 3.0 if estimate_error else 1.0
             run = march(h, every, lambda share: bar.update(first * share), look)
-        except SimulationError as error:
-            _tell_branch(error.trajectory)
-            raise
-        _tell_branch(run[0])
-        if estimate_error is not False:
-            run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+            if estimate_error is not False:
+                run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+    finally:  # of the run that was asked for, also when it failed
+        if made and made[0].branch_change:
+            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=2)
     found = run[0].accuracy
     if found is not None and found.message:
         warnings.warn(found.message, AccuracyWarning, stacklevel=2)
     return run[0]
-
-
-def _tell_branch(trajectory: Trajectory | None) -> None:
-    """Warn, for the caller of `simulate`, of a closed loop that changed its assembly mode."""
-    if trajectory is not None and trajectory.branch_change:
-        warnings.warn(trajectory.branch_change, BranchWarning, stacklevel=3)
 
 
 def _check_step(h: float) -> None:

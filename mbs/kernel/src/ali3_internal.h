@@ -144,6 +144,7 @@ struct ali3_instance {
   void (*release)(void *block);
   ali3_settings settings;
   ali3_report report;
+  ali3_report report_before; /* of the step that branch_watch.c may make again */
   double t_base, h_last; /* time = t_base + count * h_last */
   bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count;

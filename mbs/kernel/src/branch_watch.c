@@ -64,13 +64,18 @@ void ali3_branch_before(ali3_instance *in) {
   }
   if (!in->branch_kept) return;
   ali3_vectors_copy(in, &in->before, &in->now);
-  in->report_before = in->report; /* books of energy go on from it */
+  in->report_before = in->report;
+}
+
+/* Back to before the step, with the books that go with it: they take part in the judgement of a step. */
+static void again(ali3_instance *in) {
+  ali3_vectors_copy(in, &in->now, &in->before);
+  in->report = in->report_before;
 }
 
 /* The step from in->before in n equal parts, the angles at its end; false where a part fails. */
 static bool in_parts(ali3_instance *in, double t, double h, int n) {
-  ali3_vectors_copy(in, &in->now, &in->before);
-  in->report = in->report_before;
+  again(in);
   for (int i = 1; i <= n; i++) {
     in->kept = false;
     if (ali3_advance(in, t - h + h * (double)i / n, h / n, 0) != ALI3_OK) return false;
@@ -113,8 +118,7 @@ static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
   if (k == end) return ALI3_OK;
   const ali3_report whole = in->report;
   const int32_t triad = jumped(in, t, h, first, end);
-  ali3_vectors_copy(in, &in->now, &in->before);
-  in->report = in->report_before;
+  again(in);
   in->kept = false;
   const ali3_status status = ali3_advance(in, t, h, in->settings.max_halvings);
   in->report = whole;
