@@ -188,8 +188,7 @@ struct ali3_instance {
   /* of branch_watch.c, signed squares: sines and cosines of the triads at in->now; sines before the step, after it, after it in parts;
    * loops that left their modes */
   double *mode_sine, *mode_cosine, *sine_before, *sine_after, *sine_few, *mode_left;
-  ali3_vectors before; /* the state before a step where branches may be near, and the report then */
-  ali3_report report_before;
+  ali3_vectors before; /* the state before a step where branches may be near */
   bool mode_known, branch_kept;
   /* of start_equilibrium.c: where a start is and how a pose moves it; the last pose; who placed the present start */
   double *start_q, *pose_0, *pose_cos, *pose_sin, pose[5];
