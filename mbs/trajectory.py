@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,6 +41,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted.
     accuracy : Accuracy, optional
         What is known of the error.
+    notices : sequence of str
+        What the scene wants told, see `Model.notice`; judged at the recorded times.
     branch_change : str
         A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
     """
@@ -55,6 +57,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         settings: Settings | None = None,
         wall_s: float = float("nan"),
         accuracy: Accuracy | None = None,
+        notices: Sequence[str] = (),
         branch_change: str = "",
     ) -> None:
         self.t = t
@@ -63,6 +66,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.settings = settings
         self.wall_s = wall_s
         self.accuracy = accuracy
+        self.notices = tuple(notices)
         self.branch_change = branch_change
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
@@ -86,9 +90,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __repr__(self) -> str:
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
-        told = f"; {self.branch_change}" if self.branch_change else ""
-        span = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
-        return f"Trajectory({span}, {len(self)} sensors{known}{told})"
+        told = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
+        samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
+        return f"Trajectory({samples}, {len(self)} sensors{known}){told}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write one column per sensor, headed ``name [unit]``, with all digits."""
