@@ -321,6 +321,7 @@ class Simulation:
             wall,
             accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
             notices=_notices(sensors, t, values),
+            branch_change=self.branch_change,
         )
 
     def _index(self, kind: str, name: str) -> int:

@@ -59,17 +59,20 @@ static bool counted(int64_t n) { return n >= 0 && n < MOST_COUNTED; }
 
 static bool magnitude(double x) { return x >= 0.0 && x - x == 0.0; }
 
-static bool report_valid(const ali3_system *s, const ali3_report *r) {
-  const bool changed = r->branch_changes > 0;
+static bool branch_valid(const ali3_system *s, const ali3_report *r) {
   if (!counted(r->branch_changes) || !(r->branch_time - r->branch_time == 0.0)) return false;
-  if (changed && (r->branch_loop < 0 || r->branch_loop >= ali3_loop_count(s) || r->branch_triad < 0 ||
-                  ALI3_TRIAD_ITEMS * (r->branch_triad + 1) >
-                      s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]))
-    return false;
-  return magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) && magnitude(r->velocity_path) &&
-         magnitude(r->predictor_path) && r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 &&
-         counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
-         counted(r->halvings) && counted(r->failures) && r->energy_error - r->energy_error == 0.0;
+  return r->branch_changes == 0 ||
+         (r->branch_loop >= 0 && r->branch_loop < ali3_loop_count(s) && r->branch_triad >= 0 &&
+          ALI3_TRIAD_ITEMS * ((int64_t)r->branch_triad + 1) <=
+              s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]);
+}
+
+static bool report_valid(const ali3_system *s, const ali3_report *r) {
+  return branch_valid(s, r) && magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) &&
+         magnitude(r->velocity_path) && magnitude(r->predictor_path) && r->energy - r->energy == 0.0 &&
+         r->open_power - r->open_power == 0.0 && counted(r->steps) && counted(r->iterations) &&
+         counted(r->factorizations) && counted(r->solves) && counted(r->halvings) && counted(r->failures) &&
+         r->energy_error - r->energy_error == 0.0;
 }
 
 static void get(void *to, const unsigned char **from, size_t size) {
