@@ -419,7 +419,7 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 4 % of the work in the motion, or the repeat says that positions, lengths,
+        When constraint forces did more than 6 % of the work in the motion, or the repeat says that positions, lengths,
         angles or forces of elements are off by more than 5 % of the largest range in their unit.
     """
     _check_step(h)
