@@ -342,6 +342,7 @@ class Simulation:
             return SimulationError(message, self.time, error.status, trajectory)
         if error.status == TOO_STIFF:
             rate = report["fastest_rate"]
+        if error.status == TOO_STIFF and rate > 0.0:
             message += (
                 f" Its rate is {rate:.3g} 1/s here: steps of about {STIFF_STEP / rate:.1g} s follow it; implicit "
                 "methods ('ali3p', 'radau_5') need not."
