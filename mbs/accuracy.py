@@ -262,7 +262,8 @@ def _higher_orders(system: System, method: str) -> list[str]:
     arrays = system.arrays
     if ORDER.get(method, 2) > 2 or len(arrays["y0"]) or (np.asarray(arrays["guide_type"]) == 1).any():
         return []
-    explicit = "runge_kutta_8" if system.report["no_tree"] else "semi_recursive"
+    open_tree = not system.report["no_tree"] and len(arrays["tree_cut_body"]) == 0
+    explicit = "semi_recursive" if open_tree else "runge_kutta_8"
     return [explicit] + (["radau_5"] if len(arrays["velocity_row"]) == 0 else [])
 
 
