@@ -270,9 +270,9 @@ class Simulation:
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""
-        balance, driven = self.instance.energy_balance(), len(self.system.arrays["gterm_row"]) > 0
-        if self._warned or balance <= accuracy.WRONG_BALANCE:
+        if self._warned or self.instance.energy_balance() <= accuracy.WRONG_BALANCE:
             return
+        driven = len(self.system.arrays["gterm_row"]) > 0
         if accuracy.balance_says(self.report, self.settings.method, driven):
             self._warned = True
             text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
