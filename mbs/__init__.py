@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from mbs.affine import Affine, AffineVector
+from mbs.branch_warning import BranchWarning
 from mbs.compile import compile
 from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
@@ -13,7 +14,9 @@ from mbs.system import System, SystemFileError
 if TYPE_CHECKING:
     from mbs.accuracy import Accuracy, AccuracyWarning
     from mbs.errors import SimulationError
+    from mbs.kinks import LinearisationWarning
     from mbs.linear_model import LinearModel, linearise
+    from mbs.periodic_motion import FloquetModel, floquet
     from mbs.settings import Settings
     from mbs.simulation import Pose, Simulation, simulate
     from mbs.trajectory import Trajectory
@@ -27,7 +30,10 @@ _LAZY = {
     "Simulation": "mbs.simulation",
     "SimulationError": "mbs.errors",
     "Trajectory": "mbs.trajectory",
+    "FloquetModel": "mbs.periodic_motion",
     "LinearModel": "mbs.linear_model",
+    "LinearisationWarning": "mbs.kinks",
+    "floquet": "mbs.periodic_motion",
     "linearise": "mbs.linear_model",
     "simulate": "mbs.simulation",
 }
@@ -37,7 +43,10 @@ __all__ = [
     "AccuracyWarning",
     "Affine",
     "AffineVector",
+    "FloquetModel",
+    "BranchWarning",
     "LinearModel",
+    "LinearisationWarning",
     "Model",
     "ModelError",
     "Pose",
@@ -48,6 +57,7 @@ __all__ = [
     "SystemFileError",
     "Trajectory",
     "compile",
+    "floquet",
     "linearise",
     "simulate",
 ]
