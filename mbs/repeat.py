@@ -70,10 +70,11 @@ def _compared(system: System, coarse: Run, fine: Run, known: Accuracy, parts: in
     else:
         groups = accuracy.judged_sensors(system)
         units, sensors, ranges = accuracy.differences(run, again, groups)
-    factor = 1.0 / (1.0 - ratio ** -accuracy.ORDER.get(method, 2))
+    order = accuracy.measured_order(method, run.report, again.report, ratio)
+    factor = 1.0 / (1.0 - ratio**-order)
     known = replace(
         known,
-        order=accuracy.measured_order(method, run.report, again.report, ratio),
+        order=order,
         units={unit: factor * e for unit, e in units.items()},
         sensors={name: factor * e for name, e in sensors.items()},
     )
