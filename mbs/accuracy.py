@@ -18,7 +18,7 @@ from mbs.system import System
 Array = NDArray[np.float64]
 
 WRONG_ERROR = 0.05  # of the largest range in a unit
-WRONG_BALANCE = 0.06  # ALI3_BALANCE_WRONG: above it, at any time, no run of the survey was right
+WRONG_BALANCE = 0.036  # ALI3_BALANCE_WRONG: above it, at any time, no run of the survey was right
 SUSPECT_HALVINGS = 0.1  # per step
 SUSPECT_DRIFT = 0.03  # energy balance times (1 + radians turned); half of the smallest of a wrong run
 GOAL_ERROR, GOAL_DRIFT = 0.01, 0.01  # what the step that is proposed aims at

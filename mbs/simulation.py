@@ -426,7 +426,7 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 6 % of the work in the motion, or the repeat says that positions, lengths,
+        When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions, lengths,
         angles or forces of elements are off by more than 5 % of the largest range in their unit.
     BranchWarning
         When a closed loop changed its assembly mode; once, with the names of its joints and the time.

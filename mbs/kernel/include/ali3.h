@@ -168,7 +168,7 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 #define ALI3_FASTEST 1e6
 /* |energy_error| over the energy that was in the motion: largest kinetic energy and work. Above ALI3_BALANCE_WRONG, at
  * any time, no run was right that was tried; below it a run may be wrong. */
-#define ALI3_BALANCE_WRONG 0.06
+#define ALI3_BALANCE_WRONG 0.036
 ALI3_API double ali3_energy_balance(const ali3_report *report);
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
