@@ -20,7 +20,7 @@ from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table
 from benchmarks.honesty_scenes import SCENES
 from benchmarks.kernel_methods import TITLES
-from mbs.accuracy import WRONG_ERROR
+from mbs.accuracy import WRONG_BALANCE, WRONG_ERROR
 
 LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
 HOLDS = 1e-3  # of the range: a smaller error need not be told
@@ -48,6 +48,7 @@ SUMMARY = {
     "false alarms": "d",
     "wrong": "d",
     "missed": "d",
+    "said by the balance": "d",
     "right without a repeat": ".0%",
     "off by more than told": "d",
 }
@@ -101,6 +102,7 @@ def summary(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
                 "false alarms": sum(r["verdict"] == VERDICTS[1] for r in done),
                 "wrong": len(done) - len(right),
                 "missed": sum(r["verdict"] == VERDICTS[3] for r in done),
+                "said by the balance": sum((r["balance"] or 0.0) > WRONG_BALANCE for r in done),
                 "right without a repeat": quiet / len(right) if right else None,
                 "off by more than told": sum(r["error"] > FACTOR * r["told"] for r in told),
             }

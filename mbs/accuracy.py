@@ -152,6 +152,12 @@ def divisor(steps: int, halvings: int) -> int:
     return max(2, math.ceil(2.0 * (1.0 + halvings / max(steps, 1)) - 1e-9))
 
 
+def recorded_every(every: int, steps: int) -> int:
+    """A divisor of `every` with which a run of so many steps has enough samples to be compared."""
+    least = max(1, steps // INSTANTS)
+    return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
+
+
 def instants(samples: int) -> NDArray[np.int_]:
     """Numbers of the samples at which two runs are compared."""
     return np.unique(np.linspace(0, max(samples - 1, 0), INSTANTS + 1).round().astype(int))

@@ -426,14 +426,18 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions, lengths,
-        angles or forces of elements are off by more than 5 % of the largest range in their unit.
+        When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
+        lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit.
     BranchWarning
         When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
     _check_step(h)
     if method is not None:
         settings = replace(settings or Settings(), method=method)
+    if estimate_error not in (None, True, False):
+        raise ValueError(f"estimate_error = {estimate_error!r}; it must be True, False or None (suspects only).")
+    if every < 1:
+        raise ValueError(f"every = {every}; it must be at least 1.")
     signals = InputSignals(inputs or {}, system.meta["inputs"])
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
 
@@ -452,20 +456,28 @@ def simulate(
         made.append(simulation)
         return simulation._march(t_end, step, inputs, every, progress, look)
 
+    checked = estimate_error is not False
+    look = checked and not accuracy.has_motion_sensor(system)
+    often = accuracy.recorded_every(every, _count_steps(t0, t_end, h)) if checked else every
     try:
-        look = estimate_error is not False and not accuracy.has_motion_sensor(system)
         with progress_for(progress) as bar:
             first = 1.0 / 3.0 if estimate_error else 1.0
-            run = march(h, every, lambda share: bar.update(first * share), look)
-            if estimate_error is not False:
-                run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+            run = march(h, often, lambda share: bar.update(first * share), look)
+            found = run[0].accuracy
+            if checked:
+                found = repeat.check(system, run, march, h, often, bar.update, estimate_error is True)
+    except SimulationError as error:
+        if error.trajectory is not None:
+            error.trajectory = error.trajectory.thinned(every // often)
+        raise
     finally:  # of the run that was asked for, also when it failed
         if made and made[0].branch_change:
             warnings.warn(made[0].branch_change, BranchWarning, stacklevel=2)
-    found = run[0].accuracy
+    trajectory = run[0].thinned(every // often)
+    trajectory.accuracy = found
     if found is not None and found.message:
         warnings.warn(found.message, AccuracyWarning, stacklevel=2)
-    return run[0]
+    return trajectory
 
 
 def _check_step(h: float) -> None:

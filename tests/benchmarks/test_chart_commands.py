@@ -109,6 +109,7 @@ def test_what_goes_against_the_rule_is_counted_and_named():
         verdict = honesty.VERDICTS[2 * wrong + (said != wrong if wrong else said)]
         return {"scene": "s", "method": "radau_5", "h_s": error, "ended": "finished", "error": error, "told": told} | {
             "repeated": "yes" if told else "no",
+            "balance": None,
             "verdict": verdict,
         }
 
