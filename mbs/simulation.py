@@ -35,7 +35,7 @@ from mbs.system import System
 from mbs.trajectory import Trajectory
 
 SINGULAR = {"switches": "switch"}
-STIFF_STEP = 2.5  # fastest rate times step that an explicit method follows, at least
+STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -112,7 +112,7 @@ class Simulation:
         if pose is not None:
             self._call(f"The starting {pose} was refused", lambda: self.instance.set_pose(*astuple(pose)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
-        self._warned = False
+        self._warned, self._tried = False, 0.0  # whether it has warned, the last step tried
 
     @property
     def time(self) -> float:
@@ -202,6 +202,7 @@ class Simulation:
             Once, when the energy balance since the start says that the result is wrong.
         """
         _check_step(h)
+        self._tried = h
         if n != int(n) or n < 0:
             raise ValueError(f"n = {n}; it must be a whole number of steps.")
         for _ in range(int(n)):
@@ -239,6 +240,7 @@ class Simulation:
     ) -> tuple[Trajectory, list[NDArray[np.float64]]]:
         """The steps of `run`; with `look` also the coordinates at the instants where two runs are compared."""
         _check_step(h)
+        self._tried = h
         t0 = self.time
         steps = _count_steps(t0, t_end, h)
         if every < 1:
@@ -350,8 +352,8 @@ class Simulation:
             rate = report["fastest_rate"]
         if error.status == TOO_STIFF and rate > 0.0:
             message += (
-                f" Its rate is {rate:.3g} 1/s here: steps of about {STIFF_STEP / rate:.1g} s follow it; implicit "
-                "methods ('ali3p', 'radau_5') need not."
+                f" Its rate here is {rate:.3g} 1/s, which times the step of {self._tried:g} s is {rate * self._tried:.3g}; "
+                f"that should be below about {STIFF_STEP:g}. Implicit methods ('ali3p', 'radau_5') need not follow it."
             )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
         if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):

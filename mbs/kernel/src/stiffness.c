@@ -34,13 +34,13 @@ static double fastest_rate(ali3_instance *in) {
   const int32_t nq = in->system->size.nq;
   double *x = in->stage, *v = x + nq, *a0 = v + nq, *a = a0 + nq, growth = 1.0;
   for (int32_t i = 0; i < nq; i++) {
-    x[i] = 0.0;
-    v[i] = 1.0 + 0.37 * (double)(i % 7); /* along no symmetry of the model */
+    x[i] = 1.0 + 0.23 * (double)(i % 5); /* along no symmetry of the model */
+    v[i] = 1.0 + 0.37 * (double)(i % 7);
   }
   if (!accelerations(in, x, v, 0.0, a0)) return 0.0;
   const double size = fmax(1.0, fmax(length(in->now.q, nq), length(in->now.qd, nq)));
   for (int round = 0; round < ROUNDS; round++) {
-    const double scale = SHIFT * size / length(v, nq);
+    const double scale = SHIFT * size / fmax(length(x, nq), length(v, nq));
     if (!(scale < 1e300) || !accelerations(in, x, v, scale, a)) return 0.0;
     const double before = length(v, nq);
     for (int32_t i = 0; i < nq; i++) {
