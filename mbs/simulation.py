@@ -351,9 +351,10 @@ class Simulation:
         if error.status == TOO_STIFF:
             rate = report["fastest_rate"]
         if error.status == TOO_STIFF and rate > 0.0:
+            times = f"{rate:.3g} 1/s, which times the step of {self._tried:g} s is {rate * self._tried:.3g}"
             message += (
-                f" Its rate here is {rate:.3g} 1/s, which times the step of {self._tried:g} s is {rate * self._tried:.3g}; "
-                f"that should be below about {STIFF_STEP:g}. Implicit methods ('ali3p', 'radau_5') need not follow it."
+                f" Its rate here is {times}; that should be below about {STIFF_STEP:g}. Implicit methods "
+                "('ali3p', 'radau_5') need not follow it."
             )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
         if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):
