@@ -83,6 +83,15 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def thinned(self, every: int) -> Trajectory:
+        """Every so many samples, the first one among them, with the same report, settings and accuracy."""
+        if every == 1:
+            return self
+        values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))
+        names, units = list(self.units), list(self.units.values())
+        rest = (self.report, self.settings, self.wall_s, self.accuracy)
+        return Trajectory(self.t[::every], values[::every], names, units, *rest)
+
     @property
     def realtime_factor(self) -> float:
         """Simulated time over wall time: above 1 is faster than real time."""

@@ -191,3 +191,21 @@ def test_a_start_below_the_road_is_refused_and_can_be_put_right(
     assert driven.call("exitInitializationMode") == OK
     assert driven.get("wheel_RL.Fz") == driven.get("wheel_FR.Fz") == 0.0
     driven.run(3, STEP)
+
+
+@pytest.mark.parametrize("kind", ["native", "python"])
+@pytest.mark.parametrize(("name", "unit"), [("initial.x", "m"), ("initial.speed", "m/s")])
+def test_a_start_beyond_the_digits_is_refused_by_its_name(
+    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, kind: str, name: str, unit: str
+) -> None:
+    driven = host(cars[1][kind])
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
+    assert driven.set(name, 1e300) == OK
+    assert driven.call("exitInitializationMode") == ERROR
+    said = driven.messages[-1]
+    assert "too far away or too fast" in said
+    assert said.endswith(f" '{name}' is 1e+300 {unit}.")
+    assert "wishbone" not in said
+    assert driven.set(name, 0.0) == OK
+    assert driven.call("exitInitializationMode") == OK
