@@ -181,6 +181,11 @@ struct ali3_instance {
   double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;
   ali3_tree_work *tree;
+  /* inputs.c: who is asked, inputs at the start of the step, when it starts, its length, the time of in->now */
+  ali3_input_function *input_function;
+  void *input_context;
+  double *input_begin, *stage_input; /* nu; of the stages of radau.c */
+  double input_time, input_length, t_now;
 };
 
 enum { ALI3_LOCAL = ALI3_MAX_SIGNALS };
@@ -317,7 +322,7 @@ void ali3_predict_rates(ali3_instance *in, double h);
 void ali3_accelerate(ali3_instance *in, int32_t iteration);
 
 /* energy_momentum.c */
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool report);
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool report);
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
 
 /* energy_momentum_report.c */
@@ -385,5 +390,9 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 void ali3_keep(ali3_instance *in);
 ali3_status ali3_accept(ali3_instance *in);
-void ali3_input_between(ali3_instance *in, const double *u0, double share);
+
+/* inputs.c */
+ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h);
+ali3_status ali3_inputs_at(ali3_instance *in, double share);
+bool ali3_inputs_jump(const ali3_instance *in);
 #endif
