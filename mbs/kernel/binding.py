@@ -11,7 +11,7 @@ import math
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
+from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
 from pathlib import Path
 from typing import Any
 
@@ -114,7 +114,7 @@ class Sizes(Structure):
 
 
 _DOUBLES = POINTER(c_double)
-_INPUT_FUNCTION = CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLES)
+_INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLES)
 
 
 class InputTable(Structure):
@@ -343,7 +343,7 @@ class Instance:
         def ask(_: Any, t: float, after: int, values: Any) -> int:
             try:
                 function(t, bool(after), values)  # type: ignore[misc]
-            except BaseException as error:  # noqa: BLE001  raised again where the step is called
+            except BaseException as error:
                 self._input_error = error
                 return 1
             return 0

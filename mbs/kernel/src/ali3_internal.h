@@ -326,7 +326,8 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
 
 /* energy_momentum_report.c */
-void ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v, double weight);
+void ali3_energy_momentum_velocity(ali3_instance *in, ali3_vectors *v, double weight);
+ali3_status ali3_energy_momentum_forces(ali3_instance *in, ali3_vectors *v);
 void ali3_energy_momentum_report(ali3_instance *in);
 
 /* history.c */
@@ -340,6 +341,9 @@ void ali3_history_velocity(const ali3_instance *in, double h, double *v);
 /* index_one.c */
 #define ALI3_INDEX_ONE_PENALTY 1e8 /* of mass-normalised rows, with unit weight of M */
 ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v);
+ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q);
+ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const double *b, double tolerance, double *x,
+                                 double *lam);
 
 /* check_tree.c */
 ali3_status ali3_check_tree(const ali3_system *s, ali3_message m);
