@@ -326,8 +326,8 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
 
 /* energy_momentum_report.c */
-void ali3_energy_momentum_velocity(ali3_instance *in, ali3_vectors *v, double weight);
-ali3_status ali3_energy_momentum_forces(ali3_instance *in, ali3_vectors *v);
+void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight);
+ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v);
 void ali3_energy_momentum_report(ali3_instance *in);
 
 /* history.c */

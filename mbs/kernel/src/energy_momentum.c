@@ -281,11 +281,9 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   }
   to->h_last[0] = 0.0;
   if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
-  const bool on_rows = carries_projected(in);
   same_place(in, to);
   memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
-  if (reported || on_rows) ali3_energy_momentum_velocity(in, to, weight);
-  if (on_rows) memcpy(to->own, to->qd, (size_t)nq * sizeof(double));
-  if (reported) status = ali3_energy_momentum_forces(in, to);
+  if (carries_projected(in)) ali3_energy_momentum_carry(in, to, weight);
+  if (reported) status = ali3_energy_momentum_show(in, to);
   return status == ALI3_OK ? ali3_accept(in) : status;
 }

@@ -10,10 +10,11 @@
 #include "ali3_internal.h"
 
 enum { STAGES = ALI3_RADAU, LAST = STAGES - 1, SWEEPS = 3, REFINEMENTS = 3 };
-static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
+static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-12;
 static const double SLOW = 0.3;         /* ratio of two errors from which on the tangent is made anew */
 static const double LEAST = 1e-2;       /* of the tolerances, what makes refinement end early */
-static const double SHARE = 1e-2, AT_START = 1e-12; /* of accelerations, what may be left of them */
+static const double SHARE = 1e-5, ROUND_OFF = 1e-12; /* of accelerations, what may be left of them */
+static const double STALLED = 1e-9; /* less is round-off where corrections do not fall any more */
 static const double EPS_SHARE = 1e-3;   /* of eps_rel, for rows that singular positions nearly lose */
 static const double LONGEST = 2.0;      /* steps; the last collocation polynomial is no guide farther on */
 
@@ -188,7 +189,7 @@ static double opening(const ali3_instance *in) {
  * itself. */
 static ali3_status newton(ali3_instance *in, double t, double h, double alpha, bool near) {
   const ali3_settings *settings = &in->settings;
-  double last, change = 0.0, need = near ? 0.0 : AT_START;
+  double last, change = 0.0, need = ROUND_OFF;
   bool fresh = true;
   int32_t refinements = 0;
   if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
@@ -200,10 +201,11 @@ static ali3_status newton(ali3_instance *in, double t, double h, double alpha, b
     if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
     const double r = in->report.residual / settings->tolerance_r, v = opening(in) / settings->tolerance_phi;
     const double size = fmax(r, v), left = size < last ? change * size / last : change;
-    if (iteration == 0 && near) need = SHARE * change * change;
+    if (iteration == 0 && near) need = fmax(ROUND_OFF, SHARE * change * change);
     if (r <= LEAST && v <= LEAST && left <= need) return ALI3_OK;
-    fresh = iteration > 0 && size > SLOW * last;
-    if (size <= 1.0 && (refinements++ == REFINEMENTS || fresh)) return ALI3_OK;
+    const bool slow = iteration > 0 && size > SLOW * last;
+    if (size <= 1.0 && (refinements++ == REFINEMENTS || (slow && (fresh || left <= STALLED)))) return ALI3_OK;
+    fresh = slow;
     last = size;
   }
   return ALI3_NOT_CONVERGED;
