@@ -359,8 +359,9 @@ def simulate(
     h : float
         Step, s.
     inputs : mapping of str to signal, optional
-        Per input a constant, a function of time, or a pair (times, values). A step from t to t + h uses the value at
-        t + h, which keeps the trapezoidal rule second order.
+        Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
+        use the value at the end of a step, the other methods those at the times of their stages; where a table jumps,
+        a step that begins there the value behind the jump, one that ends there the value before it.
     settings : Settings, optional
         How steps are solved.
     parameters : mapping of str to float, optional

@@ -16,3 +16,4 @@ class ElementType(IntEnum):
     TYRE = 8
     BRAKE = 9
     AUTOMATIC_DRIVE = 10
+    SPIN_TORQUE = 11

@@ -32,6 +32,7 @@ SOURCES = (
     "tmeasy",
     "brake",
     "automatic_drive",
+    "spin_torque",
     "road",
     "elementary",
 )

@@ -70,7 +70,9 @@ def _along(angle, rate, turn, length):
 
 
 def _named(place, velocity, acceleration, force, torque=None):
-    columns = (place, velocity, acceleration, force) if torque is None else (place, velocity, acceleration, force, torque)
+    columns = (
+        (place, velocity, acceleration, force) if torque is None else (place, velocity, acceleration, force, torque)
+    )
     return dict(zip(QUANTITIES, columns, strict=False))
 
 
@@ -119,7 +121,11 @@ def arm() -> Mechanism:
     def end_of_arm(t):
         a, w, e = rise(t), rise(t, 1), rise(t, 2)
         c, s = np.cos(a), np.sin(a)
-        return ARM * np.array([c, s]), ARM * w * np.array([-s, c]), ARM * np.array([-e * s - w * w * c, e * c - w * w * s])
+        return (
+            ARM * np.array([c, s]),
+            ARM * w * np.array([-s, c]),
+            ARM * np.array([-e * s - w * w * c, e * c - w * w * s]),
+        )
 
     def exact(t):
         def rates(time, b, w):
