@@ -11,7 +11,9 @@ from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 
 if TYPE_CHECKING:
+    from mbs.kinks import LinearisationWarning
     from mbs.linear_model import LinearModel, linearise
+    from mbs.periodic_motion import FloquetModel, floquet
     from mbs.settings import Settings
     from mbs.simulation import Pose, Simulation, SimulationError, simulate
     from mbs.trajectory import Trajectory
@@ -23,7 +25,10 @@ _LAZY = {
     "Simulation": "mbs.simulation",
     "SimulationError": "mbs.simulation",
     "Trajectory": "mbs.trajectory",
+    "FloquetModel": "mbs.periodic_motion",
     "LinearModel": "mbs.linear_model",
+    "LinearisationWarning": "mbs.kinks",
+    "floquet": "mbs.periodic_motion",
     "linearise": "mbs.linear_model",
     "simulate": "mbs.simulation",
 }
@@ -31,7 +36,9 @@ _LAZY = {
 __all__ = [
     "Affine",
     "AffineVector",
+    "FloquetModel",
     "LinearModel",
+    "LinearisationWarning",
     "Model",
     "ModelError",
     "Pose",
@@ -42,6 +49,7 @@ __all__ = [
     "SystemFileError",
     "Trajectory",
     "compile",
+    "floquet",
     "linearise",
     "simulate",
 ]
