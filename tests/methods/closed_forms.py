@@ -40,8 +40,8 @@ class Mechanism:
     exact: Callable[[np.ndarray], dict[str, np.ndarray]]
 
 
-def _sensors(m, rod, tip, axes="earth"):
-    for k, c in enumerate("xy"):
+def _sensors(m, rod, tip):
+    for c in "xy":
         m.sense_position(f"tip.{c}", rod, tip, c)
         m.sense_velocity(f"tip.v{c}", rod, tip, c)
         m.sense_acceleration(f"tip.a{c}", rod, tip, c)
@@ -70,10 +70,8 @@ def _along(angle, rate, turn, length):
 
 
 def _named(place, velocity, acceleration, force, torque=None):
-    columns = (
-        (place, velocity, acceleration, force) if torque is None else (place, velocity, acceleration, force, torque)
-    )
-    return dict(zip(QUANTITIES, columns, strict=False))
+    columns = (place, velocity, acceleration, force, torque)
+    return {name: c for name, c in zip(QUANTITIES, columns, strict=True) if c is not None}
 
 
 def rod(torque=None) -> Mechanism:

@@ -1,4 +1,4 @@
-"""Every reported quantity of every method has the order that docs/speed_and_accuracy.md says, from the first step on."""
+"""Every reported quantity of every method has the order that docs/speed_and_accuracy.md says, from the first step."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def test_forces_stay_right_where_the_step_changes(method, bound):
 
 @pytest.mark.parametrize("method", ["energy_momentum", "energy_momentum_4"])
 def test_forces_do_not_depend_on_who_looked_when(method):
-    mechanism, system = case("arm")
+    _, system = case("arm")
     every, some = (simulate(system, 0.8, 0.01, method=method, every=k) for k in (1, 8))
     for names in QUANTITIES.values():
         assert (sensed(every, names)[::8] == sensed(some, names)).all()
@@ -127,7 +127,7 @@ def test_newtons_law_closes_on_the_car_at_4_ms(method):
 @pytest.mark.parametrize("method", INSIDE)
 def test_inputs_jump_where_a_step_begins(method):
     """A table that jumps at 0.3 s, where three steps of 0.1 end: the order of a chirp is not lost to it."""
-    mechanism, system = case("chirp")
+    _, system = case("chirp")
     table = ([0.0, 0.3, 0.3, 1.0], [0.0, 0.0, 8.0, 8.0])
     before = rod(lambda t: 0.0).exact(np.linspace(0.0, 0.3, 4))
     run = simulate(system, 0.6, 0.02, {"motor": table}, method=method)
