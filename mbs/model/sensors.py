@@ -17,6 +17,7 @@ from mbs.model.core import Coordinate, ModelCore
 from mbs.model.flexible import FlexibleBody
 from mbs.model.joints.joint import Joint
 from mbs.model.ports import PortedBody
+from mbs.model.reactions import Term
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
@@ -41,6 +42,8 @@ class Sensor:
         For joint forces: the joint whose kept rows are weighted; ``integers`` are then numbers of its equations.
     joints : sequence of Joint
         Joints whose three kept rows each come last among the integers.
+    terms : sequence of Term
+        Products with multipliers of `joint`, which make up all integers and reals.
     """
 
     name: str
@@ -52,6 +55,7 @@ class Sensor:
     reals: Sequence[float] = ()
     joint: Joint | None = None
     joints: Sequence[Joint] = ()
+    terms: Sequence[Term] = ()
 
 
 def component_number(component: Any, dimension: int, what: str) -> int:
@@ -82,9 +86,10 @@ class SensorVocabulary(ModelCore):
         reals: Sequence[float] = (),
         joint: Joint | None = None,
         joints: Sequence[Joint] = (),
+        terms: Sequence[Term] = (),
     ) -> Sensor:
         self.unique("sensor", name)
-        sensor = Sensor(name, unit, description, type, signals, integers, reals, joint, joints)
+        sensor = Sensor(name, unit, description, type, signals, integers, reals, joint, joints, terms)
         self.sensors.append(sensor)
         return sensor
 
@@ -290,44 +295,6 @@ class SensorVocabulary(ModelCore):
                     f"The sensor '{name}' asks for '{output}' of element '{element_name}', which has: {known}."
                 )
         raise ModelError(f"The sensor '{name}' asks for element '{element_name}', but the model has no such element.")
-
-    def sense_joint_force(
-        self, name: str, joint: Joint | str, component: str = "x", unit: str = "N", description: str = ""
-    ) -> Sensor:
-        """Force of a joint on its first body: a component in earth axes at a shared point or from a line of the
-        ground, "tension" of a distance, "drive" of a drive.
-
-        The equations of the joint stay rows of the System, so that the multipliers exist.
-        """
-        found = self.joint_named(joint) if isinstance(joint, str) else joint
-        if found not in self.joints:
-            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {joint!r}.")
-        rows = found.force_equations
-        if not rows:
-            raise ModelError(
-                f"The joint '{found.name}' ({found.type}) has no force reading; points, lines of the ground, distances "
-                "and driven coordinates have one."
-            )
-        if found.normals:
-            k = component_number(component, self.dimension, f"sensor '{name}'")
-            if any(n[k].terms for n in found.normals):
-                raise ModelError(
-                    f"The line of joint '{found.name}' turns with its second body; "
-                    "only a line of the ground, as second body, has components in earth axes."
-                )
-            rows, weights = list(rows), [-n[k].constant for n in found.normals]
-        elif found.type in ("distance", "drive"):
-            expected = "tension" if found.type == "distance" else "drive"
-            if component not in (expected, "x"):
-                raise ModelError(
-                    f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
-                )
-            rows, weights = rows[:1], [found.rows_weight if found.type == "distance" else -found.rows_weight]
-        else:
-            k = component_number(component, self.dimension, f"sensor '{name}'")
-            rows, weights = rows[k : k + 1], [-found.rows_weight]
-        found.keep = True
-        return self._sense(name, unit, description, 9, integers=rows, reals=weights, joint=found)
 
     def sense_quasi_static(
         self,

@@ -172,7 +172,7 @@ ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, si
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is
-   zero and the jacobian is A. */
+   zero and the jacobian is A. Signs are those of M qdd + Phi_q' lam = Q: rows put the force -Phi_q' lam on q. */
 ALI3_API ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam,
                                     double *y);
 ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, const double *y, double t,
