@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
-from mbs.model.joints.joint import Joint, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.reactions import Turning
 
 _BIG = 1.0 - 1e-12
@@ -73,7 +73,9 @@ def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     p1, p2 = point_pair(point, model.dimension, what)
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
-    return Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
+    joint = Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    return joint
 
 
 def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike | None) -> Joint:
@@ -95,7 +97,10 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
     if axes is not None:
         a1, a2 = axes
         turning = lambda: turning_about(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
-    return Joint(name, "revolute", equations, rows_weight=1.0, places=places, turning=turning)
+    joint = Joint(name, "revolute", equations, rows_weight=1.0, places=places, turning=turning)
+    shared = None if axes is None else body_1.vector(direction(axes[0], 3, f"the axis of {what}"))
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), shared)
+    return joint
 
 
 def universal(
@@ -116,4 +121,6 @@ def universal(
     equations = shared_point(model, name, body_1, body_2, point, what)
     equations.append(Equation(name, "axes", dot_products(a1, a2), Affine({}, -cosine)))
     turning = lambda: Turning(points_of(body_1, p1, body_2, p2), [(a1, a2, cosine)])  # noqa: E731
-    return Joint(name, "universal", equations, rows_weight=1.0, turning=turning)
+    joint = Joint(name, "universal", equations, rows_weight=1.0, turning=turning)
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    return joint

@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import Interface, bends, located
-from mbs.model.joints.joint import Joint, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import different, may_share, points_of, shared_axis, shared_point, turning_about
 from mbs.model.reactions import Turning
 
@@ -39,6 +39,15 @@ def on_line(
     gap = model.anchor(end_1[0], end_1[1], what) - model.anchor(body_2, end_2[1], what)
     normals = _normals(model, body_2, axis, what)
     return [Equation(name, "line", dot_products(gap, n)) for n in normals], normals
+
+
+def _sliding_ends(end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike, what: str) -> JointEnds:
+    """The point of body 1 slides along the axis of body 2."""
+    (body_1, p1), (body_2, p2) = end_1, end_2
+    # a vector of a node that bends would bring rows of its own
+    turning = body_2.owner if isinstance(body_2, Interface) and body_2.bends else body_2
+    along = turning.vector(direction(axis, body_2.dimension, f"the axis of {what}"))
+    return JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), along, slides=True)
 
 
 def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, what: str) -> list[Equation]:
@@ -72,7 +81,9 @@ def point_on_line(
     what = f"point-on-line joint '{name}'"
     different(end_1[0], end_2[0], what)
     line, normals = on_line(model, name, end_1, end_2, axis, what)
-    return Joint(name, "point_on_line", line, normals=normals)
+    joint = Joint(name, "point_on_line", line, normals=normals)
+    joint.ends = _sliding_ends(end_1, end_2, axis, what)
+    return joint
 
 
 def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
@@ -87,7 +98,9 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
     a1, a2 = point_pair(axis, 3, what)
     turning = lambda: turning_about(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
-    return Joint(name, "cylindrical", equations + line, normals=normals, turning=turning)
+    joint = Joint(name, "cylindrical", equations + line, normals=normals, turning=turning)
+    joint.ends = _sliding_ends((body_1, p1), (body_2, p2), point_pair(axis, 3, what)[1], what)
+    return joint
 
 
 def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
@@ -103,7 +116,9 @@ def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
     places = JointPlaces((body_1, body_2), (p1, p2), (axis, axis))
     turning = lambda: no_turning(body_1, p1, body_2, p2)  # noqa: E731
-    return Joint(name, "prismatic", equations + line, normals=normals, places=places, turning=turning)
+    joint = Joint(name, "prismatic", equations + line, normals=normals, places=places, turning=turning)
+    joint.ends = _sliding_ends((body_1, p1), (body_2, p2), axis, what)
+    return joint
 
 
 def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
@@ -113,9 +128,13 @@ def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
     point = body_2.com if body_1.is_ground or isinstance(body_2, Interface) else body_1.com
     if body_1.is_point or body_2.is_point:
         point = body_1.com if body_1.is_point else body_2.com
-        return Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
+        joint = Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
+        joint.ends = JointEnds((body_1, body_2), (body_1.point(point), body_2.point(point)))
+        return joint
     equations = shared_point(model, name, body_1, body_2, point, what)
     equations += same_orientation(model, name, body_1, body_2, what)
     places = JointPlaces((body_1, body_2), (point, point))
     turning = lambda: no_turning(body_1, point, body_2, point)  # noqa: E731
-    return Joint(name, "weld", equations, rows_weight=1.0, places=places, turning=turning)
+    joint = Joint(name, "weld", equations, rows_weight=1.0, places=places, turning=turning)
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(point), body_2.point(point)))
+    return joint
