@@ -16,4 +16,5 @@ class ElementType(IntEnum):
     TYRE = 8
     BRAKE = 9
     AUTOMATIC_DRIVE = 10
-    SPIN_TORQUE = 11
+    CONTACT_POINTS = 11
+    SPIN_TORQUE = 12

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from mbs.affine import AffineVector
 from mbs.errors import ModelError
 from mbs.model.body import Body
-from mbs.model.joints.joint import Joint
+from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.reactions import Term, folded, force_on_first, moment_terms
 from mbs.model.sensors import Sensor, SensorVocabulary, component_number
 
@@ -31,10 +31,11 @@ class JointSensorVocabulary(SensorVocabulary):
         return self._sense(name, unit, description, TERMS, joint=joint, terms=terms)
 
     def sense_joint_force(
-        self, name: str, joint: Joint | str, component: str = "x", unit: str = "N", description: str = ""
+        self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
     ) -> Sensor:
         """Force of a joint on its first body: a component in earth axes at a shared point or from a line, "tension" of
-        a distance, "drive" of a drive, and either of a driven distance ("drive" pushes its ends apart).
+        a distance, "drive" of a drive, either of a driven distance ("drive" pushes its ends apart), "torque" of a gear
+        on its first wheel, "force" of a rack on its body and of a screw on its first body, both along the axis.
 
         The equations of the joint stay rows of the System, so that the multipliers exist.
         """
@@ -42,9 +43,10 @@ class JointSensorVocabulary(SensorVocabulary):
         rows = found.force_equations
         if not rows:
             raise ModelError(
-                f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances and "
-                "drives have one."
+                f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
+                "drives, gears, racks and screws have one."
             )
+        unit = unit or ("N m" if found.type == "gear" else "N")
         if found.equations[rows[0]].kind == "driven_distance":
             return self._driven_distance(name, found, component, unit, description)
         if found.normals:
@@ -53,8 +55,8 @@ class JointSensorVocabulary(SensorVocabulary):
                 terms = [t for row, w, n in force_on_first(found) for t in folded(Term(w, row, (n[k],)))]
                 return self._sense_terms(name, unit, description, found, terms)
             rows, weights = list(rows), [-n[k].constant for n in found.normals]
-        elif found.type in ("distance", "drive"):
-            expected = "tension" if found.type == "distance" else "drive"
+        elif found.type in SCALAR_FORCES:
+            expected = SCALAR_FORCES[found.type]
             if component not in (expected, "x"):
                 raise ModelError(
                     f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."

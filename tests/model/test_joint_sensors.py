@@ -363,7 +363,10 @@ def test_a_moment_sensor_changes_no_motion():
         (lambda m: m.sense_joint_moment("s", "cardan", point=(0, 0, 0)), "at its own point only"),
         (lambda m: m.sense_joint_moment("s", "nothing"), "no joint named 'nothing'"),
         (lambda m: m.sense_joint_force("s", "rope", "y"), "for a driven distance it must be 'tension' or 'drive'"),
-        (lambda m: m.sense_joint_force("s", "turn"), "shared points, lines, distances and drives have one"),
+        (
+            lambda m: m.sense_joint_force("s", "turn"),
+            "lines, distances, drives, gears, racks and screws have one",
+        ),
     ],
 )
 def test_what_cannot_be_read_says_what_can(act, sentence):

@@ -16,9 +16,10 @@ from mbs.model.reactions import Turning
 if TYPE_CHECKING:
     from mbs.model.body import Body
 
-
-FORCES = ("point", "line", "distance", "drive", "driven_distance")
-"""Kinds of equations whose multipliers are forces."""
+FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
+"""Kinds of equations whose multipliers are a force or a torque that can be read."""
+SCALAR_FORCES = {"distance": "tension", "drive": "drive", "gear": "torque", "rack": "force", "screw": "force"}
+"""What the one force or torque of a type of joint is called."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +132,7 @@ class Joint:
     @property
     def force_equations(self) -> list[int]:
         """Numbers of the equations whose multipliers are its force."""
-        return [k for k, e in enumerate(self.equations) if e.kind in FORCES]
+        return [k for k, e in enumerate(self.equations) if e.kind in FORCE_KINDS]
 
 
 def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> list[Equation]:
