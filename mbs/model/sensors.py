@@ -15,8 +15,9 @@ from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.flexible import FlexibleBody
-from mbs.model.joints.joint import SCALAR_FORCES, Joint
+from mbs.model.joints.joint import Joint
 from mbs.model.ports import PortedBody
+from mbs.model.reactions import Term
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
@@ -41,6 +42,8 @@ class Sensor:
         For joint forces: the joint whose kept rows are weighted; ``integers`` are then numbers of its equations.
     joints : sequence of Joint
         Joints whose three kept rows each come last among the integers.
+    terms : sequence of Term
+        Products with multipliers of `joint`, which make up all integers and reals.
     notice : str
         What a run tells when the value is not zero; empty: nothing.
     """
@@ -54,6 +57,7 @@ class Sensor:
     reals: Sequence[float] = ()
     joint: Joint | None = None
     joints: Sequence[Joint] = ()
+    terms: Sequence[Term] = ()
     notice: str = ""
 
 
@@ -85,9 +89,10 @@ class SensorVocabulary(ModelCore):
         reals: Sequence[float] = (),
         joint: Joint | None = None,
         joints: Sequence[Joint] = (),
+        terms: Sequence[Term] = (),
     ) -> Sensor:
         self.unique("sensor", name)
-        sensor = Sensor(name, unit, description, type, signals, integers, reals, joint, joints)
+        sensor = Sensor(name, unit, description, type, signals, integers, reals, joint, joints, terms)
         self.sensors.append(sensor)
         return sensor
 
@@ -306,46 +311,6 @@ class SensorVocabulary(ModelCore):
                     f"The sensor '{name}' asks for '{output}' of element '{element_name}', which has: {known}."
                 )
         raise ModelError(f"The sensor '{name}' asks for element '{element_name}', but the model has no such element.")
-
-    def sense_joint_force(
-        self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
-    ) -> Sensor:
-        """Force of a joint on its first body: a component in earth axes at a shared point or from a line of the
-        ground, "tension" of a distance, "drive" of a drive, "torque" of a gear on its first wheel, "force" of a rack
-        on its body and of a screw on its first body, both along the axis.
-
-        The equations of the joint stay rows of the System, so that the multipliers exist.
-        """
-        found = self.joint_named(joint) if isinstance(joint, str) else joint
-        if found not in self.joints:
-            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {joint!r}.")
-        rows = found.force_equations
-        if not rows:
-            raise ModelError(
-                f"The joint '{found.name}' ({found.type}) has no force reading; points, lines of the ground, "
-                "distances, driven coordinates, gears, racks and screws have one."
-            )
-        if found.normals:
-            k = component_number(component, self.dimension, f"sensor '{name}'")
-            if any(n[k].terms for n in found.normals):
-                raise ModelError(
-                    f"The line of joint '{found.name}' turns with its second body; "
-                    "only a line of the ground, as second body, has components in earth axes."
-                )
-            rows, weights = list(rows), [-n[k].constant for n in found.normals]
-        elif found.type in SCALAR_FORCES:
-            expected = SCALAR_FORCES[found.type]
-            if component not in (expected, "x"):
-                raise ModelError(
-                    f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
-                )
-            rows, weights = rows[:1], [found.rows_weight if found.type == "distance" else -found.rows_weight]
-        else:
-            k = component_number(component, self.dimension, f"sensor '{name}'")
-            rows, weights = rows[k : k + 1], [-found.rows_weight]
-        found.keep = True
-        unit = unit or ("N m" if found.type == "gear" else "N")
-        return self._sense(name, unit, description, 9, integers=rows, reals=weights, joint=found)
 
     def sense_quasi_static(
         self,

@@ -52,3 +52,21 @@ def sled() -> mbs.Model:
     m.sense_yaw("chassis.yaw", body)
     m.sense_norm("speed", body.point((0.3, 0.0)), 1, "m/s")
     return m
+
+
+def turned_rail() -> mbs.Model:
+    """Forces and moments that are products of multipliers and places."""
+    m = mbs.Model("turned_rail", dimension=2)
+    rail = m.body("rail", mass=2.0, com=(0.5, 0.0), inertia=0.2)
+    m.revolute("hinge", m.ground, rail, point=(0.0, 0.0))
+    slider = m.body("slider", mass=0.7, com=(0.4, 0.1), inertia=0.02)
+    m.prismatic("slide", slider, rail, axis=(1.0, 0.0), point=(0.5, 0.1))
+    m.torque("motor", rail, inputs=m.input("torque", min=-30.0, max=30.0, unit="N.m"))
+    load = m.point_mass("load", mass=0.5, position=(1.0, -1.0))
+    m.drive("winch", ((slider, (0.5, 0.1)), load), m.guide_time("rope", ([0.0, 1.0], [1.2, 0.9]), unit="m"))
+    for c in "xy":
+        m.sense_joint_force(f"slide.{c}", "slide", c)
+    m.sense_joint_moment("slide.moment", "slide")
+    m.sense_joint_moment("rail.moment", "slide", on="second")
+    m.sense_joint_force("winch.tension", "winch", "tension")
+    return m
