@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
@@ -25,6 +25,34 @@ class JointPlaces:
     axes: tuple[Any, Any] | None = None
 
 
+@dataclass(frozen=True)
+class JointEnds:
+    """What a joint between two rigid bodies asks of a point and an axis on each, so that both can be moved a little.
+
+    Attributes
+    ----------
+    bodies : pair of Body
+    points : pair of array_like, shape (dimension,)
+        As drawn, earth axes, m.
+    axes : pair of array_like or None
+        As drawn, earth axes.
+    conditions : tuple of str
+        Of these: "point" (the points are one), "axis" (the axes are parallel), "orientation" (nothing turns), "line"
+        (the first point on the second axis), "angle" (between the axes), "distance" (between the points).
+    remake : callable
+        ``remake(points, axes, length)`` is the joint with other ends.
+    length : float
+        Of a distance, m.
+    """
+
+    bodies: tuple[Body, Body]
+    points: tuple[Any, Any]
+    axes: tuple[Any, Any] | None
+    conditions: tuple[str, ...]
+    remake: Callable[[tuple[Any, Any], tuple[Any, Any] | None, float], Joint] = field(repr=False)
+    length: float = 0.0
+
+
 class Joint:
     """A constraint of the model.
 
@@ -42,6 +70,8 @@ class Joint:
         Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
     places : JointPlaces or None
         Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
+    ends : JointEnds or None
+        Of joints between two rigid bodies whose drawing can be corrected.
     """
 
     def __init__(
@@ -52,6 +82,7 @@ class Joint:
         rows_weight: float = 0.0,
         normals: Sequence[AffineVector] = (),
         places: JointPlaces | None = None,
+        ends: JointEnds | None = None,
     ) -> None:
         self.name = name
         self.type = type
@@ -59,6 +90,7 @@ class Joint:
         self.rows_weight = rows_weight
         self.normals = tuple(normals)
         self.places = places
+        self.ends = ends
         self.keep = False
         self.switch: Any = None
 
