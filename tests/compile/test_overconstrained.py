@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 
 import numpy as np
-import overconstrained_loops as drawn
+from tests.compile import overconstrained_loops as drawn
 import pytest
 
 from mbs import Model, ModelError, SimulationError, compile, simulate
