@@ -27,6 +27,7 @@ sig_val sig_const el_real input_start input_min input_max guide_real road_real p
 sen_real pose_0 pose_cos pose_sin pose_x pose_y pose_z pose_speed
 velocity_h flex_gravity flex_P flex_c flex_T flex_K flex_C
 tree_base tree_mass tree_centre tree_inertia tree_gravity tree_out_local tree_cut_place
+tree_angle_sign tree_angle_inertia
 """
 _INTEGER_NAMES = """
 mass_ptr mass_col mass_pos row_ptr row_col row_front row_loc quad_ptr quad_a quad_b angle_row angle_theta angle_ptr
@@ -36,6 +37,7 @@ el_loc_ptr el_loc guide_type guide_input guide_real_ptr road_type road_real_ptr 
 sen_int_ptr sen_int sen_real_ptr row_switch switch_start velocity_row velocity_ptr velocity_a velocity_b
 flex_mode_ptr flex_frame flex_mode flex_front flex_loc
 tree_parent tree_slides tree_frame tree_out_body tree_out_col tree_cut_body tree_cut_rows
+tree_angle_col tree_angle_ptr tree_angle_joint
 """
 FLOATS = frozenset(_FLOAT_NAMES.split())
 INTEGERS = frozenset(_INTEGER_NAMES.split())

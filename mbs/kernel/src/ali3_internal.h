@@ -45,7 +45,9 @@
   X(int32_t, 1, tree_parent) X(int32_t, 1, tree_slides) X(double, 2, tree_base) X(double, 2, tree_mass) \
   X(double, 2, tree_centre) X(double, 2, tree_inertia) X(double, 2, tree_gravity) X(int32_t, 1, tree_frame) \
   X(int32_t, 1, tree_out_body) X(double, 2, tree_out_local) X(int32_t, 1, tree_out_col) \
-  X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place)
+  X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place) \
+  X(int32_t, 1, tree_angle_col) X(int32_t, 1, tree_angle_ptr) X(int32_t, 1, tree_angle_joint) \
+  X(double, 2, tree_angle_sign) X(double, 2, tree_angle_inertia)
 /* clang-format on */
 
 /* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */

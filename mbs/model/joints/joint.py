@@ -53,6 +53,15 @@ class JointEnds:
     length: float = 0.0
 
 
+@dataclass(frozen=True)
+class Turn:
+    """What a relative angle measures: body 2 against body 1 about an axis (as drawn, earth axes; None in the plane)."""
+
+    bodies: tuple[Body, Body]
+    axis: Any
+    coordinate: int
+
+
 class Joint:
     """A constraint of the model.
 
@@ -72,6 +81,8 @@ class Joint:
         Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
     ends : JointEnds or None
         Of joints between two rigid bodies whose drawing can be corrected.
+    turn : Turn or None
+        Of a relative angle.
     """
 
     def __init__(
@@ -83,6 +94,7 @@ class Joint:
         normals: Sequence[AffineVector] = (),
         places: JointPlaces | None = None,
         ends: JointEnds | None = None,
+        turn: Turn | None = None,
     ) -> None:
         self.name = name
         self.type = type
@@ -91,6 +103,7 @@ class Joint:
         self.normals = tuple(normals)
         self.places = places
         self.ends = ends
+        self.turn = turn
         self.keep = False
         self.switch: Any = None
 
