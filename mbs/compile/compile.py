@@ -64,7 +64,9 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
     if isinstance(tolerance, bool) or not isinstance(tolerance, (int, float)) or not 0.0 <= tolerance <= MOST_TOLERANCE:
-        raise ModelError(f"The tolerance of compile is {tolerance!r}; it must be a number from 0 to {MOST_TOLERANCE:g}.")
+        raise ModelError(
+            f"The tolerance of compile is {tolerance!r}; it must be a number from 0 to {MOST_TOLERANCE:g}."
+        )
     joints = corrected_joints(model, float(tolerance))
     with redrawn(joints):
         closed = {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}

@@ -33,6 +33,7 @@ Array = NDArray[np.float64]
 TOLERANCE = 1e-4
 """Largest correction of a drawing, parts of its size and rad."""
 MOST_TOLERANCE = 0.01
+"""Beyond, a drawing is not one of the loop that moves but of another one."""
 NEAR = 0.03
 """A singular value below this part of the largest may be that of a redundant condition drawn badly."""
 EXACT = 1e-13
@@ -44,8 +45,8 @@ MOST_BODIES = 40
 ITERATIONS = 25
 REMAINDER = 0.02
 """Part of the misfit that one iteration may leave."""
-MOVES = 6
-"""Positions of a motion that is one."""
+MOVES, NEARLY = 10, 2e-3
+"""Positions of a motion that is one, and the largest misfit along it, parts of the size, of a loop that nearly moves."""
 PART_OF_LINK = 0.1
 """A correction is less than this part of the distance of two joints of a body."""
 
@@ -218,9 +219,7 @@ def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) ->
     return None
 
 
-def _close_all(
-    loops: Loops, positions: list[Closed], g: Array, share: float
-) -> tuple[Array, list[Closed]] | None:
+def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) -> tuple[Array, list[Closed]] | None:
     if not positions:
         return None
     rank, best, waited = positions[0].rank, np.inf, 0
@@ -275,7 +274,8 @@ def _joint(
     which = 0 if loops.planar else 2
     p, u = [p for p, _ in now], [E[:, which] for _, E in now]
     turn = max(
-        float(np.arcsin(min(1.0, np.linalg.norm(np.cross(a, E[:, which]))))) for a, (_, E) in zip(u, before, strict=True)
+        float(np.arcsin(min(1.0, np.linalg.norm(np.cross(a, E[:, which])))))
+        for a, (_, E) in zip(u, before, strict=True)
     )
     if meets and "point" in c.conditions:
         p = [0.5 * (p[0] + p[1])] * 2
@@ -319,19 +319,16 @@ def _largest(loops: Loops, joints: list[Corrected]) -> float:
 
 def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], tolerance: float) -> None:
     names = ", ".join(f"'{c.joint.name}'" for c in loops.conditions)
-    start = (
-        f"The loop of the joints {names} has more conditions than its motion allows and stands still as drawn, although "
-    )
+    start = f"The loop of the joints {names} has more conditions than its motion allows and stands still as drawn, although "
     allowed = f"{tolerance * loops.size:.3g} m and {tolerance:.3g} rad are allowed. Draw it more exactly"
     needed = _largest(loops, larger) if larger else np.inf
-    if larger and np.isfinite(needed):
+    if larger and needed <= MOST_TOLERANCE:
         worst = max(larger, key=lambda j: max(j.correction.distance / loops.size, j.correction.angle))
-        remedy = f", or allow compile more: tolerance={_round_up(needed):g}" if needed <= 0.9 * MOST_TOLERANCE else ""
         raise ModelError(
             f"{start}it would move if its joints closed, '{worst.joint.name}' by {worst.correction.distance:.3g} m and "
-            f"{worst.correction.angle:.3g} rad, where {allowed}{remedy}."
+            f"{worst.correction.angle:.3g} rad, where {allowed}, or allow compile more: tolerance={_round_up(needed):g}."
         )
-    if len(nearly) >= MOVES and max(c.open for c in nearly) <= NEAR:
+    if len(nearly) >= MOVES and max(c.open for c in nearly) <= NEARLY:
         at = max(nearly, key=lambda c: c.open)
         open_there = np.abs(loops.evaluate(at.places)[0])
         name, value = max(zip(loops.names(), open_there.tolist(), strict=True), key=lambda item: item[1])
@@ -344,7 +341,7 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
 def _round_up(x: float) -> float:
     """One digit, not smaller."""
     power = 10.0 ** np.floor(np.log10(x))
-    return float(np.ceil(1.01 * x / power) * power)
+    return min(MOST_TOLERANCE, float(np.ceil(1.01 * x / power) * power))
 
 
 def _redraw(given: Corrected, drawn: list[tuple[object, list[Array], list[Array]]]) -> None:

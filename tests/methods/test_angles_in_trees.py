@@ -136,7 +136,9 @@ def test_what_an_angle_still_keeps_out_of_the_tree_is_named():
     m.revolute("A", m.ground, first, point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0))
     m.revolute("B", first, second, point=(1.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
     m.relative_angle("twist", m.ground, second, axis=(0.0, 0.0, 1.0))
-    with pytest.raises(SimulationError, match="joints between the bodies of relative angle 'twist' turn about its axis"):
+    with pytest.raises(
+        SimulationError, match="joints between the bodies of relative angle 'twist' turn about its axis"
+    ):
         simulate(compile(m), 0.1, 0.01, method="semi_recursive")
     m = Model("two arms", dimension=2)
     arms = [m.body(f"arm {k}", mass=1.0, com=(0.5 + k, 0.0), inertia=0.1) for k in range(2)]

@@ -32,7 +32,8 @@ static ali3_status check_angles(const ali3_system *s, int64_t n, ali3_message m)
   if (angles > ALI3_MOST_ANGLES) return ali3_bad(m, "the tree has %lld angles", (long long)angles);
   CHECK(ali3_check_length(m, "tree_angle_inertia", s->n_tree_angle_inertia, angles));
   CHECK(ali3_check_length(m, "tree_angle_sign", s->n_tree_angle_sign, s->n_tree_angle_joint));
-  CHECK(ali3_check_pointers(m, "tree_angle_ptr", s->tree_angle_ptr, s->n_tree_angle_ptr, angles, s->n_tree_angle_joint));
+  CHECK(
+      ali3_check_pointers(m, "tree_angle_ptr", s->tree_angle_ptr, s->n_tree_angle_ptr, angles, s->n_tree_angle_joint));
   CHECK(ali3_check_indices(m, "tree_angle_col", s->tree_angle_col, angles, 0, s->size.nq));
   CHECK(ali3_check_indices(m, "tree_angle_joint", s->tree_angle_joint, s->n_tree_angle_joint, 1, n + 1));
   for (int64_t a = 0; a < angles; a++)
@@ -79,6 +80,10 @@ ali3_status ali3_check_tree(const ali3_system *s, ali3_message m) {
     CHECK(ali3_check_length(m, "tree_cut_body", s->n_tree_cut_body, 0));
     CHECK(ali3_check_length(m, "tree_cut_rows", s->n_tree_cut_rows, 0));
     CHECK(ali3_check_length(m, "tree_angle_col", s->n_tree_angle_col, 0));
+    CHECK(ali3_check_length(m, "tree_angle_ptr", s->n_tree_angle_ptr, 0));
+    CHECK(ali3_check_length(m, "tree_angle_joint", s->n_tree_angle_joint, 0));
+    CHECK(ali3_check_length(m, "tree_angle_sign", s->n_tree_angle_sign, 0));
+    CHECK(ali3_check_length(m, "tree_angle_inertia", s->n_tree_angle_inertia, 0));
     return ali3_check_length(m, "tree_cut_place", s->n_tree_cut_place, 0);
   }
   if (s->size.ng > 0 || s->size.n_switch > 0 || s->n_flex_front > 0 || s->n_velocity_row > 0)
