@@ -25,8 +25,8 @@ from mbs.compile.metadata import metadata
 from mbs.compile.natural import natural_coordinates
 from mbs.compile.open_joints import joint_gaps, joints_of_bodies
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
-from mbs.compile.polynomial import RowTerms, row_terms
 from mbs.compile.overconstrained import MOST_TOLERANCE, TOLERANCE, corrected_joints, redrawn
+from mbs.compile.polynomial import RowTerms, row_terms
 from mbs.compile.pose import pose_arrays
 from mbs.compile.report import rank_at, structure_report
 from mbs.compile.row_arrays import RowArrays

@@ -16,8 +16,9 @@ from mbs.compile.polynomial import Monomial, RowTerms
 from mbs.errors import ModelError
 
 DEPENDENT = 1e-7
-"""Relative size of the remainder of a dependent row. A drawing that is next to a special one, with rounded numbers, leaves
-remainders that are no conditions of their own."""
+"""Relative size of the remainder of a dependent row. A drawing with rounded numbers that is next to a special one
+leaves remainders that are no conditions of their own.
+"""
 CONTRADICTION = 1e-9
 """Relative size of the constant that dependent rows may leave."""
 OWNED = 1e-3

@@ -22,14 +22,16 @@ from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
+Welded = dict[int, Body]
+"""The body that stands for a welded one, by the identity of that."""
 SAME_POINT = 1e-9
 """Points of a body that are no farther apart, parts of the size, move together."""
 
 
 @dataclass
 class End:
-    """One end of a joint: number of its body (-1 the one at rest), point from the centre of mass (m) and frame (columns; the
-    axis is the third) in the axes of the body, first of its constants.
+    """One end of a joint: number of its body (-1 the one at rest), point from the centre of mass (m) and frame
+    (columns; the axis is the third) in the axes of the body, first of its constants.
     """
 
     body: int
@@ -65,8 +67,8 @@ class Places:
 
 
 class Loops:
-    """Rigid bodies that closed loops connect, but for one that is at rest: the ground or, where the loops are carried, the
-    body with most joints.
+    """Rigid bodies that closed loops connect, but for one that is at rest: the ground or, where the loops are carried,
+    the body with most joints.
 
     Attributes
     ----------
@@ -76,9 +78,10 @@ class Loops:
         Numbers of conditions and of constants of the drawing.
     """
 
-    def __init__(self, model: Model, joints: list[Joint]) -> None:
+    def __init__(self, model: Model, joints: list[Joint], welded: Welded) -> None:
         self.planar = model.dimension == 2
-        self.bodies = _bodies(joints)
+        self.bodies = _bodies(joints, welded)
+        self._welded = welded
         number = {id(body): k for k, body in enumerate(self.bodies)}
         drawn = [in_space(p) for joint in joints for p in _ends(joint).points]
         extent = np.ptp(np.array(drawn), axis=0) if drawn else np.zeros(3)
@@ -157,7 +160,7 @@ class Loops:
         given = _ends(joint)
         ends = []
         for side in (0, 1):
-            body = given.bodies[side]
+            body = _whole(given.bodies[side], self._welded)
             axis = None if given.axes is None else given.axes[side]
             frame = np.eye(3) if axis is None else frame_along(axis)
             if self.planar and axis is not None:
@@ -235,8 +238,16 @@ def loops_of(model: Model, most_bodies: int) -> list[Loops]:
     """The parts of a model in which every two joints between rigid bodies are in one closed loop, if they have
     no more than so many bodies.
     """
+    welded: Welded = {}
+    for joint in model.joints:
+        if joint.type == "weld" and joint.places is not None and _is_rigid(joint.places.bodies):
+            first, second = sorted(_sides(joint.places.bodies, welded), key=lambda b: not b.is_ground)
+            for body in (b for b in model.bodies if _whole(b, welded) is second):
+                welded[id(body)] = first
     joints = [j for j in model.joints if j.ends is not None and j.switch is None and _is_rigid(j.ends.bodies)]
-    return [Loops(model, block) for block in _blocks(joints) if len(_bodies(block)) <= most_bodies]
+    joints = [j for j in joints if len({id(b) for b in _sides(_ends(j).bodies, welded)}) == 2]
+    blocks = _blocks(joints, welded)
+    return [Loops(model, block, welded) for block in blocks if len(_bodies(block, welded)) <= most_bodies]
 
 
 def _cross(a: Array, b: Array) -> Array:
@@ -255,25 +266,33 @@ def _is_rigid(bodies: Iterable[Body]) -> bool:
     return all(type(body) in (Body, Ground) for body in bodies)
 
 
-def _bodies(joints: Iterable[Joint]) -> list[Body]:
+def _whole(body: Body, welded: Welded) -> Body:
+    return welded.get(id(body), body)
+
+
+def _sides(bodies: Iterable[Body], welded: Welded) -> list[Body]:
+    return [_whole(body, welded) for body in bodies]
+
+
+def _bodies(joints: Iterable[Joint], welded: Welded) -> list[Body]:
     """The bodies of a block without the one at rest."""
     found: dict[int, Body] = {}
     count: dict[int, int] = {}
     for joint in joints:
-        for body in _ends(joint).bodies:
+        for body in _sides(_ends(joint).bodies, welded):
             found[id(body)] = body
             count[id(body)] = count.get(id(body), 0) + 1
     rest = next((b for b in found.values() if b.is_ground), None) or max(found.values(), key=lambda b: count[id(b)])
     return [body for body in found.values() if body is not rest]
 
 
-def _blocks(joints: list[Joint]) -> list[list[Joint]]:
+def _blocks(joints: list[Joint], welded: Welded) -> list[list[Joint]]:
     """Joints of each block (biconnected component) of the graph of bodies and joints, those of one joint left out
     (J. Hopcroft, R. Tarjan, Communications of the ACM 16, 1973, algorithm 447; without recursion).
     """
     at: dict[int, list[tuple[int, int]]] = {}
     for n, joint in enumerate(joints):
-        a, b = (id(body) for body in _ends(joint).bodies)
+        a, b = (id(body) for body in _sides(_ends(joint).bodies, welded))
         at.setdefault(a, []).append((n, b))
         at.setdefault(b, []).append((n, a))
     order: dict[int, int] = {}

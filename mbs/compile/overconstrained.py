@@ -1,5 +1,5 @@
-"""Overconstrained loops as they are drawn: the constants of the drawing are moved, by as little as possible, to where the
-loops move.
+"""Overconstrained loops as they are drawn: the constants of the drawing are moved, by as little as possible, to where
+the loops move.
 
 A loop with more conditions than Kutzbach's count allows moves only if its lengths and angles are exactly right, and no
 drawing with rounded numbers is. Closing it at the drawn position would not do: the misfit comes back as soon as it
@@ -15,6 +15,7 @@ no more directions than it takes to explain the misfit.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -46,7 +47,7 @@ ITERATIONS = 25
 REMAINDER = 0.02
 """Part of the misfit that one iteration may leave."""
 MOVES, NEARLY = 10, 2e-3
-"""Positions of a motion that is one, and the largest misfit along it, parts of the size, of a loop that nearly moves."""
+"""Positions of a motion that is one; the largest misfit along it, parts of the size, of a loop that nearly moves."""
 PART_OF_LINK = 0.1
 """A correction is less than this part of the distance of two joints of a body."""
 
@@ -98,7 +99,7 @@ def redrawn(joints: list[Corrected]) -> Iterator[None]:
     old = [(j.joint, j.joint.equations, j.joint.normals, j.joint.places, j.joint.rows_weight) for j in joints]
     try:
         for given in joints:
-            _redraw(given, drawn)
+            _redraw(given)
         yield
     finally:
         for joint, equations, normals, places, weight in old:
@@ -169,11 +170,11 @@ def _moves_freely(loops: Loops, positions: list[Closed], tolerance: float) -> bo
     """Whether the loops move as drawn without a redundant condition: what looks redundant then is a short link."""
     exact = close(loops, positions[1].places, TIGHT)
     small = max(c.values[c.rank] if c.rank < len(c.values) else 0.0 for c in positions)
-    return exact.good and exact.rank == loops.rows and exact.right.shape[1] > 0 and small > 3.0 * tolerance
+    return bool(exact.good and exact.rank == loops.rows and exact.right.shape[1] > 0 and small > 3.0 * tolerance)
 
 
 def _stands_still(loops: Loops) -> bool:
-    return close(loops, loops.drawn(), TIGHT).right.shape[1] == 0
+    return int(close(loops, loops.drawn(), TIGHT).right.shape[1]) == 0
 
 
 def _parallel(loops: Loops, at: Closed, angle: float) -> Array:
@@ -273,10 +274,8 @@ def _joint(
     shift = max(float(np.linalg.norm(p - q)) for (p, _), (q, _) in zip(now, before, strict=True))
     which = 0 if loops.planar else 2
     p, u = [p for p, _ in now], [E[:, which] for _, E in now]
-    turn = max(
-        float(np.arcsin(min(1.0, np.linalg.norm(np.cross(a, E[:, which])))))
-        for a, (_, E) in zip(u, before, strict=True)
-    )
+    sines = [float(np.linalg.norm(np.cross(a, E[:, which]))) for a, (_, E) in zip(u, before, strict=True)]
+    turn = math.asin(min(1.0, max(sines)))
     if meets and "point" in c.conditions:
         p = [0.5 * (p[0] + p[1])] * 2
     if meets and {"axis", "orientation"} & set(c.conditions):
@@ -319,14 +318,18 @@ def _largest(loops: Loops, joints: list[Corrected]) -> float:
 
 def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], tolerance: float) -> None:
     names = ", ".join(f"'{c.joint.name}'" for c in loops.conditions)
-    start = f"The loop of the joints {names} has more conditions than its motion allows and stands still as drawn, although "
+    start = (
+        f"The loop of the joints {names} has more conditions than its motion allows and stands still as drawn, "
+        "although "
+    )
     allowed = f"{tolerance * loops.size:.3g} m and {tolerance:.3g} rad are allowed. Draw it more exactly"
     needed = _largest(loops, larger) if larger else np.inf
     if larger and needed <= MOST_TOLERANCE:
         worst = max(larger, key=lambda j: max(j.correction.distance / loops.size, j.correction.angle))
         raise ModelError(
             f"{start}it would move if its joints closed, '{worst.joint.name}' by {worst.correction.distance:.3g} m and "
-            f"{worst.correction.angle:.3g} rad, where {allowed}, or allow compile more: tolerance={_round_up(needed):g}."
+            f"{worst.correction.angle:.3g} rad, where {allowed}, or allow compile more: "
+            f"tolerance={_round_up(needed):g}."
         )
     if len(nearly) >= MOVES and max(c.open for c in nearly) <= NEARLY:
         at = max(nearly, key=lambda c: c.open)
@@ -340,25 +343,23 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
 
 def _round_up(x: float) -> float:
     """One digit, not smaller."""
-    power = 10.0 ** np.floor(np.log10(x))
-    return min(MOST_TOLERANCE, float(np.ceil(1.01 * x / power) * power))
+    power = 10.0 ** math.floor(math.log10(x))
+    return min(MOST_TOLERANCE, math.ceil(1.01 * x / power) * power)
 
 
-def _redraw(given: Corrected, drawn: list[tuple[object, list[Array], list[Array]]]) -> None:
+def _redraw(given: Corrected) -> None:
     """Give a joint its new ends, and the bodies their new joint points and axes in place of the old ones."""
     joint, ends = given.joint, given.joint.ends
     assert ends is not None
     bodies = ends.bodies
     lists = [(b, b.joint_points, b.joint_axes) for b in bodies]
 
-    def made(points: tuple[Array, Array], axes: tuple[Array, Array] | None, length: float) -> tuple[Joint, list]:  # type: ignore[type-arg]
+    made = []
+    for places in ((ends.points, ends.axes, ends.length), (given.points, given.axes, given.length)):
         for body in bodies:
             body.joint_points, body.joint_axes = [], []
-        new = ends.remake(points, axes, length)  # type: ignore[union-attr]
-        return new, [(b.joint_points, b.joint_axes) for b in bodies]
-
-    _, before = made(ends.points, ends.axes, ends.length)
-    new, after = made(given.points, given.axes, given.length)
+        made.append((ends.remake(*places), [(b.joint_points, b.joint_axes) for b in bodies]))
+    (_, before), (new, after) = made
     for (body, points, axes), (old_points, old_axes), (new_points, new_axes) in zip(lists, before, after, strict=True):
         body.joint_points = _replaced(points, old_points, new_points)
         body.joint_axes = _replaced(axes, old_axes, new_axes)

@@ -147,7 +147,7 @@ def _coordinates(model: Model, groups: Sequence[Group], kept: Sequence[int], new
 
 
 def _angles(model: Model, groups: Sequence[Group], kept: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
-    """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia that turns with it."""
+    """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
     place = {i: int(new[z]) for z, i in enumerate(kept)}
     arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
     for joint in model.joints:

@@ -1,4 +1,4 @@
-"""Overconstrained loops as they are drawn: every number of a drawing goes through a function that rounds or shifts it."""
+"""Overconstrained loops as they are drawn: every number of a drawing goes through a pen that rounds or shifts it."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def bennett(pen: Pen = exact) -> Model:
 
 
 def sarrus(pen: Pen = exact) -> Model:
-    """A plate that two pairs of hinged leaves guide along a straight line: six hinges, one freedom where none is counted."""
+    """A plate that two pairs of hinged leaves guide along a straight line: one freedom, none by Kutzbach."""
     m = Model("Sarrus", dimension=3)
     s, c = 1.0 * np.sin(0.5), 1.0 * np.cos(0.5)
     points = np.array([[0.5, 0, 0], [0.5 + s, 0, c], [0.5, 0, 2 * c], [0, 0.5, 2 * c], [0, 0.5 + s, c], [0, 0.5, 0]])
@@ -105,7 +105,9 @@ def parallelogram(pen: Pen = exact) -> Model:
 
 
 def redundant_rod(pen: Pen = exact, bars: int = 3, five: bool = False, rods: bool = False) -> Model:
-    """Planar: parallel cranks carry a plate, one more than needed; `five` lets the feet stand on a link that turns about the ground, `rods` makes the last crank a massless rod."""
+    """Planar: parallel cranks carry a plate, one more than needed. With `five` their feet stand on a link that
+    turns about the ground; with `rods` the last crank is a massless rod.
+    """
     m = Model("redundant rod", dimension=2)
     arm = np.array([0.3, 0.4])
     feet = np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.2]])[:bars]

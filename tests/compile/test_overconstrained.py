@@ -5,11 +5,11 @@ from __future__ import annotations
 import importlib
 
 import numpy as np
-from tests.compile import overconstrained_loops as drawn
 import pytest
 
 from mbs import Model, ModelError, SimulationError, compile, simulate
 from mbs.settings import METHODS
+from tests.compile import overconstrained_loops as drawn
 
 overconstrained = importlib.import_module("mbs.compile.overconstrained")
 
@@ -44,13 +44,14 @@ def exact():
             try:
                 found[loop, method] = motion(system, method)
             except SimulationError as error:
-                assert method.startswith("semi_recursive") and "this method needs" in str(error)
+                if not method.startswith("semi_recursive") or "this method needs" not in str(error):
+                    raise
                 found[loop, method] = None
     return found
 
 
 @pytest.mark.parametrize("loop", LOOPS)
-@pytest.mark.parametrize("size", [2e-5, 1e-6, 1e-8, 1e-10, 1e-12])
+@pytest.mark.parametrize("size", [2e-5, 1e-8, 1e-11])
 def test_all_methods_move_a_shifted_drawing_as_the_exact_one(loop, size, exact):
     system = compile(LOOPS[loop](drawn.shifted(size)))
     report = system.meta["report"]
@@ -70,7 +71,7 @@ def test_a_loop_drawn_as_exactly_as_its_numbers_allow_is_left_alone():
         assert overconstrained.corrected_joints(build(drawn.exact)) == [], loop
 
 
-@pytest.mark.parametrize("decimals", [4, 6, 8, 10])
+@pytest.mark.parametrize("decimals", [4, 6, 8, 12])
 def test_bennett_with_so_many_decimals(decimals, exact):
     system = compile(drawn.bennett(drawn.rounded(decimals)))
     assert set(system.meta["report"]["closed"]) == set("ABCD")
@@ -136,7 +137,33 @@ def test_points_drawn_apart_on_both_bodies_are_closed_too():
     assert system.meta["report"]["degrees_of_freedom"] == 1
     assert 1e-6 < max(d for d, _ in system.meta["report"]["closed"].values()) < 1e-4
     path, energy = motion(system, "energy_momentum")
-    assert np.ptp(path) > 0.01 and energy < 1e-9
+    assert np.ptp(path) > 0.01
+    assert energy < 1e-9
+
+
+def test_a_link_of_two_welded_bodies_is_one():
+    def half_links(pen):
+        m = Model("Bennett of halves", dimension=3)
+        points, axes = drawn.bennett_joints()
+        bodies = [m.ground]
+        for k in range(3):
+            halves = [
+                m.body(f"half {k}{n}", mass=1.0, com=s * points[k] + (1 - s) * points[k + 1], inertia=(0.1, 0.1, 0.1))
+                for n, s in enumerate((0.75, 0.25))
+            ]
+            m.weld(f"weld {k}", *halves)
+            bodies.append(halves)
+        for k in range(4):
+            first = bodies[k] if k == 0 else bodies[k][1]
+            second = bodies[k + 1][0] if k < 3 else m.ground
+            m.revolute("ABCD"[k], first, second, point=pen(points[k]), axis=pen(axes[k]))
+        return m
+
+    system = compile(half_links(drawn.shifted(1e-6)))
+    assert system.meta["report"]["degrees_of_freedom"] == 1
+    assert set(system.meta["report"]["closed"]) == set("ABCD")
+    simulate(system, END, STEP)
+    assert overconstrained.corrected_joints(half_links(drawn.exact)) == []
 
 
 def test_a_short_crank_is_no_closing_error():

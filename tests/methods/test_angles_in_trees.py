@@ -1,4 +1,4 @@
-"""Relative angles in the semi-recursive methods: springs, motors, sensors and armatures on angles of trees and loops."""
+"""Relative angles in the semi-recursive methods: springs, motors, sensors and armatures on angles."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def planar_arm(armature=0.0):
     return m
 
 
-def spatial_crank(cut_angle=False):
-    """Crank, coupler and rocker in a tilted plane: a closed loop with a motor on the crank and a spring at the rocker."""
+def spatial_crank():
+    """Crank, coupler and rocker in a tilted plane: a closed loop with a motor on the crank and a spring."""
     m = Model("four-bar", dimension=3)
     turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
     points = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.3], [1.0, 0.0, 0.6], [1.0, 0.0, 0.0]]) @ turn.T
