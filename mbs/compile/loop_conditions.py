@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 
 from mbs.compile.spanning_tree import frame_along, in_space
 from mbs.model.body import Body, Ground
-from mbs.model.joints.joint import Joint, JointEnds
+from mbs.model.joints.joint import Drawing, Joint
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
@@ -83,7 +83,7 @@ class Loops:
         self.bodies = _bodies(joints, welded)
         self._welded = welded
         number = {id(body): k for k, body in enumerate(self.bodies)}
-        drawn = [in_space(p) for joint in joints for p in _ends(joint).points]
+        drawn = [in_space(p) for joint in joints for p in _drawing(joint).points]
         extent = np.ptp(np.array(drawn), axis=0) if drawn else np.zeros(3)
         self.size = float(np.linalg.norm(extent)) or 1.0
         self.constants = 0
@@ -157,7 +157,7 @@ class Loops:
         return {id(end): turn @ end.frame for end, turn in zip(ends, turns, strict=True)}
 
     def _condition(self, joint: Joint, number: dict[int, int]) -> Condition:
-        given = _ends(joint)
+        given = _drawing(joint)
         ends = []
         for side in (0, 1):
             body = _whole(given.bodies[side], self._welded)
@@ -244,8 +244,8 @@ def loops_of(model: Model, most_bodies: int) -> list[Loops]:
             first, second = sorted(_sides(joint.places.bodies, welded), key=lambda b: not b.is_ground)
             for body in (b for b in model.bodies if _whole(b, welded) is second):
                 welded[id(body)] = first
-    joints = [j for j in model.joints if j.ends is not None and j.switch is None and _is_rigid(j.ends.bodies)]
-    joints = [j for j in joints if len({id(b) for b in _sides(_ends(j).bodies, welded)}) == 2]
+    joints = [j for j in model.joints if j.drawing is not None and j.switch is None and _is_rigid(j.drawing.bodies)]
+    joints = [j for j in joints if len({id(b) for b in _sides(_drawing(j).bodies, welded)}) == 2]
     blocks = _blocks(joints, welded)
     return [Loops(model, block, welded) for block in blocks if len(_bodies(block, welded)) <= most_bodies]
 
@@ -257,9 +257,9 @@ def _cross(a: Array, b: Array) -> Array:
     return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
 
 
-def _ends(joint: Joint) -> JointEnds:
-    assert joint.ends is not None
-    return joint.ends
+def _drawing(joint: Joint) -> Drawing:
+    assert joint.drawing is not None
+    return joint.drawing
 
 
 def _is_rigid(bodies: Iterable[Body]) -> bool:
@@ -279,7 +279,7 @@ def _bodies(joints: Iterable[Joint], welded: Welded) -> list[Body]:
     found: dict[int, Body] = {}
     count: dict[int, int] = {}
     for joint in joints:
-        for body in _sides(_ends(joint).bodies, welded):
+        for body in _sides(_drawing(joint).bodies, welded):
             found[id(body)] = body
             count[id(body)] = count.get(id(body), 0) + 1
     rest = next((b for b in found.values() if b.is_ground), None) or max(found.values(), key=lambda b: count[id(b)])
@@ -292,7 +292,7 @@ def _blocks(joints: list[Joint], welded: Welded) -> list[list[Joint]]:
     """
     at: dict[int, list[tuple[int, int]]] = {}
     for n, joint in enumerate(joints):
-        a, b = (id(body) for body in _sides(_ends(joint).bodies, welded))
+        a, b = (id(body) for body in _sides(_drawing(joint).bodies, welded))
         at.setdefault(a, []).append((n, b))
         at.setdefault(b, []).append((n, a))
     order: dict[int, int] = {}

@@ -94,7 +94,7 @@ def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Correct
 @contextmanager
 def redrawn(joints: list[Corrected]) -> Iterator[None]:
     """The model of these joints with their corrected ends, while the context lasts."""
-    bodies = {id(b): b for j in joints if j.joint.ends for b in j.joint.ends.bodies}.values()
+    bodies = {id(b): b for j in joints if j.joint.drawing for b in j.joint.drawing.bodies}.values()
     drawn = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
     old = [(j.joint, j.joint.equations, j.joint.normals, j.joint.places, j.joint.rows_weight) for j in joints]
     try:
@@ -183,7 +183,7 @@ def _parallel(loops: Loops, at: Closed, angle: float) -> Array:
     ends = [
         (end, E[:, 0 if loops.planar else 2])
         for c in loops.conditions
-        if c.joint.ends is not None and c.joint.ends.axes is not None
+        if c.joint.drawing is not None and c.joint.drawing.axes is not None
         for end, (_, E) in zip(c.ends, loops.ends_in_space(c, at.places, None), strict=True)
     ]
     while ends:
@@ -267,7 +267,7 @@ def _joint(
     loops: Loops, c: Condition, g: Array, places: Places, meets: bool, points: list[Array], axes: list[Array]
 ) -> Corrected:
     """One joint; `points` and `axes` are those that have been drawn, which the same ones take over in all digits."""
-    ends = c.joint.ends
+    ends = c.joint.drawing
     assert ends is not None
     now = loops.ends_in_space(c, places, g)
     before = loops.ends_in_space(c, loops.drawn(), None)
@@ -349,7 +349,7 @@ def _round_up(x: float) -> float:
 
 def _redraw(given: Corrected) -> None:
     """Give a joint its new ends, and the bodies their new joint points and axes in place of the old ones."""
-    joint, ends = given.joint, given.joint.ends
+    joint, ends = given.joint, given.joint.drawing
     assert ends is not None
     bodies = ends.bodies
     lists = [(b, b.joint_points, b.joint_axes) for b in bodies]

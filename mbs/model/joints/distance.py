@@ -12,7 +12,7 @@ from mbs.model.body import Body
 from mbs.model.checks import positive
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, GuideTerm, dot_products
-from mbs.model.joints.joint import Joint, JointEnds
+from mbs.model.joints.joint import Drawing, Joint
 from mbs.model.slide import SlidingPoint
 
 End = Any  # (body, point), a point mass, or a SlidingPoint
@@ -64,14 +64,14 @@ def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float 
         "distance",
         [Equation(name, "distance", dot_products(gap, gap, 0.5), constant, guides)],
         rows_weight=length,
-        ends=_ends(model, name, end_1, end_2, length) if slide is None else None,
+        drawing=_drawing(model, name, end_1, end_2, length) if slide is None else None,
     )
 
 
-def _ends(model: ModelCore, name: str, end_1: End, end_2: End, length: float) -> JointEnds:
+def _drawing(model: ModelCore, name: str, end_1: End, end_2: End, length: float) -> Drawing:
     """The bodies and points of a rod."""
     first, second = ((end, end.com) if isinstance(end, Body) else end for end in (end_1, end_2))
-    return JointEnds(
+    return Drawing(
         (first[0], second[0]),
         tuple(b.com if p is None else p for b, p in (first, second)),  # type: ignore[arg-type]
         None,

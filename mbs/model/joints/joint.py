@@ -26,7 +26,7 @@ class JointPlaces:
 
 
 @dataclass(frozen=True)
-class JointEnds:
+class Drawing:
     """What a joint between two rigid bodies asks of a point and an axis on each, so that both can be moved a little.
 
     Attributes
@@ -79,7 +79,7 @@ class Joint:
         Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
     places : JointPlaces or None
         Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
-    ends : JointEnds or None
+    drawing : Drawing or None
         Of joints between two rigid bodies whose drawing can be corrected.
     turn : Turn or None
         Of a relative angle.
@@ -93,7 +93,7 @@ class Joint:
         rows_weight: float = 0.0,
         normals: Sequence[AffineVector] = (),
         places: JointPlaces | None = None,
-        ends: JointEnds | None = None,
+        drawing: Drawing | None = None,
         turn: Turn | None = None,
     ) -> None:
         self.name = name
@@ -102,7 +102,7 @@ class Joint:
         self.rows_weight = rows_weight
         self.normals = tuple(normals)
         self.places = places
-        self.ends = ends
+        self.drawing = drawing
         self.turn = turn
         self.keep = False
         self.switch: Any = None

@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import Interface, bends, located
-from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Drawing, Joint, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import different, may_share, shared_axis, shared_point
 
 
@@ -63,14 +63,14 @@ def point_on_line(
     what = f"point-on-line joint '{name}'"
     different(end_1[0], end_2[0], what)
     line, normals = on_line(model, name, end_1, end_2, axis, what)
-    ends = JointEnds(
+    drawing = Drawing(
         (end_1[0], end_2[0]),
         (end_1[1], end_2[1]),
         (axis, axis),
         ("line",),
         lambda p, u, _: point_on_line(model, name, (end_1[0], p[0]), (end_2[0], p[1]), (u or (axis, axis))[1]),
     )
-    return Joint(name, "point_on_line", line, normals=normals, ends=ends)
+    return Joint(name, "point_on_line", line, normals=normals, drawing=drawing)
 
 
 def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
@@ -83,14 +83,14 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_axis(model, name, body_1, body_2, axis, what)
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
-    ends = JointEnds(
+    drawing = Drawing(
         (body_1, body_2),
         (p1, p2),
         (axis, axis),
         ("axis", "line"),
         lambda p, u, _: cylindrical(model, name, body_1, body_2, p, (u or (axis, axis))[1]),
     )
-    return Joint(name, "cylindrical", equations + line, normals=normals, ends=ends)
+    return Joint(name, "cylindrical", equations + line, normals=normals, drawing=drawing)
 
 
 def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
@@ -105,14 +105,14 @@ def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     equations = same_orientation(model, name, body_1, body_2, what)
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
     places = JointPlaces((body_1, body_2), (p1, p2), (axis, axis))
-    ends = JointEnds(
+    drawing = Drawing(
         (body_1, body_2),
         (p1, p2),
         (axis, axis),
         ("orientation", "line"),
         lambda p, u, _: prismatic(model, name, body_1, body_2, p, (u or (axis, axis))[1]),
     )
-    return Joint(name, "prismatic", equations + line, normals=normals, places=places, ends=ends)
+    return Joint(name, "prismatic", equations + line, normals=normals, places=places, drawing=drawing)
 
 
 def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
