@@ -8,15 +8,17 @@ import numpy as np
 from scipy import sparse
 
 from mbs.affine import Affine
+from mbs.compile.assembly_modes import mode_arrays
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
-from mbs.compile.equilibrium import equilibrium
+from mbs.compile.equilibrium import equilibrium, start_arrays
 from mbs.compile.flexible import (
     deformation_metric,
     flexible_arrays,
     flexible_cliques,
     flexible_coordinates,
 )
+from mbs.compile.frames import frames_of
 from mbs.compile.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
@@ -27,7 +29,7 @@ from mbs.compile.open_joints import joint_gaps, joints_of_bodies
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
 from mbs.compile.overconstrained import MOST_TOLERANCE, TOLERANCE, corrected_joints, redrawn
 from mbs.compile.polynomial import RowTerms, row_terms
-from mbs.compile.pose import pose_arrays
+from mbs.compile.pose import pose_arrays, pose_partners
 from mbs.compile.report import rank_at, structure_report
 from mbs.compile.row_arrays import RowArrays
 from mbs.compile.row_scale import row_scale
@@ -119,6 +121,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = tree_arrays(model, signals, kept, new)
+    modes = mode_arrays(model, holding, full, q[new], guides, signals)
     tables: dict[str, Any] = {
         "q0": q,
         "qd0": qd,
@@ -141,6 +144,9 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, kept, of_z, q[new], order),
         **tree,
+        **modes,
+        **start_arrays(None, {}),
+        "pose_partner": pose_partners(model, natural, kept, of_z, signals, order),
         **signals.arrays(),
     }
     report = {
@@ -152,12 +158,14 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         "no_tree": no_tree,
         "closed": closed,
     }
-    system = System(tables, metadata(model, [natural.info[kept[k]].name for k in order], rows, report))
+    frames = frames_of(model, T[:, order], z0)
+    system = System(tables, metadata(model, [natural.info[kept[k]].name for k in order], rows, report), frames)
     if not model.start_in_equilibrium:
         return system
     q = equilibrium(system, model.equilibrium_parameters)
+    tables.update(start_arrays(system, model.equilibrium_parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, kept, of_z, q[new], order))
-    return System(tables, system.meta)
+    return System(tables, system.meta, frames)
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

@@ -48,6 +48,8 @@ REMAINDER = 0.02
 """Part of the misfit that one iteration may leave."""
 MOVES, NEARLY = 10, 2e-3
 """Positions of a motion that is one; the largest misfit along it, parts of the size, of a loop that nearly moves."""
+REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
+"""Attributes of a joint that its drawing makes."""
 PART_OF_LINK = 0.1
 """A correction is less than this part of the distance of two joints of a body."""
 
@@ -96,14 +98,15 @@ def redrawn(joints: list[Corrected]) -> Iterator[None]:
     """The model of these joints with their corrected ends, while the context lasts."""
     bodies = {id(b): b for j in joints if j.joint.drawing for b in j.joint.drawing.bodies}.values()
     drawn = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
-    old = [(j.joint, j.joint.equations, j.joint.normals, j.joint.places, j.joint.rows_weight) for j in joints]
+    old = [(j.joint, {name: getattr(j.joint, name) for name in REDRAWN}) for j in joints]
     try:
         for given in joints:
             _redraw(given)
         yield
     finally:
-        for joint, equations, normals, places, weight in old:
-            joint.equations, joint.normals, joint.places, joint.rows_weight = equations, normals, places, weight
+        for joint, attributes in old:
+            for name, value in attributes.items():
+                setattr(joint, name, value)
         for body, points, axes in drawn:
             body.joint_points, body.joint_axes = points, axes
 
@@ -363,8 +366,8 @@ def _redraw(given: Corrected) -> None:
     for (body, points, axes), (old_points, old_axes), (new_points, new_axes) in zip(lists, before, after, strict=True):
         body.joint_points = _replaced(points, old_points, new_points)
         body.joint_axes = _replaced(axes, old_axes, new_axes)
-    joint.equations, joint.normals, joint.rows_weight = new.equations, new.normals, new.rows_weight
-    joint.places = new.places
+    for name in REDRAWN:
+        setattr(joint, name, getattr(new, name))
 
 
 def _replaced(items: list[Array], old: list[Array], new: list[Array]) -> list[Array]:

@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 3
+#define ALI3_STATE_VERSION 4
 
 typedef enum {
   ALI3_OK = 0,
@@ -34,6 +34,10 @@ typedef enum {
   ALI3_BELOW_ROAD,        /* a start with a tyre deeper in the road than its radius; see ali3_start_lift */
   ALI3_UNRESOLVED, /* the motion is too fast for the step: energy came or went without a force, also in halves */
   ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
+  ALI3_TOO_STIFF,         /* the step is too long for an explicit rule; see report.fastest_rate */
+  ALI3_TOO_FAR,           /* a start so far away or so fast that its digits do not tell lengths any more */
+  ALI3_NO_EQUILIBRIUM,    /* a scene that starts in static equilibrium has none with the parameters it was given */
+  ALI3_BRANCH_CHANGED,    /* told by ali3_run_status only: a closed loop changed its assembly mode */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -84,7 +88,21 @@ typedef struct {
   int32_t worst_row, worst_coordinate;
   double energy_jump; /* change of the kinetic energy by the last switching, J */
   double energy_error; /* work of constraint forces and projections, J; 0: exact, or not measured */
+  /* what says whether the run is right, see ali3_energy_balance; the first three of methods with books of energy */
+  double energy; /* kinetic and potential energy of the state, J */
+  double work; /* what inputs, drives, dampers and tyres gave and took: sum of their shares of the steps, J */
+  double kinetic_peak; /* largest kinetic energy, at least that of 1e-6 m/s, J */
+  /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity (over the largest: radians
+   * that the motion has turned), sum of what steps are off v + h a of their start */
+  double speed_peak, velocity_path, predictor_path;
+  double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s */
+  double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
+  int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
+  double branch_time; /* s */
+  int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
 } ali3_report;
+
+enum { ALI3_BRANCH_NONE = 0, ALI3_BRANCH_LEFT, ALI3_BRANCH_JUMP }; /* ali3_report.branch_kind */
 
 typedef struct {
   int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, n_switch;
@@ -121,7 +139,9 @@ ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double
  * velocities are projected, accelerations and multipliers solved anew; report.energy_jump says what that took. */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
-/* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
+/* Where the file starts in static equilibrium and parameters of elements or guides are not those of the file: that
+ * equilibrium first, at the place of the drawing, then the pose. Coordinates given by ali3_set_q stay as they are.
+ * Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
  * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* How much higher, m, a start must be that was refused with ALI3_BELOW_ROAD: there no tyre touches the road. 0: good. */
@@ -141,6 +161,19 @@ ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigne
  * the factorised tangent (23). ALI3_NOT_INITIALISED before the first step. */
 ALI3_API ali3_status ali3_input_derivative(ali3_instance *in, const double *direction, double *out);
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
+/* A row that is open by less, m, is not why something failed. */
+#define ALI3_OPEN 1e-9
+/* Farthest and fastest start, m and m/s: coordinates have 16 digits. */
+#define ALI3_FARTHEST 1e8
+#define ALI3_FASTEST 1e6
+/* |energy_error| over the energy that was in the motion: largest kinetic energy and work. Above ALI3_BALANCE_WRONG no
+ * run was right that was tried; below it a run may be wrong. */
+#define ALI3_BALANCE_WRONG 0.04
+ALI3_API double ali3_energy_balance(const ali3_report *report);
+/* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
+ALI3_API ali3_status ali3_run_status(const ali3_report *report);
+/* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */
+ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);
 
 /* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit,

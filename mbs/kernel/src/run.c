@@ -15,7 +15,9 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   in->t_base = t0;
   in->h_last = 0.0;
   in->count = 0;
+  in->mode_known = false;
   in->initialised = 1;
+  ali3_books_open(in);
   return ALI3_OK;
 }
 
@@ -24,7 +26,8 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
   in->report = none;
   ali3_vectors_copy(in, &in->start, &in->now);
-  const ali3_status status = ali3_solve_initial(in, t0);
+  ali3_status status = ali3_start_in_equilibrium(in, t0);
+  if (status == ALI3_OK) status = ali3_solve_initial(in, t0);
   return begin(in, status == ALI3_OK && ali3_start_lift(in) > 0.0 ? ALI3_BELOW_ROAD : status, t0);
 }
 
@@ -42,14 +45,15 @@ static ali3_status step(ali3_instance *in, double h) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
-  const double energy_error = in->report.energy_error;
+  const ali3_report before = in->report;
   in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
-  in->h_whole = h;
-  const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
+  ali3_branch_before(in);
+  ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
+  if (status == ALI3_OK) status = ali3_branch_after(in, t_base + (double)count * h, h);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);
-    in->report.energy_error = energy_error;
+    ali3_books_back(&in->report, &before);
     in->report.failures++;
     return status;
   }
@@ -64,7 +68,7 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const ali3_status status = ali3_check_method(in);
   in->quiet = in->sampled = false;
-  return status == ALI3_OK ? step(in, h) : status;
+  return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h), h) : status;
 }
 
 /* After a quiet or sampled step the last good state lacks what only a reader needs. */
@@ -97,7 +101,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
     in->quiet = !recorded && n + 1 < n_steps;
     in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h);
-    if (status != ALI3_OK) return give_up(in, status, quiet, sampled);
+    if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, quiet, sampled), h);
     quiet = in->quiet;
     sampled = in->sampled;
     if (done != NULL) *done = n + 1;

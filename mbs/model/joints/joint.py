@@ -15,6 +15,11 @@ from mbs.model.equation import Equation
 if TYPE_CHECKING:
     from mbs.model.body import Body
 
+FORCE_KINDS = ("point", "line", "distance", "drive", "gear", "rack", "thread")
+"""Kinds of equations whose multipliers are a force or a torque that can be read."""
+SCALAR_FORCES = {"distance": "tension", "drive": "drive", "gear": "torque", "rack": "force", "screw": "force"}
+"""What the one force or torque of a type of joint is called."""
+
 
 @dataclass(frozen=True)
 class JointPlaces:
@@ -62,6 +67,30 @@ class Turn:
     coordinate: int
 
 
+@dataclass(frozen=True)
+class JointEnds:
+    """What closed loops need of a joint: its bodies (the ground, a body or a node), its point on each, its axis.
+
+    Attributes
+    ----------
+    bodies : tuple of Body
+    points : tuple of AffineVector
+        On the first and on the second body.
+    axis : AffineVector or None
+        About which the bodies turn, or along which the point of the first slides on a line of the second.
+    slides : bool
+        Whether the bodies slide along the axis.
+    rod : bool
+        Whether a massless rod joins the points, which then are apart.
+    """
+
+    bodies: tuple[Body, Body]
+    points: tuple[AffineVector, AffineVector]
+    axis: AffineVector | None = None
+    slides: bool = False
+    rod: bool = False
+
+
 class Joint:
     """A constraint of the model.
 
@@ -83,6 +112,8 @@ class Joint:
         Of joints between two rigid bodies whose drawing can be corrected.
     turn : Turn or None
         Of a relative angle.
+    ends : JointEnds or None
+        Of joints that can be part of a closed loop.
     """
 
     def __init__(
@@ -93,7 +124,6 @@ class Joint:
         rows_weight: float = 0.0,
         normals: Sequence[AffineVector] = (),
         places: JointPlaces | None = None,
-        drawing: Drawing | None = None,
         turn: Turn | None = None,
     ) -> None:
         self.name = name
@@ -102,10 +132,11 @@ class Joint:
         self.rows_weight = rows_weight
         self.normals = tuple(normals)
         self.places = places
-        self.drawing = drawing
         self.turn = turn
         self.keep = False
         self.switch: Any = None
+        self.ends: JointEnds | None = None
+        self.drawing: Drawing | None = None
 
     def __repr__(self) -> str:
         return f"<Joint {self.name!r} ({self.type})>"
@@ -113,7 +144,7 @@ class Joint:
     @property
     def force_equations(self) -> list[int]:
         """Numbers of the equations whose multipliers are its force."""
-        return [k for k, e in enumerate(self.equations) if e.kind in ("point", "line", "distance", "drive")]
+        return [k for k, e in enumerate(self.equations) if e.kind in FORCE_KINDS]
 
 
 def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> list[Equation]:

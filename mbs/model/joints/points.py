@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
-from mbs.model.joints.joint import Drawing, Joint, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 
 _BIG = 1.0 - 1e-12
 
@@ -60,11 +60,12 @@ def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     p1, p2 = point_pair(point, model.dimension, what)
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
-    places = JointPlaces((body_1, body_2), (p1, p2))
-    drawing = Drawing(
+    joint = Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    joint.drawing = Drawing(
         (body_1, body_2), (p1, p2), None, ("point",), lambda p, u, _: spherical(model, name, body_1, body_2, p)
     )
-    return Joint(name, "spherical", equations, rows_weight=1.0, places=places, drawing=drawing)
+    return joint
 
 
 def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike | None) -> Joint:
@@ -82,11 +83,14 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
         raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
     axes = None if axis is None else point_pair(axis, 3, what)
     places = JointPlaces((body_1, body_2), (p1, p2), axes)
+    joint = Joint(name, "revolute", equations, rows_weight=1.0, places=places)
+    shared = None if axes is None else body_1.vector(direction(axes[0], 3, f"the axis of {what}"))
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), shared)
     conditions = ("point",) if axes is None else ("point", "axis")
-    drawing = Drawing(
+    joint.drawing = Drawing(
         (body_1, body_2), (p1, p2), axes, conditions, lambda p, u, _: revolute(model, name, body_1, body_2, p, u)
     )
-    return Joint(name, "revolute", equations, rows_weight=1.0, places=places, drawing=drawing)
+    return joint
 
 
 def universal(
@@ -106,11 +110,13 @@ def universal(
     a1, a2 = model.anchor_axis(body_1, u1, what), model.anchor_axis(body_2, u2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
     equations.append(Equation(name, "axes", dot_products(a1, a2), Affine({}, -cosine)))
-    drawing = Drawing(
+    joint = Joint(name, "universal", equations, rows_weight=1.0)
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    joint.drawing = Drawing(
         (body_1, body_2),
         (p1, p2),
         (u1, u2),
         ("point", "angle"),
         lambda p, u, _: universal(model, name, body_1, body_2, p, *(u or (u1, u2))),
     )
-    return Joint(name, "universal", equations, rows_weight=1.0, drawing=drawing)
+    return joint
