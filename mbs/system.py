@@ -28,6 +28,7 @@ sig_val sig_const el_real input_start input_min input_max guide_real road_real p
 sen_real pose_0 pose_cos pose_sin pose_x pose_y pose_z pose_speed
 velocity_h flex_gravity flex_P flex_c flex_T flex_K flex_C
 tree_base tree_mass tree_centre tree_inertia tree_gravity tree_out_local tree_cut_place
+tree_angle_sign tree_angle_inertia
 static_value
 """
 _INTEGER_NAMES = """
@@ -38,6 +39,7 @@ el_loc_ptr el_loc guide_type guide_input guide_real_ptr road_type road_real_ptr 
 sen_int_ptr sen_int sen_real_ptr row_switch switch_start velocity_row velocity_ptr velocity_a velocity_b
 flex_mode_ptr flex_frame flex_mode flex_front flex_loc
 tree_parent tree_slides tree_frame tree_out_body tree_out_col tree_cut_body tree_cut_rows
+tree_angle_col tree_angle_ptr tree_angle_joint
 mode_triad_ptr mode_triad mode_cell_ptr mode_cell mode_name_ptr mode_name
 static_start static_par pose_partner
 """

@@ -46,6 +46,8 @@
   X(double, 2, tree_centre) X(double, 2, tree_inertia) X(double, 2, tree_gravity) X(int32_t, 1, tree_frame) \
   X(int32_t, 1, tree_out_body) X(double, 2, tree_out_local) X(int32_t, 1, tree_out_col) \
   X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place) \
+  X(int32_t, 1, tree_angle_col) X(int32_t, 1, tree_angle_ptr) X(int32_t, 1, tree_angle_joint) \
+  X(double, 2, tree_angle_sign) X(double, 2, tree_angle_inertia) \
   X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
   X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
   X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner)

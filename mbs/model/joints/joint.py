@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
@@ -29,6 +29,43 @@ class JointPlaces:
     bodies: tuple[Body, Body]
     points: tuple[Any, Any]
     axes: tuple[Any, Any] | None = None
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What a joint between two rigid bodies asks of a point and an axis on each, so that both can be moved a little.
+
+    Attributes
+    ----------
+    bodies : pair of Body
+    points : pair of array_like, shape (dimension,)
+        As drawn, earth axes, m.
+    axes : pair of array_like or None
+        As drawn, earth axes.
+    conditions : tuple of str
+        Of these: "point" (the points are one), "axis" (the axes are parallel), "orientation" (nothing turns), "line"
+        (the first point on the second axis), "angle" (between the axes), "distance" (between the points).
+    remake : callable
+        ``remake(points, axes, length)`` is the joint with other ends.
+    length : float
+        Of a distance, m.
+    """
+
+    bodies: tuple[Body, Body]
+    points: tuple[Any, Any]
+    axes: tuple[Any, Any] | None
+    conditions: tuple[str, ...]
+    remake: Callable[[tuple[Any, Any], tuple[Any, Any] | None, float], Joint] = field(repr=False)
+    length: float = 0.0
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What a relative angle measures: body 2 against body 1 about an axis (as drawn, earth axes; None in the plane)."""
+
+    bodies: tuple[Body, Body]
+    axis: Any
+    coordinate: int
 
 
 @dataclass(frozen=True)
@@ -74,6 +111,10 @@ class Joint:
         Vectors whose products keep the bodies from turning; `hold_turning` makes it.
     places : JointPlaces or None
         Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
+    drawing : Drawing or None
+        Of joints between two rigid bodies whose drawing can be corrected.
+    turn : Turn or None
+        Of a relative angle.
     ends : JointEnds or None
         Of joints that can be part of a closed loop.
     """
@@ -87,6 +128,7 @@ class Joint:
         normals: Sequence[AffineVector] = (),
         places: JointPlaces | None = None,
         turning: Callable[[], Turning] | None = None,
+        turn: Turn | None = None,
     ) -> None:
         self.name = name
         self.type = type
@@ -94,11 +136,13 @@ class Joint:
         self.rows_weight = rows_weight
         self.normals = tuple(normals)
         self.places = places
+        self.turn = turn
         self.keep = False
         self.turning: Turning | None = None
         self._make_turning = turning
         self.switch: Any = None
         self.ends: JointEnds | None = None
+        self.drawing: Drawing | None = None
 
     @property
     def turns(self) -> bool:

@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
-from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.reactions import Turning
 
 _BIG = 1.0 - 1e-12
@@ -75,6 +75,9 @@ def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     equations = shared_point(model, name, body_1, body_2, point, what)
     joint = Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    joint.drawing = Drawing(
+        (body_1, body_2), (p1, p2), None, ("point",), lambda p, u, _: spherical(model, name, body_1, body_2, p)
+    )
     return joint
 
 
@@ -100,6 +103,10 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
     joint = Joint(name, "revolute", equations, rows_weight=1.0, places=places, turning=turning)
     shared = None if axes is None else body_1.vector(direction(axes[0], 3, f"the axis of {what}"))
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), shared)
+    conditions = ("point",) if axes is None else ("point", "axis")
+    joint.drawing = Drawing(
+        (body_1, body_2), (p1, p2), axes, conditions, lambda p, u, _: revolute(model, name, body_1, body_2, p, u)
+    )
     return joint
 
 
@@ -123,4 +130,11 @@ def universal(
     turning = lambda: Turning(points_of(body_1, p1, body_2, p2), [(a1, a2, cosine)])  # noqa: E731
     joint = Joint(name, "universal", equations, rows_weight=1.0, turning=turning)
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    joint.drawing = Drawing(
+        (body_1, body_2),
+        (p1, p2),
+        (u1, u2),
+        ("point", "angle"),
+        lambda p, u, _: universal(model, name, body_1, body_2, p, *(u or (u1, u2))),
+    )
     return joint

@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import Interface, bends, located
-from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import different, may_share, points_of, shared_axis, shared_point, turning_about
 from mbs.model.reactions import Turning
 
@@ -83,6 +83,13 @@ def point_on_line(
     line, normals = on_line(model, name, end_1, end_2, axis, what)
     joint = Joint(name, "point_on_line", line, normals=normals)
     joint.ends = _sliding_ends(end_1, end_2, axis, what)
+    joint.drawing = Drawing(
+        (end_1[0], end_2[0]),
+        (end_1[1], end_2[1]),
+        (axis, axis),
+        ("line",),
+        lambda p, u, _: point_on_line(model, name, (end_1[0], p[0]), (end_2[0], p[1]), (u or (axis, axis))[1]),
+    )
     return joint
 
 
@@ -100,6 +107,14 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
     turning = lambda: turning_about(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
     joint = Joint(name, "cylindrical", equations + line, normals=normals, turning=turning)
     joint.ends = _sliding_ends((body_1, p1), (body_2, p2), point_pair(axis, 3, what)[1], what)
+    axes: Any = point_pair(axis, 3, what)
+    joint.drawing = Drawing(
+        (body_1, body_2),
+        (p1, p2),
+        axes,
+        ("axis", "line"),
+        lambda p, u, _: cylindrical(model, name, body_1, body_2, p, u or axes),
+    )
     return joint
 
 
@@ -118,6 +133,13 @@ def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     turning = lambda: no_turning(body_1, p1, body_2, p2)  # noqa: E731
     joint = Joint(name, "prismatic", equations + line, normals=normals, places=places, turning=turning)
     joint.ends = _sliding_ends((body_1, p1), (body_2, p2), axis, what)
+    joint.drawing = Drawing(
+        (body_1, body_2),
+        (p1, p2),
+        (axis, axis),
+        ("orientation", "line"),
+        lambda p, u, _: prismatic(model, name, body_1, body_2, p, (u or (axis, axis))[1]),
+    )
     return joint
 
 
