@@ -156,7 +156,7 @@ def _parse(data: bytes) -> dict[str, Any]:
     """Arrays by name and the text of `meta`, after checks of header, directory and extents."""
     if len(data) < HEADER.size:
         raise SystemFileError(f"Not a System file: {len(data)} bytes are fewer than its header has.")
-    magic, version, count, size, crc, _ = HEADER.unpack_from(data)
+    magic, version, count, size, crc, zero = HEADER.unpack_from(data)
     if magic != MAGIC:
         raise SystemFileError("Not a System file: it does not begin with the mark of one.")
     if version != VERSION:
@@ -165,6 +165,8 @@ def _parse(data: bytes) -> dict[str, Any]:
         raise SystemFileError(f"The System file is cut or extended: {len(data)} bytes instead of {size}.")
     if crc != zlib.crc32(data[HEADER.size :]):
         raise SystemFileError("The System file was altered: its checksum does not fit.")
+    if zero != 0:
+        raise SystemFileError("The System file was altered: the last four bytes of its header are not zero.")
     if HEADER.size + ENTRY.size * count > len(data):
         raise SystemFileError(f"The System file lists {count} arrays, more than it can hold.")
     found: dict[str, Any] = {}

@@ -143,6 +143,18 @@ ALI3_API ali3_status ali3_input_derivative(ali3_instance *in, const double *dire
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 ALI3_API double ali3_time(const ali3_instance *in);
 
+enum { /* what the solver says about itself; the integer of sensors of type 13 */
+       ALI3_SOLVER_ITERATIONS = 0,         /* of the last step */
+       ALI3_SOLVER_VIOLATION,              /* m */
+       ALI3_SOLVER_RESIDUAL,               /* m */
+       ALI3_SOLVER_FACTORIZATIONS,         /* since the start */
+       ALI3_SOLVER_HALVINGS,               /* since the start */
+       ALI3_SOLVER_STATUS,                 /* ali3_status of the last step */
+       ALI3_SOLVER_ENERGY_ERROR,           /* J, since the start */
+       ALI3_SOLVER_COUNT
+};
+ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
+
 /* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit,
  * parameters and settings too. */
 ALI3_API size_t ali3_state_size(const ali3_system *s);
