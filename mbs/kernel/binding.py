@@ -98,6 +98,12 @@ class ReportFields(Structure):
         ("worst_coordinate", c_int32),
         ("energy_jump", c_double),
         ("energy_error", c_double),
+        ("energy", c_double),
+        ("work", c_double),
+        ("kinetic_peak", c_double),
+        ("speed_peak", c_double),
+        ("velocity_path", c_double),
+        ("predictor_path", c_double),
     )
 
 

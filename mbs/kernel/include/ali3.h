@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 3
+#define ALI3_STATE_VERSION 4
 
 typedef enum {
   ALI3_OK = 0,
@@ -84,6 +84,13 @@ typedef struct {
   int32_t worst_row, worst_coordinate;
   double energy_jump; /* change of the kinetic energy by the last switching, J */
   double energy_error; /* work of constraint forces and projections, J; 0: exact, or not measured */
+  /* what says whether the run is right, see ali3_energy_balance; the first three of methods with books of energy */
+  double energy; /* kinetic and potential energy of the state, J */
+  double work; /* what inputs, drives, dampers and tyres gave and took: sum of their shares of the steps, J */
+  double kinetic_peak; /* largest kinetic energy, J */
+  /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity (over the largest: radians
+   * that the motion has turned), sum of what steps are off v + h a of their start */
+  double speed_peak, velocity_path, predictor_path;
 } ali3_report;
 
 typedef struct {
@@ -141,6 +148,10 @@ ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigne
  * the factorised tangent (23). ALI3_NOT_INITIALISED before the first step. */
 ALI3_API ali3_status ali3_input_derivative(ali3_instance *in, const double *direction, double *out);
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
+/* |energy_error| over the energy that was in the motion: largest kinetic energy and work. Above ALI3_BALANCE_WRONG no
+ * run was right that was tried; below it a run may be wrong. */
+#define ALI3_BALANCE_WRONG 0.04
+ALI3_API double ali3_energy_balance(const ali3_report *report);
 ALI3_API double ali3_time(const ali3_instance *in);
 
 enum { /* what the solver says about itself; the integer of sensors of type 13 */

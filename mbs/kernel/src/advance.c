@@ -2,12 +2,15 @@
  * among it, it finds in in->next. */
 #include "ali3_internal.h"
 
-static ali3_status by_method(ali3_instance *in, double t, double h) {
+static bool relative(const ali3_instance *in) {
   const int32_t method = in->settings.method;
-  if (method == ALI3_METHOD_SEMI_RECURSIVE || method == ALI3_METHOD_SEMI_RECURSIVE_4)
-    return ali3_semi_recursive(in, t, h); /* fills in->next only when somebody looks */
+  return method == ALI3_METHOD_SEMI_RECURSIVE || method == ALI3_METHOD_SEMI_RECURSIVE_4;
+}
+
+static ali3_status by_method(ali3_instance *in, double t, double h) {
+  if (relative(in)) return ali3_semi_recursive(in, t, h); /* fills in->next only when somebody looks */
   ali3_vectors_copy(in, &in->next, &in->now);
-  switch (method) {
+  switch (in->settings.method) {
   case ALI3_METHOD_ENERGY_MOMENTUM:
     return ali3_energy_momentum(in, t, h, in->now.used, 0.5, !in->quiet);
   case ALI3_METHOD_ENERGY_MOMENTUM_4:
@@ -24,6 +27,7 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
 /* A step to time t, in halves where it does not converge. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   const ali3_status status = by_method(in, t, h);
+  if (status == ALI3_OK && !relative(in)) ali3_books_step(in, h);
   if (status == ALI3_OK || depth <= 0) return status;
   in->report.halvings++;
   ali3_keep(in);

@@ -289,8 +289,16 @@ bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
 
 /* energy_watch.c */
 double ali3_constraint_work(ali3_instance *in, double h);
-double ali3_projection_work(ali3_instance *in, double h, double *kinetic);
-ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic);
+double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double *end);
+ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end);
+
+/* books.c */
+bool ali3_keeps_books(const ali3_instance *in);
+void ali3_books_open(ali3_instance *in);
+void ali3_books_energy(ali3_instance *in, double error, double kinetic);
+void ali3_books_motion(ali3_report *report, double speed, double change, double miss);
+void ali3_books_step(ali3_instance *in, double h);
+void ali3_books_back(ali3_report *report, const ali3_report *before);
 
 /* projection.c */
 bool ali3_rates_closed(ali3_instance *in, const double *b, const double *v, double tolerance, double *violation);

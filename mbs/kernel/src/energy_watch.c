@@ -22,8 +22,8 @@ double ali3_constraint_work(ali3_instance *in, double h) {
 
 /* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, and the work that the forces
  * which (25) leaves without balance do in the next step, if it is like this one. *kinetic is the kinetic energy of the
- * mean of the velocities before and after (24). */
-double ali3_projection_work(ali3_instance *in, double h, double *kinetic) {
+ * mean of the velocities before and after (24), *end that after it but for the square of what (24) changed. */
+double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double *end) {
   const ali3_vectors *v = &in->next;
   const int32_t nq = in->system->size.nq;
   double given = 0.0, power = 0.0, twice = 0.0;
@@ -37,12 +37,13 @@ double ali3_projection_work(ali3_instance *in, double h, double *kinetic) {
   for (int32_t i = 0; i < nq; i++) power += v->qd[i] * (in->x[i] - in->Q[i]);
   for (int32_t k = 0; k < in->system->size.nc; k++) power -= v->lam[k] * in->Phit[k];
   *kinetic = 0.5 * twice;
+  *end = 0.5 * (twice + given);
   return given + 0.5 * h * power;
 }
 
 /* Books an error of the energy and, where no row is driven, judges it beside the kinetic energy, what the forces in
- * in->Q can give in a step and what the tolerance of the residual leaves open. */
-ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic) {
+ * in->Q can give in a step and what the tolerance of the residual leaves open. `end` is the kinetic energy at its end. */
+ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end) {
   const ali3_system *S = in->system;
   const double open = 2.0 * in->settings.tolerance_r / h;
   double size = kinetic;
@@ -51,6 +52,6 @@ ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double 
   if (!(size + fabs(error) < 1e300)) return ALI3_NOT_FINITE;
   const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps gives energy in no time */
   if (!driven && !(fabs(error) <= (h < in->h_whole ? MOST_OF_A_PART : MOST) * size)) return ALI3_UNRESOLVED;
-  in->report.energy_error += error;
+  ali3_books_energy(in, error, end);
   return ALI3_OK;
 }

@@ -157,6 +157,7 @@ bool ali3_settings_valid(const ali3_settings *s) {
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
   if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
   in->settings = *settings;
+  if (in->initialised) ali3_books_open(in); /* another method may have kept none */
   return ALI3_OK;
 }
 

@@ -16,6 +16,7 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   in->h_last = 0.0;
   in->count = 0;
   in->initialised = 1;
+  ali3_books_open(in);
   return ALI3_OK;
 }
 
@@ -42,14 +43,14 @@ static ali3_status step(ali3_instance *in, double h) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
-  const double energy_error = in->report.energy_error;
+  const ali3_report before = in->report;
   in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
   in->h_whole = h;
   const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);
-    in->report.energy_error = energy_error;
+    ali3_books_back(&in->report, &before);
     in->report.failures++;
     return status;
   }

@@ -68,9 +68,13 @@ static bool within(const unsigned char *p, int32_t n, const double *low, const d
 
 static bool counted(int64_t n) { return n >= 0 && n < MOST_COUNTED; }
 
+static bool magnitude(double x) { return x >= 0.0 && x - x == 0.0; }
+
 static bool report_valid(const ali3_report *r) {
-  return counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
-         counted(r->halvings) && counted(r->failures) && r->energy_error - r->energy_error == 0.0;
+  return magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) && magnitude(r->velocity_path) &&
+         magnitude(r->predictor_path) && r->energy - r->energy == 0.0 && counted(r->steps) && counted(r->iterations) &&
+         counted(r->factorizations) && counted(r->solves) && counted(r->halvings) && counted(r->failures) &&
+         r->energy_error - r->energy_error == 0.0;
 }
 
 static void get(void *to, const unsigned char **from, size_t size) {

@@ -132,12 +132,12 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
-    double kinetic, work = ali3_constraint_work(in, h);
+    double kinetic, end, work = ali3_constraint_work(in, h);
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
     ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS);
-    work += ali3_projection_work(in, h, &kinetic);
-    const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic);
+    work += ali3_projection_work(in, h, &kinetic, &end);
+    const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end);
     if (resolved != ALI3_OK) return resolved;
   } else {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0);
