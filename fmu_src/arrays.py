@@ -72,7 +72,9 @@ def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
 
 def _alike(table: Sequence[Variable], items: Sequence[int]) -> bool:
     first = table[items[0]]
-    return all(table[k].causality == "output" and table[k].unit == first.unit for k in items)
+    return all(
+        table[k].causality == "output" and table[k].unit == first.unit and table[k].whole == first.whole for k in items
+    )
 
 
 def _vector(table: Sequence[Variable], i: int) -> Array | None:

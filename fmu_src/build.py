@@ -16,6 +16,7 @@ import mbs
 from fmu_src.native.faces import FMI2, FMI3
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
+from fmu_src.probe import probe, with_nominal
 from fmu_src.variables import check_variants, variable_table
 from mbs.kernel import build
 
@@ -50,6 +51,9 @@ def build_fmu(
     say: Say = lambda text: None,
     kind: str = "native",
     fidelity: int = 0,
+    author: str = "",
+    copyright: str = "",
+    licence: str = "",
 ) -> Path:
     """Build the FMU of a System.
 
@@ -69,6 +73,8 @@ def build_fmu(
         One of `KINDS`.
     fidelity : int
         The default among several Systems.
+    author, copyright, licence : str
+        Of the model, for its description; empty: the solver's.
 
     Returns
     -------
@@ -85,23 +91,27 @@ def build_fmu(
     systems = (system,) if isinstance(system, mbs.System) else tuple(system)
     check_variants([s.meta for s in systems])
     meta = systems[fidelity].meta
+    table = variable_table(
+        meta,
+        pose=bool(meta["floating"]),
+        step_size=float(meta["experiment"]["step_s"]),
+        fidelities=len(systems),
+        fidelity=fidelity,
+    )
+    told = functools.partial(_told, say)
+    with told("finding what depends on what"):
+        reach = probe(systems, table)
     contents = NativeContents(
         fmu_name(name, kind),
         meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
         importlib.metadata.version("ali3"),
         systems,
-        variable_table(
-            meta,
-            pose=bool(meta["floating"]),
-            step_size=float(meta["experiment"]["step_s"]),
-            fidelities=len(systems),
-            fidelity=fidelity,
-        ),
+        with_nominal(table, reach),
+        reach,
         fidelity,
+        *(author, copyright, licence),
     )
     file = out / f"{contents.model_name}.fmu"
-
-    told = functools.partial(_told, say)
 
     if kind == "python":
         _pack_python(contents, chosen, file, told)

@@ -15,7 +15,7 @@ def _tables_fmi2(contents: NativeContents, identity: str, guid: str) -> str:
 
 
 def _documents_fmi2(head: Description, contents: NativeContents) -> dict[str, bytes]:
-    return {"modelDescription.xml": model_description(head, contents.table)}
+    return {"modelDescription.xml": model_description(head, contents.table, contents.reach)}
 
 
 FMI2 = Face(
@@ -44,7 +44,7 @@ def _documents_fmi3(head: Description, contents: NativeContents) -> dict[str, by
     groups = arrays(contents.table)
     buses = terminals(groups)
     return {
-        "modelDescription.xml": model_description_fmi3(head, contents.table, groups),
+        "modelDescription.xml": model_description_fmi3(head, contents.table, groups, contents.reach),
         "sources/buildDescription.xml": build_description(contents.model_name, head.sources),
     } | ({"terminalsAndIcons/terminalsAndIcons.xml": buses} if buses is not None else {})
 

@@ -27,7 +27,12 @@ def metadata(model: Model, coordinates: list[str], rows: list[RowTerms], report:
             }
             for i in model.inputs
         ],
-        "sensors": [{"name": s.name, "unit": s.unit, "description": s.description} for s in model.sensors],
+        "sensors": [
+            {"name": s.name, "unit": s.unit, "description": s.description}
+            | ({"whole": True} if s.whole else {})
+            | ({"display_unit": s.display_unit} if s.display_unit else {})
+            for s in model.sensors
+        ],
         "parameters": [
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
             for p in model.parameters

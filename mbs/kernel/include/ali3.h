@@ -152,6 +152,12 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
  * run was right that was tried; below it a run may be wrong. */
 #define ALI3_BALANCE_WRONG 0.04
 ALI3_API double ali3_energy_balance(const ali3_report *report);
+/* What a run can say without being repeated: nothing; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a balance
+ * above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps say nothing: they have no motion to compare with. */
+#define ALI3_HALVINGS_SUSPECT 0.1
+#define ALI3_DOUBT_FROM 100
+typedef enum { ALI3_DOUBT_NONE, ALI3_DOUBT_HALVINGS, ALI3_DOUBT_BALANCE } ali3_doubt;
+ALI3_API ali3_doubt ali3_run_doubt(const ali3_report *report);
 ALI3_API double ali3_time(const ali3_instance *in);
 
 enum { /* what the solver says about itself; the integer of sensors of type 13 */
@@ -162,6 +168,7 @@ enum { /* what the solver says about itself; the integer of sensors of type 13 *
        ALI3_SOLVER_HALVINGS,               /* since the start */
        ALI3_SOLVER_STATUS,                 /* ali3_status of the last step */
        ALI3_SOLVER_ENERGY_ERROR,           /* J, since the start */
+       ALI3_SOLVER_ENERGY_BALANCE,         /* the same as a share of the motion, see ali3_energy_balance */
        ALI3_SOLVER_COUNT
 };
 ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);

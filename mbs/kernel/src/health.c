@@ -24,7 +24,16 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
     return r->last_status;
   case ALI3_SOLVER_ENERGY_ERROR:
     return told(r->energy_error);
+  case ALI3_SOLVER_ENERGY_BALANCE:
+    return told(ali3_energy_balance(r));
   default:
     return 0.0;
   }
+}
+
+ali3_doubt ali3_run_doubt(const ali3_report *r) {
+  if (r == NULL || r->steps < ALI3_DOUBT_FROM) return ALI3_DOUBT_NONE;
+  if (ali3_energy_balance(r) > ALI3_BALANCE_WRONG) return ALI3_DOUBT_BALANCE;
+  const bool halved = (double)r->halvings > ALI3_HALVINGS_SUSPECT * (double)r->steps;
+  return halved ? ALI3_DOUBT_HALVINGS : ALI3_DOUBT_NONE;
 }
