@@ -32,6 +32,9 @@ from typing import Any
 ) = range(1, 14)
 """Codes of `ali3_status` beside 0."""
 
+NO_DOUBT, DOUBT_HALVINGS, DOUBT_BALANCE = range(3)
+"""Codes of `ali3_doubt`."""
+
 
 class KernelError(RuntimeError):
     """A call that the kernel refused.
@@ -150,6 +153,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
     "ali3_time": (c_double, [c_void_p]),
+    "ali3_solver_value": (c_double, [c_void_p, c_int32]),
+    "ali3_run_doubt": (c_int32, [POINTER(ReportFields)]),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_state_restore": (c_int32, [c_void_p, c_char_p, c_size_t]),
@@ -412,6 +417,16 @@ class Instance:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def solver_value(self, kind: int) -> float:
+        """What the solver says about itself: number `kind` of ALI3_SOLVER_* in `ali3.h`."""
+        return float(self._library.ali3_solver_value(self._handle, kind))
+
+    def doubt(self) -> int:
+        """Whether the run says that it is wrong: one of NO_DOUBT, DOUBT_HALVINGS and DOUBT_BALANCE."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return int(self._library.ali3_run_doubt(byref(fields)))
 
     @property
     def time(self) -> float:
