@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -57,8 +58,9 @@ class Subject:
 
     @property
     def outputs(self) -> list[ScalarVariable]:
-        """Outputs that are real numbers."""
-        return [v for v in self.description.modelVariables if v.causality == "output" and v.type in _REAL]
+        """Outputs that are real or whole numbers, the real ones first."""
+        found = [v for v in self.description.modelVariables if v.causality == "output"]
+        return [v for v in found if v.type in _REAL] + [v for v in found if v.type in _WHOLE]
 
     @property
     def inputs(self) -> list[ScalarVariable]:
@@ -71,6 +73,11 @@ class Subject:
 
 
 _REAL = ("Real", "Float64")
+_WHOLE = ("Integer", "Int32")
+
+
+def _count(variable: ScalarVariable) -> int:
+    return math.prod(int(dimension.start) for dimension in variable.dimensions)
 
 
 class Instance:
@@ -109,17 +116,17 @@ class Instance:
         return self
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
-        """Values, arrays flattened."""
-        references = [v.valueReference for v in variables]
-        if not self.three:
-            return list(self.slave.getReal(references))
-        count = 0
-        for v in variables:
-            size = 1
-            for dimension in v.dimensions:
-                size *= int(dimension.start)
-            count += size
-        return list(self.slave.getFloat64(references, count))
+        """Values of real variables, then those of whole ones; arrays flattened."""
+        real = [v for v in variables if v.type in _REAL]
+        whole = [v for v in variables if v.type in _WHOLE]
+        values: list[float] = []
+        for members, two, three in ((real, "getReal", "getFloat64"), (whole, "getInteger", "getInt32")):
+            references = [v.valueReference for v in members]
+            if references and self.three:
+                values += getattr(self.slave, three)(references, sum(map(_count, members)))
+            elif references:
+                values += getattr(self.slave, two)(references)
+        return values
 
     def set(self, variable: ScalarVariable, value: float) -> None:
         """Set one real variable."""
