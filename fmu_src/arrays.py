@@ -70,6 +70,11 @@ def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
     return tuple(found)
 
 
+def scalars(table: Sequence[Variable]) -> tuple[Array, ...]:
+    """Every variable by itself, for hosts that do not read arrays."""
+    return tuple(Array(v.name, (i,), v, v.description) for i, v in enumerate(table))
+
+
 def _alike(table: Sequence[Variable], items: Sequence[int]) -> bool:
     first = table[items[0]]
     return all(

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import mbs
-from fmu_src.native.faces import FMI2, FMI3
+from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.probe import probe, with_nominal
@@ -26,12 +26,13 @@ _PATIENCE = 2.0
 KINDS = {
     "native": "FMI 2.0 in C, for every tool",
     "fmi3": "FMI 3.0 in C, with arrays",
+    "fmi3_scalar": "FMI 3.0 in C, without arrays, for hosts that do not read them",
     "python": "FMI 2.0 in Python, for hosts with a Python of their own",
 }
 """Kinds of FMU."""
 
-_FACES = {"native": FMI2, "fmi3": FMI3}
-_NAME_SUFFIX = {"native": "", "fmi3": "FMI3", "python": "Python"}
+_FACES = {"native": FMI2, "fmi3": FMI3, "fmi3_scalar": FMI3_SCALAR}
+_NAME_SUFFIX = {"native": "", "fmi3": "FMI3", "fmi3_scalar": "FMI3Scalar", "python": "Python"}
 
 
 def fmu_name(scene: str, kind: str = "native") -> str:
@@ -66,7 +67,7 @@ def build_fmu(
     out : Path
         Folder; made if it is not there.
     platforms : sequence of str, optional
-        Out of ``linux64``, ``win64`` and ``darwin64``; by default all the kind can have.
+        Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``; by default all the kind can have.
     say : callable
         Is told what is going on, one line at a time.
     kind : str

@@ -1,8 +1,9 @@
 """Which variables reach which outputs, and how large the outputs are: found by trying, at build time.
 
 A variable reaches an output if changing it, and nothing else, changes a bit of the output: over one step from a state
-that random inputs led to (inputs), or in the initial state from random values (all that can be set). Random values
-leave their regime, such as a wheel at rest, so that a path is missed only where none of the tries opens it.
+that random inputs led to (inputs), or in the initial state from random values (all that can be set). Positions and
+velocities show their paths at any values. Forces have regimes, such as a kerb that no wheel stands on: what a force
+reaches is declared to depend on all parameters, and what a step changes on all inputs that change anything.
 """
 
 from __future__ import annotations
@@ -18,10 +19,16 @@ from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 
 _SEED = 20_261_120
 _INITIAL_TRIES = 6
-_STEP_TRIES = 8
+_STEP_TRIES = 9
 _STEPS = 40
 _POSE = {"initial.x": 20.0, "initial.y": 20.0, "initial.z": 0.2, "initial.yaw": 1.0, "initial.speed": 20.0}
 _OPEN_RANGE = 10.0
+# Shares of the ranges in turn: a mechanism may not bear all of them.
+_SHARES = (1.0, 0.1, 0.01)
+# Types of sensors, see docs/system_file.md.
+_SECOND, _COMPONENT = 2, 3
+_ECHOES, _FORCES = (11, 12), (8, 9, 10, 17)
+_ECHO, _MOTION, _FORCE = "echo", "motion", "force"
 
 
 @dataclass(frozen=True)
@@ -60,6 +67,7 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
     tries = _Tries(table, outputs)
     for k, system in enumerate(systems):
         tries.rung(Instance(LoadedSystem(system.to_bytes())), k, float(system.meta["experiment"]["step_s"]))
+    tries.close(systems)
     return Dependencies(
         {i: tuple(sorted(tries.step[i])) for i in outputs},
         {i: tuple(sorted(tries.initial[i])) for i in outputs},
@@ -76,13 +84,15 @@ class _Tries:
         self.initial: dict[int, set[int]] = {i: set() for i in outputs}
         self.size = dict.fromkeys(outputs, 0.0)
         self.of_rung: list[list[list[float] | None]] = []
+        self.share = 1.0
         self.inputs = [i for i, v in enumerate(table) if v.source == "input"]
         self.settable = [i for i, v in enumerate(table) if v.source in ("input", "parameter", "pose")]
 
     def rung(self, kernel: Instance, number: int, h: float) -> None:
         rng = random.Random(_SEED)
         starts = [self._start(kernel, {})]
-        for _ in range(_INITIAL_TRIES):
+        for k in range(_INITIAL_TRIES):
+            self.share = _SHARES[k % len(_SHARES)]
             values = {i: self._random(i, rng) for i in self.settable}
             starts.append(self._start(kernel, values))
             for i in self.settable:
@@ -92,8 +102,22 @@ class _Tries:
         if fidelity is not None:
             for first, mine in zip(self.of_rung[0], starts, strict=True):
                 self._compare(self.initial, fidelity, first, mine)
-        for _ in range(_STEP_TRIES):
+        for k in range(_STEP_TRIES):
+            self.share = _SHARES[k % len(_SHARES)]
             self._steps(kernel, h, rng)
+
+    def close(self, systems: Sequence[mbs.System]) -> None:
+        """Add what no try may have opened."""
+        kinds = {i: {_kind(system, self.table[i].index) for system in systems} for i in self.sensed}
+        kind = {i: next(k for k in (_FORCE, _MOTION, _ECHO) if k in found) for i, found in kinds.items()}
+        acting = {k for i in self.sensed if kind[i] != _ECHO for k in self.step[i]}
+        parameters = {i for i, v in enumerate(self.table) if v.source == "parameter"}
+        for i in self.outputs:
+            if kind.get(i) == _FORCE:
+                self.step[i] |= acting
+                self.initial[i] |= parameters if self.initial[i] else set()
+            elif kind.get(i) != _ECHO and (self.step[i] or i not in kind):
+                self.step[i] |= acting
 
     def _steps(self, kernel: Instance, h: float, rng: random.Random) -> None:
         values = {i: self._random(i, rng) for i in self.settable}
@@ -107,7 +131,7 @@ class _Tries:
                     for i in self.inputs:
                         kernel.set_input(self.table[i].index, self._random(i, rng))
         except KernelError:
-            return
+            pass  # the last good state stays
         state = kernel.save()
         base = self._stepped(kernel, h)
         for i in self.inputs:
@@ -139,11 +163,11 @@ class _Tries:
         v = self.table[i]
         span = _POSE.get(v.name, _OPEN_RANGE) if v.source == "pose" else _OPEN_RANGE
         centre = v.start or 0.0
-        low = v.min if v.min is not None else centre - span
-        high = v.max if v.max is not None else centre + span
-        if not v.min and v.source == "pose":
-            low = max(low, 0.0)
-        return rng.uniform(low, max(low, high))
+        low = v.min if v.min is not None else min(centre - span, v.max if v.max is not None else centre)
+        high = v.max if v.max is not None else max(centre + span, low)
+        if v.source == "pose":
+            low = 0.0
+        return centre + self.share * (rng.uniform(low, high) - centre)
 
     def _start(self, kernel: Instance, values: dict[int, float]) -> list[float] | None:
         """Sensors of the initial state; None where there is none with these values."""
@@ -166,6 +190,15 @@ class _Tries:
         sensors = list(kernel.sensors())
         self._sizes(sensors)
         return sensors
+
+
+def _kind(system: mbs.System, sensor: int) -> str:
+    """Whether a sensor repeats inputs, reads positions and velocities, or forces and accelerations."""
+    kind, first = int(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
+    if kind in _ECHOES:
+        return _ECHO
+    rate_of_rate = kind == _SECOND or (kind == _COMPONENT and int(system.arrays["sen_int"][first]) == _SECOND)
+    return _FORCE if kind in _FORCES or rate_of_rate else _MOTION
 
 
 def with_nominal(table: Sequence[Variable], reach: Dependencies) -> tuple[Variable, ...]:

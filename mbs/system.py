@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.compile.report import report_text
+from mbs.meta_check import problem_of
 
 MAGIC = b"ALI3SYS\n"
 VERSION = 1
@@ -136,9 +137,14 @@ class System:
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
             meta = json.loads(found.pop("meta"))
+            problem = problem_of(meta, {name: len(values) for name, values in found.items()})
+            if problem:
+                raise SystemFileError(f"The names in the System file were altered: {problem}.")
             system = cls(found, meta)
             str(system)
-        except (KeyError, TypeError, ValueError) as error:
+        except SystemFileError:
+            raise
+        except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
             raise SystemFileError(f"The names in the System file are damaged: {error}") from None
         return system
 
@@ -149,6 +155,8 @@ class System:
     @classmethod
     def load(cls, path: str | Path) -> System:
         """Read a System file; `SystemFileError` if it is not a valid one."""
+        if Path(path).exists() and not Path(path).is_file():
+            raise SystemFileError(f"{path} is not a file that can be read to its end.")
         return cls.from_bytes(Path(path).read_bytes())
 
 

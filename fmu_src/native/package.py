@@ -146,7 +146,7 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
     contents : NativeContents
     face : Face
     platforms : sequence of str
-        Out of ``linux64``, ``win64`` and ``darwin64``.
+        Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``.
     file : Path
         Where to.
     told : callable
