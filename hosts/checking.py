@@ -57,6 +57,11 @@ class Subject:
     step: float
 
     @property
+    def three(self) -> bool:
+        """Whether it is FMI 3.0."""
+        return self.description.fmiVersion.startswith("3")
+
+    @property
     def outputs(self) -> list[ScalarVariable]:
         """Outputs that are real or whole numbers, the real ones first."""
         found = [v for v in self.description.modelVariables if v.causality == "output"]
@@ -83,15 +88,17 @@ def _count(variable: ScalarVariable) -> int:
 class Instance:
     """One instance of either version of FMI with the same calls."""
 
-    def __init__(self, subject: Subject, token: str | None = None) -> None:
+    def __init__(
+        self, subject: Subject, token: str | None = None, name: str = "check", resources: str | None = None
+    ) -> None:
         self.subject = subject
         self.messages: list[str] = []
-        self.three = subject.description.fmiVersion.startswith("3")
+        self.three = subject.three
         arguments: dict[str, Any] = {
             "guid": token or subject.description.guid,
             "unzipDirectory": str(subject.folder),
             "modelIdentifier": subject.description.coSimulation.modelIdentifier,
-            "instanceName": "check",
+            "instanceName": name,
         }
         self.slave = FMU3Slave(**arguments) if self.three else FMU2Slave(**arguments)
         if self.three:
@@ -103,14 +110,17 @@ class Instance:
             self._callbacks.logger = fmi2CallbackLoggerTYPE(
                 lambda e, n, s, c, text: self.messages.append(text.decode("utf-8", "replace"))
             )
+            if resources is not None:
+                take = self.slave.fmi2Instantiate
+                self.slave.fmi2Instantiate = lambda *a: take(*a[:3], resources.encode(), *a[4:])
             self.slave.instantiate(callbacks=self._callbacks)
 
-    def start(self) -> Instance:
+    def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
         """Leave initialisation."""
         if self.three:
-            self.slave.enterInitializationMode(startTime=0.0)
+            self.slave.enterInitializationMode(startTime=start_time, stopTime=stop_time)
         else:
-            self.slave.setupExperiment(startTime=0.0)
+            self.slave.setupExperiment(startTime=start_time, stopTime=stop_time)
             self.slave.enterInitializationMode()
         self.slave.exitInitializationMode()
         return self

@@ -55,7 +55,9 @@ def _list_problem(key: str, entries: Any, lengths: Mapping[str, int]) -> str:
         for part, kind in _LISTS[key].items():
             if not (isinstance(entry, dict) and _fits(entry.get(part), kind)):
                 return f"entry {k} of '{key}' has no '{part}', or one of another kind"
-        if key == "inputs" and not all(entry.get(end) is None or _fits(entry[end], float) for end in ("min", "max")):
+        if key == "inputs" and not all(
+            end in entry and (entry[end] is None or _fits(entry[end], float)) for end in ("min", "max")
+        ):
             return f"entry {k} of '{key}' has a range of another kind"
     return ""
 

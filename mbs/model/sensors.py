@@ -380,9 +380,11 @@ class SensorVocabulary(ModelCore):
         reals = [*self.gravity, *weights]
         return self._sense(name, unit, description, 17, signals, [n], reals, joints=list(body.ports.values()))
 
-    def sense_constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Sensor:
-        """A number that does not change."""
-        return self._sense(name, unit, description, 0, [Affine({}, 1.0)], reals=[float(value)])
+    def sense_constant(
+        self, name: str, value: float, unit: str = "1", description: str = "", whole: bool = False
+    ) -> Sensor:
+        """A number that does not change; `whole`: an integer for an FMU."""
+        return self._sense(name, unit, description, 0, [Affine({}, 1.0)], reals=[float(value)], whole=whole)
 
     def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
         """ "kinetic", "gravity", "elastic" or "total" energy, J."""
