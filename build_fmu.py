@@ -69,7 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             )
             print(
                 f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(meta['inputs'])} inputs, "
-                f"{len(meta['sensors'])} outputs",
+                f"{len(meta['sensors'])} sensors",
                 flush=True,
             )
     except (ValueError, RuntimeError, OSError) as error:
