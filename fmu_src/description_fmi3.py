@@ -97,7 +97,11 @@ def build_description(model_identifier: str, sources: Sequence[str]) -> bytes:
     for name in sources:
         ElementTree.SubElement(files, "SourceFile", name=name)
     ElementTree.SubElement(
-        configuration, "Library", name="m", external="true", description="The C library's mathematics, where it is apart"
+        configuration,
+        "Library",
+        name="m",
+        external="true",
+        description="The C library's mathematics, where it is apart",
     )
     return to_bytes(root)
 

@@ -26,7 +26,13 @@ STEP_SIZE = "step_size"
 _SOLVER = (
     ("solver.status", 5, "1", True, "What the last step ended with: 0 good, else a code of the solver"),
     ("solver.halvings", 4, "1", True, "How often inner steps had to be halved since the start"),
-    ("solver.energy_error", 6, "J", False, "Energy that the steps have made or lost since the start where no force did"),
+    (
+        "solver.energy_error",
+        6,
+        "J",
+        False,
+        "Energy that the steps have made or lost since the start where no force did",
+    ),
     (
         *("solver.energy_balance", 7, "1", False),
         "solver.energy_error over the largest kinetic energy and the work so far; above 0.04 results are wrong",
@@ -177,9 +183,7 @@ def _distinct(table: Sequence[Variable]) -> tuple[Variable, ...]:
     shared = Counter(v.description for v in table)
     told = [_preceded(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
     shared = Counter(v.description for v in told)
-    return tuple(
-        _preceded(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, told, strict=True)
-    )
+    return tuple(_preceded(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, told, strict=True))
 
 
 def _preceded(v: Variable, word: str) -> Variable:

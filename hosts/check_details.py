@@ -79,7 +79,9 @@ def build_files(subject: Subject) -> Finding:
     named = description.exists() and any(
         e.get("name") == "m" for e in ElementTree.parse(description).getroot().iter("Library")
     )
-    words = "names the mathematical library" if named else "the sources use the mathematical library, which is not named"
+    words = (
+        "names the mathematical library" if named else "the sources use the mathematical library, which is not named"
+    )
     return Finding("build description", "good" if named else "bad", words)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 # Lists of entries and what each entry has: key and type.
-_TEXTS = {"name": str, "unit": str, "description": str}
+_TEXTS: dict[str, type] = {"name": str, "unit": str, "description": str}
 _LISTS: dict[str, dict[str, type]] = {
     "rows": {"name": str, "kind": str},
     "inputs": _TEXTS | {"start": float},

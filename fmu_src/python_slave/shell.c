@@ -362,10 +362,11 @@ static fmi2Status refused(shell *s, double time, double step) {
   s->refusal.time = time;
   s->refusal.step = step;
   if (!again) return fmi2Discard;
-  snprintf(text, sizeof text,
-           "The step from %.6g s over %.6g s was refused %d times with nothing changed in between; the simulation should "
-           "end here. Run it anew with a smaller step_size, or go on from another state.",
-           time, step, s->refusal.count);
+  snprintf(
+      text, sizeof text,
+      "The step from %.6g s over %.6g s was refused %d times with nothing changed in between; the simulation should "
+      "end here. Run it anew with a smaller step_size, or go on from another state.",
+      time, step, s->refusal.count);
   shell_log(s, "", s->refusal.count == 2 ? fmi2Discard : fmi2Error, text);
   return s->refusal.count == 2 ? fmi2Discard : fmi2Error;
 }

@@ -189,8 +189,8 @@ class Slave(Fmi2Slave):
         apart = abs(time) * sys.float_info.epsilon
         if not time + step > time or apart > _CLOCK_TOLERANCE * inner:
             return (
-                f"At {time:g} s neighbouring times are {apart:.2g} s apart: the clock cannot follow a step of {step:g} s "
-                f"with inner steps of {inner:g} s; begin nearer to zero."
+                f"At {time:g} s neighbouring times are {apart:.2g} s apart: the clock cannot follow a step of {step:g} "
+                f"s with inner steps of {inner:g} s; begin nearer to zero."
             )
         return ""
 
@@ -295,7 +295,10 @@ class Slave(Fmi2Slave):
         head = _STATE_HEAD.pack(
             _STATE_MAGIC,
             self._identity,
-            self._phase | self._initialised << 2 | self._outputs_fresh << 3 | self._step_warned << 4
+            self._phase
+            | self._initialised << 2
+            | self._outputs_fresh << 3
+            | self._step_warned << 4
             | self._energy_warned << 5,
             len(values),
             self._start_time,

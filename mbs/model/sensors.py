@@ -96,9 +96,7 @@ class SensorVocabulary(ModelCore):
         display_unit: str = "",
     ) -> Sensor:
         self.unique("sensor", name)
-        sensor = Sensor(
-            name, unit, description, type, signals, integers, reals, joint, joints, whole, display_unit
-        )
+        sensor = Sensor(name, unit, description, type, signals, integers, reals, joint, joints, whole, display_unit)
         self.sensors.append(sensor)
         return sensor
 

@@ -158,7 +158,7 @@ class Host:
         return float(self.slave.getReal([self.references[name]])[0])
 
     def outputs(self) -> list[float]:
-        """Those that are sensors of the scene, whole ones too, as real numbers; the solver's figures come after them."""
+        """Those that are sensors of the scene, whole ones as real numbers; the solver's figures come after."""
         names = [v.name for v in self.description.modelVariables if v.causality == "output"]
         while names[-1] in SOLVER:
             names.pop()

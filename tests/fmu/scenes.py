@@ -55,7 +55,7 @@ def sled() -> mbs.Model:
 
 
 def crank_slider() -> mbs.Model:
-    """The model of docs/modelling.md: its crank turns ever faster, and steps lose energy where the rod stands across."""
+    """The model of docs/modelling.md: its crank turns ever faster, and its steps lose energy."""
     m = mbs.Model("crank slider", dimension=2)
     crank = m.body("crank", mass=1.0, com=(0.05, 0.0), inertia=0.001)
     rod = m.body("rod", mass=0.5, com=(0.25, 0.0), inertia=0.004)

@@ -1,4 +1,4 @@
-"""What one host does and another does not: where the resources lie, how time is read, where it starts, how far a step is."""
+"""What one host does and another does not: where resources lie, how time is read, how far a step goes."""
 
 from __future__ import annotations
 
@@ -176,9 +176,7 @@ def test_linux_on_arm_has_a_binary(tmp_path: Path, variant: str) -> None:
     assert int.from_bytes(data[18:20], "little") == 183  # AArch64
 
 
-def test_the_date_is_that_of_the_environment_or_the_version(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_date_is_that_of_the_environment_or_the_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     name, system = load_scene(f"{Path(__file__).parent / 'scenes.py'}:crane")
 
     def date() -> str:

@@ -88,9 +88,7 @@ def test_one_unit_has_one_name() -> None:
 
 
 def test_descriptions_are_distinct() -> None:
-    sensors = [
-        {"name": name, "unit": "N", "description": "force"} for name in ("a.Fx", "b.Fx", "b.Fy", "c.Fx")
-    ]
+    sensors = [{"name": name, "unit": "N", "description": "force"} for name in ("a.Fx", "b.Fx", "b.Fy", "c.Fx")]
     table = variable_table({"inputs": [], "parameters": [], "sensors": sensors}, pose=False, step_size=0.01)
     texts = [v.description for v in table if v.source == "sensor"]
     assert len(set(texts)) == len(texts)

@@ -70,16 +70,52 @@ def test_ours_have_none_of_it(fmus: dict[str, Path]) -> None:
 
 XML = "modelDescription.xml"
 TEXTS: list[tuple[str, str, str, list[Change]]] = [
-    ("native", "dependencies", "derivative by torque", [(XML, 'dependencies="1" dependenciesKind="dependent"', 'dependencies=""')]),
-    ("fmi3", "dependencies", "derivative by torque", [(XML, 'dependencies="0" dependenciesKind="dependent"', 'dependencies=""')]),
-    ("native", "unit names", "'N m' and 'N.m'", [(XML, '<Unit name="N.m">', '<Unit name="N m"><BaseUnit kg="1" m="2" s="-2" /></Unit><Unit name="N.m">')]),
+    (
+        "native",
+        "dependencies",
+        "derivative by torque",
+        [(XML, 'dependencies="1" dependenciesKind="dependent"', 'dependencies=""')],
+    ),
+    (
+        "fmi3",
+        "dependencies",
+        "derivative by torque",
+        [(XML, 'dependencies="0" dependenciesKind="dependent"', 'dependencies=""')],
+    ),
+    (
+        "native",
+        "unit names",
+        "'N m' and 'N.m'",
+        [(XML, '<Unit name="N.m">', '<Unit name="N m"><BaseUnit kg="1" m="2" s="-2" /></Unit><Unit name="N.m">')],
+    ),
     ("native", "whole numbers", "such as solver.", [(XML, "<Integer", "<Real")]),
-    ("native", "about the file", "2000-01-01", [(XML, 'generationDateAndTime="', 'generationDateAndTime="2000-01-01T00:00:00Z" x="')]),
+    (
+        "native",
+        "about the file",
+        "2000-01-01",
+        [(XML, 'generationDateAndTime="', 'generationDateAndTime="2000-01-01T00:00:00Z" x="')],
+    ),
     ("native", "about the file", "no author, copyright", [(XML, ' author="', ' x1="'), (XML, ' copyright="', ' x2="')]),
     ("native", "about the file", "nominal", [(XML, " nominal=", " x1=")]),
-    ("native", "about the file", "several variables", [(XML, "How often inner steps had to be halved since the start", "What the last step ended with: 0 good, else a code of the solver")]),
-    ("fmi3", "build description", "not named", [("sources/buildDescription.xml", '<Library name="m"', '<Library name="n"')]),
-]  # fmt: skip
+    (
+        "native",
+        "about the file",
+        "several variables",
+        [
+            (
+                XML,
+                "How often inner steps had to be halved since the start",
+                "What the last step ended with: 0 good, else a code of the solver",
+            )
+        ],
+    ),
+    (
+        "fmi3",
+        "build description",
+        "not named",
+        [("sources/buildDescription.xml", '<Library name="m"', '<Library name="n"')],
+    ),
+]
 
 
 @pytest.mark.parametrize(("kind", "check", "said", "changes"), TEXTS)
@@ -94,15 +130,44 @@ def test_documents(
 STATUS = "*value = (fmi2Status)s->last_step;"
 CALLS: list[tuple[str, str, str, Change]] = [
     ("fmi3", "time", "cannot be read", ("sources/fmi3_life.c", "reference[i] > fmi3_the", "reference[i] >= fmi3_the")),
-    ("native", "quiet steps", "status 1", ("sources/step.c", "return slave_watch(s);", "return s->calls.step_warned ? SLAVE_WARNING : SLAVE_OK;")),
+    (
+        "native",
+        "quiet steps",
+        "status 1",
+        ("sources/step.c", "return slave_watch(s);", "return s->calls.step_warned ? SLAVE_WARNING : SLAVE_OK;"),
+    ),
     ("native", "resources", "FILE://", ("sources/resource.c", "uri[n] == scheme[n] - ('a' - 'A')", "0")),
-    ("native", "refused steps", "without end", ("sources/refusal.c", "r->step == step ? r->count + 1 : 1", "r->step == step ? 1 : 1")),
-    ("native", "careless calls", "log category", ("sources/log.c", "if (k == CATEGORIES)\n      return", "if (k == CATEGORIES) return SLAVE_OK;\n    if (k == CATEGORIES)\n      return")),
-    ("native", "careless calls", "beyond the stop time", ("sources/step.c", "time + step > s->calls.stop_time", "0.0 > 1.0 + s->calls.stop_time")),
+    (
+        "native",
+        "refused steps",
+        "without end",
+        ("sources/refusal.c", "r->step == step ? r->count + 1 : 1", "r->step == step ? 1 : 1"),
+    ),
+    (
+        "native",
+        "careless calls",
+        "log category",
+        (
+            "sources/log.c",
+            "if (k == CATEGORIES)\n      return",
+            "if (k == CATEGORIES) return SLAVE_OK;\n    if (k == CATEGORIES)\n      return",
+        ),
+    ),
+    (
+        "native",
+        "careless calls",
+        "beyond the stop time",
+        ("sources/step.c", "time + step > s->calls.stop_time", "0.0 > 1.0 + s->calls.stop_time"),
+    ),
     ("native", "careless calls", "empty instance name", ("sources/life.c", "name[0] == 0", "false")),
-    ("native", "careless calls", "fmi2GetStatus", ("sources/fmi2_step.c", STATUS, "return no_status(c, \"fmi2GetStatus\");")),
+    (
+        "native",
+        "careless calls",
+        "fmi2GetStatus",
+        ("sources/fmi2_step.c", STATUS, 'return no_status(c, "fmi2GetStatus");'),
+    ),
     ("native", "far from zero", "clock stands", ("sources/step.c", "!(time + step > time) || ", "false && ")),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("kind", "check", "said", "change"), CALLS)

@@ -61,7 +61,8 @@ static fmi3Status other_type(fmi3Instance instance, const char *function, unsign
   fmi3_face *face = fmi3_slave(instance, function, mask);
   if (face == NULL) return fmi3Error;
   if (n == 0) return fmi3OK;
-  return (fmi3Status)slave_say(face->s, SLAVE_ERROR, "%s: all variables of this FMU are of type Float64 or Int32.", function);
+  return (fmi3Status)slave_say(face->s, SLAVE_ERROR, "%s: all variables of this FMU are of type Float64 or Int32.",
+                               function);
 }
 
 #define OTHER_TYPE(Type)                                                                                               \

@@ -19,10 +19,11 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
                      "step_size may pass: it is %g s and can be set before initialisation.",
                      time, step, time, ali3_status_text(status), worst, h);
   if (r->count == 2)
-    return slave_say(s, SLAVE_DISCARD,
-                     "The step from %.6g s over %.6g s was asked for again with nothing changed and refused again; the "
-                     "simulation should end here. Run it anew with a step_size below %g s, or go on from another state.",
-                     time, step, h);
+    return slave_say(
+        s, SLAVE_DISCARD,
+        "The step from %.6g s over %.6g s was asked for again with nothing changed and refused again; the "
+        "simulation should end here. Run it anew with a step_size below %g s, or go on from another state.",
+        time, step, h);
   return slave_say(s, SLAVE_ERROR,
                    "The step from %.6g s over %.6g s was refused %d times with nothing changed in between; run anew "
                    "with a step_size below %g s.",

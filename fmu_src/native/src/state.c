@@ -81,8 +81,8 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (head.fidelity >= slave_the_table.n_systems) return "their header makes no sense";
   if (head.fidelity == s->rung.fidelity && size != whole_size(s)) return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
-      head.initialised > 1 || head.step_warned > 1 || head.energy_warned > 1 || head.mode_warned > 1 || !(fabs(head.start_time) < HUGE_VAL) ||
-      !(head.stop_time > head.start_time))
+      head.initialised > 1 || head.step_warned > 1 || head.energy_warned > 1 || head.mode_warned > 1 ||
+      !(fabs(head.start_time) < HUGE_VAL) || !(head.stop_time > head.start_time))
     return "their header makes no sense";
   if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header makes no sense";
   return NULL;
@@ -97,8 +97,7 @@ static const char *bad_value(const unsigned char *p) {
     if (!(fabs(v) < HUGE_VAL)) return "a number in them is not finite";
     if (i < t->n_known && !(v >= t->variable[i].min && v <= t->variable[i].max))
       return "a number in them is out of its range";
-    if (i < t->n_known && t->variable[i].whole && v != floor(v))
-      return "a number in them is out of its range";
+    if (i < t->n_known && t->variable[i].whole && v != floor(v)) return "a number in them is out of its range";
   }
   const unsigned char *flag = p + t->n_known * (1 + SLAVE_MOST_ORDERS) * sizeof v;
   for (size_t i = 0; i < 2 * t->n_known; i++)

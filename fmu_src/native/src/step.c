@@ -112,10 +112,11 @@ static bool possible(slave *s, double time, double step, double now) {
               "The step of %g s has more than %g inner steps of %g s and could not be cancelled; ask for shorter ones.",
               step, MOST_STEPS, s->value[s->step_reference]);
   else if (!(time + step > time) || fabs(time) * DBL_EPSILON > CLOCK_TOLERANCE * s->value[s->step_reference])
-    slave_say(s, SLAVE_ERROR,
-              "At %g s neighbouring times are %.2g s apart: the clock cannot follow a step of %g s with inner steps of %g "
-              "s; begin nearer to zero.",
-              time, fabs(time) * DBL_EPSILON, step, s->value[s->step_reference]);
+    slave_say(
+        s, SLAVE_ERROR,
+        "At %g s neighbouring times are %.2g s apart: the clock cannot follow a step of %g s with inner steps of %g "
+        "s; begin nearer to zero.",
+        time, fabs(time) * DBL_EPSILON, step, s->value[s->step_reference]);
   else
     return true;
   return false;

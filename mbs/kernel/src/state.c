@@ -101,8 +101,8 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   get(&report, &p, sizeof report);
   const unsigned char *numbers = (const unsigned char *)bytes + fixed,
                       *inputs = numbers + (2 + in->n_vector) * sizeof(double);
-  if (!ali3_settings_valid(&settings) || !report_valid(&report) ||
-      !numbers_valid(numbers, 2 + in->n_vector) || !within(inputs, z->nu, S->input_min, S->input_max) ||
+  if (!ali3_settings_valid(&settings) || !report_valid(&report) || !numbers_valid(numbers, 2 + in->n_vector) ||
+      !within(inputs, z->nu, S->input_min, S->input_max) ||
       !within(inputs + (size_t)z->nu * sizeof(double), z->np, S->par_min, S->par_max))
     return ALI3_BAD_STATE;
   double *parameter = in->parameter_work;

@@ -31,7 +31,12 @@ def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
     m.sense_pitch("chassis.pitch", chassis, description="positive nose down")
     m.sense_roll("chassis.roll", chassis, description="positive left side up")
     for c in "wxyz":
-        m.sense_quaternion(f"chassis.q{c}", chassis, c, description=f"q{c} of the orientation, scalar first (qw), from vehicle to earth axes")
+        m.sense_quaternion(
+            f"chassis.q{c}",
+            chassis,
+            c,
+            description=f"q{c} of the orientation, scalar first (qw), from vehicle to earth axes",
+        )
     for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
         m.sense_velocity(
             f"chassis.v{c}",
@@ -131,4 +136,6 @@ def health_outputs(m: Model) -> None:
 def _travel(m: Model, chassis: Body, spin: Spin, w: str) -> None:
     reference = np.array([c.reference for c in m.coordinates])
     gap: AffineVector = spin.centre - chassis.point(spin.centre.value(reference))
-    m.sense_component(f"wheel_{w}.travel", gap, chassis.vector(UP), description="travel of the wheel centre, positive in bump")
+    m.sense_component(
+        f"wheel_{w}.travel", gap, chassis.vector(UP), description="travel of the wheel centre, positive in bump"
+    )
