@@ -34,7 +34,7 @@ class Report:
     work : float
         What inputs, drives, dampers and tyres gave and took, the sum of their shares of the steps, J.
     kinetic_peak : float
-        Largest kinetic energy, J.
+        Largest kinetic energy, J; at least that of 1e-6 m/s, so that round-off at rest is no error.
     speed_peak, velocity_path, predictor_path : float
         In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity, and the sum over the
         steps of what the velocity is off ``v + h a`` of their start.

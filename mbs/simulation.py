@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.input_signals import InputSignals, Signal
+from mbs import accuracy, repeat
+from mbs.accuracy import AccuracyWarning
+from mbs.errors import SimulationError
+from mbs.input_signals import InputSignals, Signal, unit_text
 from mbs.kernel.binding import (
     BELOW_ROAD,
     NO_TREE,
+    TOO_FAR,
+    TOO_STIFF,
     UNRESOLVED,
     WRONG_METHOD,
     Instance,
@@ -28,6 +34,7 @@ from mbs.system import System
 from mbs.trajectory import Trajectory
 
 SINGULAR = {"switches": "switch"}
+STIFF_STEP = 2.5  # fastest rate times step that an explicit method follows, at least
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -61,26 +68,6 @@ class State:
     qdd: NDArray[np.float64]
     lam: NDArray[np.float64]
     y: NDArray[np.float64]
-
-
-class SimulationError(RuntimeError):
-    """A step, an initialisation or a restore that the kernel refused; the last good state is kept.
-
-    Attributes
-    ----------
-    time : float
-        Of the last good state, s.
-    status : int
-        Code of the kernel.
-    trajectory : Trajectory or None
-        What a run had recorded so far.
-    """
-
-    def __init__(self, message: str, time: float, status: int, trajectory: Trajectory | None = None) -> None:
-        super().__init__(message)
-        self.time = time
-        self.status = status
-        self.trajectory = trajectory
 
 
 class Simulation:
@@ -122,8 +109,9 @@ class Simulation:
         for name, value in (inputs or {}).items():
             self.set_input(name, value)
         if pose is not None:
-            self._call("The starting pose was refused", lambda: self.instance.set_pose(*astuple(pose)))
+            self._call(f"The starting {pose} was refused", lambda: self.instance.set_pose(*astuple(pose)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
+        self._warned = False
 
     @property
     def time(self) -> float:
@@ -156,7 +144,7 @@ class Simulation:
         entry = self._meta["parameters"][index]
         if not entry["min"] <= value <= entry["max"]:
             raise ValueError(
-                f"Parameter {name!r} is set to {value:g} {entry['unit']}; "
+                f"Parameter {name!r} is set to {value:g}{unit_text(entry['unit'])}; "
                 f"it must lie between {entry['min']:g} and {entry['max']:g}."
             )
         self.instance.set_parameter(index, value)
@@ -200,12 +188,19 @@ class Simulation:
         )
 
     def step(self, h: float, n: int = 1) -> None:
-        """Make `n` steps of `h` seconds with the inputs as they are."""
+        """Make `n` steps of `h` seconds with the inputs as they are.
+
+        Warns
+        -----
+        AccuracyWarning
+            Once, when the energy balance since the start says that the result is wrong.
+        """
         _check_step(h)
         if n != int(n) or n < 0:
             raise ValueError(f"n = {n}; it must be a whole number of steps.")
         for _ in range(int(n)):
             self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
+        self._warn_once()
 
     def run(
         self,
@@ -216,7 +211,27 @@ class Simulation:
         every: int = 1,
         progress: bool | Callable[[float], None] | None = None,
     ) -> Trajectory:
-        """Step from the present time to `t_end`; see `simulate`."""
+        """Step from the present time to `t_end`; see `simulate`. Only `simulate` can repeat a run to check it.
+
+        Warns
+        -----
+        AccuracyWarning
+            Once, when the energy balance since the start says that the result is wrong.
+        """
+        trajectory = self._march(t_end, h, inputs, every, progress)[0]
+        self._warn_once()
+        return trajectory
+
+    def _march(
+        self,
+        t_end: float,
+        h: float,
+        inputs: Mapping[str, Signal] | None,
+        every: int,
+        progress: bool | Callable[[float], None] | None,
+        look: bool = False,
+    ) -> tuple[Trajectory, list[NDArray[np.float64]]]:
+        """The steps of `run`; with `look` also the coordinates at the instants where two runs are compared."""
         _check_step(h)
         t0 = self.time
         steps = _count_steps(t0, t_end, h)
@@ -225,10 +240,13 @@ class Simulation:
         signals = InputSignals(inputs or {}, self._meta["inputs"])
         values = np.empty((steps // every + 1, len(self._meta["sensors"])))
         values[0] = self._sensor_values()
-        done, wall, chunk = 0, 0.0, every
+        looks = [int(k) * every for k in accuracy.instants(len(values))] if look else []
+        seen = [self.state.q] if look else []
+        done, wall, chunk, before = 0, 0.0, every, self.report
         with progress_for(progress) as bar:
             while done < steps:
-                n = min(chunk, steps - done)
+                ahead = [k - done for k in looks if k > done]
+                n = min(chunk, steps - done, *ahead[:1])
                 table = self._input_table(signals, t0 + h * np.arange(done + 1, done + n + 1, dtype=float), 1e-6 * h)
                 part = values[done // every + 1 : (done + n) // every + 1]
                 begin = time.perf_counter()
@@ -239,14 +257,26 @@ class Simulation:
                     raise self._error(
                         f"The step from t = {self.time:g} s with h = {h:g} s failed",
                         error,
-                        self._trajectory(t0, h * every, values[:good], wall + time.perf_counter() - begin),
+                        self._trajectory(t0, h * every, values[:good], wall + time.perf_counter() - begin, before),
                     ) from error
                 spent = time.perf_counter() - begin
                 wall += spent
                 done += n
+                if ahead and n == ahead[0]:
+                    seen.append(self.state.q)
                 bar.update(done / steps)
                 chunk = _next_chunk(chunk, spent, every)
-        return self._trajectory(t0, h * every, values, wall)
+        return self._trajectory(t0, h * every, values, wall, before), seen
+
+    def _warn_once(self) -> None:
+        """The part of `simulate`'s check that costs nothing."""
+        balance, driven = self.instance.energy_balance(), len(self.system.arrays["gterm_row"]) > 0
+        if self._warned or balance <= accuracy.WRONG_BALANCE:
+            return
+        if accuracy.balance_says(self.report, self.settings.method, driven):
+            self._warned = True
+            text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
+            warnings.warn(f"{text} Shorter steps make it right.", AccuracyWarning, stacklevel=3)
 
     def save(self) -> bytes:
         """All that continues bit for bit, in this or another process."""
@@ -270,16 +300,19 @@ class Simulation:
         table[:, columns] = signals.at(t, tolerance)
         return table
 
-    def _trajectory(self, t0: float, interval: float, values: NDArray[np.float64], wall: float) -> Trajectory:
-        sensors = self._meta["sensors"]
+    def _trajectory(
+        self, t0: float, interval: float, values: NDArray[np.float64], wall: float, before: Report
+    ) -> Trajectory:
+        sensors, report = self._meta["sensors"], self.report
         return Trajectory(
             t0 + interval * np.arange(len(values), dtype=float),
             values,
             [s["name"] for s in sensors],
             [s["unit"] for s in sensors],
-            self.report,
+            report,
             self.settings,
             wall,
+            accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
         )
 
     def _index(self, kind: str, name: str) -> int:
@@ -307,13 +340,19 @@ class Simulation:
         if error.status == BELOW_ROAD:
             message += f" {self.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
             return SimulationError(message, self.time, error.status, trajectory)
+        if error.status == TOO_STIFF:
+            rate = report["fastest_rate"]
+            message += (
+                f" Its rate is {rate:.3g} 1/s here: steps of about {STIFF_STEP / rate:.1g} s follow it; implicit "
+                "methods ('ali3p', 'radau_5') need not."
+            )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
-        if not report["factorizations"] or error.status == UNRESOLVED:
+        if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):
             return SimulationError(message, self.time, error.status, trajectory)
         worst = open_row(report, [row["name"] for row in self._meta["rows"]])
         if worst:
             message += f" Worst constraint: {worst}."
-        if 0.0 < report["residual"] < math.inf:
+        if self.settings.tolerance_r < report["residual"] < math.inf:
             name = self._meta["coordinates"][int(report["worst_coordinate"])]
             message += f" Worst balance: {name!r}, residual {report['residual']:.3g}."
         return SimulationError(message, self.time, error.status, trajectory)
@@ -332,8 +371,9 @@ def simulate(
     t0: float = 0.0,
     pose: Pose | None = None,
     method: str | None = None,
+    estimate_error: bool | None = None,
 ) -> Trajectory:
-    """Step a System from `t0` to `t_end` in equal steps.
+    """Step a System from `t0` to `t_end` in equal steps, and warn where the result is not what was asked for.
 
     Parameters
     ----------
@@ -354,39 +394,62 @@ def simulate(
         Record the state after every that many steps.
     progress : bool or callable, optional
         None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives the
-        share that is done.
+        share that is done. A repeat belongs to the run: where it becomes necessary the share goes back once.
     t0 : float
         First time, s.
     pose : Pose, optional
         Start of a scene that is not tied to the ground.
     method : str, optional
         Name of the method, see `Settings`; in place of the one that `settings` names.
+    estimate_error : bool, optional
+        Whether to repeat the run with half the step, from which `Trajectory.accuracy` has the error of the sensors.
+        None repeats what the books of energy, halvings or predictors make suspect; the others cost nothing more. False
+        checks nothing. Functions among `inputs` are called anew in a repeat, so they must depend on time alone.
 
     Returns
     -------
     Trajectory
-        Sensor values at t0, t0 + every h, ...
+        Sensor values at t0, t0 + every h, ...; of the steps asked for, also after a repeat.
 
     Raises
     ------
     SimulationError
         When a step fails; its `trajectory` holds what was recorded.
+
+    Warns
+    -----
+    AccuracyWarning
+        When constraint forces did more than 4 % of the work in the motion, or the repeat says that positions, lengths,
+        angles or forces of elements are off by more than 5 % of the largest range in their unit.
     """
     _check_step(h)
     if method is not None:
         settings = replace(settings or Settings(), method=method)
     signals = InputSignals(inputs or {}, system.meta["inputs"])
-    start = signals.at(np.array([t0]), 1e-6 * h, after_jump=True)[0]
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
-    simulation = Simulation(
-        system,
-        settings=settings,
-        inputs=dict(zip(names, start.tolist(), strict=True)),
-        parameters=parameters,
-        pose=pose,
-        t0=t0,
-    )
-    return simulation.run(t_end, h, inputs=inputs, every=every, progress=progress)
+
+    def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
+        start = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
+        simulation = Simulation(
+            system,
+            settings=settings,
+            inputs=dict(zip(names, start.tolist(), strict=True)),
+            parameters=parameters,
+            pose=pose,
+            t0=t0,
+        )
+        return simulation._march(t_end, step, inputs, every, progress, look)
+
+    look = estimate_error is not False and not accuracy.has_motion_sensor(system)
+    with progress_for(progress) as bar:
+        first = 1.0 / 3.0 if estimate_error else 1.0
+        run = march(h, every, lambda share: bar.update(first * share), look)
+        if estimate_error is not False:
+            run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+    found = run[0].accuracy
+    if found is not None and found.message:
+        warnings.warn(found.message, AccuracyWarning, stacklevel=2)
+    return run[0]
 
 
 def _check_step(h: float) -> None:

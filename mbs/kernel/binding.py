@@ -29,8 +29,14 @@ from typing import Any
     BELOW_ROAD,
     UNRESOLVED,
     NO_TREE,
-) = range(1, 14)
+    TOO_STIFF,
+    TOO_FAR,
+) = range(1, 16)
 """Codes of `ali3_status` beside 0."""
+OPEN = 1e-9
+"""A row that is open by less, m, is not why something failed: ALI3_OPEN."""
+FARTHEST, FASTEST = 1e8, 1e6
+"""Largest distance, m, and speed, m/s, of a start: ALI3_FARTHEST, ALI3_FASTEST."""
 
 NO_DOUBT, DOUBT_HALVINGS, DOUBT_BALANCE = range(3)
 """Codes of `ali3_doubt`."""
@@ -54,9 +60,9 @@ class KernelError(RuntimeError):
 
 
 def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
-    """Name and gap of the row farthest from closed; empty where there is no finite figure of it."""
+    """Name and gap of the row farthest from closed; empty where it is closed or there is no finite figure of it."""
     row, violation = int(report["worst_row"]), report["violation"]
-    if not (0 <= row < len(names) and 0.0 <= violation < math.inf):
+    if not (0 <= row < len(names) and OPEN < violation < math.inf):
         return ""
     return f"'{names[row]}', open by {violation:.3g} m"
 
@@ -107,6 +113,8 @@ class ReportFields(Structure):
         ("speed_peak", c_double),
         ("velocity_path", c_double),
         ("predictor_path", c_double),
+        ("fastest_rate", c_double),
+        ("open_power", c_double),
     )
 
 
@@ -152,6 +160,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
+    "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
     "ali3_time": (c_double, [c_void_p]),
     "ali3_solver_value": (c_double, [c_void_p, c_int32]),
     "ali3_run_doubt": (c_int32, [POINTER(ReportFields)]),
@@ -366,7 +375,7 @@ class Instance:
             return
         report = self.report()
         text = _status_text(self._library, status)
-        if 1e-9 < report["violation"] < math.inf:
+        if OPEN < report["violation"] < math.inf:
             text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
         raise KernelError(status, text)
 
@@ -427,6 +436,12 @@ class Instance:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return int(self._library.ali3_run_doubt(byref(fields)))
+
+    def energy_balance(self) -> float:
+        """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return float(self._library.ali3_energy_balance(byref(fields)))
 
     @property
     def time(self) -> float:

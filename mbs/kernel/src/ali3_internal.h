@@ -142,7 +142,7 @@ struct ali3_instance {
   ali3_settings settings;
   ali3_report report;
   double t_base, h_last; /* time = t_base + count * h_last */
-  double h_whole; /* of the step that was asked for, where halves are made */
+  bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count;
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
@@ -281,6 +281,7 @@ void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work);
 bool ali3_judge(ali3_instance *in, const double *r);
+ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status);
 void ali3_iterations_since(ali3_instance *in, int64_t before);
 double ali3_penalty(const ali3_instance *in, double h);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
@@ -289,8 +290,8 @@ bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
 
 /* energy_watch.c */
 double ali3_constraint_work(ali3_instance *in, double h);
-double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double *end);
-ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end);
+double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double *end, double *open);
+ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open);
 
 /* books.c */
 bool ali3_keeps_books(const ali3_instance *in);
@@ -356,6 +357,9 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h);
 
 /* radau.c */
 ali3_status ali3_radau(ali3_instance *in, double t, double h);
+
+/* stiffness.c */
+ali3_status ali3_explain_refusal(ali3_instance *in, ali3_status status, double h);
 
 /* composition.c */
 ali3_status ali3_composition(ali3_instance *in, double t, double h);

@@ -45,7 +45,6 @@ static ali3_status step(ali3_instance *in, double h) {
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const ali3_report before = in->report;
   in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
-  in->h_whole = h;
   const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
@@ -65,7 +64,7 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const ali3_status status = ali3_check_method(in);
   in->quiet = in->sampled = false;
-  return status == ALI3_OK ? step(in, h) : status;
+  return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h), h) : status;
 }
 
 /* After a quiet or sampled step the last good state lacks what only a reader needs. */
@@ -98,7 +97,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
     in->quiet = !recorded && n + 1 < n_steps;
     in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h);
-    if (status != ALI3_OK) return give_up(in, status, quiet, sampled);
+    if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, quiet, sampled), h);
     quiet = in->quiet;
     sampled = in->sampled;
     if (done != NULL) *done = n + 1;

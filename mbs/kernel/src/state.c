@@ -72,9 +72,9 @@ static bool magnitude(double x) { return x >= 0.0 && x - x == 0.0; }
 
 static bool report_valid(const ali3_report *r) {
   return magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) && magnitude(r->velocity_path) &&
-         magnitude(r->predictor_path) && r->energy - r->energy == 0.0 && counted(r->steps) && counted(r->iterations) &&
-         counted(r->factorizations) && counted(r->solves) && counted(r->halvings) && counted(r->failures) &&
-         r->energy_error - r->energy_error == 0.0;
+         magnitude(r->predictor_path) && r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 &&
+         counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
+         counted(r->halvings) && counted(r->failures) && r->energy_error - r->energy_error == 0.0;
 }
 
 static void get(void *to, const unsigned char **from, size_t size) {
