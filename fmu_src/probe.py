@@ -3,7 +3,8 @@
 A variable reaches an output if changing it, and nothing else, changes a bit of the output: over one step from a state
 that random inputs led to (inputs), or in the initial state from random values (all that can be set). Positions and
 velocities show their paths at any values. Forces have regimes, such as a kerb that no wheel stands on: what a force
-reaches is declared to depend on all parameters, and what a step changes on all inputs that change anything.
+reaches is declared to depend on all parameters and the place of the start, and what a step changes on all inputs that
+change anything.
 """
 
 from __future__ import annotations
@@ -111,11 +112,11 @@ class _Tries:
         kinds = {i: {_kind(system, self.table[i].index) for system in systems} for i in self.sensed}
         kind = {i: next(k for k in (_FORCE, _MOTION, _ECHO) if k in found) for i, found in kinds.items()}
         acting = {k for i in self.sensed if kind[i] != _ECHO for k in self.step[i]}
-        parameters = {i for i, v in enumerate(self.table) if v.source == "parameter"}
+        placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
         for i in self.outputs:
             if kind.get(i) == _FORCE:
                 self.step[i] |= acting
-                self.initial[i] |= parameters if self.initial[i] else set()
+                self.initial[i] |= placed if self.initial[i] else set()
             elif kind.get(i) != _ECHO and (self.step[i] or i not in kind):
                 self.step[i] |= acting
 

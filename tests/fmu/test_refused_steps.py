@@ -105,9 +105,10 @@ def test_fmi_3_wishes_the_end_and_then_is_an_error(build: Callable[..., Path]) -
 def test_fmpy_ends_soon_and_says_why(build: Callable[..., Path], variant: str, need: Callable[[str], None]) -> None:
     fmu = build("reach", variant)
     code = (
-        "import fmpy, sys\n"
-        f"fmpy.simulate_fmu({str(fmu)!r}, stop_time=2.0, output_interval={LONG}, "
-        f"start_values={{'pull': {PULL}}})\n"
+        "import fmpy, numpy as np\n"
+        f"rows = [(0.0, 0.0), ({BEGIN}, 0.0), ({BEGIN}, {PULL}), (2.0, {PULL})]\n"
+        "pull = np.array(rows, dtype=[('time', float), ('pull', float)])\n"
+        f"fmpy.simulate_fmu({str(fmu)!r}, stop_time=2.0, output_interval={BEGIN}, input=pull)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=SECONDS)
     said = done.stdout + done.stderr

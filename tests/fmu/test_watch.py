@@ -40,11 +40,11 @@ def test_a_wrong_run_warns_once_and_shows_its_balance(slider: Path, host: HostMa
     assert statuses.count(WARNING) == 1
     assert set(statuses) == {OK, WARNING}
     error, balance, angle = (driven.get(name) for name in NAMES)
-    assert angle < 0.7 * EXACT
+    assert angle < 0.8 * EXACT
     with pytest.warns(mbs.AccuracyWarning):
         trajectory = mbs.simulate(load_scene(f"{SCENES}:crank_slider")[1], 2.0, 1e-3, inputs={"torque": TORQUE})
-    assert error == trajectory.report.energy_error < -1000.0
-    assert balance == trajectory.report.energy_balance > 0.5
+    assert error == trajectory.report.energy_error < -300.0
+    assert balance == trajectory.report.energy_balance > 0.1
     assert driven.get("solver.halvings") == trajectory.report.halvings > 100
 
 
