@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from mbs.affine import Affine, AffineVector
+from mbs.branch_warning import BranchWarning
 from mbs.compile import compile
 from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
@@ -43,6 +44,7 @@ __all__ = [
     "Affine",
     "AffineVector",
     "FloquetModel",
+    "BranchWarning",
     "LinearModel",
     "LinearisationWarning",
     "Model",

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mbs import accuracy, repeat
 from mbs.accuracy import AccuracyWarning
+from mbs.branch_warning import BranchWarning
 from mbs.errors import SimulationError
 from mbs.input_signals import InputSignals, Signal, unit_text
 from mbs.kernel.binding import (
@@ -127,6 +128,11 @@ class Simulation:
     def report(self) -> Report:
         """Counters since the start and residuals of the last step."""
         return Report.from_kernel(self.instance.report())
+
+    @property
+    def branch_change(self) -> str:
+        """A sentence about the first change of the assembly mode of a closed loop since the start; empty: none."""
+        return self.instance.branch_text()
 
     @property
     def state(self) -> State:
@@ -421,12 +427,16 @@ def simulate(
     AccuracyWarning
         When constraint forces did more than 4 % of the work in the motion, or the repeat says that positions, lengths,
         angles or forces of elements are off by more than 5 % of the largest range in their unit.
+    BranchWarning
+        When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
     _check_step(h)
     if method is not None:
         settings = replace(settings or Settings(), method=method)
     signals = InputSignals(inputs or {}, system.meta["inputs"])
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
+
+    made: list[Simulation] = []
 
     def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
         start = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
@@ -438,14 +448,19 @@ def simulate(
             pose=pose,
             t0=t0,
         )
+        made.append(simulation)
         return simulation._march(t_end, step, inputs, every, progress, look)
 
-    look = estimate_error is not False and not accuracy.has_motion_sensor(system)
-    with progress_for(progress) as bar:
-        first = 1.0 / 3.0 if estimate_error else 1.0
-        run = march(h, every, lambda share: bar.update(first * share), look)
-        if estimate_error is not False:
-            run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+    try:
+        look = estimate_error is not False and not accuracy.has_motion_sensor(system)
+        with progress_for(progress) as bar:
+            first = 1.0 / 3.0 if estimate_error else 1.0
+            run = march(h, every, lambda share: bar.update(first * share), look)
+            if estimate_error is not False:
+                run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+    finally:  # of the run that was asked for, also when it failed
+        if made and made[0].branch_change:
+            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=2)
     found = run[0].accuracy
     if found is not None and found.message:
         warnings.warn(found.message, AccuracyWarning, stacklevel=2)

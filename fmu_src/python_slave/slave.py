@@ -24,7 +24,7 @@ _STATE_HEAD = struct.Struct("<8s16sIIdd")
 _LOWEST, _HIGHEST = -(2**31), 2**31 - 1
 _CHECKSUM = struct.Struct("<I")
 _INSTANTIATED, _INITIALISING, _STEPPING, _TERMINATED = range(4)
-_BALANCE = 7  # ALI3_SOLVER_ENERGY_BALANCE
+_STATUS, _BALANCE = 5, 7  # ALI3_SOLVER_STATUS, ALI3_SOLVER_ENERGY_BALANCE
 _POSE_HEIGHT, _POSE_SPEED = 2, 4  # places in a pose
 _PHASE_NAMES = ("before initialisation", "in initialisation", "after initialisation", "after termination")
 # A host adds up its time in floating point; it may be this much off, s.
@@ -97,6 +97,7 @@ class Slave(Fmi2Slave):
         self._initialised = False
         self._step_warned = False
         self._energy_warned = False
+        self._mode_warned = False
 
     # Calls of the host, in their usual order
 
@@ -169,6 +170,7 @@ class Slave(Fmi2Slave):
             )
         self._pending.clear()
         self._outputs_fresh = False
+        self._watch_modes()
         self._watch()
         return True
 
@@ -193,6 +195,13 @@ class Slave(Fmi2Slave):
                 f"s with inner steps of {inner:g} s; begin nearer to zero."
             )
         return ""
+
+    def _watch_modes(self) -> None:
+        """A closed loop that changed its assembly mode, once."""
+        if self._mode_warned or self._kernel.solver_value(_STATUS) != binding.BRANCH_CHANGED:
+            return
+        self._mode_warned = True
+        self.log(f"{self._kernel.branch_text()} This is said once.", Fmi2Status.warning)
 
     def _watch(self) -> None:
         """What a run says about itself after a step, once: that its numbers are not what was asked."""
@@ -299,7 +308,8 @@ class Slave(Fmi2Slave):
             | self._initialised << 2
             | self._outputs_fresh << 3
             | self._step_warned << 4
-            | self._energy_warned << 5,
+            | self._energy_warned << 5
+            | self._mode_warned << 6,
             len(values),
             self._start_time,
             self._stop_time,
@@ -316,7 +326,7 @@ class Slave(Fmi2Slave):
             self._refuse("These bytes are not a state of this FMU: they are too short.")
             return
         magic, identity, word, count, start_time, stop_time = _STATE_HEAD.unpack_from(state)
-        if magic != _STATE_MAGIC or identity != self._identity or count != n or word >> 6:
+        if magic != _STATE_MAGIC or identity != self._identity or count != n or word >> 7:
             self._refuse("These bytes are not a state of this FMU; only states of the same build can be set.")
             return
         if _CHECKSUM.unpack(state[-_CHECKSUM.size :])[0] != zlib.crc32(content):
@@ -338,6 +348,7 @@ class Slave(Fmi2Slave):
         self._outputs_fresh = bool(word >> 3 & 1)
         self._step_warned = bool(word >> 4 & 1)
         self._energy_warned = bool(word >> 5 & 1)
+        self._mode_warned = bool(word >> 6 & 1)
         self._start_time = start_time
         self._stop_time = stop_time
         self._values = values

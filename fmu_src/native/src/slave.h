@@ -57,7 +57,7 @@ typedef void slave_logger(slave *s, slave_status status, const char *category, c
 
 typedef struct { /* what a state is beside the kernel's bytes; numbers only */
   slave_phase phase;
-  int32_t initialised, step_warned, energy_warned, mode_warned; /* said once a run; the last is not yet in use */
+  int32_t initialised, step_warned, energy_warned, mode_warned; /* said once a run */
   double start_time, stop_time; /* infinite where not given */
 } slave_memory_of_calls;
 

@@ -21,7 +21,7 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
   case ALI3_SOLVER_HALVINGS:
     return (double)r->halvings;
   case ALI3_SOLVER_STATUS:
-    return r->last_status;
+    return (double)ali3_run_status(r);
   case ALI3_SOLVER_ENERGY_ERROR:
     return told(r->energy_error);
   case ALI3_SOLVER_ENERGY_BALANCE:

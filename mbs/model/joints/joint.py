@@ -25,6 +25,30 @@ class JointPlaces:
     axes: tuple[Any, Any] | None = None
 
 
+@dataclass(frozen=True)
+class JointEnds:
+    """What closed loops need of a joint: its bodies (the ground, a body or a node), its point on each, its axis.
+
+    Attributes
+    ----------
+    bodies : tuple of Body
+    points : tuple of AffineVector
+        On the first and on the second body.
+    axis : AffineVector or None
+        About which the bodies turn, or along which the point of the first slides on a line of the second.
+    slides : bool
+        Whether the bodies slide along the axis.
+    rod : bool
+        Whether a massless rod joins the points, which then are apart.
+    """
+
+    bodies: tuple[Body, Body]
+    points: tuple[AffineVector, AffineVector]
+    axis: AffineVector | None = None
+    slides: bool = False
+    rod: bool = False
+
+
 class Joint:
     """A constraint of the model.
 
@@ -42,6 +66,8 @@ class Joint:
         Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
     places : JointPlaces or None
         Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
+    ends : JointEnds or None
+        Of joints that can be part of a closed loop.
     """
 
     def __init__(
@@ -61,6 +87,7 @@ class Joint:
         self.places = places
         self.keep = False
         self.switch: Any = None
+        self.ends: JointEnds | None = None
 
     def __repr__(self) -> str:
         return f"<Joint {self.name!r} ({self.type})>"
