@@ -6,11 +6,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import fmpy
 import numpy as np
 import pytest
 
 import mbs
+from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
+from mbs.kernel.binding import BRANCH_CHANGED
+from mbs.scenes import assembly_defect_four_bar
 
 SCENES = Path(__file__).parent / "scenes.py"
 HostMaker = Callable[..., Any]
@@ -75,3 +79,24 @@ def test_all_kinds_say_the_same(build: Callable[..., Path], host: HostMaker, nee
         ends.append((driven.messages, [driven.get(n) for n in (*NAMES, "solver.status", "solver.halvings")]))
     assert ends[0] == ends[1]
     assert np.isfinite(ends[0][1]).all()
+
+
+@pytest.mark.parametrize("kind", ["native", "python"])
+def test_a_changed_assembly_mode_is_told_once(
+    tmp_path: Path, host: HostMaker, kind: str, need: Callable[[str], None]
+) -> None:
+    need(kind)
+    system = mbs.compile(assembly_defect_four_bar.build(1))
+    fmu = build_fmu(system, "defect", tmp_path, [fmpy.platform], kind=kind)
+    driven, h = host(fmu), 0.05
+    driven.start({"step_size": h})
+    for k in range(30):
+        driven.step(k * h, h)
+    assert driven.get("solver.status") == OK
+    assert not any("closed loop" in m for m in driven.messages)
+    for k in range(30, 50):
+        driven.step(k * h, h)
+    (told,) = (m for m in driven.messages if "closed loop" in m)
+    assert "1.6 s" in told
+    assert "'B', 'C'" in told
+    assert driven.get("solver.status") == BRANCH_CHANGED
