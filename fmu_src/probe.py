@@ -27,8 +27,8 @@ _OPEN_RANGE = 10.0
 # Shares of the ranges in turn: a mechanism may not bear all of them.
 _SHARES = (1.0, 0.1, 0.01)
 # Types of sensors, see docs/system_file.md.
-_SECOND, _COMPONENT = 2, 3
-_ECHOES, _FORCES = (11, 12), (8, 9, 10, 17)
+_SECOND, _COMPONENT = 2, 3  # order two; a component
+_ECHOES, _MOTIONS = (11, 12), (0, 1, 3, 4, 5, 6, 7, 13, 14, 15, 16)
 _ECHO, _MOTION, _FORCE = "echo", "motion", "force"
 
 
@@ -198,8 +198,8 @@ def _kind(system: mbs.System, sensor: int) -> str:
     kind, first = int(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
     if kind in _ECHOES:
         return _ECHO
-    rate_of_rate = kind == _SECOND or (kind == _COMPONENT and int(system.arrays["sen_int"][first]) == _SECOND)
-    return _FORCE if kind in _FORCES or rate_of_rate else _MOTION
+    second = kind == _COMPONENT and int(system.arrays["sen_int"][first]) == _SECOND
+    return _MOTION if kind in _MOTIONS and not second else _FORCE
 
 
 def with_nominal(table: Sequence[Variable], reach: Dependencies) -> tuple[Variable, ...]:

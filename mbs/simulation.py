@@ -310,8 +310,9 @@ class Simulation:
         self, t0: float, interval: float, values: NDArray[np.float64], wall: float, before: Report
     ) -> Trajectory:
         sensors, report = self._meta["sensors"], self.report
+        t = t0 + interval * np.arange(len(values), dtype=float)
         return Trajectory(
-            t0 + interval * np.arange(len(values), dtype=float),
+            t,
             values,
             [s["name"] for s in sensors],
             [s["unit"] for s in sensors],
@@ -319,6 +320,7 @@ class Simulation:
             self.settings,
             wall,
             accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
+            notices=_notices(sensors, t, values),
         )
 
     def _index(self, kind: str, name: str) -> int:
@@ -465,6 +467,20 @@ def simulate(
     if found is not None and found.message:
         warnings.warn(found.message, AccuracyWarning, stacklevel=2)
     return run[0]
+
+
+def _notices(sensors: list[dict[str, str]], t: NDArray[np.float64], values: NDArray[np.float64]) -> list[str]:
+    """What sensors with a notice want told of their columns."""
+    told = []
+    for k, sensor in enumerate(sensors):
+        there = np.flatnonzero(values[:, k] if "notice" in sensor else ())
+        if len(there):
+            most = values[np.argmax(np.abs(values[:, k])), k]
+            told.append(
+                f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[there[0]]:g} s, "
+                f"at most {most:g} {sensor['unit']}."
+            )
+    return told
 
 
 def _check_step(h: float) -> None:

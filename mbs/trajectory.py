@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,6 +41,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted.
     accuracy : Accuracy, optional
         What is known of the error.
+    notices : sequence of str
+        What the scene wants told, see `Model.notice`; judged at the recorded times.
     """
 
     def __init__(
@@ -53,6 +55,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         settings: Settings | None = None,
         wall_s: float = float("nan"),
         accuracy: Accuracy | None = None,
+        notices: Sequence[str] = (),
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
@@ -60,6 +63,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.settings = settings
         self.wall_s = wall_s
         self.accuracy = accuracy
+        self.notices = tuple(notices)
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
@@ -82,7 +86,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __repr__(self) -> str:
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
-        return f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors{known})"
+        told = "".join(f" {notice}" for notice in self.notices)
+        samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
+        return f"Trajectory({samples}, {len(self)} sensors{known}){told}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write one column per sensor, headed ``name [unit]``, with all digits."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.flexible import FlexibleBody
-from mbs.model.joints.joint import Joint
+from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.ports import PortedBody
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
@@ -49,6 +49,8 @@ class Sensor:
         Whether its values are whole numbers.
     display_unit : str
         What engineers read it in, if that is not `unit`.
+    notice : str
+        What a run tells when the value is not zero; empty: nothing.
     """
 
     name: str
@@ -62,6 +64,7 @@ class Sensor:
     joints: Sequence[Joint] = ()
     whole: bool = False
     display_unit: str = ""
+    notice: str = ""
 
 
 def component_number(component: Any, dimension: int, what: str) -> int:
@@ -199,6 +202,19 @@ class SensorVocabulary(ModelCore):
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
         return self._sense(name, unit, description, order, [expression], reals=[scale], display_unit=display_unit)
 
+    def notice(self, sensor: Sensor, text: str) -> Sensor:
+        """Let a run say `text` when a sensor is not zero: what a user should hear of without looking at every output.
+
+        `Trajectory.notices` has the sentence with the first time and the largest value; the run goes on.
+        """
+        if sensor not in self.sensors or not isinstance(text, str) or not text.strip():
+            raise ModelError(
+                f"A notice of model {self.name!r} needs a sensor and a sentence, got {sensor!r}, {text!r}."
+            )
+        told = replace(sensor, notice=text)
+        self.sensors[self.sensors.index(sensor)] = told
+        return told
+
     def sense_recovery(
         self, name: str, body: FlexibleBody, weights: ArrayLike, unit: str = "", description: str = ""
     ) -> Sensor:
@@ -307,10 +323,11 @@ class SensorVocabulary(ModelCore):
         raise ModelError(f"The sensor '{name}' asks for element '{element_name}', but the model has no such element.")
 
     def sense_joint_force(
-        self, name: str, joint: Joint | str, component: str = "x", unit: str = "N", description: str = ""
+        self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
     ) -> Sensor:
         """Force of a joint on its first body: a component in earth axes at a shared point or from a line of the
-        ground, "tension" of a distance, "drive" of a drive.
+        ground, "tension" of a distance, "drive" of a drive, "torque" of a gear on its first wheel, "force" of a rack
+        on its body and of a screw on its first body, both along the axis.
 
         The equations of the joint stay rows of the System, so that the multipliers exist.
         """
@@ -320,8 +337,8 @@ class SensorVocabulary(ModelCore):
         rows = found.force_equations
         if not rows:
             raise ModelError(
-                f"The joint '{found.name}' ({found.type}) has no force reading; points, lines of the ground, distances "
-                "and driven coordinates have one."
+                f"The joint '{found.name}' ({found.type}) has no force reading; points, lines of the ground, "
+                "distances, driven coordinates, gears, racks and screws have one."
             )
         if found.normals:
             k = component_number(component, self.dimension, f"sensor '{name}'")
@@ -331,8 +348,8 @@ class SensorVocabulary(ModelCore):
                     "only a line of the ground, as second body, has components in earth axes."
                 )
             rows, weights = list(rows), [-n[k].constant for n in found.normals]
-        elif found.type in ("distance", "drive"):
-            expected = "tension" if found.type == "distance" else "drive"
+        elif found.type in SCALAR_FORCES:
+            expected = SCALAR_FORCES[found.type]
             if component not in (expected, "x"):
                 raise ModelError(
                     f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
@@ -342,6 +359,7 @@ class SensorVocabulary(ModelCore):
             k = component_number(component, self.dimension, f"sensor '{name}'")
             rows, weights = rows[k : k + 1], [-found.rows_weight]
         found.keep = True
+        unit = unit or ("N m" if found.type == "gear" else "N")
         return self._sense(name, unit, description, 9, integers=rows, reals=weights, joint=found)
 
     def sense_quasi_static(

@@ -15,6 +15,11 @@ from mbs.model.equation import Equation
 if TYPE_CHECKING:
     from mbs.model.body import Body
 
+FORCE_KINDS = ("point", "line", "distance", "drive", "gear", "rack", "thread")
+"""Kinds of equations whose multipliers are a force or a torque that can be read."""
+SCALAR_FORCES = {"distance": "tension", "drive": "drive", "gear": "torque", "rack": "force", "screw": "force"}
+"""What the one force or torque of a type of joint is called."""
+
 
 @dataclass(frozen=True)
 class JointPlaces:
@@ -95,7 +100,7 @@ class Joint:
     @property
     def force_equations(self) -> list[int]:
         """Numbers of the equations whose multipliers are its force."""
-        return [k for k, e in enumerate(self.equations) if e.kind in ("point", "line", "distance", "drive")]
+        return [k for k, e in enumerate(self.equations) if e.kind in FORCE_KINDS]
 
 
 def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> list[Equation]:
