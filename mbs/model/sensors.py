@@ -21,8 +21,12 @@ from mbs.model.reactions import Term
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
-SOLVER = ("iterations", "violation", "residual", "factorizations", "halvings", "status")
-SOLVER_UNITS = ("1", "m", "m", "1", "1", "1")
+SOLVER = (
+    *("iterations", "violation", "residual", "factorizations", "halvings", "status"),
+    *("energy_error", "energy_balance"),
+)
+SOLVER_UNITS = ("1", "m", "m", "1", "1", "1", "J", "1")
+SOLVER_WHOLE = ("iterations", "factorizations", "halvings", "status")
 RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
 
 
@@ -44,6 +48,10 @@ class Sensor:
         Joints whose three kept rows each come last among the integers.
     terms : sequence of Term
         Products with multipliers of `joint`, which make up all integers and reals.
+    whole : bool
+        Whether its values are whole numbers.
+    display_unit : str
+        What engineers read it in, if that is not `unit`.
     notice : str
         What a run tells when the value is not zero; empty: nothing.
     """
@@ -58,6 +66,8 @@ class Sensor:
     joint: Joint | None = None
     joints: Sequence[Joint] = ()
     terms: Sequence[Term] = ()
+    whole: bool = False
+    display_unit: str = ""
     notice: str = ""
 
 
@@ -90,9 +100,13 @@ class SensorVocabulary(ModelCore):
         joint: Joint | None = None,
         joints: Sequence[Joint] = (),
         terms: Sequence[Term] = (),
+        whole: bool = False,
+        display_unit: str = "",
     ) -> Sensor:
         self.unique("sensor", name)
-        sensor = Sensor(name, unit, description, type, signals, integers, reals, joint, joints, terms)
+        sensor = Sensor(
+            name, unit, description, type, signals, integers, reals, joint, joints, terms, whole, display_unit
+        )
         self.sensors.append(sensor)
         return sensor
 
@@ -185,6 +199,7 @@ class SensorVocabulary(ModelCore):
         scale: float = 1.0,
         unit: str = "",
         description: str = "",
+        display_unit: str = "",
     ) -> Sensor:
         """A coordinate (relative angle, spin) or any affine expression, its rate (order 1) or second rate (order 2)."""
         if order not in (0, 1, 2):
@@ -192,7 +207,7 @@ class SensorVocabulary(ModelCore):
         expression = self.expression(coordinate, f"The sensor '{name}'")
         if not unit:
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
-        return self._sense(name, unit, description, order, [expression], reals=[scale])
+        return self._sense(name, unit, description, order, [expression], reals=[scale], display_unit=display_unit)
 
     def notice(self, sensor: Sensor, text: str) -> Sensor:
         """Let a run say `text` when a sensor is not zero: what a user should hear of without looking at every output.
@@ -305,6 +320,8 @@ class SensorVocabulary(ModelCore):
                             8,
                             integers=[index, k],
                             reals=[scale],
+                            whole=out.whole and scale == 1.0,
+                            display_unit=out.display_unit if not unit else "",
                         )
                 known = ", ".join(o.name for o in record.outputs) or "none"
                 raise ModelError(
@@ -346,9 +363,11 @@ class SensorVocabulary(ModelCore):
         reals = [*self.gravity, *weights]
         return self._sense(name, unit, description, 17, signals, [n], reals, joints=list(body.ports.values()))
 
-    def sense_constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Sensor:
-        """A number that does not change."""
-        return self._sense(name, unit, description, 0, [Affine({}, 1.0)], reals=[float(value)])
+    def sense_constant(
+        self, name: str, value: float, unit: str = "1", description: str = "", whole: bool = False
+    ) -> Sensor:
+        """A number that does not change; `whole`: an integer for an FMU."""
+        return self._sense(name, unit, description, 0, [Affine({}, 1.0)], reals=[float(value)], whole=whole)
 
     def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
         """ "kinetic", "gravity", "elastic" or "total" energy, J."""
@@ -371,11 +390,21 @@ class SensorVocabulary(ModelCore):
         return self._sense(name, unit or guide.unit, description, 12, integers=[guide.index, order], reals=[scale])
 
     def sense_solver(self, name: str, kind: str, description: str = "") -> Sensor:
-        """Health of the solver: "iterations", "violation", "residual", "factorizations", "halvings" or "status"."""
+        """What the solver says about itself.
+
+        Parameters
+        ----------
+        name : str
+        kind : str
+            "iterations" and "status" of the last step, "violation" (m) and "residual" (m) after it; since the start
+            "factorizations", "halvings", "energy_error" (J, what the steps gave where no force did) and
+            "energy_balance" (the same over the largest kinetic energy and the work).
+        description : str
+        """
         if kind not in SOLVER:
             raise ModelError(f"The solver sensor '{name}' asks for {kind!r}; it must be one of {', '.join(SOLVER)}.")
         k = SOLVER.index(kind)
-        return self._sense(name, SOLVER_UNITS[k], description, 13, integers=[k])
+        return self._sense(name, SOLVER_UNITS[k], description, 13, integers=[k], whole=kind in SOLVER_WHOLE)
 
     def _spatial_only(self, name: str) -> None:
         if self.dimension == 2:

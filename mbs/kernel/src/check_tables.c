@@ -129,7 +129,7 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
       limit = 4;
       break;
     default:
-      limit = 6;
+      limit = ALI3_SOLVER_COUNT;
       break;
     }
     CHECK(ali3_check_indices(m, "sen_int", v + k, 1, 0, limit));

@@ -101,13 +101,6 @@ static double products(const ali3_instance *in, const int32_t *v, const double *
   return sum;
 }
 
-static double health(const ali3_instance *in, int32_t kind) {
-  const ali3_report *r = &in->report;
-  const double kinds[6] = {r->last_iterations,        r->violation,        r->residual,
-                           (double)r->factorizations, (double)r->halvings, (double)ali3_run_status(r)};
-  return kinds[kind];
-}
-
 static double norm(const ali3_instance *in, const int32_t *v) {
   double sum = 0.0;
   for (int32_t i = 0; i < v[1]; i++) {
@@ -184,7 +177,7 @@ static double value(const ali3_instance *in, int32_t type, const int32_t *v, con
   case 12:
     return real[0] * (v[1] == 0 ? now->s : (v[1] == 1 ? now->sd : now->sdd))[v[0]];
   case 13:
-    return health(in, v[0]);
+    return ali3_solver_value(in, v[0]);
   case 14:
     return norm(in, v);
   case 15:

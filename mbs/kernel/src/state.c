@@ -14,6 +14,7 @@ typedef struct { /* 40 bytes without holes */
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'S', 'T', 'A', '\n'};
 enum { CHECKED_FROM = 28 }; /* the checksum covers what follows it */
+static const double MOST = 1e60; /* of times, positions, rates, multipliers and element states */
 static const int64_t MOST_COUNTED = (int64_t)1 << 53; /* steps: doubles no longer tell two neighbours apart */
 
 size_t ali3_state_size(const ali3_system *s) {
@@ -46,11 +47,21 @@ ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size) {
   return ALI3_OK;
 }
 
-static bool numbers_finite(const unsigned char *p, size_t n) {
+/* Finite, and so small that energies and norms made of them are finite too. */
+static bool numbers_valid(const unsigned char *p, size_t n) {
   for (size_t i = 0; i < n; i++) {
     double v;
     memcpy(&v, p + i * sizeof v, sizeof v);
-    if (!(v - v == 0.0)) return false;
+    if (!(v >= -MOST && v <= MOST)) return false;
+  }
+  return true;
+}
+
+static bool within(const unsigned char *p, int32_t n, const double *low, const double *high) {
+  for (int32_t i = 0; i < n; i++) {
+    double v;
+    memcpy(&v, p + (size_t)i * sizeof v, sizeof v);
+    if (!(v - v == 0.0 && v >= low[i] && v <= high[i])) return false;
   }
   return true;
 }
@@ -82,7 +93,8 @@ static void get(void *to, const unsigned char **from, size_t size) {
 
 ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size) {
   if (in == NULL || bytes == NULL) return ALI3_BAD_ARGUMENT;
-  const ali3_sizes *z = &in->system->size;
+  const ali3_system *S = in->system;
+  const ali3_sizes *z = &S->size;
   const size_t fixed = sizeof(ali3_state_header) + sizeof(ali3_settings) + sizeof(ali3_report);
   ali3_state_header header;
   ali3_settings settings;
@@ -98,14 +110,10 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   get(&report, &p, sizeof report);
   const unsigned char *numbers = (const unsigned char *)bytes + fixed,
                       *inputs = numbers + (2 + in->n_vector) * sizeof(double);
-  if (!ali3_settings_valid(&settings) || !report_valid(in->system, &report) ||
-      !numbers_finite(numbers, (size - fixed) / sizeof(double)))
+  if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(numbers, 2 + in->n_vector) ||
+      !within(inputs, z->nu, S->input_min, S->input_max) ||
+      !within(inputs + (size_t)z->nu * sizeof(double), z->np, S->par_min, S->par_max))
     return ALI3_BAD_STATE;
-  for (int32_t i = 0; i < z->np; i++) {
-    double v;
-    memcpy(&v, inputs + ((size_t)z->nu + (size_t)i) * sizeof v, sizeof v);
-    if (!(v >= in->system->par_min[i] && v <= in->system->par_max[i])) return ALI3_BAD_STATE;
-  }
   double *parameter = in->parameter_work;
   memcpy(parameter, in->parameter, (size_t)z->np * sizeof(double));
   memcpy(in->parameter, inputs + (size_t)z->nu * sizeof(double), (size_t)z->np * sizeof(double));
