@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
@@ -62,7 +63,14 @@ class Pose:
 
 @dataclass(frozen=True)
 class State:
-    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,)."""
+    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,).
+
+    Multipliers have one sign, that of ``M qdd + Phi_q' lam = Q``: a row Phi puts the force -Phi_q' lam on its
+    coordinates. ``lam_user = row_scale * lam`` belongs to the row as the model writes it. The row of a drive is
+    coordinate minus guide, so the drive pushes the coordinate with -lam_user; the rows of a port and of a node of a
+    flexible body are free point minus point of the body, so the body feels +lam_user; a distance of length L has the
+    tension L lam_user. Sensors have the signs that their docstrings say.
+    """
 
     q: NDArray[np.float64]
     qd: NDArray[np.float64]
@@ -251,11 +259,11 @@ class Simulation:
         looks = [int(k) * every for k in accuracy.instants(len(values))] if look else []
         seen = [self.state.q] if look else []
         done, wall, chunk, before = 0, 0.0, every, self.report
-        with progress_for(progress) as bar:
+        with progress_for(progress) as bar, self._inputs(signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
             while done < steps:
                 ahead = [k - done for k in looks if k > done]
                 n = min(chunk, steps - done, *ahead[:1])
-                table = self._input_table(signals, t0 + h * np.arange(done + 1, done + n + 1, dtype=float), 1e-6 * h)
+                table = table_of(t0 + h * np.arange(done + 1, done + n + 1, dtype=float))
                 part = values[done // every + 1 : (done + n) // every + 1]
                 begin = time.perf_counter()
                 try:
@@ -297,6 +305,20 @@ class Simulation:
     def _sensor_values(self) -> NDArray[np.float64]:
         return np.array(self.instance.sensors(), float)
 
+    @contextmanager
+    def _inputs(
+        self, signals: InputSignals, t0: float, t_end: float, tolerance: float
+    ) -> Iterator[Callable[[NDArray[np.float64]], NDArray[np.float64] | None]]:
+        """Inputs of a run: a table at the ends of its steps, or the kernel asks at the times of its stages."""
+        if self.settings.looks_at_ends:
+            yield lambda t: self._input_table(signals, t, tolerance)
+            return
+        signals.attach(self.instance, t0, t_end, tolerance)
+        try:
+            yield lambda t: None
+        finally:
+            self.instance.set_input_function(None)
+
     def _input_table(
         self, signals: InputSignals, t: NDArray[np.float64], tolerance: float
     ) -> NDArray[np.float64] | None:
@@ -323,6 +345,7 @@ class Simulation:
             wall,
             accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
             notices=_notices(sensors, t, values),
+            branch_change=self.branch_change,
         )
 
     def _index(self, kind: str, name: str) -> int:
@@ -396,8 +419,9 @@ def simulate(
     h : float
         Step, s.
     inputs : mapping of str to signal, optional
-        Per input a constant, a function of time, or a pair (times, values). A step from t to t + h uses the value at
-        t + h, which keeps the trapezoidal rule second order.
+        Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
+        use the value at the end of a step, the other methods those at the times of their stages; where a table jumps,
+        a step that begins there the value behind the jump, one that ends there the value before it.
     settings : Settings, optional
         How steps are solved.
     parameters : mapping of str to float, optional
