@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
@@ -35,7 +36,7 @@ from mbs.system import System
 from mbs.trajectory import Trajectory
 
 SINGULAR = {"switches": "switch"}
-STIFF_STEP = 2.5  # fastest rate times step that an explicit method follows, at least
+STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -62,7 +63,14 @@ class Pose:
 
 @dataclass(frozen=True)
 class State:
-    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,)."""
+    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,).
+
+    Multipliers have one sign, that of ``M qdd + Phi_q' lam = Q``: a row Phi puts the force -Phi_q' lam on its
+    coordinates. ``lam_user = row_scale * lam`` belongs to the row as the model writes it. The row of a drive is
+    coordinate minus guide, so the drive pushes the coordinate with -lam_user; the rows of a port and of a node of a
+    flexible body are free point minus point of the body, so the body feels +lam_user; a distance of length L has the
+    tension L lam_user. Sensors have the signs that their docstrings say.
+    """
 
     q: NDArray[np.float64]
     qd: NDArray[np.float64]
@@ -112,7 +120,7 @@ class Simulation:
         if pose is not None:
             self._call(f"The starting {pose} was refused", lambda: self.instance.set_pose(*astuple(pose)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
-        self._warned = False
+        self._warned, self._tried = False, 0.0  # whether it has warned, the last step tried
 
     @property
     def time(self) -> float:
@@ -202,6 +210,7 @@ class Simulation:
             Once, when the energy balance since the start says that the result is wrong.
         """
         _check_step(h)
+        self._tried = h
         if n != int(n) or n < 0:
             raise ValueError(f"n = {n}; it must be a whole number of steps.")
         for _ in range(int(n)):
@@ -239,6 +248,7 @@ class Simulation:
     ) -> tuple[Trajectory, list[NDArray[np.float64]]]:
         """The steps of `run`; with `look` also the coordinates at the instants where two runs are compared."""
         _check_step(h)
+        self._tried = h
         t0 = self.time
         steps = _count_steps(t0, t_end, h)
         if every < 1:
@@ -249,11 +259,11 @@ class Simulation:
         looks = [int(k) * every for k in accuracy.instants(len(values))] if look else []
         seen = [self.state.q] if look else []
         done, wall, chunk, before = 0, 0.0, every, self.report
-        with progress_for(progress) as bar:
+        with progress_for(progress) as bar, self._inputs(signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
             while done < steps:
                 ahead = [k - done for k in looks if k > done]
                 n = min(chunk, steps - done, *ahead[:1])
-                table = self._input_table(signals, t0 + h * np.arange(done + 1, done + n + 1, dtype=float), 1e-6 * h)
+                table = table_of(t0 + h * np.arange(done + 1, done + n + 1, dtype=float))
                 part = values[done // every + 1 : (done + n) // every + 1]
                 begin = time.perf_counter()
                 try:
@@ -276,9 +286,9 @@ class Simulation:
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""
-        balance, driven = self.instance.energy_balance(), len(self.system.arrays["gterm_row"]) > 0
-        if self._warned or balance <= accuracy.WRONG_BALANCE:
+        if self._warned or self.instance.energy_balance() <= accuracy.WRONG_BALANCE:
             return
+        driven = len(self.system.arrays["gterm_row"]) > 0
         if accuracy.balance_says(self.report, self.settings.method, driven):
             self._warned = True
             text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
@@ -294,6 +304,20 @@ class Simulation:
 
     def _sensor_values(self) -> NDArray[np.float64]:
         return np.array(self.instance.sensors(), float)
+
+    @contextmanager
+    def _inputs(
+        self, signals: InputSignals, t0: float, t_end: float, tolerance: float
+    ) -> Iterator[Callable[[NDArray[np.float64]], NDArray[np.float64] | None]]:
+        """Inputs of a run: a table at the ends of its steps, or the kernel asks at the times of its stages."""
+        if self.settings.looks_at_ends:
+            yield lambda t: self._input_table(signals, t, tolerance)
+            return
+        signals.attach(self.instance, t0, t_end, tolerance)
+        try:
+            yield lambda t: None
+        finally:
+            self.instance.set_input_function(None)
 
     def _input_table(
         self, signals: InputSignals, t: NDArray[np.float64], tolerance: float
@@ -321,6 +345,7 @@ class Simulation:
             wall,
             accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
             notices=_notices(sensors, t, values),
+            branch_change=self.branch_change,
         )
 
     def _index(self, kind: str, name: str) -> int:
@@ -350,9 +375,11 @@ class Simulation:
             return SimulationError(message, self.time, error.status, trajectory)
         if error.status == TOO_STIFF:
             rate = report["fastest_rate"]
+        if error.status == TOO_STIFF and rate > 0.0:
+            times = f"{rate:.3g} 1/s, which times the step of {self._tried:g} s is {rate * self._tried:.3g}"
             message += (
-                f" Its rate is {rate:.3g} 1/s here: steps of about {STIFF_STEP / rate:.1g} s follow it; implicit "
-                "methods ('ali3p', 'radau_5') need not."
+                f" Its rate here is {times}; that should be below about {STIFF_STEP:g}. Implicit methods "
+                "('ali3p', 'radau_5') need not follow it."
             )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
         if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):
@@ -392,8 +419,9 @@ def simulate(
     h : float
         Step, s.
     inputs : mapping of str to signal, optional
-        Per input a constant, a function of time, or a pair (times, values). A step from t to t + h uses the value at
-        t + h, which keeps the trapezoidal rule second order.
+        Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
+        use the value at the end of a step, the other methods those at the times of their stages; where a table jumps,
+        a step that begins there the value behind the jump, one that ends there the value before it.
     settings : Settings, optional
         How steps are solved.
     parameters : mapping of str to float, optional
@@ -427,14 +455,18 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 4 % of the work in the motion, or the repeat says that positions, lengths,
-        angles or forces of elements are off by more than 5 % of the largest range in their unit.
+        When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
+        lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit.
     BranchWarning
         When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
     _check_step(h)
     if method is not None:
         settings = replace(settings or Settings(), method=method)
+    if estimate_error not in (None, True, False):
+        raise ValueError(f"estimate_error = {estimate_error!r}; it must be True, False or None (suspects only).")
+    if every < 1:
+        raise ValueError(f"every = {every}; it must be at least 1.")
     signals = InputSignals(inputs or {}, system.meta["inputs"])
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
 
@@ -453,20 +485,28 @@ def simulate(
         made.append(simulation)
         return simulation._march(t_end, step, inputs, every, progress, look)
 
+    checked = estimate_error is not False
+    look = checked and not accuracy.has_motion_sensor(system)
+    often = accuracy.recorded_every(every, _count_steps(t0, t_end, h)) if checked else every
     try:
-        look = estimate_error is not False and not accuracy.has_motion_sensor(system)
         with progress_for(progress) as bar:
             first = 1.0 / 3.0 if estimate_error else 1.0
-            run = march(h, every, lambda share: bar.update(first * share), look)
-            if estimate_error is not False:
-                run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+            run = march(h, often, lambda share: bar.update(first * share), look)
+            found = run[0].accuracy
+            if checked:
+                found = repeat.check(system, run, march, h, often, bar.update, estimate_error is True)
+    except SimulationError as error:
+        if error.trajectory is not None:
+            error.trajectory = error.trajectory.thinned(every // often)
+        raise
     finally:  # of the run that was asked for, also when it failed
         if made and made[0].branch_change:
             warnings.warn(made[0].branch_change, BranchWarning, stacklevel=2)
-    found = run[0].accuracy
+    trajectory = run[0].thinned(every // often)
+    trajectory.accuracy = found
     if found is not None and found.message:
         warnings.warn(found.message, AccuracyWarning, stacklevel=2)
-    return run[0]
+    return trajectory
 
 
 def _notices(sensors: list[dict[str, str]], t: NDArray[np.float64], values: NDArray[np.float64]) -> list[str]:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.compile.report import report_text
 from mbs.frames import Frames
+from mbs.meta_check import problem_of
 
 MAGIC = b"ALI3SYS\n"
 VERSION = 1
@@ -147,9 +148,14 @@ class System:
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
             meta = json.loads(found.pop("meta"))
+            problem = problem_of(meta, {name: len(values) for name, values in found.items()})
+            if problem:
+                raise SystemFileError(f"The names in the System file were altered: {problem}.")
             system = cls(found, meta)
             str(system)
-        except (KeyError, TypeError, ValueError) as error:
+        except SystemFileError:
+            raise
+        except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
             raise SystemFileError(f"The names in the System file are damaged: {error}") from None
         return system
 
@@ -160,6 +166,8 @@ class System:
     @classmethod
     def load(cls, path: str | Path) -> System:
         """Read a System file; `SystemFileError` if it is not a valid one."""
+        if Path(path).exists() and not Path(path).is_file():
+            raise SystemFileError(f"{path} is not a file that can be read to its end.")
         return cls.from_bytes(Path(path).read_bytes())
 
 
@@ -167,7 +175,7 @@ def _parse(data: bytes) -> dict[str, Any]:
     """Arrays by name and the text of `meta`, after checks of header, directory and extents."""
     if len(data) < HEADER.size:
         raise SystemFileError(f"Not a System file: {len(data)} bytes are fewer than its header has.")
-    magic, version, count, size, crc, _ = HEADER.unpack_from(data)
+    magic, version, count, size, crc, zero = HEADER.unpack_from(data)
     if magic != MAGIC:
         raise SystemFileError("Not a System file: it does not begin with the mark of one.")
     if version != VERSION:
@@ -176,6 +184,8 @@ def _parse(data: bytes) -> dict[str, Any]:
         raise SystemFileError(f"The System file is cut or extended: {len(data)} bytes instead of {size}.")
     if crc != zlib.crc32(data[HEADER.size :]):
         raise SystemFileError("The System file was altered: its checksum does not fit.")
+    if zero != 0:
+        raise SystemFileError("The System file was altered: the last four bytes of its header are not zero.")
     if HEADER.size + ENTRY.size * count > len(data):
         raise SystemFileError(f"The System file lists {count} arrays, more than it can hold.")
     found: dict[str, Any] = {}

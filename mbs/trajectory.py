@@ -43,6 +43,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         What is known of the error.
     notices : sequence of str
         What the scene wants told, see `Model.notice`; judged at the recorded times.
+    branch_change : str
+        A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
     """
 
     def __init__(
@@ -56,6 +58,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         wall_s: float = float("nan"),
         accuracy: Accuracy | None = None,
         notices: Sequence[str] = (),
+        branch_change: str = "",
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
@@ -64,6 +67,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.wall_s = wall_s
         self.accuracy = accuracy
         self.notices = tuple(notices)
+        self.branch_change = branch_change
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
@@ -79,6 +83,15 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def thinned(self, every: int) -> Trajectory:
+        """Every so many samples, the first one among them, with the same report, settings and accuracy."""
+        if every == 1:
+            return self
+        values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))
+        names, units = list(self.units), list(self.units.values())
+        rest = (self.report, self.settings, self.wall_s, self.accuracy)
+        return Trajectory(self.t[::every], values[::every], names, units, *rest)
+
     @property
     def realtime_factor(self) -> float:
         """Simulated time over wall time: above 1 is faster than real time."""
@@ -86,7 +99,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __repr__(self) -> str:
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
-        told = "".join(f" {notice}" for notice in self.notices)
+        told = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
         samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
         return f"Trajectory({samples}, {len(self)} sensors{known}){told}"
 

@@ -172,8 +172,11 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
     """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
     linear, others = [], []
     for j, joint in enumerate(model.joints):
-        kept = joint.force_equations if joint.keep else []
+        kept = {*(joint.force_equations if joint.keep else []), *joint.turning_equations}
+        replaced = set(joint.replaced_equations)
         for k, equation in enumerate(joint.equations):
+            if k in replaced:
+                continue
             if equation.is_linear and k not in kept:
                 linear.append(equation)
             else:

@@ -28,7 +28,10 @@ def metadata(model: Model, coordinates: list[str], rows: list[RowTerms], report:
             for i in model.inputs
         ],
         "sensors": [
-            {"name": s.name, "unit": s.unit, "description": s.description} | ({"notice": s.notice} if s.notice else {})
+            {"name": s.name, "unit": s.unit, "description": s.description}
+            | ({"whole": True} if s.whole else {})
+            | ({"display_unit": s.display_unit} if s.display_unit else {})
+            | ({"notice": s.notice} if s.notice else {})
             for s in model.sensors
         ],
         "parameters": [

@@ -363,6 +363,8 @@ def _redraw(given: Corrected) -> None:
             body.joint_points, body.joint_axes = [], []
         made.append((ends.remake(*places), [(b.joint_points, b.joint_axes) for b in bodies]))
     (_, before), (new, after) = made
+    if joint.turning is not None:  # a moment of it is read
+        new.hold_turning()
     for (body, points, axes), (old_points, old_axes), (new_points, new_axes) in zip(lists, before, after, strict=True):
         body.joint_points = _replaced(points, old_points, new_points)
         body.joint_axes = _replaced(axes, old_axes, new_axes)

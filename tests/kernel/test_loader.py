@@ -67,8 +67,6 @@ def test_every_flipped_bit_is_refused() -> None:
     for position in [*range(32 * 8), *rng.integers(32 * 8, len(data) * 8, 2000)]:
         damaged = bytearray(data)
         damaged[position // 8] ^= 1 << (position % 8)
-        if position // 8 >= 28 and position // 8 < 32:
-            continue  # the spare word of the header carries nothing
         refused(bytes(damaged))
 
 

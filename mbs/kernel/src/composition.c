@@ -11,8 +11,8 @@ ali3_status ali3_composition(ali3_instance *in, double t, double h) {
   ali3_vectors_copy(in, &in->whole, &in->now);
   for (int stage = 0; stage < STAGES; stage++) {
     done = stage == STAGES - 1 ? 0.0 : done + share[stage];
-    const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, in->whole.used,
-                                                    1.0 + done - 0.5 * share[stage], stage == STAGES - 1 && !in->quiet);
+    const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, 1.0 + done - 0.5 * share[stage],
+                                                    stage == STAGES - 1 && !in->quiet);
     if (status != ALI3_OK) {
       ali3_vectors_copy(in, &in->now, &in->whole);
       return status;
