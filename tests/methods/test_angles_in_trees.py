@@ -63,7 +63,7 @@ def spatial_crank():
 
 
 def crank_slider():
-    """That of docs/modelling.md."""
+    """A crank-slider of rigid bodies: that of docs/modelling.md with a piston that has an inertia and a bore."""
     m = Model("crank-slider", dimension=2)
     crank = m.body("crank", mass=0.5, com=(0.05, 0.0), inertia=4e-4)
     rod = m.body("rod", mass=0.8, com=(0.25, 0.0), inertia=6e-3)
