@@ -204,14 +204,14 @@ ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_
 ALI3_API double ali3_time(const ali3_instance *in);
 
 enum { /* what the solver says about itself; the integer of sensors of type 13 */
-       ALI3_SOLVER_ITERATIONS = 0,         /* of the last step */
-       ALI3_SOLVER_VIOLATION,              /* m */
-       ALI3_SOLVER_RESIDUAL,               /* m */
-       ALI3_SOLVER_FACTORIZATIONS,         /* since the start */
-       ALI3_SOLVER_HALVINGS,               /* since the start */
-       ALI3_SOLVER_STATUS,                 /* as ali3_run_status */
-       ALI3_SOLVER_ENERGY_ERROR,           /* J, since the start */
-       ALI3_SOLVER_ENERGY_BALANCE,         /* the same as a share of the motion, see ali3_energy_balance */
+       ALI3_SOLVER_ITERATIONS = 0, /* of the last step */
+       ALI3_SOLVER_VIOLATION, /* m */
+       ALI3_SOLVER_RESIDUAL, /* m */
+       ALI3_SOLVER_FACTORIZATIONS, /* since the start */
+       ALI3_SOLVER_HALVINGS, /* since the start */
+       ALI3_SOLVER_STATUS, /* as ali3_run_status */
+       ALI3_SOLVER_ENERGY_ERROR, /* J, since the start */
+       ALI3_SOLVER_ENERGY_BALANCE, /* the same as a share of the motion, see ali3_energy_balance */
        ALI3_SOLVER_COUNT
 };
 ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
