@@ -147,10 +147,12 @@ struct ali3_instance {
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
   ali3_vectors now, next, start, whole, tangent;
+  ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
   ali3_rule rule;
   bool kept; /* in->start holds the state before the step */
   bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
   bool sampled; /* only sensors will look at it */
+  bool controlled; /* steps change from one to the next, and may be forgotten */
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */
