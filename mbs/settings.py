@@ -111,6 +111,11 @@ class Settings:
         if not 0.0 <= self.rho_infinity <= 1.0:
             raise ValueError(f"Setting 'rho_infinity' is {self.rho_infinity}; it must lie between 0 and 1.")
 
+    @property
+    def looks_at_ends(self) -> bool:
+        """Whether the method looks at inputs at the ends of its steps only, as the trapezoidal rule does."""
+        return METHODS[self.method]["method"] in (0, 1)
+
     def kernel_fields(self) -> dict[str, float | int]:
         """Values by the field names of `ali3_settings`."""
         fields: dict[str, float | int] = asdict(self)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
@@ -226,10 +227,10 @@ class Simulation:
         values = np.empty((steps // every + 1, len(self._meta["sensors"])))
         values[0] = self._sensor_values()
         done, wall, chunk = 0, 0.0, every
-        with progress_for(progress) as bar:
+        with progress_for(progress) as bar, self._inputs(signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
             while done < steps:
                 n = min(chunk, steps - done)
-                table = self._input_table(signals, t0 + h * np.arange(done + 1, done + n + 1, dtype=float), 1e-6 * h)
+                table = table_of(t0 + h * np.arange(done + 1, done + n + 1, dtype=float))
                 part = values[done // every + 1 : (done + n) // every + 1]
                 begin = time.perf_counter()
                 try:
@@ -258,6 +259,20 @@ class Simulation:
 
     def _sensor_values(self) -> NDArray[np.float64]:
         return np.array(self.instance.sensors(), float)
+
+    @contextmanager
+    def _inputs(
+        self, signals: InputSignals, t0: float, t_end: float, tolerance: float
+    ) -> Iterator[Callable[[NDArray[np.float64]], NDArray[np.float64] | None]]:
+        """Inputs of a run: a table at the ends of its steps, or the kernel asks at the times of its stages."""
+        if self.settings.looks_at_ends:
+            yield lambda t: self._input_table(signals, t, tolerance)
+            return
+        signals.attach(self.instance, t0, t_end, tolerance)
+        try:
+            yield lambda t: None
+        finally:
+            self.instance.set_input_function(None)
 
     def _input_table(
         self, signals: InputSignals, t: NDArray[np.float64], tolerance: float

@@ -10,7 +10,7 @@ import ctypes
 import math
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
 from pathlib import Path
 from typing import Any
@@ -135,6 +135,21 @@ class Sizes(Structure):
 
 
 _DOUBLES = POINTER(c_double)
+_INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLES)
+
+
+class InputTable(Structure):
+    """`ali3_input_table`: an input over time, straight lines between its points."""
+
+    _fields_ = (("input", c_int32), ("n", c_int64), ("time", _DOUBLES), ("value", _DOUBLES))
+
+
+class InputTables(Structure):
+    """`ali3_input_tables`."""
+
+    _fields_ = (("tolerance", c_double), ("n", c_int32), ("table", POINTER(InputTable)))
+
+
 _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_status_text": (c_char_p, [c_int32]),
     "ali3_version": (c_uint32, []),
@@ -149,6 +164,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_get_settings": (c_int32, [c_void_p, POINTER(SettingsFields)]),
     "ali3_set_input": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_get_input": (c_int32, [c_void_p, c_int32, _DOUBLES]),
+    "ali3_set_input_function": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "ali3_set_parameter": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),
     "ali3_set_pose": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double]),
@@ -302,6 +318,8 @@ class Instance:
         # Bound once: an attribute of the library costs more than the call of a small step.
         self._step = self._library.ali3_step
         self._sensors = self._library.ali3_sensors
+        self._inputs: Any = None  # keeps what the kernel calls and reads
+        self._input_error: BaseException | None = None
 
     def __del__(self) -> None:
         if self._handle is not None:
@@ -310,6 +328,9 @@ class Instance:
 
     def _check(self, status: int) -> None:
         if status:
+            error, self._input_error = self._input_error, None
+            if error is not None:
+                raise error
             raise KernelError(status, _status_text(self._library, status))
 
     def reset(self) -> None:
@@ -342,6 +363,53 @@ class Instance:
         value = c_double()
         self._check(self._library.ali3_get_input(self._handle, index, byref(value)))
         return value.value
+
+    def set_input_function(self, function: Callable[[float, bool, Any], None] | None) -> None:
+        """Inputs as a function of time, asked for at every time at which a method looks at them; None ends that.
+
+        Parameters
+        ----------
+        function : callable or None
+            Called with the time in s, whether the value behind a jump is meant, and a writable array of all inputs
+            that holds the present ones. What it raises ends the step and is raised by `step` or `run`.
+        """
+
+        def ask(_: Any, t: float, after: int, values: Any) -> int:
+            try:
+                function(t, bool(after), values)  # type: ignore[misc]
+            except BaseException as error:
+                self._input_error = error
+                return 1
+            return 0
+
+        callback = _INPUT_FUNCTION(ask) if function is not None else None
+        address = ctypes.cast(callback, c_void_p) if callback is not None else None
+        self._check(self._library.ali3_set_input_function(self._handle, address, None))
+        self._inputs = callback
+
+    def set_input_tables(self, tables: Mapping[int, tuple[Any, Any]], tolerance: float) -> None:
+        """The same from tables, without a call of Python.
+
+        Parameters
+        ----------
+        tables : mapping of int to (times, values)
+            Per number of an input two contiguous float64 buffers of equal length; times do not decrease.
+        tolerance : float
+            Times this near to a jump are at it, s.
+        """
+        kept, rows = [], []
+        for index, (times, values) in tables.items():
+            n = memoryview(times).nbytes // 8
+            arrays = [_buffer(part, n, "a table", writable=False) for part in (times, values)]
+            kept.append(arrays)
+            rows.append(InputTable(index, n, *(ctypes.cast(a, _DOUBLES) for a in arrays)))
+        table = (InputTable * len(rows))(*rows)
+        context = InputTables(tolerance, len(rows), table)
+        address = ctypes.cast(self._library.ali3_input_of_tables, c_void_p)
+        self._check(
+            self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p))
+        )
+        self._inputs = (context, table, kept)
 
     def set_parameter(self, index: int, value: float) -> None:
         """Value of a parameter from now on; refused outside its range."""

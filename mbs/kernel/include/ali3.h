@@ -112,6 +112,27 @@ ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
 ALI3_API ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings);
 ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value); /* clamped to its range */
+/* Inputs as a function of time: writes those at time t to `input` (nu), which comes with the present ones, so that some
+ * may be left as they are; returns other than 0 to refuse. Steps then ask at every time at which their method looks at
+ * inputs, halves of a step too: with after = 1 at the start of a step, where the value behind a jump counts, else with
+ * 0. Numbers are clamped to their ranges; what is refused or not finite ends the step with ALI3_BAD_ARGUMENT. NULL: the
+ * values of ali3_set_input, along straight lines from step to step, as before. The function is no part of a saved
+ * state; ali3_reset takes it away. */
+typedef int32_t ali3_input_function(void *context, double t, int32_t after, double *input);
+ALI3_API ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context);
+/* Such a function, whose context is an ali3_input_tables: straight lines between the points of each table, held outside;
+ * a time given twice is a jump, and times within `tolerance` of a jump are at it. A table of one point is a constant. */
+typedef struct {
+  int32_t input; /* its number */
+  int64_t n;
+  const double *time, *value; /* n; times do not decrease */
+} ali3_input_table;
+typedef struct {
+  double tolerance; /* s */
+  int32_t n;
+  const ali3_input_table *table;
+} ali3_input_tables;
+ALI3_API int32_t ali3_input_of_tables(void *tables, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value); /* range checked */
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);

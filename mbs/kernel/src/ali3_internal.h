@@ -183,6 +183,11 @@ struct ali3_instance {
   double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;
   ali3_tree_work *tree;
+  /* inputs.c: who is asked, inputs at the start of the step, when it starts, its length, the time of in->now */
+  ali3_input_function *input_function;
+  void *input_context;
+  double *input_begin, *stage_input; /* nu; of the stages of radau.c */
+  double input_time, input_length, t_now;
 };
 
 enum { ALI3_LOCAL = ALI3_MAX_SIGNALS };
@@ -319,12 +324,14 @@ void ali3_predict_rates(ali3_instance *in, double h);
 void ali3_accelerate(ali3_instance *in, int32_t iteration);
 
 /* energy_momentum.c */
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool report);
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool report);
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
 
 /* energy_momentum_report.c */
-void ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v, double weight);
+void ali3_energy_momentum_velocity(ali3_instance *in, ali3_vectors *v, double weight);
+ali3_status ali3_energy_momentum_forces(ali3_instance *in, ali3_vectors *v);
 void ali3_energy_momentum_report(ali3_instance *in);
+void ali3_energy_momentum_restart(ali3_instance *in, double h);
 
 /* history.c */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
@@ -337,6 +344,9 @@ void ali3_history_velocity(const ali3_instance *in, double h, double *v);
 /* index_one.c */
 #define ALI3_INDEX_ONE_PENALTY 1e8 /* of mass-normalised rows, with unit weight of M */
 ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v);
+ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q);
+ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const double *b, double tolerance, double *x,
+                                 double *lam);
 
 /* check_tree.c */
 ali3_status ali3_check_tree(const ali3_system *s, ali3_message m);
@@ -353,6 +363,7 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h);
 
 /* composition.c */
 ali3_status ali3_composition(ali3_instance *in, double t, double h);
+double ali3_composed(double h);
 
 /* check_method.c */
 bool ali3_without_memory(const ali3_system *S);
@@ -387,5 +398,9 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 void ali3_keep(ali3_instance *in);
 ali3_status ali3_accept(ali3_instance *in);
-void ali3_input_between(ali3_instance *in, const double *u0, double share);
+
+/* inputs.c */
+ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h);
+ali3_status ali3_inputs_at(ali3_instance *in, double share);
+bool ali3_inputs_jump(const ali3_instance *in);
 #endif

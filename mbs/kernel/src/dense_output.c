@@ -62,7 +62,9 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
   interpolate(in, h, x, at);
   memcpy(in->D, at->qdd, (size_t)nq * sizeof(double));
   ali3_guides_time(in, at, when);
-  const ali3_status status = ali3_index_one(in, at);
+  in->t_now = when;
+  ali3_status status = ali3_inputs_begin(in, when, 0.0);
+  if (status == ALI3_OK) status = ali3_index_one(in, at);
   in->report.iterations--; /* nothing that the motion needed */
   if (status != ALI3_OK) return false;
   for (int32_t i = 0; i < nq; i++) {
@@ -123,5 +125,6 @@ ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, do
   look(in, out, positions);
   in->next = in->now;
   in->now = end;
+  memcpy(in->input, end.used, (size_t)in->system->size.nu * sizeof(double));
   return ALI3_OK;
 }

@@ -214,8 +214,9 @@ static bool carries_projected(const ali3_instance *in) {
 }
 
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
- * Inputs go straight from u0 to the present ones; the middle of this step has the given share of the latter. */
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool reported) {
+ * The middle of this step is that share of the one
+ * that ali3_inputs_begin was told of. */
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   double weight = 0.0;
@@ -223,11 +224,12 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
-  ali3_input_between(in, u0, share);
+  ali3_status status = ali3_inputs_at(in, share);
+  if (status != ALI3_OK) return status;
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
   if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
-  const ali3_status status = solve(in, h, &weight, &iterations);
+  status = solve(in, h, &weight, &iterations);
   in->report.iterations += iterations;
   ali3_iterations_since(in, in->report.iterations - iterations);
   if (status != ALI3_OK) return status;
@@ -248,9 +250,10 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   to->h_last[0] = 0.0;
   if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
   const bool on_rows = carries_projected(in);
-  if (reported || on_rows) ali3_energy_momentum_complete(in, to, weight);
-  if (on_rows) memcpy(to->own, to->qd, (size_t)nq * sizeof(double));
   same_place(in, to);
   memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
-  return ali3_accept(in);
+  if (reported || on_rows) ali3_energy_momentum_velocity(in, to, weight);
+  if (on_rows) memcpy(to->own, to->qd, (size_t)nq * sizeof(double));
+  if (reported) status = ali3_energy_momentum_forces(in, to);
+  return status == ALI3_OK ? ali3_accept(in) : status;
 }

@@ -6,14 +6,16 @@
 #include "ali3_internal.h"
 
 enum { MAX_SWEEPS = 3 };
-static const double VELOCITY_TOLERANCE = 1e-11, ACCELERATION_TOLERANCE = 1e-6;
+static const double VELOCITY_TOLERANCE = 1e-11, ROUND_OFF = 1e-11;
 static const double LEAST_RATIO = 0.5, MOST_RATIO = 2.0; /* of kinetic energies that may be made equal */
 
+static const double SAME_STEP = 1e-6; /* relative difference of two steps that counts as none */
+
 /* As ali3_project, with the unsymmetric tangent; the part of v that is taken away is spread by A. */
-static double project(ali3_instance *in, double weight, const double *b, double *v, double tolerance) {
+static double project(ali3_instance *in, double weight, const double *b, double *v) {
   const ali3_system *S = in->system;
   double violation = 0.0;
-  for (int32_t sweep = 0; !ali3_rates_closed(in, b, v, tolerance, &violation) && sweep < MAX_SWEEPS; sweep++) {
+  for (int32_t sweep = 0; !ali3_rates_closed(in, b, v, VELOCITY_TOLERANCE, &violation) && sweep < MAX_SWEEPS; sweep++) {
     for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] *= weight;
     ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
     ali3_solve_lu(in, 1, in->F, in->x);
@@ -22,30 +24,36 @@ static double project(ali3_instance *in, double weight, const double *b, double 
   return violation;
 }
 
-/* qd on the constraints with the kinetic energy of v->own, accelerations and multipliers from the last two middles,
- * outputs of the elements. Needs Phi_q in in->J and a factorised tangent. */
-void ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v, double weight) {
+/* qd on the constraints with the kinetic energy of v->own. Needs Phi_q in in->J and a factorised tangent. */
+void ali3_energy_momentum_velocity(ali3_instance *in, ali3_vectors *v, double weight) {
   const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq, nc = S->size.nc;
-  const double *time = v->memory + ALI3_MEMORY_TIME;
-  const bool two = v->memory[ALI3_MEMORY_COUNT] >= 2.0;
-  const double second = two ? time[0] / (time[1] - time[0]) : 0.0, first = 1.0 - second;
+  const int32_t nq = S->size.nq;
   ali3_constraint_rate(in, v->q, v, in->Phit);
   memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
-  in->report.velocity_violation = project(in, weight, in->Phit, v->qd, VELOCITY_TOLERANCE);
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
-  ali3_forces(in, &call);
+  in->report.velocity_violation = project(in, weight, in->Phit, v->qd);
+  ali3_flexible_prepare(in, v->q);
   const double ratio = ali3_mass_product(in, v->own, v->own, in->x) / ali3_mass_product(in, v->qd, v->qd, in->x);
-  bool driven = false;
-  for (int32_t k = 0; k < nc; k++) driven = driven || in->Phit[k] != 0.0;
-  if (!driven && ratio > LEAST_RATIO && ratio < MOST_RATIO) {
-    const double scale = sqrt(ratio);
-    for (int32_t i = 0; i < nq; i++) v->qd[i] *= scale;
-  }
-  for (int32_t i = 0; i < nq; i++) v->qdd[i] = first * v->past_a[i] + (two ? second * v->past_a[nq + i] : 0.0);
-  for (int32_t k = 0; k < nc; k++) v->lam[k] = first * v->past_lam[k] + (two ? second * v->past_lam[nc + k] : 0.0);
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (in->Phit[k] != 0.0) return; /* a drive sets the velocity */
+  if (!(ratio > LEAST_RATIO && ratio < MOST_RATIO)) return;
+  const double scale = sqrt(ratio);
+  for (int32_t i = 0; i < nq; i++) v->qd[i] *= scale;
+}
+
+/* Accelerations and multipliers of the forces at the reported velocities, outputs of the elements: of the order of
+ * positions and velocities, and of nothing but the state, whatever steps led to it. Middles of past steps would tell
+ * them less well: the carried velocity errs in the direction of driven rows with a sign that changes from step to step,
+ * its differences by one order more. Needs Phi_q in in->J; in->F becomes the factorised metric. */
+ali3_status ali3_energy_momentum_forces(ali3_instance *in, ali3_vectors *v) {
+  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  project(in, weight, in->gamma, v->qdd, ACCELERATION_TOLERANCE);
+  ali3_forces(in, &call);
+  const int64_t factorizations = in->report.factorizations, solves = in->report.solves;
+  ali3_status status = ali3_index_one_factorise(in, v->q);
+  if (status == ALI3_OK) status = ali3_index_one_solve(in, in->Q, in->gamma, ROUND_OFF, v->qdd, v->lam);
+  in->report.factorizations = factorizations; /* those of steps are counted */
+  in->report.solves = solves;
+  return status;
 }
 
 void ali3_energy_momentum_report(ali3_instance *in) {
@@ -60,5 +68,19 @@ void ali3_energy_momentum_report(ali3_instance *in) {
   }
   ali3_mirror(in, in->F);
   ali3_rows_product(in, in->J, in->J, weight, in->F);
-  if (ali3_factorise_lu(in, 1, in->F) == ALI3_OK) ali3_energy_momentum_complete(in, &in->now, weight);
+  if (ali3_factorise_lu(in, 1, in->F) != ALI3_OK) return;
+  ali3_energy_momentum_velocity(in, &in->now, weight);
+  ali3_energy_momentum_forces(in, &in->now);
+}
+
+/* Before a step of h: the carried velocity goes to the reported one where steps change. What it has off the rows has
+ * the size that belongs to the step it comes from; in a step a hundred times as short it would be a force a hundred
+ * times as large, as it would stay what it is. */
+void ali3_energy_momentum_restart(ali3_instance *in, double h) {
+  const double *memory = in->now.memory, last = -2.0 * memory[ALI3_MEMORY_TIME];
+  if (memory[ALI3_MEMORY_OWNER] != (double)ALI3_METHOD_ENERGY_MOMENTUM || !(memory[ALI3_MEMORY_COUNT] >= 1.0)) return;
+  if (!in->controlled && fabs(h - last) <= SAME_STEP * fabs(h)) return;
+  ali3_keep(in);
+  if (!in->controlled) ali3_energy_momentum_report(in); /* after a quiet step nothing is reported yet */
+  memcpy(in->now.own, in->now.qd, (size_t)in->system->size.nq * sizeof(double));
 }

@@ -45,15 +45,20 @@ static void set_time(ali3_instance *in, double t) {
   in->t_base = t;
   in->h_last = 0.0;
   in->count = 0;
+  in->t_now = t;
 }
 
 /* Where inputs or guides jump: accelerations and multipliers of what comes after, without a past. */
 ali3_status ali3_refresh(ali3_instance *in) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   if (!in->initialised) return ALI3_NOT_INITIALISED;
+  in->t_now = ali3_time(in);
   ali3_vectors_copy(in, &in->start, &in->now);
-  ali3_guides_time(in, &in->now, ali3_time(in));
-  const ali3_status status = ali3_solve_rates(in, false);
+  ali3_guides_time(in, &in->now, in->t_now);
+  ali3_status status = ali3_inputs_begin(in, in->t_now, 0.0);
+  if (in->input_function != NULL)
+    memcpy(in->input, in->input_begin, (size_t)in->system->size.nu * sizeof(double));
+  if (status == ALI3_OK) status = ali3_solve_rates(in, false);
   if (status != ALI3_OK) {
     ali3_vectors_copy(in, &in->now, &in->start);
     return status;
@@ -184,6 +189,14 @@ static void finish(ali3_instance *in) {
   if (in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE) ali3_semi_recursive_report(in);
 }
 
+/* Whether inputs are others than those that the last step ended with. */
+static bool jumped(ali3_instance *in) {
+  if (in->input_function == NULL)
+    return memcmp(in->input, in->now.used, (size_t)in->system->size.nu * sizeof(double)) != 0;
+  in->t_now = ali3_time(in);
+  return ali3_inputs_begin(in, in->t_now, 0.0) != ALI3_OK || ali3_inputs_jump(in);
+}
+
 static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_end, int64_t most_steps,
                        const ali3_record *record, int64_t *done) {
   const int32_t ns = in->system->size.ns, nq = in->system->size.nq;
@@ -218,7 +231,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   if (status != ALI3_OK) return status;
   const ali3_measure measure = {control, scale};
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST * control->span);
-  if (memcmp(in->input, in->now.used, (size_t)in->system->size.nu * sizeof(double)) != 0) status = ali3_refresh(in);
+  if (jumped(in)) status = ali3_refresh(in);
   in->quiet = false;
   in->sampled = in->controlled = true;
   if (status == ALI3_OK) status = run(in, &measure, t_end, most_steps, record, done);

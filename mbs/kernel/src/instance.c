@@ -44,7 +44,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
   const size_t stages = ali3_without_memory(s) ? ALI3_RADAU : 0;
-  const size_t total = 8 * n_vector + 3 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
+  const size_t total = 8 * n_vector + (4 + ALI3_RADAU) * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
                        5 * (size_t)z->nnz_rows + (size_t)z->front_size + 2 * nq + (size_t)z->ng + (size_t)z->n_switch +
                        2 * (size_t)z->nsig + n_S + n_work + ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
                        stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + stages * (size_t)z->front_size) +
@@ -77,6 +77,8 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->input = ali3_take(&pool, nu);
   in->input_work = ali3_take(&pool, nu);
   in->input_middle = ali3_take(&pool, nu);
+  in->input_begin = ali3_take(&pool, nu);
+  in->stage_input = ali3_take(&pool, ALI3_RADAU * nu);
   in->force_input = in->input;
   in->parameter = ali3_take(&pool, np);
   in->parameter_work = ali3_take(&pool, np);
@@ -193,6 +195,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   in->t_base = in->h_last = 0.0;
   in->count = 0;
   in->initialised = 0;
+  in->input_function = NULL;
   memset(in->now.q, 0, in->n_vector * sizeof(double));
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);

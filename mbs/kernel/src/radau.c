@@ -41,7 +41,7 @@ static void place(ali3_instance *in, double t, double h, int i) {
     to->q[k] = from->q[k] +
                h * (node[i] * from->qd[k] + h * (second[i][0] * a0[k] + second[i][1] * a1[k] + second[i][2] * a2[k]));
   }
-  ali3_input_between(in, from->used, node[i]);
+  in->force_input = in->stage_input + (int64_t)i * in->system->size.nu;
   ali3_guides_time(in, to, t - (1.0 - node[i]) * h);
 }
 
@@ -254,6 +254,16 @@ static ali3_status project(ali3_instance *in, double h, double alpha) {
   return ALI3_OK;
 }
 
+static ali3_status inputs(ali3_instance *in) {
+  const int32_t nu = in->system->size.nu;
+  ali3_status status = ALI3_OK;
+  for (int i = 0; i < STAGES && status == ALI3_OK; i++) {
+    status = ali3_inputs_at(in, node[i]);
+    memcpy(in->stage_input + (int64_t)i * nu, in->input_middle, (size_t)nu * sizeof(double));
+  }
+  return status;
+}
+
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
 ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
@@ -262,9 +272,10 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   const double alpha = ali3_penalty(in, h) / EPS_SHARE;
   ali3_vectors *from = &in->now, *to = &in->next;
   ali3_history_own(in, ALI3_METHOD_RADAU_5, from->qdd);
+  ali3_status status = inputs(in);
+  if (status != ALI3_OK) return status;
   predict(in, h);
-  in->force_input = in->input_middle;
-  ali3_status status = newton(in, t, h, alpha);
+  status = newton(in, t, h, alpha);
   in->force_input = in->input;
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;

@@ -45,10 +45,12 @@ static ali3_status step(ali3_instance *in, double h) {
   const double energy_error = in->report.energy_error;
   in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
   in->h_whole = h;
+  in->t_now = ali3_time(in);
   const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);
+    if (in->input_function != NULL) memcpy(in->input, in->now.used, (size_t)in->system->size.nu * sizeof(double));
     in->report.energy_error = energy_error;
     in->report.failures++;
     return status;

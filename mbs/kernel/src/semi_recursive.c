@@ -112,6 +112,14 @@ static ali3_status begin(ali3_instance *in) {
   return accelerations(in, w->state + T->n, w->qdd);
 }
 
+/* Accelerations at the start of a step where its inputs are not those at the end of the last. */
+static ali3_status after_jump(ali3_instance *in) {
+  ali3_tree_work *w = in->tree;
+  place(in, w->state);
+  position(in);
+  return accelerations(in, w->state + in->system->tree->n, w->qdd);
+}
+
 /* w->sum = state + h times the rates of the stages with their weights. */
 static void combine(const ali3_instance *in, double h, const double *weight, int32_t stages) {
   ali3_tree_work *w = in->tree;
@@ -196,14 +204,19 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   const bool mine = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
   ali3_tree_work *w = in->tree;
   (void)t;
-  memcpy(in->input_middle, in->now.used, (size_t)S->size.nu * sizeof(double));
+  ali3_status status = ali3_inputs_at(in, 0.0);
+  if (status != ALI3_OK) return status;
   in->force_input = in->input_middle;
-  ali3_status status = mine && recall(in, in->now.own) ? ALI3_OK : begin(in);
+  if (!(mine && recall(in, in->now.own)))
+    status = begin(in);
+  else if (ali3_inputs_jump(in))
+    status = after_jump(in);
   memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
   for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
     combine(in, h, rule->stage_weight[stage], stage);
-    ali3_input_between(in, in->now.used, rule->node[stage]);
+    status = ali3_inputs_at(in, rule->node[stage]);
+    if (status != ALI3_OK) break;
     place(in, w->sum);
     position(in);
     memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));

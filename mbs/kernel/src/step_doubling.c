@@ -14,6 +14,7 @@ int32_t ali3_order(int32_t method) {
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
   in->kept = false;
   in->h_whole = h;
+  in->t_now = t;
   return ali3_advance(in, t + h, h, 0);
 }
 
