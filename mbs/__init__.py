@@ -11,6 +11,7 @@ from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 
 if TYPE_CHECKING:
+    from mbs.control import AccuracyWarning, Control
     from mbs.linear_model import LinearModel, linearise
     from mbs.settings import Settings
     from mbs.simulation import Pose, Simulation, SimulationError, simulate
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 # what needs the compiled kernel is imported when it is first asked for
 _LAZY = {
+    "AccuracyWarning": "mbs.control",
+    "Control": "mbs.control",
     "Pose": "mbs.simulation",
     "Settings": "mbs.settings",
     "Simulation": "mbs.simulation",
@@ -29,8 +32,10 @@ _LAZY = {
 }
 
 __all__ = [
+    "AccuracyWarning",
     "Affine",
     "AffineVector",
+    "Control",
     "LinearModel",
     "Model",
     "ModelError",

@@ -9,8 +9,9 @@ from contextlib import contextmanager
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from mbs.control import checked_tolerance
 from mbs.input_signals import InputSignals, Signal
 from mbs.kernel.binding import (
     BELOW_ROAD,
@@ -249,6 +250,11 @@ class Simulation:
                 chunk = _next_chunk(chunk, spent, every)
         return self._trajectory(t0, h * every, values, wall)
 
+    def change_settings(self, settings: Settings) -> None:
+        """Solve the steps from now on in another way."""
+        self.instance.set_settings(**settings.kernel_fields())
+        self.settings = settings
+
     def save(self) -> bytes:
         """All that continues bit for bit, in this or another process."""
         return self.instance.save()
@@ -297,6 +303,10 @@ class Simulation:
             wall,
         )
 
+    def failure(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
+        """What the kernel refused, in words, with what was recorded until then."""
+        return self._error(what, error, trajectory)
+
     def _index(self, kind: str, name: str) -> int:
         names = [entry["name"] for entry in self._meta[kind]]
         if name not in names:
@@ -337,7 +347,7 @@ class Simulation:
 def simulate(
     system: System,
     t_end: float,
-    h: float,
+    h: float | None = None,
     inputs: Mapping[str, Signal] | None = None,
     settings: Settings | None = None,
     parameters: Mapping[str, float] | None = None,
@@ -347,8 +357,10 @@ def simulate(
     t0: float = 0.0,
     pose: Pose | None = None,
     method: str | None = None,
+    tolerance: float | None = None,
+    times: ArrayLike | None = None,
 ) -> Trajectory:
-    """Step a System from `t0` to `t_end` in equal steps.
+    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance.
 
     Parameters
     ----------
@@ -356,17 +368,19 @@ def simulate(
         What `compile` made.
     t_end : float
         Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
-    h : float
-        Step, s.
+    h : float, optional
+        Step, s. With a tolerance: interval of the record, by default a 200th of the run. Without h and tolerance a step
+        is chosen whose run errs by less than 1e-3 of the model's length (`Trajectory.control` says which).
     inputs : mapping of str to signal, optional
         Per input a constant, a function of time, or a pair (times, values). A step from t to t + h uses the value at
-        t + h, which keeps the trapezoidal rule second order.
+        t + h, which keeps the trapezoidal rule second order. With a tolerance the points of tables are ends of steps; a
+        function is taken as smooth.
     settings : Settings, optional
-        How steps are solved.
+        How steps are solved. With a tolerance `tolerance_r` and `tolerance_phi` are tightened as far as it needs.
     parameters : mapping of str to float, optional
         Values that differ from their declaration.
     every : int
-        Record the state after every that many steps.
+        Record the state after every that many steps, or intervals of the record.
     progress : bool or callable, optional
         None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives the
         share that is done.
@@ -375,7 +389,14 @@ def simulate(
     pose : Pose, optional
         Start of a scene that is not tied to the ground.
     method : str, optional
-        Name of the method, see `Settings`; in place of the one that `settings` names.
+        Name of the method, see `Settings`; in place of the one that `settings` names. "auto" takes the one that suits
+        System and tolerance best; so does a tolerance without a method.
+    tolerance : float, optional
+        Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
+        the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then chosen
+        by the kernel, the error is estimated by a second run, and `Trajectory.control` says what was done.
+    times : array_like, optional
+        Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
 
     Returns
     -------
@@ -386,22 +407,48 @@ def simulate(
     ------
     SimulationError
         When a step fails; its `trajectory` holds what was recorded.
+
+    Warns
+    -----
+    AccuracyWarning
+        When the error is estimated to be more than ten times the tolerance.
     """
-    _check_step(h)
-    if method is not None:
-        settings = replace(settings or Settings(), method=method)
-    signals = InputSignals(inputs or {}, system.meta["inputs"])
-    start = signals.at(np.array([t0]), 1e-6 * h, after_jump=True)[0]
+    if h is not None:
+        _check_step(h)
+    if times is not None and tolerance is None:
+        raise ValueError("times need a tolerance: equal steps are recorded where they end.")
+    wanted = None if tolerance is None else checked_tolerance(tolerance)
+    settings = settings or Settings()
+    named = method is not None or settings.method != Settings().method
+    chosen = method if method is not None else settings.method if named or wanted is None else "auto"
+    if chosen != "auto":
+        settings = replace(settings, method=chosen)
+    given = inputs or {}
+    signals = InputSignals(given, system.meta["inputs"])
+    first = signals.at(np.array([t0]), 1e-6 * (h or 0.0), after_jump=True)[0]
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
-    simulation = Simulation(
-        system,
-        settings=settings,
-        inputs=dict(zip(names, start.tolist(), strict=True)),
-        parameters=parameters,
-        pose=pose,
-        t0=t0,
-    )
-    return simulation.run(t_end, h, inputs=inputs, every=every, progress=progress)
+
+    def start() -> Simulation:
+        return Simulation(
+            system,
+            settings=settings,
+            inputs=dict(zip(names, first.tolist(), strict=True)),
+            parameters=parameters,
+            pose=pose,
+            t0=t0,
+        )
+
+    if wanted is None and h is not None and chosen != "auto":
+        return start().run(t_end, h, inputs=inputs, every=every, progress=progress)
+    from mbs import chosen_run  # only here, since it makes Simulations
+
+    if every < 1:
+        raise ValueError(f"every = {every}; it must be at least 1.")
+    with progress_for(progress) as bar:
+        if wanted is None:
+            return chosen_run.equal_steps(start, t0, t_end, h, given, settings, chosen, every, bar)
+        record = chosen_run.record_times(t0, t_end, h, every, times)
+        return chosen_run.to_tolerance(start, wanted, record, given, settings, chosen, bar)
 
 
 def _check_step(h: float) -> None:
@@ -409,10 +456,15 @@ def _check_step(h: float) -> None:
         raise ValueError(f"The step h is {h} s; it must be positive and finite.")
 
 
-def _count_steps(t0: float, t_end: float, h: float) -> int:
-    """Number of whole steps that end not after `t_end`, give or take round-off."""
+def check_end(t0: float, t_end: float) -> None:
+    """One sentence for an end that is none."""
     if not (math.isfinite(t_end) and t_end >= t0):
         raise ValueError(f"The end t_end is {t_end} s; it must be finite and not before {t0:g} s.")
+
+
+def _count_steps(t0: float, t_end: float, h: float) -> int:
+    """Number of whole steps that end not after `t_end`, give or take round-off."""
+    check_end(t0, t_end)
     return math.floor((t_end - t0) / h + 1e-6)
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.control import Control
 from mbs.report import Report
 from mbs.settings import Settings
 
@@ -37,7 +38,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     settings : Settings, optional
         How the steps were solved.
     wall_s : float
-        Time spent stepping, s; preparing inputs and reporting progress are not counted.
+        Time spent stepping, s; preparing inputs and reporting progress are not counted. All runs that a tolerance needed
+        are.
+    control : Control, optional
+        How method and steps were chosen, where `simulate` chose them.
     """
 
     def __init__(
@@ -49,12 +53,14 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         report: Report | None = None,
         settings: Settings | None = None,
         wall_s: float = float("nan"),
+        control: Control | None = None,
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
         self.report = report
         self.settings = settings
         self.wall_s = wall_s
+        self.control = control
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
@@ -76,7 +82,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         return float((self.t[-1] - self.t[0]) / self.wall_s)
 
     def __repr__(self) -> str:
-        return f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors)"
+        text = f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors)"
+        return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write one column per sensor, headed ``name [unit]``, with all digits."""

@@ -11,6 +11,7 @@ from mbs.affine import Affine
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
 from mbs.compile.equilibrium import equilibrium
+from mbs.compile.extent import coordinate_lengths, model_length, unit_vectors
 from mbs.compile.flexible import (
     deformation_metric,
     flexible_arrays,
@@ -129,7 +130,11 @@ def compile(model: Model) -> System:
         "tangent_nonzeros": tangent_nonzeros,
         "no_tree": no_tree,
     }
-    system = System(tables, metadata(model, [natural.info[kept[k]].name for k in order], rows, report))
+    info = [natural.info[kept[k]] for k in order]
+    length = model_length(model)
+    lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [kept[k] for k in order]), length)
+    report["length"], report["length_stated"] = length, model.length is not None
+    system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths))
     if not model.start_in_equilibrium:
         return system
     q = equilibrium(system, model.equilibrium_parameters)

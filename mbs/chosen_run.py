@@ -1,0 +1,189 @@
+"""`simulate` with a tolerance, without a step or without a method: it chooses them."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.control import ALLOWED, AccuracyWarning, Control
+from mbs.controlled_run import ControlledRun, Task
+from mbs.input_signals import Signal
+from mbs.kernel.binding import KernelError
+from mbs.method_choice import choose
+from mbs.progress import Progress
+from mbs.settings import Settings
+from mbs.simulation import Simulation, SimulationError, check_end
+from mbs.step_choice import StepChoice, choose_step
+from mbs.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+COARSE, COARSEST = 20.0, 0.05
+"""Tolerance of the first run in those of the last, and at most."""
+AGAIN, MOST_AT_ONCE = 0.5, 1e-3
+"""What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
+MOST_RUNS, LEAST = 4, 1e-13
+DEFAULT_TOLERANCE = 1e-3
+"""Of runs in equal steps that are chosen."""
+RECORDED = 200  # intervals where none is said
+CHECKED = 50  # instants beside those that are recorded at which runs are compared
+
+
+def to_tolerance(
+    start: Callable[[], Simulation],
+    tolerance: float,
+    times: Array,
+    inputs: Mapping[str, Signal],
+    settings: Settings,
+    method: str,
+    bar: Progress,
+) -> Trajectory:
+    """Sensor values at `times` (n,), the first of them the start, with an error of positions of about the tolerance.
+
+    A coarse run and a finer one tell the error of the latter (errors are in proportion to the tolerances, since each
+    step has a share of them). Where it is larger than it should be, since the motion lets errors grow, a third and a
+    fourth run are made with what is then known of that growth.
+    """
+    first = start()
+    t0, t_end = float(times[0]), float(times[-1])
+    if t_end <= t0:
+        return _trajectory(first, times, np.array([list(first.instance.sensors())]), None, 0.0, settings)
+    grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED)
+    grid[-1] = t_end
+    task = Task(t0, t_end, grid, inputs)
+    coarse = min(COARSE * tolerance, max(COARSEST, tolerance))
+    reason, wall, runs, before = "", 0.0, 0, None
+    if method == "auto":
+        choice = choose(start, task, settings, tolerance, coarse)
+        method, reason, before, wall, runs = choice.method, choice.reason, choice.run, choice.wall, choice.runs
+    settings = replace(settings, method=method)
+    if before is None:
+        before = _whole(ControlledRun(start(), task, settings, coarse), bar, 0.0, times, first)
+        runs, wall = runs + 1, wall + before.wall
+    aim = tolerance
+    for number in range(1, MOST_RUNS):
+        run = _whole(ControlledRun(start(), task, settings, aim), bar, min(0.5, 0.3 * number), times, first)
+        runs, wall = runs + 1, wall + run.wall
+        error = run.distance(before) / (before.tolerance / run.tolerance - 1.0)
+        if error <= tolerance or aim <= LEAST:
+            break
+        before = run
+        aim = max(LEAST, aim * max(MOST_AT_ONCE, AGAIN * tolerance / error))
+    c = run.fields
+    control = Control(
+        tolerance, run.length, method, reason, error, None, c.accepted, c.rejected, c.failed, c.forced,
+        c.smallest, c.largest, c.side_steps, runs,
+    )  # fmt: skip
+    _warn(control)
+    values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(grid, times[1:])]])
+    return _trajectory(run.simulation, times, values, control, wall, run.settings)
+
+
+def equal_steps(
+    start: Callable[[], Simulation],
+    t0: float,
+    t_end: float,
+    h: float | None,
+    inputs: Mapping[str, Signal],
+    settings: Settings,
+    method: str,
+    every: int,
+    bar: Progress,
+) -> Trajectory:
+    """A run in equal steps whose step, method or both are chosen for the default tolerance."""
+    check_end(t0, t_end)
+    reason, wall, runs = "", 0.0, 0
+    if method == "auto" and t_end > t0:
+        grid = t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED
+        choice = choose(start, Task(t0, t_end, grid, inputs), settings, DEFAULT_TOLERANCE, COARSEST)
+        method, reason, wall, runs = choice.method, choice.reason, choice.wall, choice.runs
+    settings = replace(settings, method="ali3p" if method == "auto" else method)
+
+    def begin() -> Simulation:
+        simulation = start()
+        simulation.change_settings(settings)
+        return simulation
+
+    error = math.nan
+    if h is None:
+        step = choose_step(begin, t_end, DEFAULT_TOLERANCE, inputs, bar) if t_end > t0 else StepChoice(1.0, 0.0, 0.0, 0)
+        h, error, runs = step.h, step.error, runs + step.runs
+    simulation = begin()
+    length = float(simulation.system.meta["report"].get("length", 1.0))
+    found = simulation.run(t_end, h, inputs=inputs, every=every, progress=bar.update)
+    n = simulation.report.steps
+    control = Control(
+        DEFAULT_TOLERANCE, length, settings.method, reason, error, h, n, 0, 0, 0, h, h, 0, runs + 1
+    )  # fmt: skip
+    _warn(control)
+    found.control = control
+    found.wall_s += wall
+    return found
+
+
+def record_times(t0: float, t_end: float, h: float | None, every: int, times: ArrayLike | None) -> Array:
+    """Instants of the record, the first of them t0."""
+    check_end(t0, t_end)
+    if times is not None and h is not None:
+        raise ValueError("Both times and h are given; one of them says where to record.")
+    if times is None:
+        if t_end == t0:
+            return np.array([t0])
+        interval = (t_end - t0) / RECORDED if h is None else h * every
+        return t0 + interval * np.arange(math.floor((t_end - t0) / interval + 1e-6) + 1, dtype=float)
+    try:
+        wanted = np.asarray(times, float).reshape(-1)
+    except (TypeError, ValueError):
+        wanted = np.array([math.nan])
+    if not (np.all(np.isfinite(wanted)) and np.all(np.diff(wanted) > 0.0)):
+        raise ValueError("The times must be finite numbers that ascend.")
+    if len(wanted) and not (wanted[0] >= t0 and wanted[-1] <= t_end):
+        raise ValueError(f"The times must lie between {t0:g} and {t_end:g} s; they go from {wanted[0]:g} to {wanted[-1]:g}.")
+    return np.concatenate([[t0], wanted[wanted > t0]])
+
+
+def _whole(run: ControlledRun, bar: Progress, from_share: float, times: Array, first: Simulation) -> ControlledRun:
+    try:
+        run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
+    except KernelError as error:
+        raise _refused(run, times, first, error) from error
+    return run
+
+
+def _refused(run: ControlledRun, times: Array, first: Simulation, error: KernelError) -> SimulationError:
+    """The failure with what was recorded until then."""
+    simulation, done = run.simulation, run.task.times[: run.done]
+    good = times[1:][times[1:] <= (done[-1] if len(done) else run.task.t0)]
+    values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(run.task.times, good)]])
+    found = _trajectory(simulation, times[: len(good) + 1], values, None, run.wall, run.settings)
+    what = (
+        f"With a tolerance of {run.tolerance:g} no step from t = {simulation.time:g} s succeeded, "
+        f"{run.fields.h:.2g} s long in the end"
+    )
+    return simulation.failure(what, error, found)
+
+
+def _warn(control: Control) -> None:
+    if control.kept:
+        return
+    forced = f", {control.forced} steps erred more than their share however short they were" if control.forced else ""
+    warnings.warn(
+        f"The error of this run is about {control.error:.1e} of the model's length, more than {ALLOWED:g} times the "
+        f"tolerance of {control.tolerance:g}, after {control.runs} runs{forced}. Small errors grow in this motion, or "
+        f"round-off is reached: shorten the time, accept a larger tolerance or name another method than "
+        f"{control.method!r}.",
+        AccuracyWarning,
+        stacklevel=4,
+    )
+
+
+def _trajectory(
+    ended: Simulation, times: Array, values: Array, control: Control | None, wall: float, settings: Settings
+) -> Trajectory:
+    sensors = ended.system.meta["sensors"]
+    names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
+    return Trajectory(times, values, names, units, ended.report, settings, wall, control)
