@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.control import ALLOWED, AccuracyWarning, Control
-from mbs.controlled_run import ControlledRun, Task
+from mbs.controlled_run import ControlledRun, Stalled, Task
 from mbs.input_signals import Signal
-from mbs.kernel.binding import KernelError
+from mbs.kernel.binding import NOT_CONVERGED, KernelError
 from mbs.method_choice import choose
 from mbs.progress import Progress
 from mbs.settings import Settings
@@ -64,15 +64,24 @@ def to_tolerance(
     if before is None:
         before = _whole(ControlledRun(start(), task, settings, coarse), bar, 0.0, times, first)
         runs, wall = runs + 1, wall + before.wall
-    aim = tolerance
+    aim, error, run = tolerance, math.inf, None
     for number in range(1, MOST_RUNS):
-        run = _whole(ControlledRun(start(), task, settings, aim), bar, min(0.5, 0.3 * number), times, first)
+        made = ControlledRun(start(), task, settings, aim)
+        try:
+            made = _whole(made, bar, min(0.5, 0.3 * number), times, first)
+        except (Stalled, SimulationError):
+            wall += made.wall
+            if run is None:
+                raise
+            break  # a finer run than the last is beyond round-off
+        run = made
         runs, wall = runs + 1, wall + run.wall
         error = run.distance(before) / (before.tolerance / run.tolerance - 1.0)
         if error <= tolerance or aim <= LEAST:
             break
         before = run
         aim = max(LEAST, aim * max(MOST_AT_ONCE, AGAIN * tolerance / error))
+    assert run is not None
     c = run.fields
     control = Control(
         tolerance, run.length, method, reason, error, None, c.accepted, c.rejected, c.failed, c.forced,
@@ -151,20 +160,38 @@ def _whole(run: ControlledRun, bar: Progress, from_share: float, times: Array, f
         run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
     except KernelError as error:
         raise _refused(run, times, first, error) from error
+    except Stalled:
+        raise _stalled(run, times, first) from None
     return run
+
+
+def _so_far(run: ControlledRun, times: Array, first: Simulation) -> Trajectory:
+    done = run.task.times[: run.done]
+    good = times[1:][times[1:] <= (done[-1] if len(done) else run.task.t0)]
+    values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(run.task.times, good)]])
+    return _trajectory(run.simulation, times[: len(good) + 1], values, None, run.wall, run.settings)
+
+
+def _stalled(run: ControlledRun, times: Array, first: Simulation) -> SimulationError:
+    time = run.simulation.time
+    return SimulationError(
+        f"A tolerance of {run.tolerance:g} cannot be held by {run.settings.method!r}: until t = {time:g} s "
+        f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share, as short as "
+        f"{run.fields.smallest:.1e} s; a larger tolerance or another method will do.",
+        time,
+        NOT_CONVERGED,
+        _so_far(run, times, first),
+    )
 
 
 def _refused(run: ControlledRun, times: Array, first: Simulation, error: KernelError) -> SimulationError:
     """The failure with what was recorded until then."""
-    simulation, done = run.simulation, run.task.times[: run.done]
-    good = times[1:][times[1:] <= (done[-1] if len(done) else run.task.t0)]
-    values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(run.task.times, good)]])
-    found = _trajectory(simulation, times[: len(good) + 1], values, None, run.wall, run.settings)
+    simulation = run.simulation
     what = (
         f"With a tolerance of {run.tolerance:g} no step from t = {simulation.time:g} s succeeded, "
         f"{run.fields.h:.2g} s long in the end"
     )
-    return simulation.failure(what, error, found)
+    return simulation.failure(what, error, _so_far(run, times, first))
 
 
 def _warn(control: Control) -> None:

@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
 LONGEST, LONGEST_WITH_FUNCTIONS = 0.1, 0.02  # steps, in parts of the run
 ROWS, BALANCE = 1e-7, 1e-6  # tolerances of Newton's loop in parts of that of the run, both times the length
+MOST_FORCED, MOST_FORCED_SHARE = 300, 0.05  # steps that may err too much
+MOST_KEPT, MOST_KEPT_SHARE = 3000, 0.3  # steps that err more than their share
 ROUND_OFF = 1e-13  # m at coordinates of 1 m
 
 
@@ -53,6 +55,10 @@ class Task:
         tables = [np.asarray(s[0], float) for s in self.inputs.values() if isinstance(s, tuple)]
         inside = {float(t) for table in tables for t in table if self.t0 < t < self.t_end}
         return [*sorted(inside), self.t_end]
+
+
+class Stalled(RuntimeError):
+    """Steps err more than they may however short they are: round-off is reached."""
 
 
 class ControlledRun:
@@ -117,6 +123,8 @@ class ControlledRun:
         ------
         KernelError
             When a step fails as short as it may be.
+        Stalled
+            When many steps err more than they may, as short as they may be.
         """
         instance, task = self.simulation.instance, self.task
         instance.set_settings(**self.settings.kernel_fields())
@@ -137,6 +145,11 @@ class ControlledRun:
                     raise
                 if self.simulation.time >= stop:
                     self._stops.pop(0)
+                c = self.fields
+                if c.forced > max(MOST_FORCED, MOST_FORCED_SHARE * c.accepted) or c.kept > max(
+                    MOST_KEPT, MOST_KEPT_SHARE * c.accepted
+                ):
+                    raise Stalled
         finally:
             self.wall += time.perf_counter() - begin
             instance.set_input_function(None)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbs.controlled_run import ControlledRun, Task
+from mbs.controlled_run import ControlledRun, Stalled, Task
 from mbs.kernel.binding import KernelError
 from mbs.settings import Settings
 from mbs.simulation import Simulation
@@ -98,7 +98,7 @@ def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:
             while name not in failed and not run.finished and run.work * price[name] < budget:
                 try:
                     run.advance(1 + int(0.02 * budget / price[name] / 10))
-                except KernelError:
+                except (KernelError, Stalled):
                     failed.add(name)
         ended = [run.work * price[name] for name, run in runs.items() if run.finished]
         if ended:

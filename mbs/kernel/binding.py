@@ -107,7 +107,7 @@ class ControlFields(Structure):
     _fields_ = (
         *((name, c_double) for name in ("tolerance", "length", "span", "rate", "longest", "h", "last")),
         *((name, c_double) for name in ("usual", "smallest", "largest", "error_sum", "forced_error")),
-        *((name, c_int64) for name in ("accepted", "rejected", "failed", "forced", "side_steps")),
+        *((name, c_int64) for name in ("accepted", "rejected", "failed", "forced", "kept", "side_steps")),
     )
 
 

@@ -127,14 +127,15 @@ static int judge(const ali3_control *c, tries *seen, double h, double error, boo
   return REJECT;
 }
 
-static void accepted(ali3_control *c, double h, double error, double part, bool forced) {
+static void accepted(ali3_control *c, double h, double error, double part, int verdict) {
   if (c->accepted == 0 || h < c->smallest) c->smallest = h;
   if (h > c->largest) c->largest = h;
   c->accepted++;
   c->error_sum += error;
   c->last = fmax(part, LEAST_ERROR);
   c->usual += (c->accepted > USUAL_STEPS ? 1.0 / USUAL_STEPS : 1.0 / (double)c->accepted) * (h - c->usual);
-  if (!forced) return;
+  if (verdict == KEEP) c->kept++;
+  if (verdict != FORCE) return;
   c->forced++;
   c->forced_error += error;
 }
@@ -171,7 +172,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     const int verdict = judge(c, &seen, tried, error, tried <= 1.5 * least);
     if (verdict != REJECT) {
       c->h = verdict == ACCEPT ? fmax(least, next_step(c, size, tried, part, seen.rejected, order)) : AGAIN * tried;
-      accepted(c, tried, error, verdict == ACCEPT ? part : 1.0, verdict == FORCE);
+      accepted(c, tried, error, verdict == ACCEPT ? part : 1.0, verdict);
       return ALI3_OK;
     }
     c->rejected++;
