@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbs.controlled_run import ControlledRun, Stalled, Task
-from mbs.kernel.binding import KernelError
+from mbs.kernel.binding import NOT_CONVERGED, KernelError
 from mbs.settings import Settings
-from mbs.simulation import Simulation
+from mbs.simulation import Simulation, SimulationError
 from mbs.system import System
 
 ORDERS = {
@@ -26,7 +27,8 @@ ORDERS = {
 }
 """Orders with steps that change."""
 FINE = 1e-5  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
-FIRST_BUDGET, MORE = 2000.0, 2.0
+FIRST_BUDGET, MORE, STEPS = 100.0, 2.0, 0.002
+LOOSE = 1e-3  # tolerance from which on ALi3-P, of order two, is tried too: it is the cheapest one for what is stiff
 LOST = 1.1  # times the price of the one that ended first
 
 
@@ -47,22 +49,23 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
         return ["ali3p"], "elements with states"
     if np.any(system.arrays["guide_type"] == 1):
         return ["ali3p"], "guides through a filter"
+    coarse = ["ali3p"] if tolerance >= LOOSE else []
     if not system.report["no_tree"]:
-        return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5"], "a tree of joints"
+        return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5", *coarse], "a tree of joints"
     if len(system.arrays["velocity_row"]) > 0:
-        return ["runge_kutta_8"], "wheels that roll"
-    return ["runge_kutta_8", "radau_5"], "no tree of joints"
+        return ["runge_kutta_8", *coarse], "wheels that roll"
+    return ["runge_kutta_8", "radau_5", *coarse], "no tree of joints"
 
 
-def cost(system: System, method: str) -> float:
+def cost(method: str) -> float:
     """Of one unit of work of a run (`ControlledRun.work`), in evaluations of Runge and Kutta's rule.
 
     Measured: three stages in one tangent are three times as wide; relative coordinates save the factorization of the
     natural ones.
     """
     if method == "radau_5":
-        return 4.5
-    return 0.25 if method.startswith("semi_recursive") else 1.0
+        return 5.5
+    return 0.2 if method.startswith("semi_recursive") else 1.0
 
 
 def choose(
@@ -73,18 +76,22 @@ def choose(
     names, what = candidates(system, tolerance)
     if len(names) == 1:
         return Choice(names[0], f"chosen: {what}", None, 0.0, 0)
-    runs = {name: ControlledRun(start(), task, replace(settings, method=name), coarse) for name in names}
     growth = coarse / tolerance
-    price = {name: cost(system, name) * growth ** (1.0 / ORDERS[name]) for name in names}
-    failed = _race(runs, price)
+    runs = {name: ControlledRun(start(), task, replace(settings, method=name), coarse) for name in names}
+    weights = {name: cost(name) * growth ** (1.0 / ORDERS[name]) for name in names}
+    failed = _race(runs, weights)
+    ended = {name: run.work * weights[name] for name, run in runs.items() if run.finished}
+    best = min(ended, key=lambda name: ended[name], default="")
     wall = sum(run.wall for run in runs.values())
-    ended = [name for name in names if runs[name].finished]
-    if not ended:
-        return Choice("ali3p", f"chosen: {' and '.join(names)} do not get through", None, wall, len(names))
-    best = min(ended, key=lambda name: runs[name].work * price[name])
-    lost = [name for name in names if name != best]
-    how = "does not get through" if lost[0] in failed else "takes more work in a coarse run"
-    return Choice(best, f"chosen: {what}, {lost[0]} {how}", runs[best], wall, len(names))
+    if not best:
+        raise SimulationError(
+            f"None of {', '.join(runs)} gets from t = {task.t0:g} to {task.t_end:g} s at a tolerance of {coarse:g}; "
+            "name a method to see where it stops.",
+            task.t0,
+            NOT_CONVERGED,
+        )
+    lost = [f"{name} {'does not get through' if name in failed else 'is slower'}" for name in runs if name != best]
+    return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs))
 
 
 def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:
@@ -97,7 +104,7 @@ def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:
         for name, run in runs.items():
             while name not in failed and not run.finished and run.work * price[name] < budget:
                 try:
-                    run.advance(1 + int(0.02 * budget / price[name] / 10))
+                    run.advance(1 + int(STEPS * budget / price[name]))
                 except (KernelError, Stalled):
                     failed.add(name)
         ended = [run.work * price[name] for name, run in runs.items() if run.finished]
