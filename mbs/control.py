@@ -30,7 +30,8 @@ class Control:
     reason : str
         Why this method; empty where the caller named it.
     error : float
-        Estimated largest error of positions over the run in parts of `length`, from this run and a coarser one.
+        Estimated largest error of positions over the run in parts of `length`, from this run and a coarser one; NaN where
+        the step was given: nothing was estimated.
     h : float or None
         The fixed step, s; None: steps under error control.
     steps, rejected, failed : int
@@ -62,8 +63,8 @@ class Control:
 
     @property
     def kept(self) -> bool:
-        """Whether the estimated error is at most ten times the tolerance."""
-        return self.error <= ALLOWED * self.tolerance
+        """Whether the estimated error is at most ten times the tolerance, or there is none."""
+        return not self.error > ALLOWED * self.tolerance
 
     def __str__(self) -> str:
         steps = (
@@ -72,6 +73,8 @@ class Control:
             else f"{self.steps} steps of {self.smallest:.3g} to {self.largest:.3g} s ({self.rejected} rejected)"
         )
         reason = f" ({self.reason})" if self.reason else ""
+        if math.isnan(self.error):
+            return f"{self.method}{reason}: {steps}"
         return (
             f"{self.method}{reason}: {steps}; estimated error {self.error:.1e} of the model's length of "
             f"{self.length:.4g} m, tolerance {self.tolerance:g}"
