@@ -19,7 +19,7 @@ ORDERS = {
     "ali3p_no_projection": 2,
     "ali3p_generalised_alpha": 1,
     "energy_momentum": 2,
-    "energy_momentum_4": 4,
+    "energy_momentum_4": 3,
     "runge_kutta_8": 8,
     "semi_recursive": 8,
     "semi_recursive_4": 4,

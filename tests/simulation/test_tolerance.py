@@ -38,6 +38,16 @@ def crank_slider() -> mbs.System:
     return mbs.compile(m)
 
 
+def pushed_mass() -> mbs.System:
+    """2 kg under a force."""
+    m = mbs.Model("mass", dimension=2, gravity=(0.0, 0.0), length=1.0)
+    mass = m.point_mass("mass", mass=2.0, position=(0.0, 0.0))
+    force = m.input("force", min=-10.0, max=10.0, unit="N")
+    m.force("push", mass, inputs=(force, None))
+    m.sense_position("x", mass, None, "x")
+    return mbs.compile(m)
+
+
 def error_of(scene: str, run: mbs.Trajectory) -> float:
     """Largest error of the output point over the run, in parts of the model's length."""
     assert run.control is not None
@@ -158,19 +168,32 @@ def test_the_record_between_steps_keeps_the_order(method: str, order: int) -> No
 
 def test_steps_end_at_the_points_of_a_table() -> None:
     """A force that jumps: exact by pieces, so an order-two record of a step over the jump would show."""
-    m = mbs.Model("mass", dimension=2, gravity=(0.0, 0.0), length=1.0)
-    mass = m.point_mass("mass", mass=2.0, position=(0.0, 0.0))
-    force = m.input("force", min=-10.0, max=10.0, unit="N")
-    m.force("push", mass, inputs=(force, None))
-    m.sense_position("x", mass, None, "x")
     table = ([0.0, 0.7123, 0.7123, 2.0], [4.0, 4.0, -2.0, -2.0])
-    run = mbs.simulate(mbs.compile(m), 2.0, inputs={"force": table}, tolerance=1e-9, method="runge_kutta_8")
+    run = mbs.simulate(pushed_mass(), 2.0, inputs={"force": table}, tolerance=1e-9, method="runge_kutta_8")
     t, s = run.t, 0.7123
     late = np.clip(t - s, 0.0, None)
     exact = np.where(t < s, t**2, s**2 + 2.0 * s * late - 0.5 * late**2)
     assert np.abs(run["x"] - exact).max() < 1e-11
     assert run.control is not None
     assert run.control.rejected == 0
+
+
+def test_a_smooth_function_is_followed_at_the_order_of_the_method() -> None:
+    run = mbs.simulate(
+        pushed_mass(), 2.0, inputs={"force": lambda t: 2.0 * math.sin(9.0 * t)}, tolerance=1e-8, method="runge_kutta_8"
+    )
+    assert np.abs(run["x"] - (run.t / 9.0 - np.sin(9.0 * run.t) / 81.0)).max() < ALLOWED * 1e-8
+    assert run.control is not None
+    assert run.control.steps < 200
+
+
+def test_refresh_takes_over_an_input_that_jumps() -> None:
+    s = mbs.Simulation(pushed_mass())
+    assert np.abs(s.state.qdd).max() < 1e-12
+    s.set_input("force", 4.0)
+    s.instance.refresh()
+    assert np.abs(s.state.qdd).max() == pytest.approx(2.0)
+    assert np.abs(s.state.qd).max() == 0.0
 
 
 def test_times_of_the_record() -> None:

@@ -6,7 +6,7 @@
 #include "error_control.h"
 
 int32_t ali3_order(int32_t method) {
-  static const int32_t order[ALI3_METHOD_COUNT] = {2, 1, 2, 4, 8, 8, 4, 5}; /* generalised-alpha: of changing steps */
+  static const int32_t order[ALI3_METHOD_COUNT] = {2, 1, 2, 3, 8, 8, 4, 5}; /* of steps that change */
   return order[method];
 }
 
