@@ -67,15 +67,23 @@ def inputs_of(manoeuvre: Manoeuvre) -> dict[str, Signal]:
     return {name: (manoeuvre.time, values) for name, values in manoeuvre.inputs.items()}
 
 
-def run(name: str, h: float, *, every: int = 1, settings: Settings | None = None) -> Trajectory:
+def run(
+    name: str, h: float, *, every: int = 1, settings: Settings | None = None, estimate_error: bool | None = False
+) -> Trajectory:
     """Drive a manoeuvre in the kernel with steps of `h` seconds, recording after every so many."""
-    return run_on(system_of(name), load(name), h, every=every, settings=settings)
+    return run_on(system_of(name), load(name), h, every=every, settings=settings, estimate_error=estimate_error)
 
 
 def run_on(
-    system: System, manoeuvre: Manoeuvre, h: float, *, every: int = 1, settings: Settings | None = None
+    system: System,
+    manoeuvre: Manoeuvre,
+    h: float,
+    *,
+    every: int = 1,
+    settings: Settings | None = None,
+    estimate_error: bool | None = False,
 ) -> Trajectory:
-    """The same with any car."""
+    """The same with any car. Runs that are held against a reference need no estimate of their error."""
     parameters, pose = start_of(manoeuvre)
     return simulate(
         system,
@@ -87,6 +95,7 @@ def run_on(
         every=every,
         pose=pose,
         progress=False,
+        estimate_error=estimate_error,
     )
 
 

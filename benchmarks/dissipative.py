@@ -63,7 +63,13 @@ def _system(name: str) -> mbs.System:
 def beam(settings: mbs.Settings, h: float) -> Found:
     """Deflection of the tip against geometrically exact beams."""
     t = mbs.simulate(
-        _system("beam"), spinning_beam.DURATION, h, settings=settings, every=round(0.02 / h), progress=False
+        _system("beam"),
+        spinning_beam.DURATION,
+        h,
+        settings=settings,
+        every=round(0.02 / h),
+        progress=False,
+        estimate_error=False,
     )
     time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
     _, found = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
@@ -73,7 +79,7 @@ def beam(settings: mbs.Settings, h: float) -> Found:
 def four_bar(settings: mbs.Settings, h: float) -> Found:
     """Moments in the coupler against geometrically exact beams."""
     end, every = assembly_defect_four_bar.DURATION, round(assembly_defect.STEP / h)
-    t = mbs.simulate(_system("four-bar"), end, h, settings=settings, every=every, progress=False)
+    t = mbs.simulate(_system("four-bar"), end, h, settings=settings, every=every, progress=False, estimate_error=False)
     expected = assembly_defect.reference()
     gap = max(np.abs(t[f"coupler.{c}"] - expected[c]).max() for c in assembly_defect.COMPONENTS)
     return float(gap / max(np.abs(expected[c]).max() for c in assembly_defect.COMPONENTS)), t
@@ -81,7 +87,16 @@ def four_bar(settings: mbs.Settings, h: float) -> Found:
 
 def rest(settings: mbs.Settings, h: float) -> Found:
     """How far the braked car moves in 100 s."""
-    t = mbs.simulate(_system("car"), 100.0, h, {"brake": 1.0}, settings, every=max(1, round(0.1 / h)), progress=False)
+    t = mbs.simulate(
+        _system("car"),
+        100.0,
+        h,
+        {"brake": 1.0},
+        settings,
+        every=max(1, round(0.1 / h)),
+        progress=False,
+        estimate_error=False,
+    )
     place = np.array([t[f"chassis.{c}"] for c in "xyz"])
     return float(np.linalg.norm(place - place[:, :1], axis=0).max()), t
 
@@ -96,7 +111,9 @@ def drive(settings: mbs.Settings, h: float) -> Found:
     """Wheel loads, mean over 1000 s of gentle bends under power, against the weight."""
     when = np.arange(0.0, 1001.0, 1.0)
     inputs = {"throttle": 0.2, "steering": (when, 0.02 * np.sin(2.0 * np.pi * when / 40.0))}
-    t = mbs.simulate(_system("car"), 1000.0, h, inputs, settings, every=max(1, round(0.1 / h)), progress=False)
+    t = mbs.simulate(
+        _system("car"), 1000.0, h, inputs, settings, every=max(1, round(0.1 / h)), progress=False, estimate_error=False
+    )
     loads = sum(np.asarray(t[f"wheel_{w}.Fz"]) for w in ("FL", "FR", "RL", "RR"))
     return float(abs(np.mean(loads) / (TOTAL_MASS * GRAVITY) - 1.0)), t
 

@@ -87,7 +87,7 @@ def measure(system: mbs.System, windows: int, method: str, h: float, compile_s: 
     """
     settings, failed = METHODS[method], None
     try:
-        run = mbs.simulate(system, END, h, settings=settings, progress=False)
+        run = mbs.simulate(system, END, h, settings=settings, progress=False, estimate_error=False)
     except mbs.SimulationError as error:
         failed = error.time
     row: dict[str, Any] = {
@@ -134,7 +134,9 @@ def time_rows(rows: Sequence[dict[str, Any]], systems: dict[int, mbs.System]) ->
         if (turn < FEW_ROUNDS or row["wall_s"] < LONG) and (row["N"] <= SHORT or not whole):
             every = 1 if whole else round(END / row["h_s"])
             settings = METHODS[row["method"]]
-            run = mbs.simulate(systems[row["N"]], END, row["h_s"], settings=settings, every=every, progress=False)
+            run = mbs.simulate(
+                systems[row["N"]], END, row["h_s"], settings=settings, every=every, progress=False, estimate_error=False
+            )
             walls[k, whole].append(run.wall_s)
     for k, row in enumerate(good):
         wall, per_step = statistics.median(walls[k, False]), 1e6 / round(END / row["h_s"])

@@ -194,7 +194,7 @@ def measure(windows: Sequence[int], rounds: int) -> list[dict[str, Any]]:
     walls: list[list[float]] = [[] for _ in rows]
     for turn, k in watched([(turn, k) for turn in range(rounds + 1) for k in range(len(rows))]):
         system, settings = systems[rows[k]["N"]], mbs.Settings(method=rows[k]["method"])
-        run = mbs.simulate(system, END, STEP, settings=settings, every=steps, progress=False)
+        run = mbs.simulate(system, END, STEP, settings=settings, every=steps, progress=False, estimate_error=False)
         if turn:
             walls[k].append(run.wall_s / steps)
     for row, times in zip(rows, walls, strict=True):
@@ -242,7 +242,7 @@ def chassis(modes: Sequence[int], rounds: int) -> list[dict[str, Any]]:
     walls: list[list[float]] = [[] for _ in rows]
     for turn, k in watched([(turn, k) for turn in range(rounds + 1) for k in range(len(systems))]):
         end = CHASSIS_STEPS * CHASSIS_STEP
-        run = mbs.simulate(systems[k], end, CHASSIS_STEP, every=CHASSIS_STEPS, progress=False)
+        run = mbs.simulate(systems[k], end, CHASSIS_STEP, every=CHASSIS_STEPS, progress=False, estimate_error=False)
         if turn:
             walls[k].append(run.wall_s / CHASSIS_STEPS)
     for row, times in zip(rows, walls, strict=True):

@@ -61,7 +61,7 @@ def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
 
     def act() -> tuple[float, dict[str, Any]]:
         try:
-            t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False)
+            t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False)
         except mbs.SimulationError as error:
             return 0.0, {"ended": f"refused at {error.time:.4g} s"}
         energy = t["energy.total"]

@@ -11,32 +11,43 @@ from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 
 if TYPE_CHECKING:
-    from mbs.control import AccuracyWarning, Control
+    from mbs.accuracy import Accuracy, AccuracyWarning
+    from mbs.control import Control
+    from mbs.errors import SimulationError
+    from mbs.kinks import LinearisationWarning
     from mbs.linear_model import LinearModel, linearise
+    from mbs.periodic_motion import FloquetModel, floquet
     from mbs.settings import Settings
-    from mbs.simulation import Pose, Simulation, SimulationError, simulate
+    from mbs.simulation import Pose, Simulation, simulate
     from mbs.trajectory import Trajectory
 
 # what needs the compiled kernel is imported when it is first asked for
 _LAZY = {
-    "AccuracyWarning": "mbs.control",
+    "Accuracy": "mbs.accuracy",
+    "AccuracyWarning": "mbs.accuracy",
     "Control": "mbs.control",
     "Pose": "mbs.simulation",
     "Settings": "mbs.settings",
     "Simulation": "mbs.simulation",
-    "SimulationError": "mbs.simulation",
+    "SimulationError": "mbs.errors",
     "Trajectory": "mbs.trajectory",
+    "FloquetModel": "mbs.periodic_motion",
     "LinearModel": "mbs.linear_model",
+    "LinearisationWarning": "mbs.kinks",
+    "floquet": "mbs.periodic_motion",
     "linearise": "mbs.linear_model",
     "simulate": "mbs.simulation",
 }
 
 __all__ = [
+    "Accuracy",
     "AccuracyWarning",
     "Affine",
     "AffineVector",
     "Control",
+    "FloquetModel",
     "LinearModel",
+    "LinearisationWarning",
     "Model",
     "ModelError",
     "Pose",
@@ -47,6 +58,7 @@ __all__ = [
     "SystemFileError",
     "Trajectory",
     "compile",
+    "floquet",
     "linearise",
     "simulate",
 ]

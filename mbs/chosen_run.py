@@ -10,12 +10,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.control import ALLOWED, AccuracyWarning, Control
-from mbs.controlled_run import ControlledRun, Stalled, Task
+from mbs.accuracy import AccuracyWarning
+from mbs.control import ALLOWED, Control
+from mbs.controlled_run import ControlledRun, Stalled, Task, length_of
 from mbs.input_signals import Signal
 from mbs.kernel.binding import NOT_CONVERGED, KernelError
 from mbs.method_choice import choose
-from mbs.progress import Progress
+from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
 from mbs.simulation import Simulation, SimulationError, check_end
 from mbs.step_choice import StepChoice, choose_step
@@ -93,43 +94,44 @@ def to_tolerance(
 
 
 def equal_steps(
-    start: Callable[[], Simulation],
+    start: Callable[[float, Settings], Simulation],
+    run: Callable[[float, Settings, bool | None], Trajectory],
     t0: float,
     t_end: float,
     h: float | None,
     inputs: Mapping[str, Signal],
     settings: Settings,
     method: str,
-    every: int,
-    bar: Progress,
+    estimate_error: bool | None,
+    progress: bool | Callable[[float], None] | None,
 ) -> Trajectory:
-    """A run in equal steps whose step, method or both are chosen for the default tolerance."""
+    """A run in equal steps whose step, method or both are chosen for the default tolerance.
+
+    `start` makes a Simulation for a step and settings, `run` the run itself.
+    """
     check_end(t0, t_end)
-    reason, wall, runs = "", 0.0, 0
+    reason, wall, runs, error = "", 0.0, 0, math.nan
     if method == "auto" and t_end > t0:
         grid = t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED
-        choice = choose(start, Task(t0, t_end, grid, inputs), settings, DEFAULT_TOLERANCE, COARSEST)
+        task = Task(t0, t_end, grid, inputs)
+        choice = choose(lambda: start(0.0, settings), task, settings, DEFAULT_TOLERANCE, COARSEST)
         method, reason, wall, runs = choice.method, choice.reason, choice.wall, choice.runs
     settings = replace(settings, method="ali3p" if method == "auto" else method)
-
-    def begin() -> Simulation:
-        simulation = start()
-        simulation.change_settings(settings)
-        return simulation
-
-    error = math.nan
+    given = h is not None
     if h is None:
-        step = choose_step(begin, t_end, DEFAULT_TOLERANCE, inputs, bar) if t_end > t0 else StepChoice(1.0, 0.0, 0.0, 0)
+        step = StepChoice(1.0, 0.0, 0.0, 0)
+        if t_end > t0:
+            with progress_for(progress) as bar:
+                step = choose_step(lambda: start(0.0, settings), t_end, DEFAULT_TOLERANCE, inputs, bar)
         h, error, runs = step.h, step.error, runs + step.runs
-    simulation = begin()
-    length = float(simulation.system.meta["report"].get("length", 1.0))
-    found = simulation.run(t_end, h, inputs=inputs, every=every, progress=bar.update)
-    n = simulation.report.steps
-    control = Control(
+    found = run(h, settings, estimate_error if given or estimate_error else False)
+    assert found.report is not None
+    length = length_of(start(h, settings).system)
+    n = found.report.steps
+    found.control = Control(
         DEFAULT_TOLERANCE, length, settings.method, reason, error, h, n, 0, 0, 0, h, h, 0, runs + 1
     )  # fmt: skip
-    _warn(control)
-    found.control = control
+    _warn(found.control)
     found.wall_s += wall
     return found
 
@@ -213,4 +215,4 @@ def _trajectory(
 ) -> Trajectory:
     sensors = ended.system.meta["sensors"]
     names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
-    return Trajectory(times, values, names, units, ended.report, settings, wall, control)
+    return Trajectory(times, values, names, units, ended.report, settings, wall, control=control)

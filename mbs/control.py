@@ -11,10 +11,6 @@ ALLOWED = 10.0
 """Errors up to so many tolerances pass without a warning."""
 
 
-class AccuracyWarning(UserWarning):
-    """The error of a run is larger than it was asked to be, as far as can be told."""
-
-
 @dataclass(frozen=True)
 class Control:
     """How `simulate` chose its steps.

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from mbs.input_signals import InputSignals, Signal
 from mbs.kernel.binding import ControlFields, KernelError
 from mbs.settings import Settings
+from mbs.system import System
 
 if TYPE_CHECKING:
     from mbs.simulation import Simulation
@@ -78,7 +79,7 @@ class ControlledRun:
     def __init__(self, simulation: Simulation, task: Task, settings: Settings, tolerance: float) -> None:
         meta = simulation.system.meta
         self.simulation, self.task = simulation, task
-        self.length = float(meta["report"].get("length", 1.0))
+        self.length = length_of(simulation.system)
         self.settings = tightened(settings, tolerance * self.length, simulation.state.q)
         self.tolerance = tolerance
         nq = simulation.system.nq
@@ -166,6 +167,11 @@ class ControlledRun:
     def distance(self, other: ControlledRun) -> float:
         """Largest distance of the positions of two runs, in parts of the length."""
         return float(np.max(np.abs(self.positions - other.positions) * self.scale, initial=0.0)) / self.length
+
+
+def length_of(system: System) -> float:
+    """The model's length, m; 1 m in the Systems of before."""
+    return float(system.report.get("length", 1.0))
 
 
 def tightened(settings: Settings, error: float, q: Array) -> Settings:

@@ -1,7 +1,32 @@
-"""The error of the modelling vocabulary."""
+"""The errors of the modelling vocabulary and of stepping."""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mbs.trajectory import Trajectory
 
 
 class ModelError(ValueError):
     """A model that cannot be: one sentence that names the part, the value and what would be right."""
+
+
+class SimulationError(RuntimeError):
+    """A step, an initialisation or a restore that the kernel refused; the last good state is kept.
+
+    Attributes
+    ----------
+    time : float
+        Of the last good state, s.
+    status : int
+        Code of the kernel.
+    trajectory : Trajectory or None
+        What a run had recorded so far.
+    """
+
+    def __init__(self, message: str, time: float, status: int, trajectory: Trajectory | None = None) -> None:
+        super().__init__(message)
+        self.time = time
+        self.status = status
+        self.trajectory = trajectory

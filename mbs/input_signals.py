@@ -15,6 +15,11 @@ from mbs.kernel.binding import Instance
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
 
 
+def unit_text(unit: str) -> str:
+    """A unit behind a number: nothing for pure numbers."""
+    return "" if unit in ("", "1") else f" {unit}"
+
+
 class InputSignals:
     """Values of the named inputs of a System at given times.
 
@@ -115,9 +120,8 @@ class InputSignals:
         if not good.all():
             k = int(np.argmin(good))
             right = f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
-            raise ValueError(
-                f"Input {self._names[i]!r} is {values[k]:g} {self._units[i]} at t = {t[k]:g} s; it must {right}."
-            )
+            value = f"{values[k]:g}{unit_text(self._units[i])}"
+            raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {right}.")
 
 
 def _table(signal: Signal) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -1,41 +1,41 @@
-"""Linear model about a state: state-space matrix, natural frequencies, damping ratios, mode shapes.
+"""Linear model about an equilibrium or a steady motion: state-space matrix, natural frequencies, damping, mode shapes.
 
 With the columns of ``V`` (nq, n) a basis of the null space of Phi_q with ``V' M V = 1``, every admissible motion near
 the state (q0, qd0) is ``z = V' M (q - q0)``. Equation (15) of the paper times V' is free of constraint forces, and its
 variation is
 
-    zdd = V' [dQ/dq V z + dQ/dqd dqd + dQ/dy y] - V' G V z,     G = sum_k lam_k H_k
+    zdd = V' [dQ/dq V z + dQ/dqd dqd + dQ/dy y] - V' H V z,     H = sum_k lam_k H_k
     dqd = V zd + N z,      N = -W (Phi_q W)^+ d(Phi_q qd0 + Phi_t)/dq V
 
 with H_k the second derivative of row k, W the complement ``V' M W = 0`` and y the element states, ``yd = g(q, qd, y)``.
 N is the velocity that keeps the constraints satisfied when a moving mechanism is shifted; it is zero at rest.
 
+In a steady motion the coordinates turn with a frame, ``qd0 = G q0 + b`` (`mbs.steady_motion`). The variation seen in
+the frame has constant coefficients: ``-V' M G`` times the displacement, and times dqd, is added to the rates above.
+
 With conditions on velocities A qd = 0 (rolling, skates) there are more places than velocities: z counts a basis P of
 the null space of the rows on positions alone, w one V of the null space of all, and ``zd = P' M (V w + N z)``.
-
-Elements give steps of their slots, not rates: g is the limit of short steps. A slot that does not remember its value
-over a short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
+from mbs.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
+from mbs.kinks import smooth_side
 from mbs.simulation import Simulation, State
+from mbs.steady_motion import SteadyFrame, steady_frame
 from mbs.system import System
 
 Array = NDArray[np.float64]
 
-SHIFT = 1e-6  # of coordinates (m), velocities (m/s) and element states in the central differences
-STATE_STEP = 1e-5  # s, of the element steps that give the rates of element states
-SHORT_STEP = 1e-9  # s, over which a state keeps its value
-RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the largest count as zero
+STEADY = 1e-2  # accelerations that a frame does not explain, share of those of the motion and of its forces
+STILL = 1e-3  # m/s2; smaller accelerations are none
 STATE_TOLERANCE = (
     1e-3  # 1/s; slots with smaller slopes of their rates (gears, clocks) have no dynamics; above round-off
 )
@@ -91,6 +91,8 @@ class LinearModel:
         Names of the nq coordinates.
     modes : tuple of Mode
         By rising frequency.
+    frame_turning : tuple of float
+        Angular velocity of the frame in which frequencies are seen, earth axes, rad/s: three numbers, planar one.
     """
 
     A: Array
@@ -98,6 +100,7 @@ class LinearModel:
     slots: tuple[int, ...]
     coordinates: tuple[str, ...]
     modes: tuple[Mode, ...]
+    frame_turning: tuple[float, ...] = ()
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -120,102 +123,95 @@ class LinearModel:
         return "\n".join(lines)
 
 
-def linearise(simulation: Simulation) -> LinearModel:
+def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel:
     """Linearise about the present state, which stays as it is.
 
     Parameters
     ----------
     simulation : Simulation
-        At a static equilibrium, a steady motion, or any state: the result is the variation about the motion through it.
+        At a static equilibrium or in a steady motion: rolling straight on, a steady turn, a rotor at constant speed, a
+        top that precesses. Frequencies are those seen in the frame of the motion; where several frames fit, as for a
+        symmetric rotor, in the one that turns least: `LinearModel.frame_turning`.
+    side : {1, -1}, optional
+        Where a force has a kink at the state (an engine's drag at standstill), whether its slope is that of rising or
+        of falling velocities. By default that of rising ones is taken, with a warning.
 
     Returns
     -------
     LinearModel
-        Its modes have a meaning where the state is an equilibrium or a steady motion.
+
+    Raises
+    ------
+    ValueError
+        If the state is neither an equilibrium nor part of a steady motion, or a coordinate moves no mass.
+
+    Warns
+    -----
+    LinearisationWarning
+        Where a force has a kink at the state, or bends within the smallest differences.
     """
-    evaluator = _Evaluator(simulation)
+    if side not in (None, 1, -1):
+        raise ValueError(f"side = {side!r}; it must be 1 (rising velocities), -1 (falling ones) or left out.")
+    evaluator = Evaluator(simulation)
     state = evaluator.state
     M = evaluator.mass()
-    jacobian = evaluator.constraints(state.q)[0]
-    V, W = _admissible(M, jacobian, simulation.system)
+    jacobian = evaluator.jacobian(state.q)
+    V, W = admissible_motions(M, jacobian, simulation.system)
     rolling = simulation.system.arrays["velocity_row"]
-    P = _admissible(M, np.delete(jacobian, rolling, axis=0), simulation.system)[0] if len(rolling) else V
+    P = admissible_motions(M, np.delete(jacobian, rolling, axis=0), simulation.system)[0] if len(rolling) else V
+    frame = steady_frame(evaluator, P)
+    _check_steady(evaluator, frame, M)
     n, places = V.shape[1], P.shape[1]
     N = np.zeros_like(P)
-    GV = np.zeros_like(P)
+    HV = np.zeros_like(P)
     for j in range(places):
-        ahead, drift_ahead = evaluator.constraints(state.q + SHIFT * P[:, j])
-        behind, drift_behind = evaluator.constraints(state.q - SHIFT * P[:, j])
+        _, ahead, drift_ahead = evaluator.constraints(state.q + SHIFT * P[:, j], state.qd)
+        _, behind, drift_behind = evaluator.constraints(state.q - SHIFT * P[:, j], state.qd)
         drift = (drift_ahead - drift_behind) / (2 * SHIFT)
         N[:, j] = -W @ np.linalg.lstsq(jacobian @ W, drift, rcond=RANK_TOLERANCE)[0]
-        GV[:, j] = (ahead - behind).T @ state.lam / (2 * SHIFT)
+        HV[:, j] = (ahead - behind).T @ state.lam / (2 * SHIFT)
     slots = evaluator.slots
+    base = smooth_side(evaluator, side)
     unit = np.eye(len(state.y))
     columns = (
-        [_difference(evaluator.rates, state, dq=P[:, j], dqd=N[:, j]) for j in range(places)]
-        + [_difference(evaluator.rates, state, dqd=V[:, j]) for j in range(n)]
-        + [_difference(evaluator.rates, state, dy=unit[k]) for k in slots]
+        [_difference(evaluator.rates, base, dq=P[:, j], dqd=N[:, j]) for j in range(places)]
+        + [_difference(evaluator.rates, base, dqd=V[:, j]) for j in range(n)]
+        + [_difference(evaluator.rates, base, dy=unit[k]) for k in slots]
     )
     slope = np.array(columns).T  # (nq + len(slots), both + len(slots)): of forces and of slot rates
     both = places + n
+    velocities = np.hstack([N, V])
     A: Array = np.zeros((both + len(slots), both + len(slots)))
-    if len(rolling):
-        A[:places, :both] = P.T @ M @ np.hstack([N, V])
-    else:
-        A[:n, n:both] = np.eye(n)
+    A[:places, :both] = P.T @ M @ velocities
+    A[:places, :places] -= P.T @ M @ frame.G @ P
     A[places:both] = V.T @ slope[: len(state.q)]
-    A[places:both, :places] -= V.T @ GV
+    A[places:both, :places] -= V.T @ HV
+    A[places:both, :both] -= V.T @ M @ frame.G @ velocities
     A[both:] = slope[len(state.q) :]
     lively = [i for i in range(len(slots)) if np.abs(A[both + i]).max() > STATE_TOLERANCE]
     kept = [*range(both), *(both + i for i in lively)]
     A = A[np.ix_(kept, kept)]
     names = tuple(simulation.system.meta["coordinates"])
-    return LinearModel(A, P, tuple(slots[i] for i in lively), names, _modes(A, P))
+    return LinearModel(A, P, tuple(slots[i] for i in lively), names, _modes(A, P), tuple(frame.turning.tolist()))
 
 
-class _Evaluator:
-    """Forces, slot rates and constraint derivatives of the kernel near a state, as dense arrays."""
-
-    def __init__(self, simulation: Simulation) -> None:
-        self.instance = simulation.instance
-        self.arrays = simulation.system.arrays
-        self.time = simulation.time
-        self.state = simulation.state
-        self.slots = [k for k in range(len(self.state.y)) if self._remembers(k)]
-
-    def mass(self) -> Array:
-        """Mass matrix (nq, nq) at the state."""
-        return np.reshape(self.instance.mass_matrix(self.state.q.tolist()), (len(self.state.q),) * 2)
-
-    def constraints(self, q: Array) -> tuple[Array, Array]:
-        """Phi_q (nc, nq) of the stored rows at `q` (nq,), and their rate Phi_q qd + Phi_t (nc,)."""
-        values = self._evaluate(q, self.state.qd, self.state.y)
-        jacobian = _dense(self.arrays["row_ptr"], self.arrays["row_col"], np.array(values["jacobian"]), len(q))
-        return jacobian, jacobian @ self.state.qd + np.array(values["phi_t"])
-
-    def rates(self, q: Array, qd: Array, y: Array) -> Array:
-        """Forces Q - M(q) qdd (nq,) and rates g of the states among the slots, in one vector."""
-        settled = self._element_step(q, qd, y, SHORT_STEP)
-        settled[self.slots] = y[self.slots]
-        force = np.array(self._evaluate(q, qd, settled)["force"])
-        if len(self.arrays["flex_mode"]):
-            force -= np.reshape(self.instance.mass_matrix(q.tolist()), (len(q),) * 2) @ self.state.qdd
-        whole = (self._element_step(q, qd, settled, STATE_STEP) - settled) / STATE_STEP
-        half = (self._element_step(q, qd, settled, STATE_STEP / 2) - settled) / (STATE_STEP / 2)
-        return np.concatenate([force, (2.0 * half - whole)[self.slots]])  # without the first-order error of the steps
-
-    def _evaluate(self, q: Array, qd: Array, y: Array) -> dict[str, Any]:
-        return self.instance.evaluate(q.tolist(), qd.tolist(), y.tolist(), self.time)
-
-    def _remembers(self, k: int) -> bool:
-        s = self.state
-        shift = SHIFT * np.eye(len(s.y))[k]
-        ahead = self._element_step(s.q, s.qd, s.y + shift, SHORT_STEP)
-        behind = self._element_step(s.q, s.qd, s.y - shift, SHORT_STEP)
-        return bool(ahead[k] - behind[k] > SHIFT)
-
-    def _element_step(self, q: Array, qd: Array, y: Array, h: float) -> Array:
-        return np.array(self.instance.element_step(q.tolist(), qd.tolist(), y.tolist(), h)[0])
+def _check_steady(evaluator: Evaluator, frame: SteadyFrame, M: Array) -> None:
+    """Refuse a state whose motion is not steady."""
+    state = evaluator.state
+    force = np.array(evaluator.instance.evaluate(state.q.tolist(), state.qd.tolist(), state.y.tolist())["force"])
+    scale = np.where(M.diagonal() > 0.0, M.diagonal(), np.inf)
+    moving = max(float(state.qdd @ M @ state.qdd), float(np.sum(force**2 / scale)))
+    size = max(moving**0.5, STILL * float(M.diagonal().max()) ** 0.5)
+    off = abs(float(frame.unsteady @ M @ frame.unsteady)) ** 0.5
+    if off <= STEADY * size:
+        return
+    worst, names = int(np.argmax(np.abs(frame.unsteady))), evaluator.system.meta["coordinates"]
+    raise ValueError(
+        f"At t = {evaluator.time:g} s the System is neither in equilibrium nor in a steady motion: "
+        f"{names[worst]!r} changes its rate by {frame.unsteady[worst]:.3g} per second, and {off / size:.2g} of the "
+        f"accelerations are left unexplained ({STEADY:g} at most). Call static_equilibrium() or step to a steady "
+        "motion first; a periodic motion has Floquet multipliers, see mbs.floquet."
+    )
 
 
 def _difference(
@@ -232,7 +228,7 @@ def _difference(
     return result
 
 
-def _admissible(M: Array, jacobian: Array, system: System) -> tuple[Array, Array]:
+def admissible_motions(M: Array, jacobian: Array, system: System) -> tuple[Array, Array]:
     """Null space V (nq, n) of Phi_q with ``V' M V = 1``, and its complement W (nq, nq - n) with ``V' M W = 0``."""
     null = scipy.linalg.null_space(jacobian, rcond=RANK_TOLERANCE) if len(jacobian) else np.eye(len(M))
     inertia = null.T @ M @ null
@@ -257,9 +253,3 @@ def _modes(A: Array, V: Array) -> tuple[Mode, ...]:
         largest = shape[np.argmax(np.abs(shape))] if len(shape) else 0.0
         modes.append(Mode(complex(s), np.asarray(shape / largest if largest else shape, complex)))
     return tuple(sorted(modes, key=lambda m: (m.frequency_hz, m.damping_ratio)))
-
-
-def _dense(ptr: NDArray[np.int32], col: NDArray[np.int32], val: Array, columns: int) -> Array:
-    matrix = np.zeros((len(ptr) - 1, columns))
-    matrix[np.repeat(np.arange(len(ptr) - 1), np.diff(ptr)), col] = val
-    return matrix

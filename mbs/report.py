@@ -29,6 +29,15 @@ class Report:
     energy_error : float
         Work that constraint forces and projections did in all steps, J; 0 in the exact motion. Measured by the ALi3-P
         methods, and by Runge-Kutta without flexible bodies.
+    energy : float
+        Kinetic and potential energy of the state, J; of methods that measure `energy_error`, as the next two.
+    work : float
+        What inputs, drives, dampers and tyres gave and took, the sum of their shares of the steps, J.
+    kinetic_peak : float
+        Largest kinetic energy, J; at least that of 1e-6 m/s, so that round-off at rest is no error.
+    speed_peak, velocity_path, predictor_path : float
+        In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity, and the sum over the
+        steps of what the velocity is off ``v + h a`` of their start.
     """
 
     steps: int
@@ -45,6 +54,12 @@ class Report:
     velocity_violation: float
     energy_jump: float = 0.0
     energy_error: float = 0.0
+    energy: float = 0.0
+    work: float = 0.0
+    kinetic_peak: float = 0.0
+    speed_peak: float = 0.0
+    velocity_path: float = 0.0
+    predictor_path: float = 0.0
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:
@@ -55,6 +70,12 @@ class Report:
     def mean_iterations(self) -> float:
         """Newton iterations per step."""
         return self.iterations / max(self.steps, 1)
+
+    @property
+    def energy_balance(self) -> float:
+        """``|energy_error|`` over the energy that was in the motion, `kinetic_peak` and `work`; 0 where none was."""
+        size = self.kinetic_peak + self.work
+        return abs(self.energy_error) / size if size > 0.0 else 0.0
 
     def __str__(self) -> str:
         return (

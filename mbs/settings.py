@@ -76,7 +76,7 @@ class Settings:
     tolerance_r: float = 1e-10
     tolerance_phi: float = 1e-11
     max_iterations: int = 30
-    max_halvings: int = 4
+    max_halvings: int = 8
     project: bool = True
     update: str = "linearised"
     geometric: bool = True

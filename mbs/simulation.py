@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import astuple, dataclass, replace
@@ -11,11 +12,16 @@ from dataclasses import astuple, dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mbs import accuracy, repeat
+from mbs.accuracy import AccuracyWarning
 from mbs.control import checked_tolerance
-from mbs.input_signals import InputSignals, Signal
+from mbs.errors import SimulationError
+from mbs.input_signals import InputSignals, Signal, unit_text
 from mbs.kernel.binding import (
     BELOW_ROAD,
     NO_TREE,
+    TOO_FAR,
+    TOO_STIFF,
     UNRESOLVED,
     WRONG_METHOD,
     Instance,
@@ -30,6 +36,7 @@ from mbs.system import System
 from mbs.trajectory import Trajectory
 
 SINGULAR = {"switches": "switch"}
+STIFF_STEP = 2.5  # fastest rate times step that an explicit method follows, at least
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -63,26 +70,6 @@ class State:
     qdd: NDArray[np.float64]
     lam: NDArray[np.float64]
     y: NDArray[np.float64]
-
-
-class SimulationError(RuntimeError):
-    """A step, an initialisation or a restore that the kernel refused; the last good state is kept.
-
-    Attributes
-    ----------
-    time : float
-        Of the last good state, s.
-    status : int
-        Code of the kernel.
-    trajectory : Trajectory or None
-        What a run had recorded so far.
-    """
-
-    def __init__(self, message: str, time: float, status: int, trajectory: Trajectory | None = None) -> None:
-        super().__init__(message)
-        self.time = time
-        self.status = status
-        self.trajectory = trajectory
 
 
 class Simulation:
@@ -124,8 +111,9 @@ class Simulation:
         for name, value in (inputs or {}).items():
             self.set_input(name, value)
         if pose is not None:
-            self._call("The starting pose was refused", lambda: self.instance.set_pose(*astuple(pose)))
+            self._call(f"The starting {pose} was refused", lambda: self.instance.set_pose(*astuple(pose)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
+        self._warned = False
 
     @property
     def time(self) -> float:
@@ -158,7 +146,7 @@ class Simulation:
         entry = self._meta["parameters"][index]
         if not entry["min"] <= value <= entry["max"]:
             raise ValueError(
-                f"Parameter {name!r} is set to {value:g} {entry['unit']}; "
+                f"Parameter {name!r} is set to {value:g}{unit_text(entry['unit'])}; "
                 f"it must lie between {entry['min']:g} and {entry['max']:g}."
             )
         self.instance.set_parameter(index, value)
@@ -202,12 +190,19 @@ class Simulation:
         )
 
     def step(self, h: float, n: int = 1) -> None:
-        """Make `n` steps of `h` seconds with the inputs as they are."""
+        """Make `n` steps of `h` seconds with the inputs as they are.
+
+        Warns
+        -----
+        AccuracyWarning
+            Once, when the energy balance since the start says that the result is wrong.
+        """
         _check_step(h)
         if n != int(n) or n < 0:
             raise ValueError(f"n = {n}; it must be a whole number of steps.")
         for _ in range(int(n)):
             self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
+        self._warn_once()
 
     def run(
         self,
@@ -218,7 +213,31 @@ class Simulation:
         every: int = 1,
         progress: bool | Callable[[float], None] | None = None,
     ) -> Trajectory:
-        """Step from the present time to `t_end`; see `simulate`."""
+        """Step from the present time to `t_end`; see `simulate`. Only `simulate` can repeat a run to check it.
+
+        Warns
+        -----
+        AccuracyWarning
+            Once, when the energy balance since the start says that the result is wrong.
+        """
+        trajectory = self._march(t_end, h, inputs, every, progress)[0]
+        self._warn_once()
+        return trajectory
+
+    def march(self, t_end: float, h: float, inputs: Mapping[str, Signal]) -> Trajectory:
+        """As `run`, without a word about the accuracy: for who compares runs himself."""
+        return self._march(t_end, h, inputs, 1, False)[0]
+
+    def _march(
+        self,
+        t_end: float,
+        h: float,
+        inputs: Mapping[str, Signal] | None,
+        every: int,
+        progress: bool | Callable[[float], None] | None,
+        look: bool = False,
+    ) -> tuple[Trajectory, list[NDArray[np.float64]]]:
+        """The steps of `run`; with `look` also the coordinates at the instants where two runs are compared."""
         _check_step(h)
         t0 = self.time
         steps = _count_steps(t0, t_end, h)
@@ -227,10 +246,13 @@ class Simulation:
         signals = InputSignals(inputs or {}, self._meta["inputs"])
         values = np.empty((steps // every + 1, len(self._meta["sensors"])))
         values[0] = self._sensor_values()
-        done, wall, chunk = 0, 0.0, every
+        looks = [int(k) * every for k in accuracy.instants(len(values))] if look else []
+        seen = [self.state.q] if look else []
+        done, wall, chunk, before = 0, 0.0, every, self.report
         with progress_for(progress) as bar, self._inputs(signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
             while done < steps:
-                n = min(chunk, steps - done)
+                ahead = [k - done for k in looks if k > done]
+                n = min(chunk, steps - done, *ahead[:1])
                 table = table_of(t0 + h * np.arange(done + 1, done + n + 1, dtype=float))
                 part = values[done // every + 1 : (done + n) // every + 1]
                 begin = time.perf_counter()
@@ -241,14 +263,26 @@ class Simulation:
                     raise self._error(
                         f"The step from t = {self.time:g} s with h = {h:g} s failed",
                         error,
-                        self._trajectory(t0, h * every, values[:good], wall + time.perf_counter() - begin),
+                        self._trajectory(t0, h * every, values[:good], wall + time.perf_counter() - begin, before),
                     ) from error
                 spent = time.perf_counter() - begin
                 wall += spent
                 done += n
+                if ahead and n == ahead[0]:
+                    seen.append(self.state.q)
                 bar.update(done / steps)
                 chunk = _next_chunk(chunk, spent, every)
-        return self._trajectory(t0, h * every, values, wall)
+        return self._trajectory(t0, h * every, values, wall, before), seen
+
+    def _warn_once(self) -> None:
+        """The part of `simulate`'s check that costs nothing."""
+        balance, driven = self.instance.energy_balance(), len(self.system.arrays["gterm_row"]) > 0
+        if self._warned or balance <= accuracy.WRONG_BALANCE:
+            return
+        if accuracy.balance_says(self.report, self.settings.method, driven):
+            self._warned = True
+            text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
+            warnings.warn(f"{text} Shorter steps make it right.", AccuracyWarning, stacklevel=3)
 
     def change_settings(self, settings: Settings) -> None:
         """Solve the steps from now on in another way."""
@@ -291,16 +325,19 @@ class Simulation:
         table[:, columns] = signals.at(t, tolerance)
         return table
 
-    def _trajectory(self, t0: float, interval: float, values: NDArray[np.float64], wall: float) -> Trajectory:
-        sensors = self._meta["sensors"]
+    def _trajectory(
+        self, t0: float, interval: float, values: NDArray[np.float64], wall: float, before: Report
+    ) -> Trajectory:
+        sensors, report = self._meta["sensors"], self.report
         return Trajectory(
             t0 + interval * np.arange(len(values), dtype=float),
             values,
             [s["name"] for s in sensors],
             [s["unit"] for s in sensors],
-            self.report,
+            report,
             self.settings,
             wall,
+            accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
         )
 
     def failure(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
@@ -332,13 +369,19 @@ class Simulation:
         if error.status == BELOW_ROAD:
             message += f" {self.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
             return SimulationError(message, self.time, error.status, trajectory)
+        if error.status == TOO_STIFF:
+            rate = report["fastest_rate"]
+            message += (
+                f" Its rate is {rate:.3g} 1/s here: steps of about {STIFF_STEP / rate:.1g} s follow it; implicit "
+                "methods ('ali3p', 'radau_5') need not."
+            )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
-        if not report["factorizations"] or error.status == UNRESOLVED:
+        if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):
             return SimulationError(message, self.time, error.status, trajectory)
         worst = open_row(report, [row["name"] for row in self._meta["rows"]])
         if worst:
             message += f" Worst constraint: {worst}."
-        if 0.0 < report["residual"] < math.inf:
+        if self.settings.tolerance_r < report["residual"] < math.inf:
             name = self._meta["coordinates"][int(report["worst_coordinate"])]
             message += f" Worst balance: {name!r}, residual {report['residual']:.3g}."
         return SimulationError(message, self.time, error.status, trajectory)
@@ -357,10 +400,12 @@ def simulate(
     t0: float = 0.0,
     pose: Pose | None = None,
     method: str | None = None,
+    estimate_error: bool | None = None,
     tolerance: float | None = None,
     times: ArrayLike | None = None,
 ) -> Trajectory:
-    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance.
+    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance, and warn where the result is not what was
+    asked for.
 
     Parameters
     ----------
@@ -383,7 +428,7 @@ def simulate(
         Record the state after every that many steps, or intervals of the record.
     progress : bool or callable, optional
         None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives the
-        share that is done.
+        share that is done. A repeat belongs to the run: where it becomes necessary the share goes back once.
     t0 : float
         First time, s.
     pose : Pose, optional
@@ -391,6 +436,10 @@ def simulate(
     method : str, optional
         Name of the method, see `Settings`; in place of the one that `settings` names. "auto" takes the one that suits
         System and tolerance best; so does a tolerance without a method.
+    estimate_error : bool, optional
+        Whether to repeat the run with half the step, from which `Trajectory.accuracy` has the error of the sensors.
+        None repeats what the books of energy, halvings or predictors make suspect; the others cost nothing more. False
+        checks nothing. Functions among `inputs` are called anew in a repeat, so they must depend on time alone.
     tolerance : float, optional
         Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
         the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then chosen
@@ -401,7 +450,7 @@ def simulate(
     Returns
     -------
     Trajectory
-        Sensor values at t0, t0 + every h, ...
+        Sensor values at t0, t0 + every h, ...; of the steps asked for, also after a repeat.
 
     Raises
     ------
@@ -411,7 +460,9 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When the error is estimated to be more than ten times the tolerance.
+        When constraint forces did more than 4 % of the work in the motion, or the repeat says that positions, lengths,
+        angles or forces of elements are off by more than 5 % of the largest range in their unit; with a tolerance, when
+        the error is estimated to be more than ten times that.
     """
     if h is not None:
         _check_step(h)
@@ -425,30 +476,66 @@ def simulate(
         settings = replace(settings, method=chosen)
     given = inputs or {}
     signals = InputSignals(given, system.meta["inputs"])
-    first = signals.at(np.array([t0]), 1e-6 * (h or 0.0), after_jump=True)[0]
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
 
-    def start() -> Simulation:
+    def start(step: float = 0.0, used: Settings = settings) -> Simulation:
+        first = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
         return Simulation(
             system,
-            settings=settings,
+            settings=used,
             inputs=dict(zip(names, first.tolist(), strict=True)),
             parameters=parameters,
             pose=pose,
             t0=t0,
         )
 
+    def equal_steps(step: float, used: Settings, estimate: bool | None) -> Trajectory:
+        return _equal_steps(system, lambda h: start(h, used), t_end, step, inputs, every, progress, estimate)
+
     if wanted is None and h is not None and chosen != "auto":
-        return start().run(t_end, h, inputs=inputs, every=every, progress=progress)
+        run = equal_steps(h, settings, estimate_error)
+        _warn_of(run)
+        return run
     from mbs import chosen_run  # only here, since it makes Simulations
 
     if every < 1:
         raise ValueError(f"every = {every}; it must be at least 1.")
+    if wanted is None:
+        run = chosen_run.equal_steps(start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress)
+        _warn_of(run)
+        return run
     with progress_for(progress) as bar:
-        if wanted is None:
-            return chosen_run.equal_steps(start, t0, t_end, h, given, settings, chosen, every, bar)
         record = chosen_run.record_times(t0, t_end, h, every, times)
         return chosen_run.to_tolerance(start, wanted, record, given, settings, chosen, bar)
+
+
+def _equal_steps(
+    system: System,
+    start: Callable[[float], Simulation],
+    t_end: float,
+    h: float,
+    inputs: Mapping[str, Signal] | None,
+    every: int,
+    progress: bool | Callable[[float], None] | None,
+    estimate_error: bool | None,
+) -> Trajectory:
+    """A run in steps of h, with a repeat where its accuracy asks for one."""
+
+    def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
+        return start(step)._march(t_end, step, inputs, every, progress, look)
+
+    look = estimate_error is not False and not accuracy.has_motion_sensor(system)
+    with progress_for(progress) as bar:
+        first = 1.0 / 3.0 if estimate_error else 1.0
+        run = march(h, every, lambda share: bar.update(first * share), look)
+        if estimate_error is not False:
+            run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+    return run[0]
+
+
+def _warn_of(run: Trajectory) -> None:
+    if run.accuracy is not None and run.accuracy.message:
+        warnings.warn(run.accuracy.message, AccuracyWarning, stacklevel=3)
 
 
 def _check_step(h: float) -> None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.controlled_run import length_of
 from mbs.input_signals import Signal
 from mbs.method_choice import ORDERS
 from mbs.progress import Progress
@@ -95,7 +96,7 @@ def _positions(
     found = []
     for k in range(1, CHECKED + 1):
         try:
-            simulation.run(t0 + (t_end - t0) * k / CHECKED, h, inputs=inputs, progress=False)
+            simulation.march(t0 + (t_end - t0) * k / CHECKED, h, inputs=inputs)
         except SimulationError:
             if strict:
                 raise
@@ -107,4 +108,4 @@ def _positions(
 def _distance(system: System, a: Array, b: Array) -> float:
     meta = system.meta
     lengths = np.array(meta.get("coordinate_lengths", [1.0] * system.nq), float)
-    return float(np.max(np.abs(a - b) * lengths, initial=0.0)) / float(meta["report"].get("length", 1.0))
+    return float(np.max(np.abs(a - b) * lengths, initial=0.0)) / length_of(system)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.compile.report import report_text
+from mbs.frames import Frames
 
 MAGIC = b"ALI3SYS\n"
 VERSION = 1
@@ -54,9 +55,11 @@ class System:
         The arrays of the System file (`docs/system_file.md`), read-only.
     meta : mapping
         Names, units and the report.
+    frames : Frames or None
+        Points and axes of the bodies among the coordinates; None where the System was read from a file.
     """
 
-    def __init__(self, arrays: Mapping[str, ArrayLike], meta: Mapping[str, Any]) -> None:
+    def __init__(self, arrays: Mapping[str, ArrayLike], meta: Mapping[str, Any], frames: Frames | None = None) -> None:
         names = set(arrays)
         if names != FLOATS | INTEGERS:
             wrong = sorted(names ^ (FLOATS | INTEGERS))
@@ -67,6 +70,7 @@ class System:
             values.setflags(write=False)
             frozen[name] = values
         self.arrays: Mapping[str, NDArray[Any]] = MappingProxyType(frozen)
+        self.frames = frames
         self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
     @property

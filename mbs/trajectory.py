@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.accuracy import Accuracy
 from mbs.control import Control
 from mbs.report import Report
 from mbs.settings import Settings
@@ -38,8 +39,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     settings : Settings, optional
         How the steps were solved.
     wall_s : float
-        Time spent stepping, s; preparing inputs and reporting progress are not counted. All runs that a tolerance needed
-        are.
+        Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted. All runs that a tolerance
+        needed are.
+    accuracy : Accuracy, optional
+        What is known of the error.
     control : Control, optional
         How method and steps were chosen, where `simulate` chose them.
     """
@@ -53,6 +56,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         report: Report | None = None,
         settings: Settings | None = None,
         wall_s: float = float("nan"),
+        accuracy: Accuracy | None = None,
         control: Control | None = None,
     ) -> None:
         self.t = t
@@ -60,6 +64,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.report = report
         self.settings = settings
         self.wall_s = wall_s
+        self.accuracy = accuracy
         self.control = control
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
@@ -82,7 +87,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         return float((self.t[-1] - self.t[0]) / self.wall_s)
 
     def __repr__(self) -> str:
-        text = f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors)"
+        known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
+        text = f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors{known})"
         return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:

@@ -23,7 +23,7 @@ _STATE_MAGIC = b"ALI3FMU1"
 _STATE_HEAD = struct.Struct("<8s16sIId")
 _CHECKSUM = struct.Struct("<I")
 _INSTANTIATED, _INITIALISING, _STEPPING, _TERMINATED = range(4)
-_POSE_HEIGHT = 2  # place of the height in a pose
+_POSE_HEIGHT, _POSE_SPEED = 2, 4  # places in a pose
 _PHASE_NAMES = ("before initialisation", "in initialisation", "after initialisation", "after termination")
 # A host adds up its time in floating point; it may be this much off, s.
 _TIME_TOLERANCE = 1e-6
@@ -289,18 +289,29 @@ class Slave(Fmi2Slave):
     def _worst(self) -> str:
         report = self._kernel.report()
         worst = binding.open_row(report, _Shared.get().rows[self._fidelity])
-        return f" Worst constraint: {worst}." if worst and report["violation"] > 0.0 else ""
+        return f" Worst constraint: {worst}." if worst else ""
 
     def _start_hint(self, error: Exception) -> str:
         """What is wrong with a start, in numbers."""
-        if not isinstance(error, binding.KernelError) or error.status != binding.BELOW_ROAD:
+        if not isinstance(error, binding.KernelError) or error.status not in (binding.BELOW_ROAD, binding.TOO_FAR):
             return self._worst()
+        if error.status == binding.TOO_FAR:
+            return self._farthest()
         lift = self._kernel.start_lift()
         heights = [k for k, v in enumerate(self._table) if v["source"] == "pose" and v["index"] == _POSE_HEIGHT]
         if not heights:
             return f" {lift:.3g} m higher it would be clear of it."
         name, z = self._table[heights[0]]["name"], self._values[heights[0]]
         return f" '{name}' is {z:g} m; from {z + lift:.3g} m on the tyres are clear of it."
+
+    def _farthest(self) -> str:
+        """The start value that lies beyond the digits of a number."""
+        text = ""
+        for v, value in zip(self._table, self._values, strict=True):
+            limits = {_POSE_SPEED: ("m/s", binding.FASTEST)} | dict.fromkeys(range(3), ("m", binding.FARTHEST))
+            if v["source"] == "pose" and v["index"] in limits and abs(value) > limits[v["index"]][1]:
+                text = f" '{v['name']}' is {value:g} {limits[v['index']][0]}."
+        return text
 
     def _apply_pending(self) -> None:
         for vr in sorted(self._pending):

@@ -18,6 +18,7 @@ from mbs.compile.flexible import (
     flexible_cliques,
     flexible_coordinates,
 )
+from mbs.compile.frames import frames_of
 from mbs.compile.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compile.fronts import Fronts, build_fronts
 from mbs.compile.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
@@ -130,16 +131,17 @@ def compile(model: Model) -> System:
         "tangent_nonzeros": tangent_nonzeros,
         "no_tree": no_tree,
     }
+    frames = frames_of(model, T[:, order], z0)
     info = [natural.info[kept[k]] for k in order]
     length = model_length(model)
     lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [kept[k] for k in order]), length)
     report["length"], report["length_stated"] = length, model.length is not None
-    system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths))
+    system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths), frames)
     if not model.start_in_equilibrium:
         return system
     q = equilibrium(system, model.equilibrium_parameters)
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, kept, of_z, q[new], order))
-    return System(tables, system.meta)
+    return System(tables, system.meta, frames)
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

@@ -43,5 +43,5 @@ def equilibrium(system: System, parameters: Mapping[str, float]) -> NDArray[np.f
             f"'{meta['coordinates'][report['worst_coordinate']]}' stays out of balance by {report['residual']:.3g} N"
         )
         worst = open_row(report, [row["name"] for row in meta["rows"]])
-        raise ModelError(f"{text}; {worst}." if worst and report["violation"] > 0.0 else f"{text}.") from None
+        raise ModelError(f"{text}; {worst}." if worst else f"{text}.") from None
     return np.array(instance.get_state()[0], float)

@@ -29,8 +29,14 @@ from typing import Any
     BELOW_ROAD,
     UNRESOLVED,
     NO_TREE,
-) = range(1, 14)
+    TOO_STIFF,
+    TOO_FAR,
+) = range(1, 16)
 """Codes of `ali3_status` beside 0."""
+OPEN = 1e-9
+"""A row that is open by less, m, is not why something failed: ALI3_OPEN."""
+FARTHEST, FASTEST = 1e8, 1e6
+"""Largest distance, m, and speed, m/s, of a start: ALI3_FARTHEST, ALI3_FASTEST."""
 
 
 class KernelError(RuntimeError):
@@ -51,9 +57,9 @@ class KernelError(RuntimeError):
 
 
 def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
-    """Name and gap of the row farthest from closed; empty where there is no finite figure of it."""
+    """Name and gap of the row farthest from closed; empty where it is closed or there is no finite figure of it."""
     row, violation = int(report["worst_row"]), report["violation"]
-    if not (0 <= row < len(names) and 0.0 <= violation < math.inf):
+    if not (0 <= row < len(names) and OPEN < violation < math.inf):
         return ""
     return f"'{names[row]}', open by {violation:.3g} m"
 
@@ -98,6 +104,14 @@ class ReportFields(Structure):
         ("worst_coordinate", c_int32),
         ("energy_jump", c_double),
         ("energy_error", c_double),
+        ("energy", c_double),
+        ("work", c_double),
+        ("kinetic_peak", c_double),
+        ("speed_peak", c_double),
+        ("velocity_path", c_double),
+        ("predictor_path", c_double),
+        ("fastest_rate", c_double),
+        ("open_power", c_double),
     )
 
 
@@ -193,6 +207,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
+    "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
     "ali3_time": (c_double, [c_void_p]),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
@@ -457,7 +472,7 @@ class Instance:
             return
         report = self.report()
         text = _status_text(self._library, status)
-        if 1e-9 < report["violation"] < math.inf:
+        if OPEN < report["violation"] < math.inf:
             text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
         raise KernelError(status, text)
 
@@ -562,6 +577,12 @@ class Instance:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def energy_balance(self) -> float:
+        """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return float(self._library.ali3_energy_balance(byref(fields)))
 
     @property
     def time(self) -> float:

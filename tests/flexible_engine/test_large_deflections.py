@@ -70,7 +70,7 @@ def test_falling_flexible_pendulum(parts: int, most: float) -> None:
 
 def flapping_frequency(parts: int, speed: float) -> tuple[float, float]:
     """First flapping frequency, rad/s, of a rotor blade at `speed`, from the linear model about the steady rotation,
-    and the one at rest. (Only flapping: in the plane the linear model is that of a moment, not of a rotating frame.)
+    and the one at rest.
     """
     E, rho, radius, length = 7e10, 3000.0, 0.005, 1.0
     m = Model("blade", gravity=(0, 0, 0))

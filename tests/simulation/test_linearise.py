@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs import Affine, Model, Simulation, compile, linearise
+from mbs import Affine, LinearisationWarning, Model, Simulation, compile, linearise
+from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.elements.road import PlaneRoad
 from mbs.elements.tyre import Tyre, TyreCurve
 from tests.simulation.scenes import GRAVITY, LENGTH, MASS, pendulum, two_masses
@@ -71,32 +72,23 @@ def test_mode_shapes_are_those_of_the_two_masses():
     assert signs == [1.0, -1.0]
 
 
-def test_a_moving_state_is_varied_with_its_velocity_on_the_constraint():
-    """Spherical pendulum in steady rotation: rdd = g - (g.r + v.v) r / L^2, varied with r.v = 0 kept."""
-    angle, step = 0.7, 1e-6
+def conical_pendulum(angle):
     radius, rate = LENGTH * np.sin(angle), np.sqrt(GRAVITY / (LENGTH * np.cos(angle)))
     m = Model("conical pendulum", dimension=3, gravity=(0.0, 0.0, -GRAVITY))
     bob = m.point_mass("bob", mass=MASS, position=(radius, 0.0, -LENGTH * np.cos(angle)))
     m.distance("rod", (m.ground, (0.0, 0.0, 0.0)), bob)
     m.initial_velocity(bob, linear=(0.0, rate * radius, 0.0))
-    simulation = Simulation(compile(m))
+    return Simulation(compile(m)), rate
+
+
+@pytest.mark.parametrize("angle", [0.2, 0.7, 1.3])
+def test_a_conical_pendulum_swings_about_its_steady_rotation(angle):
+    """W sqrt(1 + 3 cos^2), seen in the plane that turns with it."""
+    simulation, rate = conical_pendulum(angle)
     model = linearise(simulation)
-    order = [next(i for i, name in enumerate(model.coordinates) if name.endswith(axis)) for axis in "xyz"]
-    r, v = simulation.state.q[order], simulation.state.qd[order]
-    V, n = model.basis[order], model.degrees_of_freedom
-    assert n == 2
-    assert np.linalg.norm(v) == pytest.approx(rate * radius)
-
-    def acceleration(r, v):
-        return np.array([0.0, 0.0, -GRAVITY]) - (-GRAVITY * r[2] + v @ v) * r / LENGTH**2
-
-    expected = np.zeros((n, 2 * n))
-    for j in range(2 * n):
-        dr = V[:, j] if j < n else np.zeros(3)
-        dv = -r * (dr @ v) / LENGTH**2 if j < n else V[:, j - n]
-        change = (acceleration(r + step * dr, v + step * dv) - acceleration(r - step * dr, v - step * dv)) / (2 * step)
-        expected[:, j] = MASS * V.T @ change
-    np.testing.assert_allclose(model.A[n:], expected, rtol=0.0, atol=RELATIVE * np.abs(expected).max())
+    (mode,) = model.oscillating_modes()
+    assert mode.eigenvalue.imag == pytest.approx(rate * np.sqrt(1.0 + 3.0 * np.cos(angle) ** 2), rel=RELATIVE)
+    assert model.frame_turning == pytest.approx((0.0, 0.0, rate), rel=RELATIVE)
 
 
 class TestTyre:
@@ -159,8 +151,58 @@ def test_a_free_motion_is_no_oscillation():
 
 
 def test_linearising_changes_nothing():
-    simulation = Simulation(pendulum(damped=True))
-    simulation.step(0.01, n=20)
+    simulation, _ = conical_pendulum(0.7)
+    simulation.step(1e-4, n=20)
     before = simulation.save()
     linearise(simulation)
     assert simulation.save() == before
+
+
+class TestKink:
+    """Two wheels that an engine drags forwards only: the slopes to both sides of standstill differ."""
+
+    inertia = 4.0  # kg m2
+    drive = AutomaticDrive(max_torque=110.0, max_power=50e3, creep_torque=0.0)
+
+    def wheels(self):
+        m = Model("dragged wheels", dimension=3)
+        carrier = m.body("carrier", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
+        m.prismatic("rail", m.ground, carrier, axis=(1.0, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+        spins = [
+            m.spin(
+                side,
+                carrier=carrier,
+                centre=(0.0, y, 0.0),
+                axis=(0.0, 1.0, 0.0),
+                mass=1.0,
+                spin_inertia=self.inertia,
+                diametral_inertia=2.5,
+            )
+            for side, y in (("left", 1.0), ("right", -1.0))
+        ]
+        throttle = m.input("throttle", min=0.0, max=1.0)
+        up, forward = carrier.vector((0.0, 0.0, 1.0)), carrier.vector((1.0, 0.0, 0.0))
+        m.add(self.drive.record("drive", spins[0].coordinate, spins[1].coordinate, up, forward, throttle.index))
+        return Simulation(compile(m))
+
+    def fastest_decay(self, model):
+        return -min(mode.eigenvalue.real for mode in model.modes)
+
+    @property
+    def forward_decay(self):
+        drive = self.drive
+        return 0.5 * drive.ratios[0] ** 2 * drive.drag_torque / drive.limit_speed / self.inertia
+
+    def test_the_user_is_told_and_rising_rates_are_taken(self):
+        with pytest.warns(LinearisationWarning, match=r"-0\.2297 1/s where the velocity of 'right' rises and -?0 1/s"):
+            model = linearise(self.wheels())
+        assert self.fastest_decay(model) == pytest.approx(self.forward_decay, rel=RELATIVE)
+
+    @pytest.mark.parametrize(("side", "share"), [(1, 1.0), (-1, 0.0)])
+    def test_either_side_can_be_chosen(self, side, share):
+        model = linearise(self.wheels(), side=side)
+        assert self.fastest_decay(model) == pytest.approx(share * self.forward_decay, rel=RELATIVE, abs=1e-9)
+
+    def test_another_side_is_refused(self):
+        with pytest.raises(ValueError, match="side = 2; it must be 1"):
+            linearise(self.wheels(), side=2)

@@ -14,7 +14,7 @@ from benchmarks import references
 from benchmarks.car_manoeuvres import inputs_of, load, start_of
 from benchmarks.car_manoeuvres import system_of as car_of
 from benchmarks.cases import CASES, exact_of, system_of
-from mbs.control import AccuracyWarning
+from mbs.accuracy import AccuracyWarning
 
 ALLOWED = 10.0
 CRANK_ANGLE = 758.6266  # rad after 2 s under 4 N m: the motion reduced to its one freedom, DOP853

@@ -5,7 +5,7 @@
 
 #include "slave.h"
 
-enum { POSE_HEIGHT = 2 }; /* place of the height in a pose */
+enum { POSE_HEIGHT = 2, POSE_YAW, POSE_SPEED }; /* places in a pose */
 
 void slave_stale(slave *s) {
   s->calls.initialised = 0;
@@ -18,15 +18,29 @@ const char *slave_worst_row(slave *s, char *text, size_t size) {
   text[0] = 0;
   const slave_table *t = &slave_the_table;
   const size_t first = t->first_row[s->rung.fidelity], n = t->first_row[s->rung.fidelity + 1] - first;
-  if (ali3_report_get(s->rung.kernel, &report) == ALI3_OK && report.violation > 0.0 && report.violation < HUGE_VAL &&
-      report.worst_row >= 0 && (size_t)report.worst_row < n)
+  if (ali3_report_get(s->rung.kernel, &report) == ALI3_OK && report.violation > ALI3_OPEN &&
+      report.violation < HUGE_VAL && report.worst_row >= 0 && (size_t)report.worst_row < n)
     snprintf(text, size, " Worst constraint: '%.128s', open by %.3g m.", t->row[first + (size_t)report.worst_row],
              report.violation);
   return text;
 }
 
+/* " 'initial.x' is 1e+300 m." or nothing. */
+static const char *farthest(const slave *s, char *text, size_t size) {
+  const slave_table *t = &slave_the_table;
+  text[0] = 0;
+  for (size_t i = 0; i < t->n_known; i++) {
+    const slave_variable *v = &t->variable[i];
+    if (v->source != SLAVE_POSE || v->index == POSE_YAW) continue;
+    if (fabs(s->value[i]) > (v->index == POSE_SPEED ? ALI3_FASTEST : ALI3_FARTHEST))
+      snprintf(text, size, " '%.64s' is %g %s.", v->name, s->value[i], v->index == POSE_SPEED ? "m/s" : "m");
+  }
+  return text;
+}
+
 /* What is wrong with a start, in numbers. */
 static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
+  if (status == ALI3_TOO_FAR) return farthest(s, text, size);
   if (status != ALI3_BELOW_ROAD) return slave_worst_row(s, text, size);
   const double lift = ali3_start_lift(s->rung.kernel);
   snprintf(text, size, " %.3g m higher it would be clear of it.", lift);

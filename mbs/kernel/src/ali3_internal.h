@@ -142,7 +142,7 @@ struct ali3_instance {
   ali3_settings settings;
   ali3_report report;
   double t_base, h_last; /* time = t_base + count * h_last */
-  double h_whole; /* of the step that was asked for, where halves are made */
+  bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count;
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
@@ -288,6 +288,7 @@ void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work);
 bool ali3_judge(ali3_instance *in, const double *r);
+ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status);
 void ali3_iterations_since(ali3_instance *in, int64_t before);
 double ali3_penalty(const ali3_instance *in, double h);
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
@@ -296,8 +297,16 @@ bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
 
 /* energy_watch.c */
 double ali3_constraint_work(ali3_instance *in, double h);
-double ali3_projection_work(ali3_instance *in, double h, double *kinetic);
-ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic);
+double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double *end, double *open);
+ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open);
+
+/* books.c */
+bool ali3_keeps_books(const ali3_instance *in);
+void ali3_books_open(ali3_instance *in);
+void ali3_books_energy(ali3_instance *in, double error, double kinetic);
+void ali3_books_motion(ali3_report *report, double speed, double change, double miss);
+void ali3_books_step(ali3_instance *in, double h);
+void ali3_books_back(ali3_report *report, const ali3_report *before);
 
 /* projection.c */
 bool ali3_rates_closed(ali3_instance *in, const double *b, const double *v, double tolerance, double *violation);
@@ -360,6 +369,9 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h);
 
 /* radau.c */
 ali3_status ali3_radau(ali3_instance *in, double t, double h);
+
+/* stiffness.c */
+ali3_status ali3_explain_refusal(ali3_instance *in, ali3_status status, double h);
 
 /* composition.c */
 ali3_status ali3_composition(ali3_instance *in, double t, double h);

@@ -84,7 +84,8 @@ static void beside_start(ali3_instance *in, double t, double h, double when) {
 
 /* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->coarse. */
 static ali3_status side_step(ali3_instance *in, double t, double h, double when) {
-  const double energy_error = in->report.energy_error, middle = t + 0.5 * h;
+  const ali3_report before = in->report;
+  const double middle = t + 0.5 * h;
   const bool second = when > middle + LEAST_PART * h;
   const double from = second ? middle : t;
   const bool sampled = in->sampled;
@@ -95,7 +96,7 @@ static ali3_status side_step(ali3_instance *in, double t, double h, double when)
   in->sampled = sampled;
   if (status == ALI3_OK) ali3_vectors_copy(in, &in->next, &in->now);
   ali3_vectors_copy(in, &in->now, &in->coarse);
-  in->report.energy_error = energy_error;
+  ali3_books_back(&in->report, &before);
   return status;
 }
 

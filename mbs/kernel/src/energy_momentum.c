@@ -167,7 +167,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
   for (int32_t k = 0; k < settings->max_iterations; k++) {
     ali3_status status = fresh ? factorise(in, h, weight) : ALI3_OK;
     if (status == ALI3_OK) status = correct(in, weight, alpha, k);
-    if (status != ALI3_OK) return status;
+    if (status != ALI3_OK) return ali3_newton_ended(in, status);
     ++*iterations;
     evaluate(in, h);
     if (!ali3_judge(in, in->r)) return ALI3_NOT_FINITE;

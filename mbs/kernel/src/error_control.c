@@ -155,7 +155,8 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
   tries seen = {0};
   for (;;) {
     double error = 0.0;
-    const double energy_error = in->report.energy_error, size = fmin(c->h, c->longest), tried = fitted(size, end - t);
+    const ali3_report before = in->report;
+    const double size = fmin(c->h, c->longest), tried = fitted(size, end - t);
     const ali3_status status = ali3_step_doubling(in, measure, t, tried, &error);
     *h = tried;
     if (status == ALI3_BAD_ARGUMENT) return status;
@@ -179,8 +180,8 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     c->h = seen.force ? seen.first : fmax(least, tried * fmin(MOST_KEPT, factor(part, 0.0, order)));
     seen.rejected = true;
     ali3_vectors_copy(in, &in->now, &in->origin);
-    in->report.steps -= 2;
-    in->report.energy_error = energy_error;
+    in->report.steps = before.steps;
+    ali3_books_back(&in->report, &before);
   }
 }
 

@@ -20,6 +20,8 @@ const char *ali3_status_text(ali3_status s) {
       "a tyre starts deeper in the road than its radius",
       "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
       "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
+      "the step is too long for an explicit method, which must follow the fastest motion",
+      "the start is too far away or too fast: positions must stay within 1e8 m, speeds within 1e6 m/s",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -145,7 +147,7 @@ void ali3_instance_free(ali3_instance *in) {
 
 ali3_settings ali3_default_settings(void) {
   const ali3_settings settings = {
-      0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 4, 1, ALI3_UPDATE_LINEARISED, 1, ALI3_METHOD_ALI3P, ALI3_PREDICTOR_PARABOLA};
+      0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 8, 1, ALI3_UPDATE_LINEARISED, 1, ALI3_METHOD_ALI3P, ALI3_PREDICTOR_PARABOLA};
   return settings;
 }
 
@@ -162,6 +164,7 @@ bool ali3_settings_valid(const ali3_settings *s) {
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
   if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
   in->settings = *settings;
+  if (in->initialised) ali3_books_open(in); /* another method may have kept none */
   return ALI3_OK;
 }
 
@@ -251,6 +254,7 @@ ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *v
 ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed) {
   const double given[5] = {x, y, z, yaw, speed};
   if (in == NULL || !in->system->size.has_pose || !ali3_finite(given, 5)) return ALI3_BAD_ARGUMENT;
+  if (fmax(fabs(x), fmax(fabs(y), fabs(z))) > ALI3_FARTHEST || fabs(speed) > ALI3_FASTEST) return ALI3_TOO_FAR;
   const ali3_system *S = in->system;
   const double c = ali3_cos(yaw), s = ali3_sin(yaw);
   for (int32_t i = 0; i < S->size.nq; i++) {

@@ -3,6 +3,7 @@
 
 #include "ali3_internal.h"
 
+static const double LOST = 1.0; /* m or so: rows this far open belong to an iteration that ran away */
 static const double MOST_STIFF = 100.0; /* a higher penalty would only bring round-off */
 
 bool ali3_finite(const double *v, int64_t n) {
@@ -83,6 +84,11 @@ bool ali3_judge(ali3_instance *in, const double *r) {
   in->report.residual = largest;
   in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
   return in->report.residual < 1e300 && in->report.violation < 1e300;
+}
+
+/* A correction could not be made: where the iterates had left the rows far behind, not the tangent is to blame. */
+ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status) {
+  return status == ALI3_SINGULAR && in->report.violation > LOST ? ALI3_NOT_CONVERGED : status;
 }
 
 /* One step has made its iterations; `before` it there were so many. */

@@ -176,7 +176,7 @@ static ali3_status newton(ali3_instance *in, double t, double h, double alpha) {
   for (int32_t iteration = 0; iteration < settings->max_iterations; iteration++) {
     ali3_status status = fresh ? factorise(in, t, h, alpha) : ALI3_OK;
     if (status == ALI3_OK) status = correct(in, h, alpha);
-    if (status != ALI3_OK) return status;
+    if (status != ALI3_OK) return ali3_newton_ended(in, status);
     if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
     const double r = in->report.residual / settings->tolerance_r, v = opening(in) / settings->tolerance_phi;
     const double size = fmax(r, v);

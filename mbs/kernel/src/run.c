@@ -16,6 +16,7 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   in->h_last = 0.0;
   in->count = 0;
   in->initialised = 1;
+  ali3_books_open(in);
   return ALI3_OK;
 }
 
@@ -42,16 +43,15 @@ static ali3_status step(ali3_instance *in, double h) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
-  const double energy_error = in->report.energy_error;
+  const ali3_report before = in->report;
   in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
-  in->h_whole = h;
   in->t_now = ali3_time(in);
   const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);
     if (in->input_function != NULL) memcpy(in->input, in->now.used, (size_t)in->system->size.nu * sizeof(double));
-    in->report.energy_error = energy_error;
+    ali3_books_back(&in->report, &before);
     in->report.failures++;
     return status;
   }
@@ -66,7 +66,7 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const ali3_status status = ali3_check_method(in);
   in->quiet = in->sampled = false;
-  return status == ALI3_OK ? step(in, h) : status;
+  return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h), h) : status;
 }
 
 /* After a quiet or sampled step the last good state lacks what only a reader needs. */
@@ -99,7 +99,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
     in->quiet = !recorded && n + 1 < n_steps;
     in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h);
-    if (status != ALI3_OK) return give_up(in, status, quiet, sampled);
+    if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, quiet, sampled), h);
     quiet = in->quiet;
     sampled = in->sampled;
     if (done != NULL) *done = n + 1;

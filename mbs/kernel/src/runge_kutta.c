@@ -106,7 +106,7 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   if (status == ALI3_OK) status = ali3_index_one(in, to);
   if (status == ALI3_OK && watched) {
     const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->r) - kinetic;
-    status = ali3_energy_watch(in, h, gained - work, kinetic + fmax(gained, 0.0));
+    status = ali3_energy_watch(in, h, gained - work, kinetic + fmax(gained, 0.0), kinetic + gained, 0.0);
   }
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;

@@ -194,6 +194,25 @@ static void turn_back(const ali3_tree *T, double *q) {
     if (fabs(q[j]) > TURNS && T->slide[j + 1] == 0.0) q[j] -= TWO_PI * floor(q[j] / TWO_PI + 0.5);
 }
 
+/* In the metric of the diagonal of the mass matrix; w->stage[0] has rates and accelerations at the start of the step,
+ * w->sum the rates at its end. */
+static void books(ali3_instance *in, double h) {
+  const ali3_tree *T = in->system->tree;
+  const ali3_tree_work *w = in->tree;
+  const double *v0 = w->stage[0], *a = v0 + T->n, *v1 = w->sum + T->n;
+  double speed = 0.0, change = 0.0, miss = 0.0;
+  for (int32_t j = 0; j < T->n; j++) {
+    double m = 0.0;
+    for (int i = 0; i < 3; i++)
+      m += w->angular[i][j + 1] * w->turn[i][j + 1] + w->linear[i][j + 1] * w->shift[i][j + 1];
+    const double d = v1[j] - v0[j], e = d - h * a[j];
+    speed += m * v1[j] * v1[j];
+    change += m * d * d;
+    miss += m * e * e;
+  }
+  ali3_books_motion(&in->report, speed, change, miss);
+}
+
 /* From in->now by a step h that ends at time t; in->now changes only when the step is good. */
 ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
@@ -231,6 +250,7 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   if (!ali3_finite(w->sum, 2 * n) || !ali3_finite(w->qdd, n)) return ALI3_NOT_FINITE;
+  books(in, h);
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
   turn_back(T, w->state);
   ali3_vectors *v = &in->now;

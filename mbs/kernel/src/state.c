@@ -57,8 +57,12 @@ static bool numbers_finite(const unsigned char *p, size_t n) {
 
 static bool counted(int64_t n) { return n >= 0 && n < MOST_COUNTED; }
 
+static bool magnitude(double x) { return x >= 0.0 && x - x == 0.0; }
+
 static bool report_valid(const ali3_report *r) {
-  return counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
+  return magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) && magnitude(r->velocity_path) &&
+         magnitude(r->predictor_path) && r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 &&
+         counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
          counted(r->halvings) && counted(r->failures) && r->energy_error - r->energy_error == 0.0;
 }
 

@@ -70,7 +70,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
   in->report.last_iterations = 0;
   while (in->report.last_iterations < settings->max_iterations) {
     const ali3_status status = correct(in, alpha, in->report.last_iterations);
-    if (status != ALI3_OK) return status;
+    if (status != ALI3_OK) return ali3_newton_ended(in, status);
     in->report.iterations++;
     in->report.last_iterations++;
     if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
@@ -132,12 +132,12 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
-    double kinetic, work = ali3_constraint_work(in, h);
+    double kinetic, end, open, work = ali3_constraint_work(in, h);
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
     ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS);
-    work += ali3_projection_work(in, h, &kinetic);
-    const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic);
+    work += ali3_projection_work(in, h, &kinetic, &end, &open);
+    const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);
     if (resolved != ALI3_OK) return resolved;
   } else {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0);

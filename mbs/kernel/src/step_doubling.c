@@ -13,7 +13,6 @@ int32_t ali3_order(int32_t method) {
 /* A step from time t that is never halved inside; what a failed one leaves behind is for the caller to mend. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
   in->kept = false;
-  in->h_whole = h;
   in->t_now = t;
   return ali3_advance(in, t + h, h, 0);
 }
@@ -48,11 +47,10 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure) {
  * leaves in->now as it was. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
-  const double energy_error = in->report.energy_error;
-  const int64_t steps = in->report.steps;
+  const ali3_report before = in->report;
   ali3_vectors_copy(in, &in->origin, &in->now);
   ali3_status status = ali3_trial_step(in, t, h);
-  in->report.energy_error = energy_error;
+  ali3_books_back(&in->report, &before);
   ali3_vectors_copy(in, &in->coarse, &in->now);
   ali3_vectors_copy(in, &in->now, &in->origin);
   if (status == ALI3_OK) status = ali3_trial_step(in, t, 0.5 * h);
@@ -72,8 +70,8 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
     if (*error < 1e300) return ALI3_OK;
     status = ALI3_NOT_FINITE;
   }
-  in->report.energy_error = energy_error;
-  in->report.steps = steps;
+  ali3_books_back(&in->report, &before);
+  in->report.steps = before.steps;
   ali3_vectors_copy(in, &in->now, &in->origin);
   return status;
 }

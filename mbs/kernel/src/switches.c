@@ -69,6 +69,7 @@ ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
   }
   in->report.energy_jump = kinetic_energy(in) - before;
   memset(in->now.memory, 0, ALI3_MEMORY * sizeof(double));
+  ali3_books_open(in);
   return ALI3_OK;
 }
 

@@ -49,6 +49,7 @@ enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, O
 #define SLOW_SPEED 1e-5 /* m/s, added to the transport speed; small so that a parked car creeps by micrometres only */
 #define ROLL_SPEED 0.5 /* m/s, where effective radius and trail of the rolling tyre set in */
 #define NO_LOAD 1e-9 /* N */
+#define NO_GRIP 1e-6 /* of the reference friction */
 
 typedef struct {
   double load, friction; /* sums or load-weighted means of the contacts */
@@ -124,8 +125,8 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
   const double n[2] = {v[0] / (scale[0] * w), v[1] / (scale[1] * w)}, s = ali3_hypot(n[0], n[1]);
   double J[2][2], safe[2], offset[2], D[2], full[2];
   for (int i = 0; i < 2; i++) {
-    double slope;
-    const double g = q * ali3_tmeasy_secant(&t[i], s * scale[i], &slope) / w;
+    double slope, g = q * ali3_tmeasy_secant(&t[i], s * scale[i], &slope) / w;
+    if (!(grip > NO_GRIP)) g = slope = 0.0; /* else the slope of a grip of next to nothing would hold at rest */
     const double theta = ali3_theta(a->h, c[i] / (d[i] + g)), b = a->h * theta;
     offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c[i];

@@ -1,0 +1,25 @@
+"""The frames of a model as Python keeps them beside the arrays of the System."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from mbs.frames import Frames
+from mbs.model.model import Model
+
+
+def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64]) -> Frames:
+    """Frames of a model whose full coordinates are ``T q + constant``."""
+    points: list[int] = []
+    vectors: list[int] = []
+    scalars: list[int] = []
+    for i, coordinate in enumerate(model.coordinates):
+        if coordinate.kind in ("point", "vector"):
+            if coordinate.component == 0:
+                (points if coordinate.kind == "point" else vectors).append(i)
+        elif coordinate.kind in ("angle", "spin"):
+            scalars.append(i)
+    rigid = tuple(b.start for b in model.bodies if not (b.is_point or b.is_flexible))
+    return Frames(T, constant, model.dimension, tuple(points), tuple(vectors), rigid, tuple(scalars))

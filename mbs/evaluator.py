@@ -1,0 +1,113 @@
+"""Forces, accelerations, slot rates and constraint derivatives of the kernel near a state, as dense arrays."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import NDArray
+
+from mbs.simulation import Simulation
+
+Array = NDArray[np.float64]
+
+SHIFT = 1e-6  # of coordinates (m), velocities (m/s) and element states in the central differences
+RANK_TOLERANCE = 1e-9  # singular values of Phi_q below this share of the largest count as zero
+STATE_STEP = 1e-5  # s, of the element steps that give the rates of element states
+SHORT_STEP = 1e-9  # s, over which a state keeps its value
+
+
+class Evaluator:
+    """What linearisation needs of a simulation, whose state stays as it is.
+
+    Elements give steps of their slots, not rates: rates are the limit of short steps. A slot that does not remember
+    its value over a short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self.instance = simulation.instance
+        self.system = simulation.system
+        self.arrays = simulation.system.arrays
+        self.time = simulation.time
+        self.state = simulation.state
+        self.slots = [k for k in range(len(self.state.y)) if self._remembers(k)]
+
+    def mass(self, q: Array | None = None) -> Array:
+        """Mass matrix (nq, nq) at `q`, by default at the state."""
+        at = self.state.q if q is None else q
+        return np.reshape(self.instance.mass_matrix(at.tolist()), (len(at),) * 2)
+
+    def jacobian(self, q: Array) -> Array:
+        """Phi_q (nc, nq) of the stored rows at `q` (nq,)."""
+        return self._jacobian(self._evaluate(q, self.state.qd, self.state.y), len(q))
+
+    def constraints(self, q: Array, qd: Array, t: float | None = None) -> tuple[Array, Array, Array]:
+        """Phi (nc,), Phi_q (nc, nq) and the rate Phi_q qd + Phi_t (nc,) of the stored rows."""
+        values = self._evaluate(q, qd, self.state.y, t)
+        jacobian = self._jacobian(values, len(q))
+        return np.array(values["phi"]), jacobian, jacobian @ qd + np.array(values["phi_t"])
+
+    def rates(self, q: Array, qd: Array, y: Array) -> Array:
+        """Forces Q - M(q) qdd (nq,) and rates g of the states among the slots, in one vector."""
+        settled = self._settled(q, qd, y)
+        force = np.array(self._evaluate(q, qd, settled)["force"])
+        if len(self.arrays["flex_mode"]):
+            force -= self.mass(q) @ self.state.qdd
+        return np.concatenate([force, self._slot_rates(q, qd, settled)])
+
+    def motion(self, q: Array, qd: Array, t: float | None = None) -> Array:
+        """Accelerations (nq,) at `q`, `qd` with the slots of the state, and their rates, in one vector.
+
+        The accelerations solve ``M qdd + Phi_q' lam = Q`` and ``Phi_q qdd = -gamma`` by the null space of Phi_q.
+        """
+        settled = self._settled(q, qd, self.state.y)
+        values = self._evaluate(q, qd, settled, t)
+        M = self.mass(q)
+        root = np.sqrt(np.where(M.diagonal() > 0.0, M.diagonal(), M.diagonal().mean()))
+        jacobian, M = self._jacobian(values, len(q)) / root, M / root / root[:, None]  # of coordinates of one size
+        Z = scipy.linalg.null_space(jacobian, rcond=RANK_TOLERANCE) if len(jacobian) else np.eye(len(q))
+        held = np.linalg.lstsq(jacobian, -np.array(values["gamma"]), rcond=RANK_TOLERANCE)[0]
+        free = np.linalg.solve(Z.T @ M @ Z, Z.T @ (np.array(values["force"]) / root - M @ held))
+        acceleration = (held + Z @ free) / root
+        return np.concatenate([acceleration, self._slot_rates(q, qd, settled)])
+
+    def admissible(self, q: Array, qd: Array) -> tuple[Array, Array]:
+        """The place and velocity near `q`, `qd` that satisfy the rows, by Newton's iteration of least change."""
+        rolling = self.arrays["velocity_row"]
+        for _ in range(8):
+            phi, jacobian, _ = self.constraints(q, qd)
+            phi, jacobian = np.delete(phi, rolling), np.delete(jacobian, rolling, axis=0)
+            q = q - np.linalg.lstsq(jacobian, phi, rcond=RANK_TOLERANCE)[0]
+        _, jacobian, rate = self.constraints(q, qd)
+        return q, qd - np.linalg.lstsq(jacobian, rate, rcond=RANK_TOLERANCE)[0]
+
+    def _settled(self, q: Array, qd: Array, y: Array) -> Array:
+        settled = self._element_step(q, qd, y, SHORT_STEP)
+        settled[self.slots] = y[self.slots]
+        return settled
+
+    def _slot_rates(self, q: Array, qd: Array, settled: Array) -> Array:
+        whole = (self._element_step(q, qd, settled, STATE_STEP) - settled) / STATE_STEP
+        half = (self._element_step(q, qd, settled, STATE_STEP / 2) - settled) / (STATE_STEP / 2)
+        rates: Array = (2.0 * half - whole)[self.slots]  # without the first-order error of the steps
+        return rates
+
+    def _evaluate(self, q: Array, qd: Array, y: Array, t: float | None = None) -> dict[str, Any]:
+        return self.instance.evaluate(q.tolist(), qd.tolist(), y.tolist(), self.time if t is None else t)
+
+    def _jacobian(self, values: dict[str, Any], columns: int) -> Array:
+        ptr, col = self.arrays["row_ptr"], self.arrays["row_col"]
+        matrix = np.zeros((len(ptr) - 1, columns))
+        matrix[np.repeat(np.arange(len(ptr) - 1), np.diff(ptr)), col] = np.array(values["jacobian"])
+        return matrix
+
+    def _remembers(self, k: int) -> bool:
+        s = self.state
+        shift = SHIFT * np.eye(len(s.y))[k]
+        ahead = self._element_step(s.q, s.qd, s.y + shift, SHORT_STEP)
+        behind = self._element_step(s.q, s.qd, s.y - shift, SHORT_STEP)
+        return bool(ahead[k] - behind[k] > SHIFT)
+
+    def _element_step(self, q: Array, qd: Array, y: Array, h: float) -> Array:
+        return np.array(self.instance.element_step(q.tolist(), qd.tolist(), y.tolist(), h)[0])

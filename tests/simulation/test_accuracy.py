@@ -1,0 +1,248 @@
+"""What a run finds out about its own error: warnings with numbers, repeats of suspects only, and nothing at rest."""
+
+from __future__ import annotations
+
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+import mbs
+from benchmarks.cases import CASES, exact_of, system_of
+from benchmarks.honesty_scenes import CRANK_ANGLE, SCENES, printed_model
+from mbs import AccuracyWarning, Model, Pose, Settings, Simulation, SimulationError, compile, simulate
+from mbs import simulation as stepping
+from mbs.accuracy import Accuracy, divisor, judged_sensors
+from mbs.scenes import prototype_car
+
+TORQUE = {"torque": 4.0}
+QUIET = {"progress": False}
+
+
+@pytest.fixture
+def starts(monkeypatch):
+    """Keyword arguments of every Simulation that is made."""
+    made = []
+    original = Simulation.__init__
+
+    def note(self, system, **more):
+        made.append(more)
+        original(self, system, **more)
+
+    monkeypatch.setattr(Simulation, "__init__", note)
+    return made
+
+
+def oscillator():
+    """A mass on a spring from a parameter, pushed by an input, free to start anywhere."""
+    m = Model("oscillator", dimension=2, gravity=(0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(1.0, 0.0))
+    spring = m.spring_damper(
+        "spring", (m.ground, (0.0, 0.0)), (mass, None), stiffness=100.0, damping=0.0, free_length=0.9
+    )
+    m.parameter("stiffness", 100.0, 1.0, 1e4, "N/m", targets=[(spring, "stiffness", 1.0)])
+    m.point_on_line("rail", (mass, None), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
+    push = m.input("push", min=-50.0, max=50.0, unit="N")
+    m.force("push", mass, inputs=[push, None])
+    m.sense_position("x", mass, None, "x")
+    return compile(m)
+
+
+class TestThePrintedModel:
+    def test_it_warns_with_numbers_and_a_remedy(self):
+        with pytest.warns(AccuracyWarning, match=r"J of work, .* % of the .* J in the motion") as caught:
+            run = simulate(printed_model(), 2.0, 1e-3, TORQUE, **QUIET)
+        assert len(caught) == 1
+        text = str(caught[0].message)
+        assert caught[0].filename == __file__
+        assert text == run.accuracy.message
+        step = float(re.search(r"Steps of (\S+) s or less", text)[1])
+        assert 1e-6 < step < 1e-4
+        assert "'runge_kutta_8'" in text
+        assert run.accuracy.energy_balance > 0.04
+        assert "energy balance open by" in repr(run)
+        assert "halvings a step" in str(run)
+
+    @pytest.mark.parametrize("h", [2e-3, 2.5e-4])
+    def test_all_steps_that_end_wrong_warn(self, h):
+        with pytest.warns(AccuracyWarning):
+            simulate(printed_model(), 2.0, h, TORQUE, every=100, **QUIET)
+
+    def test_the_method_that_the_warning_names_is_right_and_quiet(self):
+        run = simulate(printed_model(), 2.0, 2.5e-4, TORQUE, method="runge_kutta_8", **QUIET)
+        assert run["crank.angle"][-1] == pytest.approx(CRANK_ANGLE, abs=1e-3)
+        assert run.accuracy.message == ""
+
+    def test_the_error_told_is_the_error(self):
+        with pytest.warns(AccuracyWarning, match=r"'piston.x' by 0\.\d+ m of 0.2 m"):
+            run = simulate(printed_model(), 2.0, 6.25e-5, TORQUE, estimate_error=True, **QUIET)
+        assert run.accuracy.sensors["crank.angle"] == pytest.approx(CRANK_ANGLE - run["crank.angle"][-1], rel=0.3)
+        assert run.accuracy.repeated_with == pytest.approx(3.125e-5)
+        assert 1.5 < run.accuracy.order <= 2.0
+        assert "% of the range in rad" in repr(run)
+
+    def test_false_checks_nothing(self, starts):
+        run = simulate(printed_model(), 2.0, 1e-3, TORQUE, estimate_error=False, **QUIET)
+        assert len(starts) == 1
+        assert run.accuracy.message == ""
+        assert run.accuracy.energy_balance > 0.04  # what is free is there all the same
+
+
+class TestRepeats:
+    def test_a_right_run_is_made_once(self, starts):
+        run = simulate(system_of("pendulum"), 10.0, 0.01, **QUIET)
+        assert len(starts) == 1
+        assert run.accuracy.repeated_with is None
+        assert run.accuracy.error is None
+        assert run.accuracy.message == ""
+
+    @pytest.mark.parametrize(
+        ("scene", "h"), [("pendulum", 0.02), ("double_four_bar", 0.01), ("spatial_chain", 0.01), ("bricard", 0.1)]
+    )
+    def test_the_estimate_is_within_a_factor_of_two_of_the_error(self, scene, h):
+        case = CASES[scene]
+        every = round(case.end / 50 / h)
+        run = simulate(system_of(scene), case.end, h, every=every, estimate_error=True, **QUIET)
+        error = max(np.abs(run[s] - x).max() for s, x in zip(case.sensors, exact_of(scene).T, strict=True))
+        assert 0.5 < max(run.accuracy.sensors[s] for s in case.sensors) / error < 2.0
+        assert run.accuracy.message == ""
+
+    def test_what_is_halved_inside_is_repeated_with_less_than_its_parts(self):
+        """The governor at 0.2 s halves to the steps that 0.05 s makes: a plain half would differ by nothing."""
+        assert divisor(100, 0) == 2
+        assert divisor(100, 100) == 4
+        assert divisor(100, 1500) == 32
+        with pytest.warns(AccuracyWarning) as caught:
+            run = simulate(system_of("flyball"), 10.0, 0.2, estimate_error=True, **QUIET)
+        assert run.accuracy.halvings_per_step > 0.1
+        assert run.accuracy.repeated_with < 0.1
+        assert run.accuracy.error > 0.05
+        assert len(caught) == 1
+
+    @pytest.mark.parametrize(
+        "more",
+        [
+            {"parameters": {"stiffness": 400.0}},
+            {"inputs": {"push": lambda t: 20.0 * np.sin(7.0 * t)}},
+            {"inputs": {"push": ([0.0, 1.0, 1.0, 4.0], [0.0, 0.0, 30.0, -30.0])}},
+            {"inputs": {"push": lambda t: 20.0 * np.sin(7.0 * t)}, "t0": 1.0},
+            {"settings": Settings(tolerance_r=1e-12), "method": "ali3p_generalised_alpha"},
+            {"every": 7},
+        ],
+    )
+    def test_it_is_the_same_run_but_for_the_step(self, more, starts):
+        """What a repeat did not get would show as an error a hundred times as large."""
+        system = oscillator()
+        run = simulate(system, 3.0, 0.001, estimate_error=True, **{"every": 1} | more, **QUIET)
+        assert run.accuracy.error < 5e-3
+        assert len(starts) == 2
+        assert starts[0] == starts[1]
+
+    def test_a_pose_goes_along(self, starts):
+        system = compile(prototype_car.build())
+        run = simulate(
+            system, 0.5, 0.01, {"throttle": 0.3}, pose=Pose(x=5.0, yaw=0.5, speed=12.0), estimate_error=True, **QUIET
+        )
+        assert starts[0]["pose"] == starts[1]["pose"]
+        assert run.accuracy.units["m"] < 1e-4
+
+    def test_a_run_at_rest_has_nothing_to_judge(self):
+        m = Model("hanging", dimension=2)
+        bar = m.body("bar", mass=1.0, com=(0.0, -1.0), inertia=0.1)
+        m.revolute("hinge", m.ground, bar, point=(0.0, 0.0))
+        m.sense_position("x", bar, None, "x")
+        m.sense_position("y", bar, None, "y")
+        for method in ("ali3p", "energy_momentum", "runge_kutta_8", "radau_5"):
+            run = simulate(compile(m), 5.0, 0.05, method=method, estimate_error=True, **QUIET)
+            assert run.accuracy.units == {}
+            assert run.accuracy.message == ""
+
+    def test_the_braked_car_stands_without_a_word(self):
+        run = simulate(compile(prototype_car.build()), 5.0, 0.05, {"brake": 1.0}, estimate_error=True, **QUIET)
+        assert run.accuracy.message == ""
+
+    def test_without_sensors_the_coordinates_are_judged(self):
+        m = Model("silent", dimension=2)
+        bar = m.body("bar", mass=1.0, com=(1.0, 0.0), inertia=0.1)
+        m.revolute("hinge", m.ground, bar, point=(0.0, 0.0))
+        run = simulate(compile(m), 5.0, 0.01, estimate_error=True, **QUIET)
+        assert set(run.accuracy.units) == {"1"}
+        assert 0.0 < run.accuracy.error < 0.01
+        with pytest.warns(AccuracyWarning, match="coordinate '"):
+            simulate(compile(m), 20.0, 0.05, estimate_error=True, **QUIET)
+
+    def test_a_repeat_that_is_refused_is_told(self, monkeypatch):
+        march = Simulation._march
+
+        def refuse(self, t_end, h, *more):
+            if h < 0.01:
+                raise SimulationError("it fell apart", 0.5, 7)
+            return march(self, t_end, h, *more)
+
+        monkeypatch.setattr(stepping.Simulation, "_march", refuse)
+        with pytest.warns(AccuracyWarning, match="repeat with steps of 0.005 s was refused.*fell apart"):
+            simulate(system_of("pendulum"), 1.0, 0.01, estimate_error=True, **QUIET)
+
+    def test_the_bar_covers_the_repeat(self):
+        shares: list[float] = []
+        simulate(system_of("pendulum"), 2.0, 0.01, estimate_error=True, progress=shares.append)
+        assert shares == sorted(shares)
+        assert shares[-1] == 1.0
+        assert any(0.3 < s < 0.34 for s in shares)
+
+
+def test_the_tumbling_body_turns_over_at_wrong_times_and_says_so():
+    for h in (0.01, 0.005, 0.0025):
+        with pytest.warns(AccuracyWarning, match="off by"):
+            SCENES["tumbling_body"].run("ali3p", h)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        fine = SCENES["tumbling_body"].run("ali3p", 0.0002)
+    assert SCENES["tumbling_body"].error(fine)[0] < 0.01
+
+
+def test_what_jumps_is_not_judged():
+    names = judged_sensors(compile(prototype_car.build()))
+    assert set(names) == {"m", "N"}
+    judged = {n for group in names.values() for n in group}
+    assert {"chassis.x", "wheel_FL.Fz", "wheel_FL.travel"} <= judged
+    assert not {"chassis.yaw", "gear", "energy.total", "chassis.ax", "wheel_FL.omega", "solver.violation"} & judged
+
+
+class TestByHand:
+    def test_steps_warn_once_from_the_balance(self):
+        simulation = Simulation(printed_model(), inputs=TORQUE)
+        with pytest.warns(AccuracyWarning, match="J of work") as caught:
+            simulation.step(5e-4, 4000)
+        assert len(caught) == 1
+        assert caught[0].filename == __file__
+        simulation.step(5e-4, 10)  # warnings are errors here
+
+    def test_a_run_warns_once_and_carries_the_balance(self):
+        simulation = Simulation(printed_model(), inputs=TORQUE)
+        with pytest.warns(AccuracyWarning) as caught:
+            first = simulation.run(1.5, 5e-4, progress=False)
+        assert len(caught) == 1
+        simulation.run(2.0, 5e-4, progress=False)  # warnings are errors here
+        assert first.accuracy.energy_balance == first.report.energy_balance
+        assert first.accuracy.repeated_with is None
+
+    def test_a_right_motion_is_quiet(self):
+        simulation = Simulation(system_of("double_four_bar"))
+        simulation.step(0.01, 1000)
+        assert simulation.report.energy_balance < 0.04
+
+
+def test_a_refused_run_carries_what_was_known():
+    with pytest.raises(SimulationError) as caught:
+        simulate(system_of("cart_pole"), 0.6, 1e-3, **QUIET)
+    accuracy = caught.value.trajectory.accuracy
+    assert isinstance(accuracy, Accuracy)
+    assert accuracy.energy_balance < 0.02
+    assert accuracy.halvings_per_step > 0.0
+
+
+def test_the_kinds_of_error_are_public():
+    assert issubclass(mbs.AccuracyWarning, UserWarning)
+    assert {"Accuracy", "AccuracyWarning"} <= set(mbs.__all__)

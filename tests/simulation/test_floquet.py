@@ -1,0 +1,73 @@
+"""Floquet multipliers against the reduced equation of a shaken pendulum and against a steady motion."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import PPoly
+
+from mbs import Model, Settings, Simulation, compile, floquet, linearise
+
+GRAVITY = 9.81
+
+
+def test_a_steady_motion_has_the_multipliers_of_its_eigenvalues():
+    angle, length = 0.7, 1.5
+    rate = np.sqrt(GRAVITY / (length * np.cos(angle)))
+    m = Model("conical pendulum", dimension=3)
+    bob = m.point_mass("bob", mass=1.0, position=(length * np.sin(angle), 0.0, -length * np.cos(angle)))
+    m.distance("rod", (m.ground, (0.0, 0.0, 0.0)), bob)
+    m.initial_velocity(bob, linear=(0.0, rate * length * np.sin(angle), 0.0))
+    simulation = Simulation(compile(m), settings=Settings(method="radau_5"))
+    before = simulation.save()
+    period = 2.0 * np.pi / rate
+    found = floquet(simulation, period, 0.01).multipliers
+    expected = [np.exp(mode.eigenvalue * period) for mode in linearise(simulation).oscillating_modes()]
+    assert len(expected) == 1
+    assert np.abs(found - expected[0]).min() < 1e-4
+    assert np.sum(np.abs(found - 1.0) < 1e-3) == 2  # a later start, a turned plane
+    assert simulation.save() == before
+
+
+@pytest.mark.parametrize("amplitude", [0.02, 0.25], ids=["stable", "unstable"])
+def test_a_shaken_pendulum_has_the_multipliers_of_its_reduced_equation(amplitude):
+    """Pivot at a piecewise quintic height s(t): theta'' = -(g + s'') sin(theta); about theta = 0."""
+    omega, length = 6.0, 1.0
+    period = 2.0 * np.pi / omega
+    t = np.linspace(0.0, 2.0 * period, 41)
+    shape = PPoly.from_bernstein_basis(_quintic(t, amplitude, omega))
+    m = Model("shaken pendulum", dimension=2)
+    pivot = m.point_mass("pivot", mass=1.0, position=(0.0, 0.0))
+    bob = m.point_mass("bob", mass=1.0, position=(0.0, -length))
+    m.point_on_line("rail", (pivot, None), (m.ground, (0.0, 0.0)), axis=(0.0, 1.0))
+    m.drive("shaker", pivot.point()[1], m.guide_time("height", shape, unit="m"))
+    m.distance("rod", pivot, bob)
+    simulation = Simulation(compile(m), settings=Settings(method="radau_5"))
+    found = floquet(simulation, period, period / 100)
+
+    second = shape.derivative(2)
+
+    def rate(time, x):
+        return [x[1], -(GRAVITY + second(time)) * x[0] / length]
+
+    ends = [solve_ivp(rate, (0.0, period), x, rtol=1e-11, atol=1e-13, max_step=0.01).y[:, -1] for x in np.eye(2)]
+    expected = np.linalg.eigvals(np.array(ends).T)
+    np.testing.assert_allclose(sorted(np.abs(found.multipliers)), sorted(np.abs(expected)), rtol=1e-4)
+    assert (np.abs(found.multipliers).max() > 1.01) == (amplitude > 0.1)
+
+
+def _quintic(t, amplitude, omega):
+    from scipy.interpolate import BPoly
+
+    c, s = np.cos(omega * t), np.sin(omega * t)
+    values = amplitude * np.column_stack([c - 1.0, -omega * s, -(omega**2) * c])
+    return BPoly.from_derivatives(t, values)
+
+
+def test_a_motion_that_does_not_come_back_is_refused():
+    m = Model("pendulum", dimension=2)
+    bob = m.point_mass("bob", mass=1.0, position=(1.0, 0.0))
+    m.distance("rod", (m.ground, (0.0, 0.0)), bob)
+    with pytest.raises(ValueError, match="from where it began"):
+        floquet(Simulation(compile(m)), 1.0, 0.01)
