@@ -2,8 +2,8 @@
 
 Every scene of the charts at several tolerances by every method that may be chosen, and by the choice itself: error
 reached over the tolerance, processor time of all that `simulate` did, and that of the choice over that of the best
-method that kept its error within ten tolerances. The last table holds the misses: a choice that took more than twice the
-best, or an error beyond ten tolerances without a warning.
+method that kept its error within ten tolerances. The last table holds the misses: a choice that took more than twice
+the best, or an error beyond ten tolerances without a warning.
 """
 
 from __future__ import annotations

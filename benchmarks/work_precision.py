@@ -24,7 +24,7 @@ from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table
 from benchmarks.kernel_methods import TITLES, all_settings, controlled, suits
 from benchmarks.work_precision_chart import draw
-from mbs.controlled_run import ControlledRun, Stalled, Task
+from mbs.controlled_run import ControlledRun, StalledError, Task
 from mbs.kernel.binding import KernelError
 from mbs.method_choice import ORDERS
 
@@ -89,7 +89,7 @@ def controlled_action(scene: str, method: str, tolerance: float) -> Action:
         run = ControlledRun(mbs.Simulation(system, settings=settings), task, settings, tolerance)
         try:
             run.finish(lambda share: None)
-        except (KernelError, Stalled):
+        except (KernelError, StalledError):
             return 0.0, {"ended": f"refused at {run.simulation.time:.4g} s"}
         report = run.simulation.report
         error = float(np.linalg.norm(run.values[:, columns] - exact_of(scene)[1:], axis=1).max())

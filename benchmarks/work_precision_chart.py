@@ -77,5 +77,9 @@ def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) ->
     axes[0].set_ylabel(f"largest error of the output point, {case.unit}")
     handles = {label: handle for ax in axes for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="outside right center", fontsize=7.5, frameon=False)
-    figure.suptitle(f"{case.title}   (solid: kernel, C, equal steps; dash-dotted: to a tolerance; dotted: Python; dashed: other engines, C++)", fontsize=10)
+    figure.suptitle(
+        f"{case.title}   (solid: kernel, C, equal steps; dash-dotted: to a tolerance; dotted: Python; "
+        "dashed: other engines, C++)",
+        fontsize=10,
+    )
     save_chart(figure, file)

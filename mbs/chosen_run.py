@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.accuracy import AccuracyWarning
 from mbs.control import ALLOWED, Control
-from mbs.controlled_run import ControlledRun, Stalled, Task, length_of
+from mbs.controlled_run import ControlledRun, StalledError, Task, length_of
+from mbs.errors import SimulationError
 from mbs.input_signals import Signal
 from mbs.kernel.binding import NOT_CONVERGED, KernelError
 from mbs.method_choice import choose
 from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
-from mbs.simulation import Simulation, SimulationError, check_end
+from mbs.simulation import Simulation, check_end
 from mbs.step_choice import StepChoice, choose_step
 from mbs.trajectory import Trajectory
 
@@ -70,7 +71,7 @@ def to_tolerance(
         made = ControlledRun(start(), task, settings, aim)
         try:
             made = _whole(made, bar, min(0.5, 0.3 * number), times, first)
-        except (Stalled, SimulationError):
+        except (StalledError, SimulationError):
             wall += made.wall
             if run is None:
                 raise
@@ -153,7 +154,9 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
     if not (np.all(np.isfinite(wanted)) and np.all(np.diff(wanted) > 0.0)):
         raise ValueError("The times must be finite numbers that ascend.")
     if len(wanted) and not (wanted[0] >= t0 and wanted[-1] <= t_end):
-        raise ValueError(f"The times must lie between {t0:g} and {t_end:g} s; they go from {wanted[0]:g} to {wanted[-1]:g}.")
+        raise ValueError(
+            f"The times must lie between {t0:g} and {t_end:g} s; they go from {wanted[0]:g} to {wanted[-1]:g}."
+        )
     return np.concatenate([[t0], wanted[wanted > t0]])
 
 
@@ -162,7 +165,7 @@ def _whole(run: ControlledRun, bar: Progress, from_share: float, times: Array, f
         run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
     except KernelError as error:
         raise _refused(run, times, first, error) from error
-    except Stalled:
+    except StalledError:
         raise _stalled(run, times, first) from None
     return run
 
@@ -178,8 +181,8 @@ def _stalled(run: ControlledRun, times: Array, first: Simulation) -> SimulationE
     time = run.simulation.time
     return SimulationError(
         f"A tolerance of {run.tolerance:g} cannot be held by {run.settings.method!r}: until t = {time:g} s "
-        f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share, as short as "
-        f"{run.fields.smallest:.1e} s; a larger tolerance or another method will do.",
+        f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share, as short "
+        f"as {run.fields.smallest:.1e} s; a larger tolerance or another method will do.",
         time,
         NOT_CONVERGED,
         _so_far(run, times, first),

@@ -26,8 +26,8 @@ class Control:
     reason : str
         Why this method; empty where the caller named it.
     error : float
-        Estimated largest error of positions over the run in parts of `length`, from this run and a coarser one; NaN where
-        the step was given: nothing was estimated.
+        Estimated largest error of positions over the run in parts of `length`, from this run and a coarser one; NaN
+        where the step was given: nothing was estimated.
     h : float or None
         The fixed step, s; None: steps under error control.
     steps, rejected, failed : int

@@ -58,7 +58,7 @@ class Task:
         return [*sorted(inside), self.t_end]
 
 
-class Stalled(RuntimeError):
+class StalledError(RuntimeError):
     """Steps err more than they may however short they are: round-off is reached."""
 
 
@@ -124,7 +124,7 @@ class ControlledRun:
         ------
         KernelError
             When a step fails as short as it may be.
-        Stalled
+        StalledError
             When many steps err more than they may, as short as they may be.
         """
         instance, task = self.simulation.instance, self.task
@@ -150,7 +150,7 @@ class ControlledRun:
                 if c.forced > max(MOST_FORCED, MOST_FORCED_SHARE * c.accepted) or c.kept > max(
                     MOST_KEPT, MOST_KEPT_SHARE * c.accepted
                 ):
-                    raise Stalled
+                    raise StalledError
         finally:
             self.wall += time.perf_counter() - begin
             instance.set_input_function(None)

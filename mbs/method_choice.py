@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbs.controlled_run import ControlledRun, Stalled, Task
+from mbs.controlled_run import ControlledRun, StalledError, Task
+from mbs.errors import SimulationError
 from mbs.kernel.binding import NOT_CONVERGED, KernelError
 from mbs.settings import Settings
-from mbs.simulation import Simulation, SimulationError
+from mbs.simulation import Simulation
 from mbs.system import System
 
 ORDERS = {
@@ -68,9 +68,7 @@ def cost(method: str) -> float:
     return 0.2 if method.startswith("semi_recursive") else 1.0
 
 
-def choose(
-    start: Callable[[], Simulation], task: Task, settings: Settings, tolerance: float, coarse: float
-) -> Choice:
+def choose(start: Callable[[], Simulation], task: Task, settings: Settings, tolerance: float, coarse: float) -> Choice:
     """The method for a tolerance, by runs of all candidates at a coarse one, each as long as it can still win."""
     system = start().system
     names, what = candidates(system, tolerance)
@@ -105,7 +103,7 @@ def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:
             while name not in failed and not run.finished and run.work * price[name] < budget:
                 try:
                     run.advance(1 + int(STEPS * budget / price[name]))
-                except (KernelError, Stalled):
+                except (KernelError, StalledError):
                     failed.add(name)
         ended = [run.work * price[name] for name, run in runs.items() if run.finished]
         if ended:

@@ -442,8 +442,8 @@ def simulate(
         checks nothing. Functions among `inputs` are called anew in a repeat, so they must depend on time alone.
     tolerance : float, optional
         Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
-        the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then chosen
-        by the kernel, the error is estimated by a second run, and `Trajectory.control` says what was done.
+        the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
+        chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` says what was done.
     times : array_like, optional
         Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
 
@@ -501,7 +501,9 @@ def simulate(
     if every < 1:
         raise ValueError(f"every = {every}; it must be at least 1.")
     if wanted is None:
-        run = chosen_run.equal_steps(start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress)
+        run = chosen_run.equal_steps(
+            start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress
+        )
         _warn_of(run)
         return run
     with progress_for(progress) as bar:

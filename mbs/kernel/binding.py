@@ -421,9 +421,7 @@ class Instance:
         table = (InputTable * len(rows))(*rows)
         context = InputTables(tolerance, len(rows), table)
         address = ctypes.cast(self._library.ali3_input_of_tables, c_void_p)
-        self._check(
-            self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p))
-        )
+        self._check(self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p)))
         self._inputs = (context, table, kept)
 
     def set_parameter(self, index: int, value: float) -> None:

@@ -55,8 +55,13 @@ def test_a_run_in_parts_is_the_run(method: str) -> None:
 
 @pytest.mark.parametrize(
     ("method", "order", "loose", "tight"),
-    [("ali3p", 2, 1e-2, 1e-4), ("energy_momentum", 2, 1e-2, 1e-4), ("radau_5", 5, 1e-3, 1e-7), ("runge_kutta_8", 8, 1e-5, 1e-10)],
-)  # fmt: skip
+    [
+        ("ali3p", 2, 1e-2, 1e-4),
+        ("energy_momentum", 2, 1e-2, 1e-4),
+        ("radau_5", 5, 1e-3, 1e-7),
+        ("runge_kutta_8", 8, 1e-5, 1e-10),
+    ],
+)
 def test_the_number_of_steps_goes_with_the_order(method: str, order: int, loose: float, tight: float) -> None:
     counts = []
     for tolerance in (loose, tight):

@@ -56,8 +56,7 @@ ali3_status ali3_refresh(ali3_instance *in) {
   ali3_vectors_copy(in, &in->start, &in->now);
   ali3_guides_time(in, &in->now, in->t_now);
   ali3_status status = ali3_inputs_begin(in, in->t_now, 0.0);
-  if (in->input_function != NULL)
-    memcpy(in->input, in->input_begin, (size_t)in->system->size.nu * sizeof(double));
+  if (in->input_function != NULL) memcpy(in->input, in->input_begin, (size_t)in->system->size.nu * sizeof(double));
   if (status == ALI3_OK) status = ali3_solve_rates(in, false);
   if (status != ALI3_OK) {
     ali3_vectors_copy(in, &in->now, &in->start);

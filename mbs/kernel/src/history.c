@@ -73,7 +73,8 @@ bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   const int32_t nq = in->system->size.nq;
   const double *memory = in->now.memory, *time = memory + ALI3_MEMORY_TIME, *a = in->now.past_a;
   double weight[ALI3_PAST], error = 0.0, change = 0.0;
-  if (!(memory[ALI3_MEMORY_COUNT] > (double)n && h < (in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]))) return false;
+  if (!(memory[ALI3_MEMORY_COUNT] > (double)n && h < (in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1])))
+    return false;
   lagrange(time + 1, n, time[0], weight);
   for (int32_t i = 0; i < nq; i++) {
     const double m = in->system->mass_floor[i], one = a[i] - a[nq + i];
