@@ -472,7 +472,7 @@ def simulate(
     settings = settings or Settings()
     named = method is not None or settings.method != Settings().method
     chosen = method if method is not None else settings.method if named or wanted is None else "auto"
-    if chosen != "auto":
+    if chosen not in ("auto", settings.method):
         settings = replace(settings, method=chosen)
     given = inputs or {}
     signals = InputSignals(given, system.meta["inputs"])
