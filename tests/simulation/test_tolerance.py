@@ -140,7 +140,7 @@ def test_a_kerb_is_run_down_with_the_loads_of_short_steps() -> None:
     run = mbs.simulate(system, 2.5, 0.01, *given, pose=pose, progress=False, tolerance=1e-3)
     assert run.control is not None
     assert run.control.method == "ali3p"
-    assert run.control.largest > 0.05  # before the kerb
+    assert 0.02 < run.control.largest < 0.06  # before the kerb: a twentieth of the length at 5 m/s
     assert np.abs(run["chassis.z"] - fine["chassis.z"]).max() < 1e-3 * run.control.length
     load_ = "wheel_FL.Fz"
     assert np.abs(run[load_] - fine[load_]).max() < 5e-3 * np.ptp(fine[load_])

@@ -21,6 +21,7 @@ enum { KICKS = 2 };                         /* so often in one step */
 static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
 static const double FIRST = 1e-3;       /* of the span: first step where none is given */
+static const double ON_A_ROAD = 0.05;   /* lengths on the way in a step: bumps between two looks are not seen */
 static const double LEAST_ERROR = 1e-4; /* parts of what a step may err: below, errors are round-off */
 
 static bool valid(const ali3_control *c) {
@@ -151,11 +152,13 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
   ali3_control *c = measure->control;
   const int32_t order = ali3_order(in->settings.method);
   const double least = shortest(in, measure, t, SHORTEST), end_of_tries = shortest(in, measure, t, SHORTEST_TRIED);
+  const bool roads = in->system->nr > 0;
+  const double longest = roads ? fmin(c->longest, ON_A_ROAD / ali3_rate(in, measure)) : c->longest;
   tries seen = {0};
   for (;;) {
     double error = 0.0;
     const ali3_report before = in->report;
-    const double size = fmin(c->h, c->longest), tried = fitted(size, end - t);
+    const double size = fmin(c->h, longest), tried = fitted(size, end - t);
     const ali3_status status = ali3_step_doubling(in, measure, t, tried, &error);
     *h = tried;
     if (status == ALI3_BAD_ARGUMENT) return status;
