@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from mbs.affine import Affine, AffineVector
+from mbs.branch_warning import BranchWarning
 from mbs.compile import compile
 from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
@@ -46,6 +47,7 @@ __all__ = [
     "AffineVector",
     "Control",
     "FloquetModel",
+    "BranchWarning",
     "LinearModel",
     "LinearisationWarning",
     "Model",

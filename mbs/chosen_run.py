@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.accuracy import AccuracyWarning
+from mbs.branch_warning import BranchWarning
 from mbs.control import ALLOWED, Control
 from mbs.controlled_run import ControlledRun, StalledError, Task, length_of
 from mbs.errors import SimulationError
@@ -90,6 +91,8 @@ def to_tolerance(
         c.smallest, c.largest, c.side_steps, runs,
     )  # fmt: skip
     _warn(control)
+    if run.simulation.branch_change:
+        warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=3)
     values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(grid, times[1:])]])
     return _trajectory(run.simulation, times, values, control, wall, run.settings)
 

@@ -38,6 +38,13 @@ class Report:
     speed_peak, velocity_path, predictor_path : float
         In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity, and the sum over the
         steps of what the velocity is off ``v + h a`` of their start.
+    branch_changes : int
+        Changes of the assembly mode of closed loops.
+    branch_time : float
+        Of the first one, s.
+    branch_kind : int
+        Of the first one: 1 a loop went through a dead centre, or another position, into a mode that is not its own; 2 a
+        step jumped.
     """
 
     steps: int
@@ -60,6 +67,9 @@ class Report:
     speed_peak: float = 0.0
     velocity_path: float = 0.0
     predictor_path: float = 0.0
+    branch_changes: int = 0
+    branch_time: float = 0.0
+    branch_kind: int = 0
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:

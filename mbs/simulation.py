@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs import accuracy, repeat
 from mbs.accuracy import AccuracyWarning
+from mbs.branch_warning import BranchWarning
 from mbs.control import checked_tolerance
 from mbs.errors import SimulationError
 from mbs.input_signals import InputSignals, Signal, unit_text
@@ -129,6 +130,11 @@ class Simulation:
     def report(self) -> Report:
         """Counters since the start and residuals of the last step."""
         return Report.from_kernel(self.instance.report())
+
+    @property
+    def branch_change(self) -> str:
+        """A sentence about the first change of the assembly mode of a closed loop since the start; empty: none."""
+        return self.instance.branch_text()
 
     @property
     def state(self) -> State:
@@ -463,6 +469,8 @@ def simulate(
         When constraint forces did more than 4 % of the work in the motion, or the repeat says that positions, lengths,
         angles or forces of elements are off by more than 5 % of the largest range in their unit; with a tolerance, when
         the error is estimated to be more than ten times that.
+    BranchWarning
+        When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
     if h is not None:
         _check_step(h)
@@ -523,15 +531,23 @@ def _equal_steps(
 ) -> Trajectory:
     """A run in steps of h, with a repeat where its accuracy asks for one."""
 
-    def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
-        return start(step)._march(t_end, step, inputs, every, progress, look)
+    made: list[Simulation] = []
 
-    look = estimate_error is not False and not accuracy.has_motion_sensor(system)
-    with progress_for(progress) as bar:
-        first = 1.0 / 3.0 if estimate_error else 1.0
-        run = march(h, every, lambda share: bar.update(first * share), look)
-        if estimate_error is not False:
-            run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+    def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
+        simulation = start(step)
+        made.append(simulation)
+        return simulation._march(t_end, step, inputs, every, progress, look)
+
+    try:
+        look = estimate_error is not False and not accuracy.has_motion_sensor(system)
+        with progress_for(progress) as bar:
+            first = 1.0 / 3.0 if estimate_error else 1.0
+            run = march(h, every, lambda share: bar.update(first * share), look)
+            if estimate_error is not False:
+                run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+    finally:  # of the run that was asked for, also when it failed
+        if made and made[0].branch_change:
+            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
     return run[0]
 
 

@@ -28,6 +28,7 @@ sig_val sig_const el_real input_start input_min input_max guide_real road_real p
 sen_real pose_0 pose_cos pose_sin pose_x pose_y pose_z pose_speed
 velocity_h flex_gravity flex_P flex_c flex_T flex_K flex_C
 tree_base tree_mass tree_centre tree_inertia tree_gravity tree_out_local tree_cut_place
+static_value
 """
 _INTEGER_NAMES = """
 mass_ptr mass_col mass_pos row_ptr row_col row_front row_loc quad_ptr quad_a quad_b angle_row angle_theta angle_ptr
@@ -37,9 +38,13 @@ el_loc_ptr el_loc guide_type guide_input guide_real_ptr road_type road_real_ptr 
 sen_int_ptr sen_int sen_real_ptr row_switch switch_start velocity_row velocity_ptr velocity_a velocity_b
 flex_mode_ptr flex_frame flex_mode flex_front flex_loc
 tree_parent tree_slides tree_frame tree_out_body tree_out_col tree_cut_body tree_cut_rows
+mode_triad_ptr mode_triad mode_cell_ptr mode_cell mode_name_ptr mode_name
+static_start static_par pose_partner
 """
 FLOATS = frozenset(_FLOAT_NAMES.split())
 INTEGERS = frozenset(_INTEGER_NAMES.split())
+OPTIONAL = frozenset(n for n in FLOATS | INTEGERS if n.startswith(("mode_", "static_"))) | {"pose_partner"}
+"""Arrays that may be missing: then nothing is known of assembly modes or of a start in equilibrium."""
 
 
 class SystemFileError(ValueError):
@@ -61,12 +66,12 @@ class System:
 
     def __init__(self, arrays: Mapping[str, ArrayLike], meta: Mapping[str, Any], frames: Frames | None = None) -> None:
         names = set(arrays)
-        if names != FLOATS | INTEGERS:
-            wrong = sorted(names ^ (FLOATS | INTEGERS))
+        if names | OPTIONAL != FLOATS | INTEGERS:
+            wrong = sorted((names | OPTIONAL) ^ (FLOATS | INTEGERS))
             raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
         frozen: dict[str, NDArray[Any]] = {}
-        for name in sorted(names):
-            values = np.array(arrays[name], dtype=np.float64 if name in FLOATS else np.int32)
+        for name in sorted(FLOATS | INTEGERS):
+            values = np.array(arrays.get(name, ()), dtype=np.float64 if name in FLOATS else np.int32)
             values.setflags(write=False)
             frozen[name] = values
         self.arrays: Mapping[str, NDArray[Any]] = MappingProxyType(frozen)

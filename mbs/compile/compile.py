@@ -8,9 +8,10 @@ import numpy as np
 from scipy import sparse
 
 from mbs.affine import Affine
+from mbs.compile.assembly_modes import mode_arrays
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
-from mbs.compile.equilibrium import equilibrium
+from mbs.compile.equilibrium import equilibrium, start_arrays
 from mbs.compile.extent import coordinate_lengths, model_length, unit_vectors
 from mbs.compile.flexible import (
     deformation_metric,
@@ -28,7 +29,7 @@ from mbs.compile.natural import natural_coordinates
 from mbs.compile.open_joints import joint_gaps, joints_of_bodies
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
 from mbs.compile.polynomial import RowTerms, row_terms
-from mbs.compile.pose import pose_arrays
+from mbs.compile.pose import pose_arrays, pose_partners
 from mbs.compile.report import rank_at, structure_report
 from mbs.compile.row_arrays import RowArrays
 from mbs.compile.row_scale import row_scale
@@ -99,6 +100,7 @@ def compile(model: Model) -> System:
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = tree_arrays(model, signals, kept, new)
+    modes = mode_arrays(model, holding, full, q[new], guides, signals)
     tables: dict[str, Any] = {
         "q0": q,
         "qd0": qd,
@@ -121,6 +123,9 @@ def compile(model: Model) -> System:
         **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, kept, of_z, q[new], order),
         **tree,
+        **modes,
+        **start_arrays(None, {}),
+        "pose_partner": pose_partners(model, natural, kept, of_z, signals, order),
         **signals.arrays(),
     }
     report = {
@@ -140,6 +145,7 @@ def compile(model: Model) -> System:
     if not model.start_in_equilibrium:
         return system
     q = equilibrium(system, model.equilibrium_parameters)
+    tables.update(start_arrays(system, model.equilibrium_parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, kept, of_z, q[new], order))
     return System(tables, system.meta, frames)
 

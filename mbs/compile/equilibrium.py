@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,18 @@ from mbs.system import System
 
 TOLERANCE = 1e-8  # N
 MAX_ITERATIONS = 400
+
+
+def start_arrays(system: System | None, parameters: Mapping[str, float]) -> dict[str, Any]:
+    """The `static_` arrays: whether the System starts in equilibrium, and parameters that hold while it is sought."""
+    if system is None:
+        return {"static_start": [0], "static_par": [], "static_value": []}
+    names = [entry["name"] for entry in system.meta["parameters"]]
+    return {
+        "static_start": [1],
+        "static_par": [names.index(name) for name in parameters],
+        "static_value": list(parameters.values()),
+    }
 
 
 def equilibrium(system: System, parameters: Mapping[str, float]) -> NDArray[np.float64]:

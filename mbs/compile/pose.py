@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mbs.affine import Affine
 from mbs.compile.natural import NaturalCoordinates
+from mbs.compile.tables import Signals
 from mbs.errors import ModelError
 from mbs.model.model import Model
 
@@ -66,6 +67,28 @@ def pose_arrays(
         if info.kind == "point":
             arrays[f"pose_{'xyz'[info.component]}"][k] = 1.0
     return {name: values[order] for name, values in arrays.items()}
+
+
+def pose_partners(
+    model: Model,
+    natural: NaturalCoordinates,
+    kept: Sequence[int],
+    of_z: Sequence[Affine],
+    signals: Signals,
+    order: Index,
+) -> Index:
+    """`pose_partner` in elimination order: of x components minus, of y ones plus the other's signal, from 1; else 0.
+
+    With it a pose can move a scene from another position than the one the `pose_` arrays were made at.
+    """
+    partners = np.zeros(len(kept), dtype=np.int64)
+    for k, i in enumerate(kept):
+        info = natural.info[i]
+        if info.kind not in ("spin", "angle", "mode") and info.component < 2:
+            other = of_z[i - info.component + 1 - info.component]
+            sign = -1 if info.component == 0 else 1
+            partners[k] = sign * (1 + signals.number_of_z(other))
+    return partners[order] if model.floating else np.zeros(0, dtype=np.int64)
 
 
 def full_values(full: Sequence[Affine], z: Array) -> Array:

@@ -31,7 +31,10 @@ class Signals:
 
     def number(self, expression: Affine) -> int:
         """Number of the signal of an expression of full coordinates."""
-        z = substitute(expression, self._full)
+        return self.number_of_z(substitute(expression, self._full))
+
+    def number_of_z(self, z: Affine) -> int:
+        """Number of the signal of an expression of z."""
         pairs = sorted((int(self._new[j]), v) for j, v in z.terms.items())
         key = (*pairs, z.constant)
         if key not in self._known:

@@ -23,7 +23,7 @@ class PlaneRoad:
     grade_x, grade_y : float
         Slopes dz/dx and dz/dy, 0.1 for a ten per cent rise.
     friction : float
-        Coefficient of friction.
+        Coefficient of friction: the largest longitudinal force over load of a tyre on it, at the tyre's nominal load.
     """
 
     height: float = 0.0
@@ -59,7 +59,7 @@ class KerbRoad:
     upper : {"before", "after"}
         The upper level lies at smaller x ("before": driving forward is a drop) or at larger x.
     friction : float
-        Coefficient of friction everywhere.
+        Coefficient of friction everywhere, as in `PlaneRoad`.
     """
 
     position: float
@@ -97,7 +97,7 @@ class GridRoad:
     heights : array_like, shape (nx, ny)
         m.
     frictions : array_like, shape (nx, ny) or scalar
-        Coefficients of friction, bilinear in between.
+        Coefficients of friction as in `PlaneRoad`, bilinear in between.
     friction_factor : float
         Multiplies all frictions.
     """

@@ -52,8 +52,9 @@ class Tyre:
         Longitudinal and lateral, N/m and N s/m.
     nominal_load : float
         N.
-    reference_friction : float
-        Friction of the road at which the curves hold.
+    reference_friction : float, optional
+        Friction of the road at which the curves hold. By default the largest longitudinal force over the load at the
+        nominal load, so that the friction of a road is the coefficient this tyre reaches there.
     max_load_factor : float
         The curves are clamped at this multiple of the nominal load.
     rolling_resistance : float
@@ -75,10 +76,17 @@ class Tyre:
     carcass_damping: Pair
     nominal_load: float
     bottoming_stiffness: float = 0.0
-    reference_friction: float = 0.8
+    reference_friction: float | None = None
     max_load_factor: float = 3.5
     rolling_resistance: float = 0.0
     friction_factor: float = 1.0
+
+    @property
+    def curve_friction(self) -> float:
+        """Friction of the road at which the curves hold."""
+        if self.reference_friction is not None:
+            return self.reference_friction
+        return self.longitudinal.max_force[0] / self.nominal_load
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """Element of a wheel: centre, unit spin axis (pointing left), absolute spin, number of the road."""
@@ -111,6 +119,7 @@ class Tyre:
                 Output("contact_x", "m", "contact point, earth axes"),
                 Output("contact_y", "m", "contact point, earth axes"),
                 Output("contact_z", "m", "contact point, earth axes"),
+                Output("inclination", "rad", "of the wheel plane from the road's normal, positive with the top right"),
             ),
             tuple(key for key, _ in named),
         )
@@ -124,10 +133,9 @@ class Tyre:
             "damping",
             "bottoming_stiffness",
             "nominal_load",
-            "reference_friction",
-            "max_load_factor",
         )
         named: list[tuple[str, float]] = [(key, getattr(self, key)) for key in scalars]
+        named += [("reference_friction", self.curve_friction), ("max_load_factor", self.max_load_factor)]
         for direction, curve in (("longitudinal", self.longitudinal), ("lateral", self.lateral)):
             for key in ("slope", "max_force", "max_slip", "slide_force", "slide_slip"):
                 low, high = getattr(curve, key)
@@ -142,8 +150,10 @@ class Tyre:
 
     def _check_curves(self, what: str) -> None:
         """Every force and slip stays positive and in order over the whole range of loads."""
-        for key in ("stiffness", "nominal_load", "reference_friction", "max_load_factor"):
+        for key in ("stiffness", "nominal_load", "max_load_factor"):
             positive(getattr(self, key), f"The {key.replace('_', ' ')} of {what}")
+        if self.reference_friction is not None:
+            positive(self.reference_friction, f"The reference friction of {what}")
         for key in ("damping", "bottoming_stiffness", "rolling_resistance", "friction_factor"):
             not_negative(getattr(self, key), f"The {key.replace('_', ' ')} of {what}")
         for value in (*self.carcass_stiffness, *self.carcass_damping):

@@ -31,7 +31,9 @@ from typing import Any
     NO_TREE,
     TOO_STIFF,
     TOO_FAR,
-) = range(1, 16)
+    NO_EQUILIBRIUM,
+    BRANCH_CHANGED,
+) = range(1, 18)
 """Codes of `ali3_status` beside 0."""
 OPEN = 1e-9
 """A row that is open by less, m, is not why something failed: ALI3_OPEN."""
@@ -112,6 +114,11 @@ class ReportFields(Structure):
         ("predictor_path", c_double),
         ("fastest_rate", c_double),
         ("open_power", c_double),
+        ("branch_changes", c_int64),
+        ("branch_time", c_double),
+        ("branch_kind", c_int32),
+        ("branch_loop", c_int32),
+        ("branch_triad", c_int32),
     )
 
 
@@ -208,6 +215,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
     "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
+    "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_time": (c_double, [c_void_p]),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
@@ -581,6 +589,12 @@ class Instance:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return float(self._library.ali3_energy_balance(byref(fields)))
+
+    def branch_text(self) -> str:
+        """A sentence about the first change of the assembly mode of a closed loop; empty where there was none."""
+        text = ctypes.create_string_buffer(1024)
+        self._check(self._library.ali3_branch_text(self._handle, text, len(text)))
+        return text.value.decode(errors="ignore")
 
     @property
     def time(self) -> float:

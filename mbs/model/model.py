@@ -8,7 +8,9 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from mbs.elements.record import ElementRecord
 from mbs.model.angle import relative_angle
+from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
 from mbs.model.body import Body
 from mbs.model.checks import not_negative
 from mbs.model.core import Coordinate
@@ -18,10 +20,13 @@ from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input
 from mbs.model.joints.distance import distance
 from mbs.model.joints.drive import drive
+from mbs.model.joints.gear import gear
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.pin import pin
 from mbs.model.joints.points import revolute, spherical, universal
+from mbs.model.joints.rack import rack
 from mbs.model.joints.rolling import rolling, skate
+from mbs.model.joints.screw import Screw, screw
 from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
 from mbs.model.parameters import Parameter, new_parameter
 from mbs.model.sensors import SensorVocabulary
@@ -158,6 +163,117 @@ class Model(ForceVocabulary, SensorVocabulary):
             The direction is upright, or the body is not a rigid one of this model.
         """
         return self._join(skate(self, name, body, point, direction, switch))
+
+    # --- transmissions ---
+    def gear(self, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
+        """Two wheels that turn in a constant ratio.
+
+        Parameters
+        ----------
+        name : str
+        wheel_1, wheel_2 : Coordinate
+            Relative angles of the wheels against what carries them, or spins.
+        ratio : float
+            Turns of the first wheel for one of the second, each against its carrier; negative where they turn opposite
+            ways about the axes of their angles (-z2/z1 for external teeth on parallel axes).
+
+        Raises
+        ------
+        ModelError
+            The ratio is zero or not finite, or both wheels are one.
+        """
+        return self._join(gear(self, name, wheel_1, wheel_2, ratio))
+
+    def rack(
+        self,
+        name: str,
+        pinion: Coordinate,
+        body: Body,
+        *,
+        carrier: Body,
+        axis: ArrayLike,
+        radius: float,
+        point: ArrayLike | None = None,
+    ) -> Joint:
+        """A rack that slides on a carrier by the radius of a pinion per radian; it guides nothing (see `prismatic`).
+
+        Parameters
+        ----------
+        name : str
+        pinion : Coordinate
+            Relative angle of the pinion against the carrier, or a spin on it.
+        body, carrier : Body
+            The rack and what it slides on.
+        axis : array_like, shape (dimension,)
+            Direction of the slide, fixed in the carrier, earth axes as drawn.
+        radius : float
+            m per rad; negative where the rack goes against `axis` when the pinion turns positively.
+        point : array_like, shape (dimension,), optional
+            Of the rack, as drawn, m; by default its centre of mass.
+
+        Raises
+        ------
+        ModelError
+            The radius is zero or not finite, the carrier is a point mass, the rack is the ground or the carrier.
+        """
+        return self._join(rack(self, name, pinion, body, carrier, axis, radius, point))
+
+    def screw(self, name: str, body_1: Body, body_2: Body, *, point: ArrayLike, axis: ArrayLike, pitch: float) -> Screw:
+        """Shared axis along which body 1 moves by `pitch`, m, per turn against body 2; a right-hand thread is positive.
+
+        The joint's `angle` is that turn, rad, a coordinate for sensors and torques.
+        """
+        joint, angle = screw(self, name, body_1, body_2, point, axis, pitch)
+        self._join(joint)
+        self._join(angle)
+        return joint
+
+    def anti_roll_bar(
+        self,
+        name: str,
+        left: Coordinate | Body,
+        right: Coordinate | Body,
+        *,
+        stiffness: float,
+        damping: float = 0.0,
+        carrier: Body | None = None,
+        axis: ArrayLike | None = None,
+        free_twist: float | None = None,
+        mirrored: bool = False,
+    ) -> ElementRecord:
+        """A torsion spring between two arms; its torque on the left one is the output ``force`` of the element.
+
+        Drop links between the arms and the suspension are `distance` joints; without them the arms are those of the
+        suspension.
+
+        Parameters
+        ----------
+        name : str
+        left, right : Coordinate or Body
+            Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
+        stiffness, damping : float
+            N m/rad and N m s/rad of the twist.
+        carrier : Body, optional
+            With arms given as bodies: what they turn on.
+        axis : array_like, shape (3,), optional
+            With arms given as bodies, in space.
+        free_twist : float, optional
+            Twist without torque, rad; by default as drawn.
+        mirrored : bool
+            The angles count opposite ways (mirrored axes): the twist is their sum instead of left minus right.
+
+        Raises
+        ------
+        ModelError
+            The arms are one, are of two kinds or a spin, or the carrier is missing or superfluous.
+        ValueError
+            The stiffness is not positive or the damping negative.
+        """
+        angles, joints = arm_angles(self, name, (left, right), carrier, axis)
+        bar = anti_roll_bar(self, name, angles, stiffness, damping, free_twist, mirrored)
+        for joint in joints:
+            self._join(joint)
+        return bar
 
     # --- coordinates ---
     def relative_angle(

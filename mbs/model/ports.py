@@ -1,7 +1,7 @@
 """A rigid body whose points are joined to by rows of their own, so that the forces there can be read.
 
-Joints and springs at a port share three coordinates without mass, which three linear rows tie to the body. Their
-multipliers are the whole force on the body at the port, whatever acts there.
+Joints and springs at a port share three coordinates without mass, its place from the centre of mass, which three linear
+rows tie to the body. Their multipliers are the whole force on the body at the port, whatever acts there.
 """
 
 from __future__ import annotations
@@ -35,14 +35,16 @@ class PortedBody(Body):
         self._points: list[tuple[Vector, AffineVector]] = []
         for name, place in places.items():
             what = f"{owner.name}.{name}"
-            numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", "point", float(place[k]), k) for k in range(3)]
+            # from the centre of mass, so that the rows lose no digits far from the origin of the earth
+            arm = place - owner.com
+            numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", "vector", float(arm[k]), k) for k in range(3)]
             free = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
-            joint = Joint(what, "port", equal_vectors(what, "point", free, owner.point(place)), rows_weight=1.0)
+            joint = Joint(what, "port", equal_vectors(what, "point", free, owner.vector(arm)), rows_weight=1.0)
             joint.keep = True
             self.model.unique("joint", what)
             self.model.joints.append(joint)
             self.ports[name] = joint
-            self._points.append((place, free))
+            self._points.append((place, owner.point(owner.com) + free))
 
     def point(self, position: ArrayLike) -> AffineVector:
         """The port at `position` (earth axes, reference configuration, m), else the point of the body."""

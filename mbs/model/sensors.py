@@ -15,7 +15,7 @@ from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.flexible import FlexibleBody
-from mbs.model.joints.joint import Joint
+from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.ports import PortedBody
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
@@ -292,10 +292,11 @@ class SensorVocabulary(ModelCore):
         raise ModelError(f"The sensor '{name}' asks for element '{element_name}', but the model has no such element.")
 
     def sense_joint_force(
-        self, name: str, joint: Joint | str, component: str = "x", unit: str = "N", description: str = ""
+        self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
     ) -> Sensor:
         """Force of a joint on its first body: a component in earth axes at a shared point or from a line of the
-        ground, "tension" of a distance, "drive" of a drive.
+        ground, "tension" of a distance, "drive" of a drive, "torque" of a gear on its first wheel, "force" of a rack
+        on its body and of a screw on its first body, both along the axis.
 
         The equations of the joint stay rows of the System, so that the multipliers exist.
         """
@@ -305,8 +306,8 @@ class SensorVocabulary(ModelCore):
         rows = found.force_equations
         if not rows:
             raise ModelError(
-                f"The joint '{found.name}' ({found.type}) has no force reading; points, lines of the ground, distances "
-                "and driven coordinates have one."
+                f"The joint '{found.name}' ({found.type}) has no force reading; points, lines of the ground, "
+                "distances, driven coordinates, gears, racks and screws have one."
             )
         if found.normals:
             k = component_number(component, self.dimension, f"sensor '{name}'")
@@ -316,8 +317,8 @@ class SensorVocabulary(ModelCore):
                     "only a line of the ground, as second body, has components in earth axes."
                 )
             rows, weights = list(rows), [-n[k].constant for n in found.normals]
-        elif found.type in ("distance", "drive"):
-            expected = "tension" if found.type == "distance" else "drive"
+        elif found.type in SCALAR_FORCES:
+            expected = SCALAR_FORCES[found.type]
             if component not in (expected, "x"):
                 raise ModelError(
                     f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
@@ -327,6 +328,7 @@ class SensorVocabulary(ModelCore):
             k = component_number(component, self.dimension, f"sensor '{name}'")
             rows, weights = rows[k : k + 1], [-found.rows_weight]
         found.keep = True
+        unit = unit or ("N m" if found.type == "gear" else "N")
         return self._sense(name, unit, description, 9, integers=rows, reals=weights, joint=found)
 
     def sense_quasi_static(

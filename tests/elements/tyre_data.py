@@ -31,26 +31,9 @@ def tyre_element(tyre: Tyre = TYRE, road: Road | None = None) -> Element:
     """The tyre on a road; without one on a level plane with the friction at which its curves hold."""
     centre, axis, spin = vectors(3, 3, 1)
     record = tyre.record("tyre", centre, axis, spin[0], 0)
-    return Element(record, PlaneRoad(friction=tyre.reference_friction) if road is None else road)
+    return Element(record, PlaneRoad(friction=tyre.curve_friction) if road is None else road)
 
 
 def upright(height: float, x: float = 0.0) -> np.ndarray:
     """Signals of a wheel upright at `height` heading along x."""
     return np.array([x, 0.0, height, 0.0, 1.0, 0.0, 0.0])
-
-
-def curve(c: TyreCurve, load: float, nominal: float, slip: float) -> float:
-    """TMeasy steady force at the reference friction, written from the definition (oracle)."""
-    q = load / nominal
-    s = abs(slip)
-    dF0, Fm, Fs = (q * (2 * a - b / 2 - (a - b / 2) * q) for a, b in (c.slope, c.max_force, c.slide_force))
-    sm, ss = (a + (b - a) * (q - 1) for a, b in (c.max_slip, c.slide_slip))
-    if s <= sm:
-        sigma = s / sm
-        F = sm * dF0 * sigma / (1 + sigma * (sigma + dF0 * sm / Fm - 2))
-    elif s <= ss:
-        sigma = (s - sm) / (ss - sm)
-        F = Fm - (Fm - Fs) * sigma**2 * (3 - 2 * sigma)
-    else:
-        F = Fs
-    return float(np.copysign(F, slip))

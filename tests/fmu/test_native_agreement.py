@@ -114,6 +114,41 @@ def test_a_tunable_parameter_takes_effect_at_the_next_step(
     assert abs(ice.get("wheel_FL.Fx")) < 0.5 * abs(dry.get("wheel_FL.Fx"))
 
 
+@pytest.mark.parametrize("friction", [0.9, 0.3])
+def test_the_car_brakes_as_the_description_of_friction_says(
+    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, friction: float
+) -> None:
+    driven = host(cars[1]["native"]).start({"initial.speed": SPEED, "road.friction": friction})
+    driven.set("brake", 1.0)
+    speeds, used = [SPEED], []
+    for k in range(100):
+        driven.step(k * STEP, STEP)
+        speeds.append(driven.get("speed"))
+        force, load = (sum(driven.get(f"wheel_{w}.{n}") for w in ("FL", "FR", "RL", "RR")) for n in ("Fx", "Fz"))
+        used.append(-force / load if speeds[-1] > 1.0 else 0.0)
+    assert 0.7 * friction < max(used) < 1.035 * friction
+    assert (SPEED - min(speeds)) / 1.0 < 1.1 * friction * 9.81  # drag on top
+
+
+def test_old_names_say_what_to_use_instead(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
+    for kind in ("native", "python", "fmi3"):
+        known = {v.name: v for v in fmpy.read_model_description(str(cars[1][kind])).modelVariables}
+        for wheel in ("FL", "FR", "RL", "RR"):
+            assert known[f"wheel_{wheel}.camber"].description.startswith("deprecated")
+            assert "use inclination" in known[f"wheel_{wheel}.camber"].description
+            assert "ISO 8855" in known[f"wheel_{wheel}.inclination"].description
+        assert float(known["road.friction"].start) == 1.2705
+        assert "largest longitudinal tyre force over load" in known["road.friction"].description
+    driven = host(cars[1]["native"]).start({"initial.speed": SPEED})
+    driven.set("steering", 0.2)
+    driven.run(100, STEP)
+    roll = driven.get("chassis.roll")
+    assert abs(roll) > 0.01
+    for wheel in ("FL", "FR", "RL", "RR"):
+        turned = driven.get(f"wheel_{wheel}.inclination") - driven.get(f"wheel_{wheel}.camber")
+        assert turned == pytest.approx(roll, rel=0.1)
+
+
 def test_outputs_by_inputs_of_the_moving_car(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
     part, step = 1e-3, cars[0].meta["experiment"]["step_s"]
     driven = host(cars[1]["native"]).start({"initial.speed": SPEED})

@@ -8,7 +8,8 @@ import pytest
 from benchmarks import car_manoeuvres
 from mbs import Pose, Simulation
 from mbs.scenes.prototype_car import car_data
-from mbs.scenes.prototype_car.tyre_data import LATERAL, RADIUS, tyre
+from mbs.scenes.prototype_car.tyre_data import FRICTION, RADIUS, tyre
+from tests.elements import tmeasy
 from tests.scenes.car import WHEELS, H, car, drive, place
 
 MASS, WHEELBASE = 597.0, 2.3
@@ -16,16 +17,17 @@ LOAD, DEFLECTION = {"front": 1267.3, "rear": 1661.0}, {"front": 0.02112, "rear":
 TO_FRONT = 1.3046  # m, from the centre of mass
 
 
-def bicycle(speed, angle):
+def bicycle(speed, angle, slips):
     """Yaw rate of the linear bicycle model with the tyres' slopes and trails at the static loads.
 
-    At small lateral acceleration the load transfer is of second order and the curves are straight.
+    At small lateral acceleration the load transfer is of second order and the curves are straight; but in TMeasy the
+    initial slope depends on the direction of the slip, so the slips sx, sy of each axle are needed.
     """
     stiffness, trail = {}, {}
     for axle in LOAD:
         q = LOAD[axle] / 1500.0
-        c1, c2 = LATERAL.slope
-        stiffness[axle] = 2.0 * q * (2.0 * c1 - 0.5 * c2 - (c1 - 0.5 * c2) * q)
+        sx, sy = (1e-3 * s for s in slips[axle])
+        stiffness[axle] = 2.0 * tmeasy.forces(tyre(axle), LOAD[axle], FRICTION, sx, sy)[1] / sy
         t = tyre(axle).trail
         trail[axle] = (t[0] + (t[1] - t[0]) * (q - 1.0)) * 2.0 * np.sqrt(RADIUS[axle] * DEFLECTION[axle])
     a, b = TO_FRONT - trail["front"], WHEELBASE - TO_FRONT + trail["rear"]
@@ -39,7 +41,14 @@ def test_steady_cornering_is_that_of_the_bicycle_model(speed, steering):
     t = drive(car(), 6.0, H, {"steering": steering}, neutral=True, pose=Pose(speed=speed))
     v, yaw_rate = t["speed"][-1], t["chassis.wz"][-1]
     angle = 0.5 * (t["wheel_FL.steer"][-1] + t["wheel_FR.steer"][-1])
-    expected, gradient = bicycle(v, angle)
+    slips = {
+        axle: [
+            np.mean([t[f"wheel_{axle[0].upper()}{side}.{name}"][-1] for side in "LR"])
+            for name in ("slip", "slip_angle")
+        ]
+        for axle in LOAD
+    }
+    expected, gradient = bicycle(v, angle, slips)
     assert abs(v * yaw_rate) < 1.0
     assert np.sign(yaw_rate) == np.sign(steering)
     assert yaw_rate == pytest.approx(expected, rel=0.01)
@@ -63,9 +72,46 @@ def test_full_lock_at_15_m_s():
     assert 3.0 < t["speed"][-1] < 7.0
     for w in WHEELS:
         assert np.abs(t[f"wheel_{w}.travel"]).max() < 0.15
-        grip = 0.9 / 0.8 * 1.2  # a little more than the largest force per load
+        grip = 1.07 * FRICTION  # a little more than the largest force per load
         force = np.hypot(t[f"wheel_{w}.Fx"], t[f"wheel_{w}.Fy"])
         assert np.all(force <= grip * np.maximum(t[f"wheel_{w}.Fz"], 1.0))
+
+
+@pytest.mark.parametrize("friction", [0.9, 0.3, 0.1])
+@pytest.mark.parametrize("pedal", [1.0, 0.3])
+def test_friction_of_the_road_bounds_the_deceleration(friction, pedal):
+    """By the road at most friction times g, 3.5 % more for loads below the nominal one; drag and pitch come on top."""
+    t = drive(
+        car(), 1.5, 0.002, {"brake": pedal}, neutral=True, pose=Pose(speed=15.0), parameters={"road.friction": friction}
+    )
+    force, load = (sum(t[f"wheel_{w}.{name}"] for w in WHEELS) for name in ("Fx", "Fz"))
+    used = -(force / load)[t["speed"] > 1.0]
+    assert used.max() < 1.035 * friction
+    if pedal == 1.0 or friction < 0.5:
+        assert used.max() > 0.7 * friction
+    drag = 0.5 * car_data.AIR_DENSITY * car_data.DRAG_AREA * t["speed"] ** 2 / MASS
+    slowing = (t["speed"][0] - t["speed"][-1]) / t.t[-1]
+    assert slowing < 1.035 * friction * car_data.GRAVITY + drag.max()
+
+
+def test_the_friction_a_user_reads_is_that_of_the_tyre():
+    parameter = next(p for p in car().meta["parameters"] if p["name"] == "road.friction")
+    largest = tyre("front").longitudinal.max_force[0] / tyre("front").nominal_load
+    assert parameter["value"] == pytest.approx(1.125 * largest)  # a dry road, a little better than that of the curves
+    assert "largest longitudinal tyre force over load at 1500 N" in parameter["description"]
+
+
+def test_inclination_counts_from_the_road_and_camber_from_the_vehicle():
+    t = drive(car(), 3.0, H, {"steering": 0.15}, neutral=True, pose=Pose(speed=14.0))
+    roll = t["chassis.roll"][-1]
+    assert abs(roll) > 0.01
+    for w in WHEELS:
+        inclination, camber = t[f"wheel_{w}.inclination"], t[f"wheel_{w}.camber"]
+        assert inclination[0] == pytest.approx(camber[0], abs=5e-4)  # level
+        assert inclination[-1] == pytest.approx(camber[-1] + roll, abs=0.03 * abs(roll) + 2e-4)
+        sensor = next(s for s in car().meta["sensors"] if s["name"] == f"wheel_{w}.camber")
+        assert "deprecated" in sensor["description"]
+        assert "inclination" in sensor["description"]
 
 
 def powers(t):

@@ -36,6 +36,8 @@ typedef enum {
   ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
   ALI3_TOO_STIFF,         /* the step is too long for an explicit rule; see report.fastest_rate */
   ALI3_TOO_FAR,           /* a start so far away or so fast that its digits do not tell lengths any more */
+  ALI3_NO_EQUILIBRIUM,    /* a scene that starts in static equilibrium has none with the parameters it was given */
+  ALI3_BRANCH_CHANGED,    /* told by ali3_run_status only: a closed loop changed its assembly mode */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -95,7 +97,12 @@ typedef struct {
   double speed_peak, velocity_path, predictor_path;
   double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s */
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
+  int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
+  double branch_time; /* s */
+  int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
 } ali3_report;
+
+enum { ALI3_BRANCH_NONE = 0, ALI3_BRANCH_LEFT, ALI3_BRANCH_JUMP }; /* ali3_report.branch_kind */
 
 typedef struct {
   int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, n_switch;
@@ -153,7 +160,9 @@ ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double
  * velocities are projected, accelerations and multipliers solved anew; report.energy_jump says what that took. */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
-/* Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
+/* Where the file starts in static equilibrium and parameters of elements or guides are not those of the file: that
+ * equilibrium first, at the place of the drawing, then the pose. Coordinates given by ali3_set_q stay as they are.
+ * Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
  * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* How much higher, m, a start must be that was refused with ALI3_BELOW_ROAD: there no tyre touches the road. 0: good. */
@@ -210,6 +219,10 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
  * run was right that was tried; below it a run may be wrong. */
 #define ALI3_BALANCE_WRONG 0.04
 ALI3_API double ali3_energy_balance(const ali3_report *report);
+/* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
+ALI3_API ali3_status ali3_run_status(const ali3_report *report);
+/* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */
+ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);
 
 /* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit,

@@ -45,7 +45,10 @@
   X(int32_t, 1, tree_parent) X(int32_t, 1, tree_slides) X(double, 2, tree_base) X(double, 2, tree_mass) \
   X(double, 2, tree_centre) X(double, 2, tree_inertia) X(double, 2, tree_gravity) X(int32_t, 1, tree_frame) \
   X(int32_t, 1, tree_out_body) X(double, 2, tree_out_local) X(int32_t, 1, tree_out_col) \
-  X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place)
+  X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place) \
+  X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
+  X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
+  X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner)
 /* clang-format on */
 
 /* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */
@@ -141,6 +144,7 @@ struct ali3_instance {
   void (*release)(void *block);
   ali3_settings settings;
   ali3_report report;
+  ali3_report report_before; /* of the step that branch_watch.c may make again */
   double t_base, h_last; /* time = t_base + count * h_last */
   bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count;
@@ -188,7 +192,20 @@ struct ali3_instance {
   void *input_context;
   double *input_begin, *stage_input; /* nu; of the stages of radau.c */
   double input_time, input_length, t_now;
+  /* of branch_watch.c, signed squares: sines and cosines of the triads at in->now; sines before the step, after it, after it in parts;
+   * loops that left their modes */
+  double *mode_sine, *mode_cosine, *sine_before, *sine_after, *sine_few, *mode_left;
+  ali3_vectors before; /* the state before a step where branches may be near */
+  bool mode_known, branch_kept;
+  /* of start_equilibrium.c: where a start is and how a pose moves it; the last pose; who placed the present start */
+  double *start_q, *pose_0, *pose_cos, *pose_sin, pose[5];
+  int32_t placed;
+  bool start_moved; /* not as in the file */
 };
+
+enum { ALI3_PLACED_BY_FILE = 0, ALI3_PLACED_BY_POSE, ALI3_PLACED_BY_Q };
+
+enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 }; /* of mode_triad: 9 signals, kind, ring; of a loop */
 
 enum { ALI3_LOCAL = ALI3_MAX_SIGNALS };
 
@@ -384,6 +401,23 @@ ali3_status ali3_check_method(ali3_instance *in);
 /* initialise.c */
 ali3_status ali3_solve_initial(ali3_instance *in, double t);
 ali3_status ali3_solve_rates(ali3_instance *in, bool start);
+
+/* assembly_mode.c */
+ali3_status ali3_check_modes(const ali3_system *s, ali3_message m);
+int64_t ali3_loop_count(const ali3_system *S);
+int64_t ali3_triad_count(const ali3_system *S);
+void ali3_mode_angles(ali3_instance *in, const double *q);
+int32_t ali3_mode_left(const ali3_instance *in, int64_t loop);
+
+/* start_equilibrium.c */
+ali3_status ali3_check_start(const ali3_system *s, ali3_message m);
+void ali3_start_of_file(ali3_instance *in);
+ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t);
+
+/* branch_watch.c */
+void ali3_branch_before(ali3_instance *in);
+ali3_status ali3_branch_after(ali3_instance *in, double t, double h);
+void ali3_branch_look(ali3_instance *in, double t);
 
 /* switches.c */
 void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J);

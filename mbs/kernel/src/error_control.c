@@ -220,6 +220,7 @@ static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_
                                  record->positions != NULL ? record->positions + *done * nq : NULL);
     t = next;
     set_time(in, t);
+    ali3_branch_look(in, t);
     if (t == until && until < t_end && status == ALI3_OK) status = ali3_refresh(in);
   }
   return status;
@@ -236,6 +237,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   const ali3_measure measure = {control, scale};
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST * control->span);
   if (jumped(in)) status = ali3_refresh(in);
+  ali3_branch_before(in); /* the modes of the start, where nobody has looked yet */
   in->quiet = false;
   in->sampled = in->controlled = true;
   if (status == ALI3_OK) status = run(in, &measure, t_end, most_steps, record, done);

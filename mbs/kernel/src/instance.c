@@ -22,6 +22,8 @@ const char *ali3_status_text(ali3_status s) {
       "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
       "the step is too long for an explicit method, which must follow the fastest motion",
       "the start is too far away or too fast: positions must stay within 1e8 m, speeds within 1e6 m/s",
+      "with these parameters there is no static equilibrium near the drawing to start from",
+      "a closed loop changed its assembly mode",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -51,12 +53,15 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
                        2 * (size_t)z->nsig + n_S + n_work + ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
                        stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + stages * (size_t)z->front_size) +
                        (stages > 0 ? 2 * (size_t)z->front_size : 0);
+  const size_t triads = (size_t)ali3_triad_count(s), loops = (size_t)ali3_loop_count(s);
+  const size_t n_modes = 5 * triads + loops + (triads > 0 ? n_vector : 0), n_start = 4 * nq;
   const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
                tree = s->tree != NULL ? (sizeof(ali3_tree_work) + 15u) / 16u * 16u : 0;
   *out = NULL;
-  char *block = s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work) * sizeof(double));
+  char *block =
+      s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work + n_modes + n_start) * sizeof(double));
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
   double *pool = (double *)(block + head + roads + tree);
@@ -132,6 +137,17 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->y_work = ali3_take(&pool, ny);
   in->out_work = ali3_take(&pool, nout);
   in->potential_work = ali3_take(&pool, ne);
+  in->mode_sine = ali3_take(&pool, triads);
+  in->mode_cosine = ali3_take(&pool, triads);
+  in->sine_before = ali3_take(&pool, triads);
+  in->sine_after = ali3_take(&pool, triads);
+  in->sine_few = ali3_take(&pool, triads);
+  in->mode_left = ali3_take(&pool, loops);
+  if (triads > 0) ali3_vectors_place(s, &in->before, &pool);
+  in->start_q = ali3_take(&pool, nq);
+  in->pose_0 = ali3_take(&pool, nq);
+  in->pose_cos = ali3_take(&pool, nq);
+  in->pose_sin = ali3_take(&pool, nq);
   const ali3_status status = ali3_reset(in);
   if (status != ALI3_OK) {
     s->memory.release(block);
@@ -199,6 +215,10 @@ ali3_status ali3_reset(ali3_instance *in) {
   in->count = 0;
   in->initialised = 0;
   in->input_function = NULL;
+  in->mode_known = false;
+  in->placed = ALI3_PLACED_BY_FILE;
+  in->start_moved = false;
+  ali3_start_of_file(in);
   memset(in->now.q, 0, in->n_vector * sizeof(double));
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);
@@ -258,10 +278,12 @@ ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, doubl
   const ali3_system *S = in->system;
   const double c = ali3_cos(yaw), s = ali3_sin(yaw);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    in->now.q[i] =
-        S->pose_0[i] + c * S->pose_cos[i] + s * S->pose_sin[i] + x * S->pose_x[i] + y * S->pose_y[i] + z * S->pose_z[i];
+    in->now.q[i] = in->pose_0[i] + c * in->pose_cos[i] + s * in->pose_sin[i] + x * S->pose_x[i] + y * S->pose_y[i] +
+                   z * S->pose_z[i];
     in->now.qd[i] = speed * (c * S->pose_x[i] + s * S->pose_y[i] + S->pose_speed[i]);
   }
+  memcpy(in->pose, given, sizeof given);
+  in->placed = ALI3_PLACED_BY_POSE;
   in->initialised = 0;
   return ALI3_OK;
 }
@@ -270,7 +292,10 @@ ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   const int32_t nq = in->system->size.nq;
   if ((q != NULL && !ali3_finite(q, nq)) || (qd != NULL && !ali3_finite(qd, nq))) return ALI3_BAD_ARGUMENT;
-  if (q != NULL) copy(in->now.q, q, nq);
+  if (q != NULL) {
+    copy(in->now.q, q, nq);
+    in->placed = ALI3_PLACED_BY_Q;
+  }
   if (qd != NULL) copy(in->now.qd, qd, nq);
   in->initialised = 0;
   return ALI3_OK;

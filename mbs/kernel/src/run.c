@@ -15,6 +15,7 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   in->t_base = t0;
   in->h_last = 0.0;
   in->count = 0;
+  in->mode_known = false;
   in->initialised = 1;
   ali3_books_open(in);
   return ALI3_OK;
@@ -25,7 +26,8 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
   in->report = none;
   ali3_vectors_copy(in, &in->start, &in->now);
-  const ali3_status status = ali3_solve_initial(in, t0);
+  ali3_status status = ali3_start_in_equilibrium(in, t0);
+  if (status == ALI3_OK) status = ali3_solve_initial(in, t0);
   return begin(in, status == ALI3_OK && ali3_start_lift(in) > 0.0 ? ALI3_BELOW_ROAD : status, t0);
 }
 
@@ -46,7 +48,9 @@ static ali3_status step(ali3_instance *in, double h) {
   const ali3_report before = in->report;
   in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
   in->t_now = ali3_time(in);
-  const ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
+  ali3_branch_before(in);
+  ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
+  if (status == ALI3_OK) status = ali3_branch_after(in, t_base + (double)count * h, h);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);

@@ -91,7 +91,7 @@ static double reaction(const ali3_instance *in, const int32_t *v, const double *
 static double health(const ali3_instance *in, int32_t kind) {
   const ali3_report *r = &in->report;
   const double kinds[6] = {r->last_iterations,        r->violation,        r->residual,
-                           (double)r->factorizations, (double)r->halvings, r->last_status};
+                           (double)r->factorizations, (double)r->halvings, (double)ali3_run_status(r)};
   return kinds[kind];
 }
 

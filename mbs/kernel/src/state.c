@@ -59,7 +59,13 @@ static bool counted(int64_t n) { return n >= 0 && n < MOST_COUNTED; }
 
 static bool magnitude(double x) { return x >= 0.0 && x - x == 0.0; }
 
-static bool report_valid(const ali3_report *r) {
+static bool report_valid(const ali3_system *s, const ali3_report *r) {
+  const bool changed = r->branch_changes > 0;
+  if (!counted(r->branch_changes) || !(r->branch_time - r->branch_time == 0.0)) return false;
+  if (changed && (r->branch_loop < 0 || r->branch_loop >= ali3_loop_count(s) || r->branch_triad < 0 ||
+                  ALI3_TRIAD_ITEMS * (r->branch_triad + 1) >
+                      s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]))
+    return false;
   return magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) && magnitude(r->velocity_path) &&
          magnitude(r->predictor_path) && r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 &&
          counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
@@ -89,7 +95,7 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   get(&report, &p, sizeof report);
   const unsigned char *numbers = (const unsigned char *)bytes + fixed,
                       *inputs = numbers + (2 + in->n_vector) * sizeof(double);
-  if (!ali3_settings_valid(&settings) || !report_valid(&report) ||
+  if (!ali3_settings_valid(&settings) || !report_valid(in->system, &report) ||
       !numbers_finite(numbers, (size - fixed) / sizeof(double)))
     return ALI3_BAD_STATE;
   for (int32_t i = 0; i < z->np; i++) {
@@ -109,6 +115,8 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   in->report = report;
   in->initialised = (int32_t)header.initialised;
   in->count = header.count;
+  in->mode_known = false;
+  in->placed = ALI3_PLACED_BY_Q; /* a start from here is from these coordinates */
   get(&in->t_base, &p, sizeof(double));
   get(&in->h_last, &p, sizeof(double));
   get(in->now.q, &p, in->n_vector * sizeof(double));

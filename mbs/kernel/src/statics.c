@@ -12,6 +12,7 @@ static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 *
 static const double PENALTY = 1e9; /* c alpha, as in a step with eps_rel = 2.5e-10 */
 static const double CLOSED = 1e-10; /* m */
 static const double OPEN = 1e-2; /* m: c does not grow beyond it */
+enum { SLOW = 20 }; /* iterations after which rows that close slowly, c K being large beside PENALTY, make c smaller */
 static const double ROUND_OFF = 1e-12; /* of the forces in balance */
 
 /* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report, what lies above round-off is
@@ -103,10 +104,13 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
     double part = 1.0;
     if (status == ALI3_OK) status = correct(in, c, &part);
     if (status != ALI3_OK) return status;
-    const double previous = last, used = c;
+    const double previous = last, used = c, open = in->report.violation;
     last = balance(in, c);
+    const bool closes = in->report.violation <= CLOSED || in->report.violation < 0.5 * open;
     if (part < 1.0 || last > 4.0 * previous)
       c = fmax(0.5 * c, LEAST_C);
+    else if (iteration >= SLOW && !closes)
+      c = fmax(0.25 * c, FIRST_C);
     else if (in->report.violation <= OPEN)
       c = fmin(4.0 * c, LARGEST_C);
     if (c != used) last = balance(in, c); /* the element tangents carry c */

@@ -173,6 +173,8 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   if (s->size.nout > MAX_OUTPUTS) return ali3_bad(m, "%d element outputs", (int)s->size.nout);
   CHECK(ali3_check_sensors(s, m));
   CHECK(ali3_check_tree(s, m));
+  CHECK(ali3_check_modes(s, m));
+  CHECK(ali3_check_start(s, m));
   const char *text = ali3_check_data(s, s->el_real, s->guide_real, s->road_real);
   return text == NULL ? ALI3_OK : ali3_bad(m, "%s", text);
 }

@@ -93,6 +93,11 @@ static ali3_status read_entry(ali3_system *s, const unsigned char *entry, size_t
   return ALI3_OK;
 }
 
+/* Arrays that a System need not have: one without knows nothing of assembly modes or of a start in equilibrium. */
+static bool may_lack(const char *name) {
+  return strncmp(name, "mode_", 5) == 0 || strncmp(name, "static_", 7) == 0 || strcmp(name, "pose_partner") == 0;
+}
+
 static ali3_status read_directory(ali3_system *s, size_t size, ali3_message m) {
   bool seen[SLOT_COUNT] = {false};
   const uint32_t n = read_u32(s->bytes + 12);
@@ -103,7 +108,7 @@ static ali3_status read_directory(ali3_system *s, size_t size, ali3_message m) {
     if (status != ALI3_OK) return status;
   }
   for (int k = 0; k < SLOT_COUNT; k++)
-    if (!seen[k]) return ali3_bad(m, "array '%s' is missing", slots[k].name);
+    if (!seen[k] && !may_lack(slots[k].name)) return ali3_bad(m, "array '%s' is missing", slots[k].name);
   return ALI3_OK;
 }
 

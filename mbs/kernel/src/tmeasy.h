@@ -2,19 +2,30 @@
 #ifndef ALI3_TMEASY_H
 #define ALI3_TMEASY_H
 
-typedef struct { /* one direction at the present load and friction; forces are divided by q = load / nominal load */
+typedef struct { /* one curve at the present load and friction; forces are divided by q = load / nominal load */
   double slope;                   /* initial slope dF/ds, N */
   double max_force, max_slip;     /* N, - */
   double slide_force, slide_slip; /* N, - */
 } ali3_tmeasy;
 
+typedef struct { /* both directions over the normalised slips n_i = s_i / scale_i */
+  double max_force[2];       /* N, of each direction alone */
+  double scale[2];           /* normalising factors of the slips */
+  ali3_tmeasy square, spread; /* a parameter at cos^2 of the slip's direction is sqrt(square + spread cos^2) */
+} ali3_tmeasy_pair;
+
 /* pairs: values at the nominal load and at twice of it of slope, max_force, max_slip, slide_force, slide_slip. */
 ali3_tmeasy ali3_tmeasy_at(const double pairs[10], double q, double friction_ratio);
 
-/* Secant F(s)/s for s >= 0, finite at s = 0, and its derivative with respect to s. */
-double ali3_tmeasy_secant(const ali3_tmeasy *t, double s, double *derivative);
+/* Both directions at one load and friction. */
+ali3_tmeasy_pair ali3_tmeasy_pair_at(const double x_pairs[10], const double y_pairs[10], double q,
+                                     double friction_ratio);
+
+/* Secant F(s)/s of the generalised slip s = |n|, finite at s = 0, and its gradient by the normalised slips n; the force
+ * is minus the secant times n. */
+double ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const double n[2], double gradient[2]);
 
 /* Dynamic trail over contact length at lateral slip s >= 0; pairs: value at s = 0, slip of the first zero, slip where
- * it ends. */
-double ali3_tmeasy_trail(const double pairs[6], double q, double s);
+ * it ends (both slips grow with the friction ratio). */
+double ali3_tmeasy_trail(const double pairs[6], double q, double friction_ratio, double s);
 #endif

@@ -4,7 +4,7 @@
  * Signals: wheel centre r (3), unit spin axis e pointing left (3), chi with chi' = Omega the absolute rate about e
  * (> 0 rolling forward).
  * Integers: road. States: carcass deflections x, y and their rates. Outputs: Fx, Fy, Fz, Mz, slip, slip angle,
- * deflection, loaded radius, contact point (3).
+ * deflection, loaded radius, contact point (3), inclination.
  *
  * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the
  * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power
@@ -16,7 +16,7 @@
  * Hence F (v_s + x') = -F^2/g <= 0: sliding only takes energy. With x = a + b x' (theta rule, a and b known) and
  * D = d + b c the step is
  *   F = g (c a - D v_s)/(g + D),   x' = (F - c a)/D,
- * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the ellipse of the largest forces.
+ * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the largest force of its direction.
  *
  * The tangent leaves out the coupling of load and horizontal force and the turning of the frames. */
 #include "element.h"
@@ -43,11 +43,11 @@ enum {
   FRICTION_FACTOR,
   REALS
 };
-enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, OUTPUTS = CONTACT_X + 3 };
+enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, INCLINATION = CONTACT_X + 3, OUTPUTS };
 
 #define TOUCH_DEPTH 0.005 /* m, over which the radial damping sets in */
 #define SLOW_SPEED 1e-5 /* m/s, added to the transport speed; small so that a parked car creeps by micrometres only */
-#define ROLL_SPEED 0.5 /* m/s, where effective radius and trail of the rolling tyre set in */
+#define ROLL_SPEED 1.0 /* m/s, from which effective radius and trail are those of the rolling tyre */
 #define NO_LOAD 1e-9 /* N */
 #define NO_GRIP 1e-6 /* of the reference friction */
 
@@ -111,44 +111,55 @@ static void semidefinite(double C[3]) {
   C[2] = 0.5 * top * (1.0 - cosine);
 }
 
+/* Radial return of F to the largest force of its direction, which in TMeasy is hypot(Fxm cos, Fym sin); J follows. */
+static void limit(const double full[2], double F[2], double J[2][2], double safe[2]) {
+  const double weight[2] = {full[0] * full[0], full[1] * full[1]};
+  const double size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
+  if (!(bound > 0.0 && size2 > bound)) return;
+  const double use = size2 / bound;
+  double e[2]; /* gradient of use by F */
+  for (int i = 0; i < 2; i++) e[i] = (2.0 - use * weight[i] / bound) * (F[i] / bound);
+  for (int j = 0; j < 2; j++) {
+    const double along = (e[0] * J[0][j] + e[1] * J[1][j]) / use;
+    for (int i = 0; i < 2; i++) J[i][j] = (J[i][j] - F[i] * along) / use;
+    safe[j] /= use;
+  }
+  for (int i = 0; i < 2; i++) F[i] /= use;
+}
+
+static double load_factor(const double *p, const patch *contact) {
+  return ali3_clamp(contact->load / p[NOMINAL_LOAD], 0.0, p[MAX_LOAD_FACTOR]);
+}
+
+static double friction_ratio(const double *p, const patch *contact) {
+  return contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
+}
+
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
  * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
 static void carcass(const ali3_element_args *a, const patch *contact, const double v[2], double w, double F[2],
                     double C[3]) {
-  const double *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING;
-  const double q = ali3_clamp(contact->load / p[NOMINAL_LOAD], 0.0, p[MAX_LOAD_FACTOR]);
-  const double grip = contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
-  const ali3_tmeasy t[2] = {ali3_tmeasy_at(p + CURVE_X, q, grip), ali3_tmeasy_at(p + CURVE_Y, q, grip)};
-  const double bx = t[0].max_force / t[0].slope, by = t[1].max_force / t[1].slope,
-               slips = t[0].max_slip + t[1].max_slip;
-  const double scale[2] = {t[0].max_slip / slips + bx / (bx + by), t[1].max_slip / slips + by / (bx + by)};
-  const double n[2] = {v[0] / (scale[0] * w), v[1] / (scale[1] * w)}, s = ali3_hypot(n[0], n[1]);
-  double J[2][2], safe[2], offset[2], D[2], full[2];
+  const double *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
+  const double grip = friction_ratio(p, contact);
+  const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, grip);
+  const double n[2] = {v[0] / (t.scale[0] * w), v[1] / (t.scale[1] * w)};
+  double gradient[2], J[2][2], safe[2], offset[2], D[2], full[2];
+  double secant = ali3_tmeasy_secant(&t, n, gradient);
+  if (!(grip > NO_GRIP)) /* else the slope of a grip of next to nothing would hold at rest */
+    secant = gradient[0] = gradient[1] = 0.0;
   for (int i = 0; i < 2; i++) {
-    double slope, g = q * ali3_tmeasy_secant(&t[i], s * scale[i], &slope) / w;
-    if (!(grip > NO_GRIP)) g = slope = 0.0; /* else the slope of a grip of next to nothing would hold at rest */
+    const double per_slip = q / (t.scale[i] * w), g = per_slip * secant;
     const double theta = ali3_theta(a->h, c[i] / (d[i] + g)), b = a->h * theta;
     offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c[i];
-    full[i] = q * t[i].max_force;
+    full[i] = q * t.max_force[i];
     safe[i] = ALI3_SECANT_SHARE * D[i] * (g / (g + D[i]));
     F[i] = g / (g + D[i]) * (offset[i] - D[i] * v[i]);
     const double by_g = D[i] / (g + D[i]) * ((offset[i] - D[i] * v[i]) / (g + D[i]));
-    for (int j = 0; j < 2; j++) {
-      const double ds = s > 0.0 ? n[j] / (s * scale[j] * w) : 0.0;
-      J[i][j] = by_g * (q / w) * slope * scale[i] * ds - (i == j ? g / (g + D[i]) * D[i] : 0.0);
-    }
+    for (int j = 0; j < 2; j++)
+      J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g / (g + D[i]) * D[i] : 0.0);
   }
-  const double use = contact->load > NO_LOAD ? ali3_hypot(F[0] / full[0], F[1] / full[1]) : 0.0;
-  if (use > 1.0) { /* radial return to the ellipse */
-    const double e[2] = {F[0] / full[0] / full[0] / use, F[1] / full[1] / full[1] / use};
-    for (int j = 0; j < 2; j++) {
-      const double along = (e[0] * J[0][j] + e[1] * J[1][j]) / use;
-      for (int i = 0; i < 2; i++) J[i][j] = (J[i][j] - F[i] * along) / use;
-      safe[j] /= use;
-    }
-    for (int i = 0; i < 2; i++) F[i] /= use;
-  }
+  if (contact->load > NO_LOAD) limit(full, F, J, safe);
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
     a->y_new[2 + i] = a->y_old[2 + i];
@@ -163,26 +174,35 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
   C[2] += safe[1];
 }
 
+/* Trail over contact length at the lateral slip s. */
+static double trail_share(const double *p, const patch *contact, double s) {
+  return ali3_tmeasy_trail(p + TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
+}
+
+/* An iterate of the solver need not be a unit vector. */
+static void unit_axis(const double axis[3], double e[3]) {
+  const double size = ali3_norm(axis);
+  for (int i = 0; i < 3; i++) e[i] = size > 1e-6 ? axis[i] / size : (i == 1);
+}
+
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real, *rd = a->ud, *ed = a->ud + 3, omega = a->ud[6];
-  double e[3] = {0.0, 1.0, 0.0}, forward[3], left[3], F[2], C[3], v[2], push[3];
+  double e[3], forward[3], left[3], F[2], C[3], v[2], push[3];
   a->potential = 0.0;
-  const double length = ali3_norm(a->u + 3);
-  if (length > 1e-6) /* an iterate of the solver need not be a unit vector */
-    for (int i = 0; i < 3; i++) e[i] = a->u[3 + i] / length;
+  unit_axis(a->u + 3, e);
   const patch contact = radial(a, e);
   const double *rho = contact.rho, *n = contact.normal, loaded = ali3_norm(rho), turn = ali3_dot(ed, rho);
 
   ali3_cross(e, n, forward);
-  double size = ali3_norm(forward);
-  if (size < 1e-9) forward[0] = 1.0, forward[1] = forward[2] = 0.0, size = 1.0;
+  const double upright = ali3_norm(forward), size = upright < 1e-9 ? 1.0 : upright;
+  if (upright < 1e-9) forward[0] = 1.0, forward[1] = forward[2] = 0.0;
   for (int i = 0; i < 3; i++) forward[i] /= size;
   ali3_cross(n, forward, left);
 
   ali3_cross(e, rho, push); /* velocity of the patch per Omega */
   const double rolling = (2.0 * p[RADIUS] + (loaded < p[RADIUS] ? loaded : p[RADIUS])) / 3.0,
-               transport = rolling * fabs(omega);
-  const double speed2 = transport * transport, moving = speed2 / (speed2 + ROLL_SPEED * ROLL_SPEED);
+               transport = rolling * fabs(omega), w = transport + SLOW_SPEED;
+  const double rolls = transport / ROLL_SPEED, moving = rolls < 1.0 ? rolls * rolls * (2.0 - rolls * rolls) : 1.0;
   const double ratio =
       loaded > 1e-6 ? 1.0 + moving * (rolling / loaded - 1.0) : 1.0; /* slip radius over loaded radius */
   const double *tangent[2] = {forward, left};
@@ -194,18 +214,14 @@ static void evaluate(ali3_element_args *a) {
     for (int k = 0; k < 3; k++) row[i][k] = t[k], row[i][3 + k] = -lean * rho[k];
     row[i][6] = ratio * spin;
   }
-  carcass(a, &contact, v, transport + SLOW_SPEED, F, C);
+  carcass(a, &contact, v, w, F, C);
   a->potential +=
       0.5 * (p[CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * row[0][k] + F[1] * row[1][k];
 
-  const double deflection = loaded < p[RADIUS] ? p[RADIUS] - loaded : 0.0,
-               reference = ali3_hypot(transport, ROLL_SPEED);
-  const double trail = moving * 2.0 * sqrt(p[RADIUS] * deflection) *
-                       ali3_tmeasy_trail(p + TRAIL, ali3_clamp(contact.load / p[NOMINAL_LOAD], 0.0, p[MAX_LOAD_FACTOR]),
-                                         fabs(v[1]) / reference);
-  const double moment = -trail * F[1], resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS],
-               roll = ali3_tanh(omega);
+  const double deflection = loaded < p[RADIUS] ? p[RADIUS] - loaded : 0.0, length = 2.0 * sqrt(p[RADIUS] * deflection);
+  const double moment = -moving * length * trail_share(p, &contact, fabs(v[1]) / w) * F[1],
+               resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
   double twist[3];
   ali3_cross(n, e, twist);
   for (int i = 0; i < 3; i++) a->f[3 + i] += moment * twist[i];
@@ -219,15 +235,11 @@ static void evaluate(ali3_element_args *a) {
   }
   const double drive = -ratio * ali3_dot(forward, push) * omega; /* circumferential speed */
   const double fastest = ali3_hypot(fabs(drive) > fabs(travel[0]) ? drive : travel[0], 0.01);
-  a->out[FX] = F[0];
-  a->out[FY] = F[1];
-  a->out[FZ] = contact.load;
-  a->out[MZ] = moment;
-  a->out[SLIP] = -v[0] / fastest;
-  a->out[SLIP_ANGLE] = ali3_atan2(v[1], ali3_hypot(travel[0], 0.01));
-  a->out[DEFLECTION] = deflection;
-  a->out[LOADED_RADIUS] = p[RADIUS] - deflection;
+  const double slip = -v[0] / fastest, slip_angle = ali3_atan2(v[1], ali3_hypot(travel[0], 0.01));
+  const double out[] = {F[0], F[1], contact.load, moment, slip, slip_angle, deflection, p[RADIUS] - deflection};
+  for (int i = 0; i < CONTACT_X; i++) a->out[i] = out[i];
   for (int i = 0; i < 3; i++) a->out[CONTACT_X + i] = a->u[i] + rho[i];
+  a->out[INCLINATION] = ali3_atan2(ali3_dot(e, n), upright);
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,

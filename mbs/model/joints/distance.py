@@ -12,7 +12,7 @@ from mbs.model.body import Body
 from mbs.model.checks import positive
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, GuideTerm, dot_products
-from mbs.model.joints.joint import Joint
+from mbs.model.joints.joint import Joint, JointEnds
 from mbs.model.slide import SlidingPoint
 
 End = Any  # (body, point), a point mass, or a SlidingPoint
@@ -32,6 +32,14 @@ def end_point(model: ModelCore, end: End, what: str) -> tuple[AffineVector, Slid
             f"An end of {what} must be (body, point), a point mass or a sliding point; got {end!r}."
         ) from None
     return model.anchor(body, point, what), None
+
+
+def end_body(end: End) -> Body:
+    """The body at an end."""
+    if isinstance(end, SlidingPoint | Body):
+        return end.body if isinstance(end, SlidingPoint) else end
+    body: Body = end[0]
+    return body
 
 
 def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float | None) -> Joint:
@@ -59,9 +67,11 @@ def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float 
             GuideTerm(slide.guide, 1, dot_products(gap, slide.direction, sign)),
             GuideTerm(slide.guide, 2, linear=Affine({}, 0.5)),
         ]
-    return Joint(
+    joint = Joint(
         name,
         "distance",
         [Equation(name, "distance", dot_products(gap, gap, 0.5), constant, guides)],
         rows_weight=length,
     )
+    joint.ends = JointEnds((end_body(end_1), end_body(end_2)), (p1, p2), rod=True)
+    return joint

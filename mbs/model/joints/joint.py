@@ -15,6 +15,11 @@ from mbs.model.equation import Equation
 if TYPE_CHECKING:
     from mbs.model.body import Body
 
+FORCE_KINDS = ("point", "line", "distance", "drive", "gear", "rack", "thread")
+"""Kinds of equations whose multipliers are a force or a torque that can be read."""
+SCALAR_FORCES = {"distance": "tension", "drive": "drive", "gear": "torque", "rack": "force", "screw": "force"}
+"""What the one force or torque of a type of joint is called."""
+
 
 @dataclass(frozen=True)
 class JointPlaces:
@@ -23,6 +28,30 @@ class JointPlaces:
     bodies: tuple[Body, Body]
     points: tuple[Any, Any]
     axes: tuple[Any, Any] | None = None
+
+
+@dataclass(frozen=True)
+class JointEnds:
+    """What closed loops need of a joint: its bodies (the ground, a body or a node), its point on each, its axis.
+
+    Attributes
+    ----------
+    bodies : tuple of Body
+    points : tuple of AffineVector
+        On the first and on the second body.
+    axis : AffineVector or None
+        About which the bodies turn, or along which the point of the first slides on a line of the second.
+    slides : bool
+        Whether the bodies slide along the axis.
+    rod : bool
+        Whether a massless rod joins the points, which then are apart.
+    """
+
+    bodies: tuple[Body, Body]
+    points: tuple[AffineVector, AffineVector]
+    axis: AffineVector | None = None
+    slides: bool = False
+    rod: bool = False
 
 
 class Joint:
@@ -42,6 +71,8 @@ class Joint:
         Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
     places : JointPlaces or None
         Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
+    ends : JointEnds or None
+        Of joints that can be part of a closed loop.
     """
 
     def __init__(
@@ -61,6 +92,7 @@ class Joint:
         self.places = places
         self.keep = False
         self.switch: Any = None
+        self.ends: JointEnds | None = None
 
     def __repr__(self) -> str:
         return f"<Joint {self.name!r} ({self.type})>"
@@ -68,7 +100,7 @@ class Joint:
     @property
     def force_equations(self) -> list[int]:
         """Numbers of the equations whose multipliers are its force."""
-        return [k for k, e in enumerate(self.equations) if e.kind in ("point", "line", "distance", "drive")]
+        return [k for k, e in enumerate(self.equations) if e.kind in FORCE_KINDS]
 
 
 def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> list[Equation]:

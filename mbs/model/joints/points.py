@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
-from mbs.model.joints.joint import Joint, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 
 _BIG = 1.0 - 1e-12
 
@@ -60,7 +60,9 @@ def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     p1, p2 = point_pair(point, model.dimension, what)
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
-    return Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
+    joint = Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    return joint
 
 
 def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike | None) -> Joint:
@@ -78,7 +80,10 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
         raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
     axes = None if axis is None else point_pair(axis, 3, what)
     places = JointPlaces((body_1, body_2), (p1, p2), axes)
-    return Joint(name, "revolute", equations, rows_weight=1.0, places=places)
+    joint = Joint(name, "revolute", equations, rows_weight=1.0, places=places)
+    shared = None if axes is None else body_1.vector(direction(axes[0], 3, f"the axis of {what}"))
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), shared)
+    return joint
 
 
 def universal(
@@ -98,4 +103,6 @@ def universal(
     a1, a2 = model.anchor_axis(body_1, u1, what), model.anchor_axis(body_2, u2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
     equations.append(Equation(name, "axes", dot_products(a1, a2), Affine({}, -cosine)))
-    return Joint(name, "universal", equations, rows_weight=1.0)
+    joint = Joint(name, "universal", equations, rows_weight=1.0)
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    return joint

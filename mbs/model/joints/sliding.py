@@ -14,7 +14,7 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import Interface, bends, located
-from mbs.model.joints.joint import Joint, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import different, may_share, shared_axis, shared_point
 
 
@@ -40,6 +40,15 @@ def on_line(
     return [Equation(name, "line", dot_products(gap, n)) for n in normals], normals
 
 
+def _sliding_ends(end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike, what: str) -> JointEnds:
+    """The point of body 1 slides along the axis of body 2."""
+    (body_1, p1), (body_2, p2) = end_1, end_2
+    # a vector of a node that bends would bring rows of its own
+    turning = body_2.owner if isinstance(body_2, Interface) and body_2.bends else body_2
+    along = turning.vector(direction(axis, body_2.dimension, f"the axis of {what}"))
+    return JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), along, slides=True)
+
+
 def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, what: str) -> list[Equation]:
     """Body 1 does not turn against body 2: all axes are shared (linear); of nodes that bend, their directions."""
     axes = np.eye(model.dimension)[: 1 if model.dimension == 2 else 3]
@@ -63,7 +72,9 @@ def point_on_line(
     what = f"point-on-line joint '{name}'"
     different(end_1[0], end_2[0], what)
     line, normals = on_line(model, name, end_1, end_2, axis, what)
-    return Joint(name, "point_on_line", line, normals=normals)
+    joint = Joint(name, "point_on_line", line, normals=normals)
+    joint.ends = _sliding_ends(end_1, end_2, axis, what)
+    return joint
 
 
 def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
@@ -76,7 +87,9 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_axis(model, name, body_1, body_2, axis, what)
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
-    return Joint(name, "cylindrical", equations + line, normals=normals)
+    joint = Joint(name, "cylindrical", equations + line, normals=normals)
+    joint.ends = _sliding_ends((body_1, p1), (body_2, p2), point_pair(axis, 3, what)[1], what)
+    return joint
 
 
 def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
@@ -91,7 +104,9 @@ def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     equations = same_orientation(model, name, body_1, body_2, what)
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
     places = JointPlaces((body_1, body_2), (p1, p2), (axis, axis))
-    return Joint(name, "prismatic", equations + line, normals=normals, places=places)
+    joint = Joint(name, "prismatic", equations + line, normals=normals, places=places)
+    joint.ends = _sliding_ends((body_1, p1), (body_2, p2), axis, what)
+    return joint
 
 
 def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
@@ -101,7 +116,11 @@ def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
     point = body_2.com if body_1.is_ground or isinstance(body_2, Interface) else body_1.com
     if body_1.is_point or body_2.is_point:
         point = body_1.com if body_1.is_point else body_2.com
-        return Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
+        joint = Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
+        joint.ends = JointEnds((body_1, body_2), (body_1.point(point), body_2.point(point)))
+        return joint
     equations = shared_point(model, name, body_1, body_2, point, what)
     equations += same_orientation(model, name, body_1, body_2, what)
-    return Joint(name, "weld", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (point, point)))
+    joint = Joint(name, "weld", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (point, point)))
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(point), body_2.point(point)))
+    return joint

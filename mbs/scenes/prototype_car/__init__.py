@@ -19,7 +19,7 @@ from mbs.scenes.prototype_car.front_suspension import front_suspension
 from mbs.scenes.prototype_car.outputs import chassis_outputs, control_outputs, health_outputs, wheel_outputs
 from mbs.scenes.prototype_car.rear_suspension import rear_suspension
 from mbs.scenes.prototype_car.side import FRONT_SIDES, REAR_SIDES
-from mbs.scenes.prototype_car.tyre_data import FRICTION
+from mbs.scenes.prototype_car.tyre_data import FRICTION, NOMINAL_LOAD
 from mbs.scenes.prototype_car.wheels import wheel
 
 FAR_AWAY = 1e6  # m: the default kerb lies where no manoeuvre goes
@@ -126,7 +126,8 @@ def _road_parameters(m: Model, road: Road | None, ground: int) -> None:
             0.0,
             2.0,
             "1",
-            "friction of the road",
+            ("factor on the friction of the road" if isinstance(road, GridRoad) else "friction coefficient")
+            + f": largest longitudinal tyre force over load at {NOMINAL_LOAD:g} N",
             targets=[(target, names.index("friction"), 1.0)],
         )
     if road is None:

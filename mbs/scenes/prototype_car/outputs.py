@@ -85,7 +85,17 @@ def wheel_outputs(m: Model, chassis: Body, spin: Spin, w: str) -> None:
         f"wheel_{w}.steer", spin.axis, left, up, description="steer angle about the vehicle's z axis, positive left"
     )
     m.sense_angle_between(
-        f"wheel_{w}.camber", spin.axis, left, forward, description="turn of the wheel axis about the x axis"
+        f"wheel_{w}.camber",
+        spin.axis,
+        left,
+        forward,
+        description="deprecated, not the camber of ISO 8855 but a turn about the vehicle's x axis: use inclination",
+    )
+    m.sense_element(
+        f"wheel_{w}.inclination",
+        f"tyre {w}",
+        "inclination",
+        description="of the wheel plane from the road's normal about the wheel's x axis, top right positive (ISO 8855)",
     )
     m.sense_coordinate(f"wheel_{w}.omega", spin, 1, description="absolute angular velocity, positive forward")
     _travel(m, chassis, spin, w)

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from mbs.elements.tyre import Tyre, TyreCurve
 
-FRICTION = 0.9  # dry asphalt [A]
+FRICTION = 1.2705  # dry asphalt: 1.125 times the 1694 N / 1500 N of the curves [A]
 RADIUS = {"front": 0.27, "rear": 0.29}  # [P]
 BOTTOMING_RADIUS = {"front": 0.18, "rear": 0.19}  # rim and 1 cm [A]
+
+NOMINAL_LOAD = 1500.0  # N [A]
 
 # pairs: at the nominal load and at twice of it
 LONGITUDINAL = TyreCurve(
@@ -45,8 +47,7 @@ def tyre(axle: str) -> Tyre:
         trail_end=(0.96524, 1.0714),
         carcass_stiffness=(150000.0, 80000.0),  # longitudinal, lateral [A]
         carcass_damping=(500.0, 500.0),  # [A]
-        nominal_load=1500.0,
-        reference_friction=0.8,
+        nominal_load=NOMINAL_LOAD,
         max_load_factor=3.5,
         rolling_resistance=0.015,  # [A]
     )

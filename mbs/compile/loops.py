@@ -1,0 +1,222 @@
+"""Closed loops of a model: which bodies and massless rods joints tie to each other in a ring.
+
+The graph has welded bodies as one vertex, massless rods as vertices of their own, and an edge for all joints between
+two vertices. A block is a largest set of edges of which any two lie on a ring (biconnected component; R. Tarjan,
+Depth-first search and linear graph algorithms, SIAM J. Comput. 1 (1972)): loops of two blocks act on each other only
+through the one vertex they may share.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from mbs.affine import AffineVector
+from mbs.model.body import Body
+from mbs.model.joints.joint import Joint
+from mbs.model.model import Model
+
+
+@dataclass(eq=False)
+class Vertex:
+    """Welded bodies, or a massless rod, which has none.
+
+    Attributes
+    ----------
+    edges : dict of Vertex to Edge
+        By the vertex at the other end.
+    """
+
+    name: str
+    bodies: list[Body] = field(default_factory=list)
+    edges: dict[Vertex, Edge] = field(default_factory=dict)
+
+    @property
+    def is_rod(self) -> bool:
+        """Whether it is a massless rod."""
+        return not self.bodies
+
+    @property
+    def is_ground(self) -> bool:
+        """Whether it holds the ground."""
+        return any(body.is_ground for body in self.bodies)
+
+
+@dataclass(eq=False)
+class Edge:
+    """All joints between two vertices.
+
+    Attributes
+    ----------
+    point : AffineVector
+        Of the first joint.
+    axis : AffineVector or None
+        Of a hinge, or of two ball joints the line through them, about which the vertices turn; of a slide its line.
+    slides : bool
+    line_of : Vertex or None
+        Which vertex the line of a point that slides belongs to; None where it belongs to both.
+    """
+
+    ends: tuple[Vertex, Vertex]
+    joints: list[Joint]
+    point: AffineVector
+    axis: AffineVector | None = None
+    slides: bool = False
+    line_of: Vertex | None = None
+
+    def other(self, vertex: Vertex) -> Vertex:
+        """The end that is not `vertex`."""
+        return self.ends[1] if vertex is self.ends[0] else self.ends[0]
+
+
+@dataclass(eq=False)
+class Block:
+    """Edges of which any two lie on a ring, and their vertices.
+
+    Attributes
+    ----------
+    held : Vertex
+        Against which its motion is seen: the ground, else the vertex with the most edges in the model.
+    """
+
+    vertices: list[Vertex]
+    edges: list[Edge]
+    held: Vertex
+
+
+def blocks_of_loops(model: Model) -> list[Block]:
+    """The blocks that close a ring; joints with a switch are left out, they are not always closed."""
+    found = []
+    for edges in _blocks(_graph(model)):
+        vertices = list(dict.fromkeys(v for e in edges for v in e.ends))
+        if len(vertices) < 3:
+            continue
+        held = next((v for v in vertices if v.is_ground), None)
+        if held is None:
+            with_bodies = [v for v in vertices if not v.is_rod]
+            held = max(with_bodies, key=lambda v: len(v.edges))  # the first of equals
+        found.append(Block(vertices, edges, held))
+    return found
+
+
+def rings(block: Block) -> list[list[Vertex]]:
+    """The shortest ring through each edge of a block, each once, as its vertices in order: of equally short ones one of
+    bodies alone, and these first.
+    """
+    mine = set(map(id, block.edges))
+    found: dict[frozenset[int], list[Vertex]] = {}
+    for edge in block.edges:
+        start, goal = edge.ends
+        before: dict[int, Vertex] = {id(start): start}
+        front = [start]
+        while front and id(goal) not in before:
+            reached = []
+            for v in front:
+                for w, e in sorted(v.edges.items(), key=lambda item: item[0].is_rod):
+                    if id(e) in mine and e is not edge and id(w) not in before:
+                        before[id(w)] = v
+                        reached.append(w)
+            front = reached
+        if id(goal) not in before:
+            continue
+        ring = [goal]
+        while ring[-1] is not start:
+            ring.append(before[id(ring[-1])])
+        found.setdefault(frozenset(map(id, ring)), ring)
+    return sorted(found.values(), key=lambda ring: any(v.is_rod for v in ring))
+
+
+def _graph(model: Model) -> list[Vertex]:
+    """All vertices, with their edges."""
+    joints = [j for j in model.joints if j.ends is not None and j.switch is None]
+    leader: dict[int, int] = {}
+    numbers = {body.start: body.number for body in model.bodies}
+
+    def number(body: Body) -> int:
+        """-1 for the ground; of a node or a body with ports, the body it is part of."""
+        return -1 if body.is_ground else numbers[body.start]
+
+    def find(k: int) -> int:
+        while leader.setdefault(k, k) != k:
+            leader[k] = k = leader[leader[k]]
+        return k
+
+    for joint in joints:
+        if joint.type == "weld" and joint.ends is not None:
+            a, b = (number(body) for body in joint.ends.bodies)
+            leader[find(max(a, b))] = find(min(a, b))
+    vertices: dict[int, Vertex] = {}
+    for body in [model.ground, *model.bodies]:
+        k = find(number(body))
+        vertices.setdefault(k, Vertex(body.name)).bodies.append(body)
+    listed = list(vertices.values())
+    for joint in joints:
+        if joint.type == "weld" or joint.ends is None:
+            continue
+        first, second = (vertices[find(number(body))] for body in joint.ends.bodies)
+        if first is second:
+            continue
+        if joint.ends.rod:
+            rod = Vertex(joint.name)
+            listed.append(rod)
+            for vertex, point in zip((first, second), joint.ends.points, strict=True):
+                _join(vertex, rod, Edge((vertex, rod), [joint], point))
+            continue
+        ends, line_of = joint.ends, None
+        if ends.slides and joint.type == "point_on_line":
+            line_of = second
+        point = ends.points[0]
+        _join(first, second, Edge((first, second), [joint], point, ends.axis, ends.slides, line_of))
+    return listed
+
+
+def _join(a: Vertex, b: Vertex, new: Edge) -> None:
+    """A further ball joint between the same vertices makes a hinge about the line through both points."""
+    edge = a.edges.get(b)
+    if edge is None:
+        a.edges[b] = b.edges[a] = new
+        return
+    edge.joints += new.joints
+    if edge.axis is None and new.axis is None:
+        edge.axis = new.point - edge.point
+
+
+def _blocks(vertices: Sequence[Vertex]) -> list[list[Edge]]:
+    """Biconnected components by depth-first search without recursion."""
+    number: dict[int, int] = {}
+    low: dict[int, int] = {}
+    found: list[list[Edge]] = []
+    for root in vertices:
+        if id(root) in number:
+            continue
+        number[id(root)] = low[id(root)] = len(number)
+        open_edges: list[Edge] = []
+        stack: list[tuple[Vertex, Edge | None, Iterator[tuple[Vertex, Edge]]]] = [
+            (root, None, iter(root.edges.items()))
+        ]
+        while stack:
+            v, came, rest = stack[-1]
+            for w, edge in rest:
+                if edge is came:
+                    continue
+                if id(w) not in number:
+                    open_edges.append(edge)
+                    number[id(w)] = low[id(w)] = len(number)
+                    stack.append((w, edge, iter(w.edges.items())))
+                    break
+                if number[id(w)] < number[id(v)]:
+                    open_edges.append(edge)
+                    low[id(v)] = min(low[id(v)], number[id(w)])
+            else:
+                stack.pop()
+                if not stack or came is None:
+                    continue
+                parent = stack[-1][0]
+                low[id(parent)] = min(low[id(parent)], low[id(v)])
+                if low[id(v)] >= number[id(parent)]:
+                    k = len(open_edges) - 1
+                    while open_edges[k] is not came:
+                        k -= 1
+                    found.append(open_edges[k:])
+                    del open_edges[k:]
+    return found

@@ -1,0 +1,49 @@
+"""Rack and pinion: a body slides along an axis of a carrier by the radius of a pinion per radian."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from mbs.errors import ModelError
+from mbs.model.body import Body
+from mbs.model.checks import number
+from mbs.model.core import Coordinate, ModelCore
+from mbs.model.equation import Equation, dot_products
+from mbs.model.joints.joint import Joint
+from mbs.model.joints.points import different
+from mbs.model.joints.transmission import not_zero, turned, turning_rate, wheel
+from mbs.model.spin import Spin
+
+
+def rack(
+    model: ModelCore,
+    name: str,
+    pinion: Coordinate,
+    body: Body,
+    carrier: Body,
+    axis: ArrayLike,
+    radius: float,
+    point: ArrayLike | None,
+) -> Joint:
+    """``(p - c) . e = radius * theta`` with p of the rack, c and e of the carrier, p = c and theta = 0 as drawn; with a
+    spin as pinion the same of the rates.
+    """
+    what = f"rack '{name}'"
+    turns = wheel(model, pinion, what)
+    different(body, carrier, what)
+    if model.owned(carrier, f"The {what}").is_point:
+        raise ModelError(f"The carrier of {what} needs axes; '{carrier.name}' is a point mass.")
+    if model.owned(body, f"The {what}").is_ground:
+        raise ModelError(f"The rack of {what} is the ground; it must be a moving body, with the ground as its carrier.")
+    r = not_zero(number(radius, f"The radius of {what}"), f"The radius of {what}")
+    place = body.com if point is None else point
+    gap = model.anchor(body, place, what) - model.anchor(carrier, place, what)
+    e = model.anchor_axis(carrier, axis, what)
+    if isinstance(turns, Spin):
+        rates = [*dot_products(e, gap), *dot_products(gap, e), *turning_rate(turns, -r)]
+        equation = Equation(name, "rack", rates=rates)
+    else:
+        equation = Equation(name, "rack", dot_products(gap, e), turned(model, turns) * -r)
+    joint = Joint(name, "rack", [equation], rows_weight=1.0)
+    joint.keep = True  # angles are never eliminated
+    return joint

@@ -1,0 +1,41 @@
+"""Screw joint: a cylindrical joint whose slide and turn are coupled by a pitch."""
+
+from __future__ import annotations
+
+import math
+
+from numpy.typing import ArrayLike
+
+from mbs.errors import ModelError
+from mbs.model.angle import relative_angle
+from mbs.model.body import Body
+from mbs.model.checks import number
+from mbs.model.core import Coordinate, ModelCore
+from mbs.model.equation import Equation, dot_products
+from mbs.model.joints.joint import Joint
+from mbs.model.joints.sliding import cylindrical
+from mbs.model.joints.transmission import not_zero, turned
+
+
+class Screw(Joint):
+    """A screw joint; `angle` is the relative angle of its first body against its second."""
+
+    angle: Coordinate
+
+
+def screw(
+    model: ModelCore, name: str, body_1: Body, body_2: Body, point: ArrayLike, axis: ArrayLike, pitch: float
+) -> tuple[Screw, Joint]:
+    """``(p_1 - p_2) . e = pitch / (2 pi) * theta`` on top of a cylindrical joint, and the joint of its angle."""
+    what = f"screw joint '{name}'"
+    if model.dimension == 2:
+        raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
+    lead = not_zero(number(pitch, f"The pitch of {what}"), f"The pitch of {what}")
+    shaft = cylindrical(model, name, body_1, body_2, point, axis)
+    angle, angle_joint = relative_angle(model, f"{name}.angle", body_2, body_1, axis, 0.0)
+    gap = model.anchor(body_1, point, what) - model.anchor(body_2, point, what)
+    thread = dot_products(gap, model.anchor_axis(body_2, axis, what))
+    row = Equation(name, "thread", thread, turned(model, angle) * (-lead / (2.0 * math.pi)))
+    joint = Screw(name, "screw", [row, *shaft.equations], rows_weight=1.0)
+    joint.angle, joint.keep = angle, True  # angles are never eliminated
+    return joint, angle_joint

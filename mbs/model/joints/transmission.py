@@ -1,0 +1,39 @@
+"""What gears and racks couple: how far a wheel has turned against its carrier, and how fast."""
+
+from __future__ import annotations
+
+from mbs.affine import Affine
+from mbs.errors import ModelError
+from mbs.model.core import Coordinate, ModelCore
+from mbs.model.equation import Product
+from mbs.model.spin import Spin
+
+ONE = Affine({}, 1.0)
+
+
+def wheel(model: ModelCore, given: Coordinate, what: str) -> Coordinate:
+    """`given` if it is a relative angle or a spin of this model."""
+    return model.owned_coordinate(given, f"The {what}")
+
+
+def turned(model: ModelCore, angle: Coordinate) -> Affine:
+    """A relative angle from where it is drawn."""
+    return angle.affine - model.coordinates[angle.index].reference
+
+
+def turning_rate(wheel: Coordinate, factor: float) -> list[Product]:
+    """`factor` times the rate of a wheel against its carrier, as terms c A dB/dt.
+
+    The rate of a spin with axis f x g is absolute; its carrier turns by g . df/dt about that axis.
+    """
+    own = [(factor, ONE, wheel.affine)]
+    if not isinstance(wheel, Spin):
+        return own
+    return own + [(-factor, g, f) for f, g in zip(wheel.f.components, wheel.g.components, strict=True)]
+
+
+def not_zero(value: float, what: str) -> float:
+    """`value` if it is not zero."""
+    if value == 0.0:
+        raise ModelError(f"{what} is 0; it must not be zero.")
+    return value

@@ -1,0 +1,197 @@
+"""A closed loop that changes its assembly mode is told; one that passes a singular position smoothly is not."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mbs import BranchWarning, Model, Settings, Simulation, System, compile, simulate
+from mbs.kernel.binding import BRANCH_CHANGED, KernelError, LoadedSystem
+from mbs.scenes import (
+    assembly_defect_four_bar,
+    bricard,
+    double_four_bar,
+    prototype_car,
+    slider_crank,
+    spatial_slider_crank,
+    squeezer,
+)
+
+from .loops import four_bar, suspension
+
+GRASHOF = (0.4, 0.1, 0.35, 0.3)  # m: the crank turns round, the rocker keeps its side
+
+
+def without_modes(system: System) -> System:
+    """The same System, which knows nothing of its loops."""
+    arrays = {n: v for n, v in system.arrays.items() if not n.startswith("mode_")}
+    return System(arrays, system.meta)
+
+
+@pytest.fixture(scope="module")
+def defect() -> System:
+    return compile(assembly_defect_four_bar.build(1))
+
+
+@pytest.fixture(scope="module")
+def thrown() -> System:
+    """A suspension whose upright starts upwards fast enough to turn about its ball joints."""
+    return compile(suspension(15.0))
+
+
+def test_a_suspension_that_turns_inside_out_is_told_by_name_and_time(thrown: System) -> None:
+    with pytest.warns(BranchWarning, match=r"'lower ball', 'upper ball', 'tie rod'.*at 'tie rod'") as told:
+        run = simulate(thrown, 0.3, 5e-4)
+    assert len(told) == 1
+    assert run.report is not None
+    assert (run.report.branch_changes, run.report.branch_kind) == (1, 1)
+    # the track rod lies in the plane of the kingpin at 0.09 s, told once its sine is 0.15 beyond
+    assert run.report.branch_time == pytest.approx(0.093, abs=0.002)
+    assert f"{run.report.branch_time:.6g} s" in str(told[0].message)
+
+
+def test_a_suspension_that_comes_back_is_not_told() -> None:
+    run = simulate(compile(suspension(5.0)), 0.3, 5e-4)
+    assert run["wheel.z"].max() > 0.48  # of 0.53 where the wishbones lock
+    assert run.report is not None
+    assert run.report.branch_changes == 0
+
+
+def test_the_mode_is_left_at_the_same_time_with_other_steps_and_methods(thrown: System) -> None:
+    for method in ("ali3p", "energy_momentum", "radau_5"):
+        for h in (2e-3, 2.5e-4):
+            with pytest.warns(BranchWarning, match="'tie rod'"):
+                run = simulate(thrown, 0.15, h, method=method)
+            assert run.report is not None
+            assert run.report.branch_time == pytest.approx(0.093, abs=0.003)
+
+
+def test_a_loop_without_springs_swings_as_it_likes() -> None:
+    run = simulate(compile(suspension(15.0, sprung=False)), 0.3, 5e-4)
+    assert run.report is not None
+    assert run.report.branch_changes == 0
+
+
+@pytest.mark.parametrize("h", [0.04, 0.05, 0.1])
+def test_a_step_that_jumps_the_branch_is_told(defect: System, h: float) -> None:
+    with pytest.warns(BranchWarning, match=r"t = 1\.6 s the closed loop of 'B', 'C' .*take a shorter one"):
+        run = simulate(defect, 2.5, h)
+    assert run["coupler.My"].min() < -11.0  # -9.1 on the branch of short steps
+    assert run.report is not None
+    assert run.report.branch_kind == 2
+
+
+def test_short_steps_stay_on_the_branch(defect: System) -> None:
+    run = simulate(defect, 10.0, 0.02)
+    assert run["coupler.My"].min() == pytest.approx(-9.1, abs=0.1)
+    assert run.report is not None
+    assert run.report.branch_changes == 0
+
+
+@pytest.mark.parametrize("h", [0.002, 0.01, 0.03])
+@pytest.mark.parametrize("scene", [double_four_bar, bricard, slider_crank, spatial_slider_crank])
+def test_singular_positions_on_the_smooth_branch_are_no_alarm(scene, h: float) -> None:
+    run = simulate(compile(scene.build()), 10.0, h)
+    assert run.report is not None
+    assert run.report.branch_changes == 0
+
+
+def test_many_cranks_in_a_row_and_the_squeezer_are_no_alarm() -> None:
+    for system, t_end, h in ((compile(double_four_bar.build(9)), 5.0, 0.01), (compile(squeezer.build()), 0.03, 1e-4)):
+        run = simulate(system, t_end, h)
+        assert run.report is not None
+        assert run.report.branch_changes == 0
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize(
+    "lengths", [GRASHOF, (0.4, 0.2, 0.4, 0.2), (0.2, 0.25, 0.25, 0.35), (0.3, 0.2, 0.25, 0.2)], ids=str
+)
+def test_four_bars_of_all_kinds_are_no_alarm(lengths: tuple[float, float, float, float], side: int) -> None:
+    run = simulate(compile(four_bar(lengths, 1.0, side, 6.0)), 5.0, 0.005)
+    assert run.report is not None
+    assert run.report.branch_changes == 0
+
+
+def test_a_step_onto_the_other_circuit_is_told() -> None:
+    """At 60 rad/s the crank turns nine radians in a step, and the rocker lands on the side no motion reaches."""
+    system = compile(four_bar((0.4, 0.1, 0.4, 0.15), 1.0, 1, 60.0))
+    with pytest.warns(BranchWarning, match="t = 0.15 s the closed loop of 'B', 'C' left its assembly mode at 'C'"):
+        simulate(system, 0.15, 0.15, settings=Settings(max_halvings=0))
+    assert simulate(system, 0.6, 0.001).report.branch_changes == 0  # type: ignore[union-attr]
+
+
+def test_the_sensor_of_the_status_tells_it_from_then_on() -> None:
+    m = suspension(15.0)
+    m.sense_solver("solver.status", "status")
+    with pytest.warns(BranchWarning):
+        run = simulate(compile(m), 0.15, 5e-4)
+    assert run.report is not None
+    after = run.t >= run.report.branch_time - 1e-9
+    assert np.all(run["solver.status"][after] == BRANCH_CHANGED)
+    assert np.all(run["solver.status"][~after] == 0.0)
+
+
+def test_watching_changes_no_bit(defect: System) -> None:
+    for system, t_end, h in ((defect, 3.0, 0.05), (compile(double_four_bar.build()), 5.0, 0.01)):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", BranchWarning)
+            seen, unseen = (simulate(s, t_end, h) for s in (system, without_modes(system)))
+        assert all(np.array_equal(seen[name], unseen[name]) for name in unseen)
+        assert seen.report is not None
+        assert unseen.report is not None
+        assert replace(seen.report, branch_changes=0, branch_time=0.0, branch_kind=0) == unseen.report
+
+
+def test_what_a_step_leaves_behind_is_that_of_the_whole_step(defect: System) -> None:
+    """The step of the jump is made again in parts; the tangent that readers find is the one of the step itself."""
+    pair = [Simulation(s) for s in (defect, without_modes(defect))]
+    for _ in range(34):
+        for simulation in pair:
+            simulation.step(0.05)
+    assert pair[0].report.branch_changes == 1
+    assert pair[0].instance.tangent(0.05)[:] == pair[1].instance.tangent(0.05)[:]
+    assert pair[0].sensors == pair[1].sensors
+
+
+def test_a_restored_state_goes_on_with_its_count(thrown: System) -> None:
+    first, second = Simulation(thrown), Simulation(thrown)
+    first.step(5e-4, 170)
+    state = first.save()
+    second.restore(state)
+    for simulation in (first, second):
+        simulation.step(5e-4, 100)
+    assert first.branch_change == second.branch_change != ""
+    third = Simulation(thrown)
+    third.restore(first.save())
+    assert third.branch_change == first.branch_change
+    third.step(5e-4, 10)
+    assert third.report.branch_changes == first.report.branch_changes
+
+
+@pytest.mark.parametrize("fidelity", [0, 1, 2])
+def test_the_loops_of_the_car_are_known_at_every_fidelity(fidelity: int) -> None:
+    system = compile(prototype_car.build(None, fidelity))
+    assert len(system.arrays["mode_cell_ptr"]) == 5  # a loop at each wheel
+    assert np.diff(system.arrays["mode_cell_ptr"]).tolist() == [2, 2, 2, 2]
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "value"),
+    [("mode_triad", 0, 10_000), ("mode_triad", 9, 4), ("mode_triad", 10, 3), ("mode_cell", 0, -1), ("mode_name", 0, 0)]
+    + [(f"mode_{n}_ptr", 1, 10_000) for n in ("triad", "cell", "name")],
+)
+def test_the_kernel_refuses_altered_modes(thrown: System, name: str, place: int, value: int) -> None:
+    values = np.array(thrown.arrays[name])
+    values[place] = value
+    with pytest.raises(KernelError, match=name):
+        LoadedSystem(System({**thrown.arrays, name: values}, thrown.meta).to_bytes())
+
+
+def test_a_model_of_one_body_has_no_loops() -> None:
+    m = Model("pendulum", dimension=2)
+    m.revolute("pin", m.ground, m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1), point=(0.0, 0.0))
+    assert len(compile(m).arrays["mode_triad"]) == 0

@@ -1,0 +1,146 @@
+"""A scene that starts in static equilibrium does so with other parameters, too: the kernel finds it again."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Model, Pose, Simulation, SimulationError, System, compile, linearise, simulate
+from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.scenes import prototype_car
+
+from .scenes_in_equilibrium import MASS, STIFFNESS, car, hanging
+
+G = 9.81
+
+
+@pytest.fixture(scope="module")
+def cars() -> dict[float, System]:
+    """The car with the stiffness of its front springs as a parameter, built with two values of it, N/m."""
+    return {k: compile(car(k)) for k in (12360.0, 20000.0)}
+
+
+def start(system: System, stiffness: float, pose: Pose | None = None) -> Simulation:
+    return Simulation(system, parameters={"front.stiffness": stiffness, "drive.creep_torque": 0.0}, pose=pose)
+
+
+def test_a_changed_spring_starts_at_rest_where_it_should() -> None:
+    system = compile(hanging())
+    for k in (500.0, 2000.0, 5000.0):
+        simulation = Simulation(system, parameters={"k": k})
+        assert simulation.sensors["z"] == pytest.approx(-1.0 - MASS * G / k, abs=1e-9)
+        assert np.max(np.abs(simulation.state.qdd)) < 1e-7
+    run = simulate(system, 0.2, 0.01, parameters={"k": 500.0})
+    assert np.ptp(run["z"]) < 1e-9
+
+
+def test_a_payload_counts_as_a_spring_does() -> None:
+    system = compile(hanging())
+    simulation = Simulation(system, parameters={"payload": 7.0})
+    assert simulation.sensors["z"] == pytest.approx(-1.0 - (MASS * G + 7.0) / STIFFNESS, abs=1e-9)
+
+
+@pytest.mark.parametrize("pose", [None, Pose(z=0.5), Pose(x=100.0, y=-30.0, yaw=0.7, speed=10.0)], ids=str)
+def test_the_car_starts_as_if_built_with_the_spring(cars: dict[float, System], pose: Pose | None) -> None:
+    changed, built = (start(cars[k], 20000.0, pose) for k in (12360.0, 20000.0))
+    assert np.max(np.abs(changed.state.q - built.state.q)) < 1e-9
+    assert np.max(np.abs(changed.state.qd - built.state.qd)) < 1e-9
+    assert np.max(np.abs(changed.state.qdd - built.state.qdd)) < 1e-6
+    if pose is None:  # it was 2.9 m/s2 and fell by 35 mm
+        assert np.max(np.abs(changed.state.qdd)) < 1e-9
+        height = changed.sensors["chassis.z"]
+        changed.step(0.01, 100)
+        assert changed.sensors["chassis.z"] == pytest.approx(height, abs=1e-6)
+
+
+def test_a_flexible_chassis_finds_it_too() -> None:
+    simulation = start(compile(car(12360.0, fidelity=2)), 20000.0)
+    assert np.max(np.abs(simulation.state.qdd)) < 1e-6
+
+
+def test_unchanged_parameters_keep_the_same_bits(cars: dict[float, System]) -> None:
+    """Also those that do not move the equilibrium, such as the friction of the road or a kerb far away."""
+    system = cars[12360.0]
+    plain = Simulation(system, parameters={"drive.creep_torque": 0.0}).state
+    for parameters in ({"front.stiffness": 12360.0}, {"road.friction": 0.3, "road.kerb_x": 20.0}):
+        same = Simulation(system, parameters={"drive.creep_torque": 0.0, **parameters}).state
+        assert np.array_equal(same.q, plain.q)
+        assert np.array_equal(same.qdd, plain.qdd)
+
+
+def test_a_parameter_set_back_starts_as_the_file_does(cars: dict[float, System]) -> None:
+    system = cars[12360.0]
+    number = [p["name"] for p in system.meta["parameters"]].index("front.stiffness")
+    instance = Instance(LoadedSystem(system.to_bytes()))
+    found = []
+    for k in (12360.0, 20000.0, 12360.0):
+        instance.set_parameter(number, k)
+        instance.initialise(0.0)
+        found.append(list(instance.get_state()[0]))
+    assert found[0] == found[2] != found[1]
+
+
+def test_a_parameter_set_in_motion_moves_nothing(cars: dict[float, System]) -> None:
+    simulation = start(cars[12360.0], 12360.0)
+    before = simulation.state.q
+    simulation.set_parameter("front.stiffness", 20000.0)
+    assert np.array_equal(simulation.state.q, before)
+    simulation.step(0.01)
+    assert np.max(np.abs(simulation.state.qdd)) > 1.0
+
+
+def test_the_kerb_does_not_move_the_start(cars: dict[float, System]) -> None:
+    """The equilibrium meant is the one on the road of the drawing; what a user does to the road comes after it."""
+    system = cars[12360.0]
+    parameters = {"front.stiffness": 20000.0, "drive.creep_torque": 0.0}
+    on_level = Simulation(system, parameters=parameters).state.q
+    before_a_kerb = Simulation(system, parameters={**parameters, "road.kerb_x": 0.05}).state.q
+    assert np.array_equal(on_level, before_a_kerb)
+
+
+def test_given_coordinates_stay(cars: dict[float, System]) -> None:
+    system = cars[12360.0]
+    instance = Instance(LoadedSystem(system.to_bytes()))
+    instance.set_parameter([p["name"] for p in system.meta["parameters"]].index("front.stiffness"), 20000.0)
+    instance.set_q(system.arrays["q0"].tolist())
+    instance.initialise(0.0)
+    assert list(instance.get_state()[0]) == pytest.approx(system.arrays["q0"].tolist(), abs=1e-12)
+
+
+def test_what_has_no_equilibrium_says_so() -> None:
+    system = compile(hanging())
+    with pytest.raises(SimulationError, match="no static equilibrium near the drawing") as refusal:
+        Simulation(system, parameters={"k": -100.0})
+    assert refusal.value.time == 0.0
+
+
+def test_a_model_that_does_not_ask_for_it_starts_as_drawn() -> None:
+    m = hanging()
+    m.start_in_equilibrium = False
+    assert Simulation(compile(m), parameters={"k": 500.0}).sensors["z"] == -1.0
+
+
+def test_the_linear_model_is_about_the_new_equilibrium(cars: dict[float, System]) -> None:
+    changed, built = (start(cars[k], 20000.0) for k in (12360.0, 20000.0))
+    pair = [np.sort(np.abs(np.linalg.eigvals(linearise(s).A))) for s in (changed, built)]
+    assert pair[0][-1] > 10.0
+    assert pair[0] == pytest.approx(pair[1], rel=1e-5, abs=1e-2)
+
+
+@pytest.mark.parametrize("place", [1e5, 9e5])
+def test_quasi_static_stresses_far_from_the_origin(place: float) -> None:
+    """The rows of ports hold differences of positions no more: the same bits at any place."""
+    system = compile(prototype_car.build(None, 1))
+    runs = [simulate(system, 0.5, 0.005, pose=Pose(x=x, y=-x, z=0.02)) for x in (0.0, place)]
+    assert runs[0].report == runs[1].report
+    for name in (n for n in runs[0] if n.startswith(("wheel_FL.Fz", "bending_moment", "stress"))):
+        assert np.array_equal(runs[0][name], runs[1][name]), name
+    assert runs[1]["wheel_FL.Fz"][0] == runs[0]["wheel_FL.Fz"][0]
+
+
+def test_a_model_whose_springs_hold_nothing_is_refused_at_compile() -> None:
+    m = Model("falling")
+    m.body("stone", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    m.start_in_equilibrium = True
+    with pytest.raises(ValueError, match="no static equilibrium"):
+        compile(m)
