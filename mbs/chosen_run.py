@@ -20,7 +20,7 @@ from mbs.kernel.binding import NOT_CONVERGED, KernelError
 from mbs.method_choice import choose
 from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
-from mbs.simulation import Simulation, check_end
+from mbs.simulation import Simulation, check_end, prepared
 from mbs.step_choice import StepChoice, choose_step
 from mbs.trajectory import Trajectory
 
@@ -219,6 +219,6 @@ def _warn(control: Control) -> None:
 def _trajectory(
     ended: Simulation, times: Array, values: Array, control: Control | None, wall: float, settings: Settings
 ) -> Trajectory:
-    sensors = ended.system.meta["sensors"]
+    sensors = prepared(ended.system)[1]["sensors"]
     names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
     return Trajectory(times, values, names, units, ended.report, settings, wall, control=control)

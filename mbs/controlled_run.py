@@ -6,7 +6,6 @@ import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +13,8 @@ from numpy.typing import NDArray
 from mbs.input_signals import InputSignals, Signal
 from mbs.kernel.binding import ControlFields, KernelError
 from mbs.settings import Settings
+from mbs.simulation import Simulation, prepared
 from mbs.system import System
-
-if TYPE_CHECKING:
-    from mbs.simulation import Simulation
 
 Array = NDArray[np.float64]
 CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
@@ -77,10 +74,11 @@ class ControlledRun:
     """
 
     def __init__(self, simulation: Simulation, task: Task, settings: Settings, tolerance: float) -> None:
-        meta = simulation.system.meta
+        meta = prepared(simulation.system)[1]
         self.simulation, self.task = simulation, task
         self.length = length_of(simulation.system)
         self.settings = tightened(settings, tolerance * self.length, simulation.state.q)
+        simulation.change_settings(self.settings)
         self.tolerance = tolerance
         nq = simulation.system.nq
         self.scale = np.array(meta.get("coordinate_lengths", [1.0] * nq), float)
@@ -128,7 +126,6 @@ class ControlledRun:
             When many steps err more than they may, as short as they may be.
         """
         instance, task = self.simulation.instance, self.task
-        instance.set_settings(**self.settings.kernel_fields())
         tolerance = 1e-9 * task.span
         self._signals.attach(instance, task.t0, task.t_end, tolerance)
         begin = time.perf_counter()
@@ -171,7 +168,7 @@ class ControlledRun:
 
 def length_of(system: System) -> float:
     """The model's length, m; 1 m in the Systems of before."""
-    return float(system.report.get("length", 1.0))
+    return float(prepared(system)[1]["report"].get("length", 1.0))
 
 
 def tightened(settings: Settings, error: float, q: Array) -> Settings:

@@ -11,7 +11,7 @@ from mbs.controlled_run import ControlledRun, StalledError, Task
 from mbs.errors import SimulationError
 from mbs.kernel.binding import NOT_CONVERGED, KernelError
 from mbs.settings import Settings
-from mbs.simulation import Simulation
+from mbs.simulation import Simulation, prepared
 from mbs.system import System
 
 ORDERS = {
@@ -29,6 +29,7 @@ ORDERS = {
 FINE = 1e-5  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
 FIRST_BUDGET, MORE, STEPS = 100.0, 2.0, 0.002
 LOOSE = 1e-3  # tolerance from which on ALi3-P, of order two, is tried too: it is the cheapest one for what is stiff
+FEWEST = 10  # steps of one call, which itself costs a few evaluations
 LOST = 1.1  # times the price of the one that ended first
 
 
@@ -50,7 +51,7 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
     if np.any(system.arrays["guide_type"] == 1):
         return ["ali3p"], "guides through a filter"
     coarse = ["ali3p"] if tolerance >= LOOSE else []
-    if not system.report["no_tree"]:
+    if not prepared(system)[1]["report"]["no_tree"]:
         return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5", *coarse], "a tree of joints"
     if len(system.arrays["velocity_row"]) > 0:
         return ["runge_kutta_8", *coarse], "wheels that roll"
@@ -102,7 +103,7 @@ def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:
         for name, run in runs.items():
             while name not in failed and not run.finished and run.work * price[name] < budget:
                 try:
-                    run.advance(1 + int(STEPS * budget / price[name]))
+                    run.advance(FEWEST + int(STEPS * budget / price[name]))
                 except (KernelError, StalledError):
                     failed.add(name)
         ended = [run.work * price[name] for name, run in runs.items() if run.finished]

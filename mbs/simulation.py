@@ -8,6 +8,8 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import astuple, dataclass, replace
+from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -103,9 +105,9 @@ class Simulation:
         t0: float = 0.0,
     ) -> None:
         self.system = system
-        self._meta = system.meta
+        loaded, self._meta = prepared(system)
         self.settings = settings or Settings()
-        self.instance = Instance(LoadedSystem(system.to_bytes()))
+        self.instance = Instance(loaded)
         self.instance.set_settings(**self.settings.kernel_fields())
         for name, value in (parameters or {}).items():
             self.set_parameter(name, value)
@@ -393,6 +395,16 @@ class Simulation:
         return SimulationError(message, self.time, error.status, trajectory)
 
 
+_PREPARED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, Any]]] = WeakKeyDictionary()
+
+
+def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
+    """What all Simulations of a System share: it in the kernel's memory, and its names, which nobody may change."""
+    if system not in _PREPARED:
+        _PREPARED[system] = LoadedSystem(system.to_bytes()), system.meta
+    return _PREPARED[system]
+
+
 def simulate(
     system: System,
     t_end: float,
@@ -483,8 +495,9 @@ def simulate(
     if chosen not in ("auto", settings.method):
         settings = replace(settings, method=chosen)
     given = inputs or {}
-    signals = InputSignals(given, system.meta["inputs"])
-    names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
+    declared = prepared(system)[1]["inputs"]
+    signals = InputSignals(given, declared)
+    names = [declared[i]["name"] for i in signals.columns()]
 
     def start(step: float = 0.0, used: Settings = settings) -> Simulation:
         first = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]

@@ -16,7 +16,7 @@ from mbs.errors import SimulationError
 from mbs.input_signals import Signal
 from mbs.method_choice import ORDERS
 from mbs.progress import Progress
-from mbs.simulation import Simulation
+from mbs.simulation import Simulation, prepared
 from mbs.system import System
 
 Array = NDArray[np.float64]
@@ -107,6 +107,6 @@ def _positions(
 
 
 def _distance(system: System, a: Array, b: Array) -> float:
-    meta = system.meta
+    meta = prepared(system)[1]
     lengths = np.array(meta.get("coordinate_lengths", [1.0] * system.nq), float)
     return float(np.max(np.abs(a - b) * lengths, initial=0.0)) / length_of(system)
