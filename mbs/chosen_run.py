@@ -20,7 +20,7 @@ from mbs.kernel.binding import NOT_CONVERGED, KernelError
 from mbs.method_choice import choose
 from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
-from mbs.simulation import Simulation, check_end, prepared
+from mbs.simulation import Simulation, check_end, notices_of, prepared
 from mbs.step_choice import StepChoice, choose_step
 from mbs.trajectory import Trajectory
 
@@ -221,4 +221,5 @@ def _trajectory(
 ) -> Trajectory:
     sensors = prepared(ended.system)[1]["sensors"]
     names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
-    return Trajectory(times, values, names, units, ended.report, settings, wall, control=control)
+    notices = notices_of(sensors, times, values)
+    return Trajectory(times, values, names, units, ended.report, settings, wall, notices=notices, control=control)

@@ -337,8 +337,9 @@ class Simulation:
         self, t0: float, interval: float, values: NDArray[np.float64], wall: float, before: Report
     ) -> Trajectory:
         sensors, report = self._meta["sensors"], self.report
+        t = t0 + interval * np.arange(len(values), dtype=float)
         return Trajectory(
-            t0 + interval * np.arange(len(values), dtype=float),
+            t,
             values,
             [s["name"] for s in sensors],
             [s["unit"] for s in sensors],
@@ -346,6 +347,7 @@ class Simulation:
             self.settings,
             wall,
             accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
+            notices=notices_of(sensors, t, values),
         )
 
     def failure(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
@@ -567,6 +569,20 @@ def _equal_steps(
 def _warn_of(run: Trajectory) -> None:
     if run.accuracy is not None and run.accuracy.message:
         warnings.warn(run.accuracy.message, AccuracyWarning, stacklevel=3)
+
+
+def notices_of(sensors: list[dict[str, str]], t: NDArray[np.float64], values: NDArray[np.float64]) -> list[str]:
+    """What sensors with a notice want told of their columns."""
+    told = []
+    for k, sensor in enumerate(sensors):
+        there = np.flatnonzero(values[:, k] if "notice" in sensor else ())
+        if len(there):
+            most = values[np.argmax(np.abs(values[:, k])), k]
+            told.append(
+                f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[there[0]]:g} s, "
+                f"at most {most:g} {sensor['unit']}."
+            )
+    return told
 
 
 def _check_step(h: float) -> None:

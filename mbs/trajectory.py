@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,6 +43,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         tolerance needed are.
     accuracy : Accuracy, optional
         What is known of the error.
+    notices : sequence of str
+        What the scene wants told, see `Model.notice`; judged at the recorded times.
     control : Control, optional
         How method and steps were chosen, where `simulate` chose them.
     """
@@ -57,6 +59,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         settings: Settings | None = None,
         wall_s: float = float("nan"),
         accuracy: Accuracy | None = None,
+        notices: Sequence[str] = (),
         control: Control | None = None,
     ) -> None:
         self.t = t
@@ -65,6 +68,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.settings = settings
         self.wall_s = wall_s
         self.accuracy = accuracy
+        self.notices = tuple(notices)
         self.control = control
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
@@ -88,7 +92,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __repr__(self) -> str:
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
-        text = f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors{known})"
+        told = "".join(f" {notice}" for notice in self.notices)
+        samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
+        text = f"Trajectory({samples}, {len(self)} sensors{known}){told}"
         return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:

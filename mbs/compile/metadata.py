@@ -33,7 +33,10 @@ def metadata(
             }
             for i in model.inputs
         ],
-        "sensors": [{"name": s.name, "unit": s.unit, "description": s.description} for s in model.sensors],
+        "sensors": [
+            {"name": s.name, "unit": s.unit, "description": s.description} | ({"notice": s.notice} if s.notice else {})
+            for s in model.sensors
+        ],
         "parameters": [
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
             for p in model.parameters

@@ -4,6 +4,7 @@ from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.brake import Brake
+from mbs.elements.contact_points import ContactPoints
 from mbs.elements.drag import Drag
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.elements.input_force import InputForce
@@ -19,6 +20,7 @@ __all__ = [
     "BodyForce",
     "BodyTorque",
     "Brake",
+    "ContactPoints",
     "Drag",
     "ElementRecord",
     "ElementType",

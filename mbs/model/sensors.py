@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -41,6 +41,8 @@ class Sensor:
         For joint forces: the joint whose kept rows are weighted; ``integers`` are then numbers of its equations.
     joints : sequence of Joint
         Joints whose three kept rows each come last among the integers.
+    notice : str
+        What a run tells when the value is not zero; empty: nothing.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Sensor:
     reals: Sequence[float] = ()
     joint: Joint | None = None
     joints: Sequence[Joint] = ()
+    notice: str = ""
 
 
 def component_number(component: Any, dimension: int, what: str) -> int:
@@ -185,6 +188,19 @@ class SensorVocabulary(ModelCore):
         if not unit:
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
         return self._sense(name, unit, description, order, [expression], reals=[scale])
+
+    def notice(self, sensor: Sensor, text: str) -> Sensor:
+        """Let a run say `text` when a sensor is not zero: what a user should hear of without looking at every output.
+
+        `Trajectory.notices` has the sentence with the first time and the largest value; the run goes on.
+        """
+        if sensor not in self.sensors or not isinstance(text, str) or not text.strip():
+            raise ModelError(
+                f"A notice of model {self.name!r} needs a sensor and a sentence, got {sensor!r}, {text!r}."
+            )
+        told = replace(sensor, notice=text)
+        self.sensors[self.sensors.index(sensor)] = told
+        return told
 
     def sense_recovery(
         self, name: str, body: FlexibleBody, weights: ArrayLike, unit: str = "", description: str = ""

@@ -31,6 +31,8 @@ SOURCES = (
     "tyre",
     "tmeasy",
     "brake",
+    "contact_law",
+    "contact_points",
     "automatic_drive",
     "road",
     "elementary",

@@ -176,6 +176,7 @@ struct ali3_instance {
   double *u, *ud; /* signals */
   double *S; /* signal tangents of all elements */
   double *SB; /* one element: signals x coordinates */
+  unsigned char *idle; /* ne: 1 where the last ali3_forces met no force and no tangent */
   double *correction_q, *step_q, *correction_lam, *step_lam; /* of the last iteration */
   double *local; /* one front */
   double *shifted; /* nq */

@@ -3,6 +3,13 @@
 
 static bool fits(int32_t expected, int32_t n) { return expected == -1 || expected == n; }
 
+/* A negative number of states is that of each item, see element.h. */
+static bool states_fit(const ali3_system *s, int32_t e, int32_t expected, int32_t n) {
+  if (expected >= -1) return fits(expected, n);
+  const int32_t last = s->el_int_ptr[e + 1] - 1, items = last < s->el_int_ptr[e] ? 0 : s->el_int[last];
+  return items > 0 && (int64_t)items * -expected == n;
+}
+
 /* Local indices must name the coordinates of the signals in the element's front. */
 static ali3_status check_element_places(const ali3_system *s, int32_t e, int64_t entries, ali3_message m) {
   const int32_t f = s->el_front[e], n_loc = s->el_loc_ptr[e + 1] - s->el_loc_ptr[e];
@@ -40,7 +47,7 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
                   nstate = s->el_state_ptr[e + 1] - s->el_state_ptr[e];
     if (type == NULL) return ali3_bad(m, "element %d has the unknown type %d", (int)e, (int)s->el_type[e]);
     if (nsig > ALI3_MAX_SIGNALS || !fits(type->nsig, nsig) || !fits(type->nreal, nreal) || !fits(type->nint, nint) ||
-        !fits(type->nstate, nstate) || !fits(type->nout, nout))
+        !states_fit(s, e, type->nstate, nstate) || !fits(type->nout, nout))
       return ali3_bad(m, "element %d of type %d has %d signals, %d reals, %d integers, %d states, %d outputs", (int)e,
                       (int)s->el_type[e], (int)nsig, (int)nreal, (int)nint, (int)nstate, (int)nout);
     int64_t entries = 0;

@@ -60,14 +60,15 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
                tree = s->tree != NULL ? (sizeof(ali3_tree_work) + 15u) / 16u * 16u : 0;
   *out = NULL;
-  char *block =
-      s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work + n_modes + n_start) * sizeof(double));
+  const size_t numbers = (total + n_flex + n_flex_work + n_modes + n_start) * sizeof(double);
+  char *block = s->memory.allocate(1, head + roads + tree + numbers + ne);
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
   double *pool = (double *)(block + head + roads + tree);
   in->system = s;
   in->release = s->memory.release;
   in->road = (ali3_road *)(block + head);
+  in->idle = (unsigned char *)(block + head + roads + tree + numbers);
   if (s->tree != NULL) {
     in->tree = (ali3_tree_work *)(block + head + roads);
     ali3_tree_start(s, in->tree);
