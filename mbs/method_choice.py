@@ -26,7 +26,7 @@ ORDERS = {
     "radau_5": 5,
 }
 """Orders with steps that change."""
-FINE = 1e-5  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
+FINE = 2e-3  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
 FIRST_BUDGET, MORE, STEPS = 100.0, 2.0, 0.002
 LOOSE = 1e-3  # tolerance from which on ALi3-P, of order two, is tried too: it is the cheapest one for what is stiff
 FEWEST = 10  # steps of one call, which itself costs a few evaluations

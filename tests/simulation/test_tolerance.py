@@ -221,10 +221,10 @@ def test_a_step_is_picked_where_none_is_given() -> None:
 def test_the_choice_of_the_method_is_told() -> None:
     run = run_of("spatial_chain", 1e-3)
     assert run.control is not None
-    assert run.control.method == "semi_recursive_4"
+    assert run.control.method == "semi_recursive"
     assert "a tree of joints" in run.control.reason
     assert run.control.runs >= 3
-    assert "semi_recursive_4 (chosen" in str(run)
+    assert "semi_recursive (chosen" in str(run)
     named = run_of("pendulum", 1e-3, "radau_5")
     assert named.control is not None
     assert named.control.reason == ""
