@@ -222,4 +222,6 @@ def _trajectory(
     sensors = prepared(ended.system)[1]["sensors"]
     names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
     notices = notices_of(sensors, times, values)
-    return Trajectory(times, values, names, units, ended.report, settings, wall, notices=notices, control=control)
+    return Trajectory(
+        times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control
+    )

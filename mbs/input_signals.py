@@ -75,6 +75,8 @@ class InputSignals:
         for i, signal in self._signals.items():
             if not callable(signal):
                 times, values = _table(signal)
+                if not np.isfinite(values).all():
+                    self._check(i, times, values)
                 inside = times[(times >= t0 - tolerance) & (times <= t_end + tolerance)]
                 ends = np.array([t0, t_end])
                 self._check(i, ends, _interpolate(ends, times, values, tolerance, after_jump=False))

@@ -41,7 +41,7 @@ class Settings:
     max_iterations : int
         Newton iterations of one step.
     max_halvings : int
-        How often a step that does not converge is halved; 0 never.
+        How often a step that does not converge, or in which energy comes or goes without a force, is halved; 0 never.
     project : bool
         Project velocities and accelerations, equations (24) and (25) of the paper.
     update : {"linearised", "paper"}

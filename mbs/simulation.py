@@ -39,7 +39,7 @@ from mbs.system import System
 from mbs.trajectory import Trajectory
 
 SINGULAR = {"switches": "switch"}
-STIFF_STEP = 2.5  # fastest rate times step that an explicit method follows, at least
+STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -66,7 +66,14 @@ class Pose:
 
 @dataclass(frozen=True)
 class State:
-    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,)."""
+    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,).
+
+    Multipliers have one sign, that of ``M qdd + Phi_q' lam = Q``: a row Phi puts the force -Phi_q' lam on its
+    coordinates. ``lam_user = row_scale * lam`` belongs to the row as the model writes it. The row of a drive is
+    coordinate minus guide, so the drive pushes the coordinate with -lam_user; the rows of a port and of a node of a
+    flexible body are free point minus point of the body, so the body feels +lam_user; a distance of length L has the
+    tension L lam_user. Sensors have the signs that their docstrings say.
+    """
 
     q: NDArray[np.float64]
     qd: NDArray[np.float64]
@@ -116,7 +123,7 @@ class Simulation:
         if pose is not None:
             self._call(f"The starting {pose} was refused", lambda: self.instance.set_pose(*astuple(pose)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
-        self._warned = False
+        self._warned, self._tried = False, 0.0  # whether it has warned, the last step tried
 
     @property
     def time(self) -> float:
@@ -206,6 +213,7 @@ class Simulation:
             Once, when the energy balance since the start says that the result is wrong.
         """
         _check_step(h)
+        self._tried = h
         if n != int(n) or n < 0:
             raise ValueError(f"n = {n}; it must be a whole number of steps.")
         for _ in range(int(n)):
@@ -247,6 +255,7 @@ class Simulation:
     ) -> tuple[Trajectory, list[NDArray[np.float64]]]:
         """The steps of `run`; with `look` also the coordinates at the instants where two runs are compared."""
         _check_step(h)
+        self._tried = h
         t0 = self.time
         steps = _count_steps(t0, t_end, h)
         if every < 1:
@@ -284,9 +293,9 @@ class Simulation:
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""
-        balance, driven = self.instance.energy_balance(), len(self.system.arrays["gterm_row"]) > 0
-        if self._warned or balance <= accuracy.WRONG_BALANCE:
+        if self._warned or self.instance.energy_balance() <= accuracy.WRONG_BALANCE:
             return
+        driven = len(self.system.arrays["gterm_row"]) > 0
         if accuracy.balance_says(self.report, self.settings.method, driven):
             self._warned = True
             text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
@@ -348,6 +357,7 @@ class Simulation:
             wall,
             accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
             notices=notices_of(sensors, t, values),
+            branch_change=self.branch_change,
         )
 
     def failure(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
@@ -381,9 +391,11 @@ class Simulation:
             return SimulationError(message, self.time, error.status, trajectory)
         if error.status == TOO_STIFF:
             rate = report["fastest_rate"]
+        if error.status == TOO_STIFF and rate > 0.0:
+            times = f"{rate:.3g} 1/s, which times the step of {self._tried:g} s is {rate * self._tried:.3g}"
             message += (
-                f" Its rate is {rate:.3g} 1/s here: steps of about {STIFF_STEP / rate:.1g} s follow it; implicit "
-                "methods ('ali3p', 'radau_5') need not."
+                f" Its rate here is {times}; that should be below about {STIFF_STEP:g}. Implicit methods "
+                "('ali3p', 'radau_5') need not follow it."
             )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
         if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):
@@ -437,9 +449,10 @@ def simulate(
         Step, s. With a tolerance: interval of the record, by default a 200th of the run. Without h and tolerance a step
         is chosen whose run errs by less than 1e-3 of the model's length (`Trajectory.control` says which).
     inputs : mapping of str to signal, optional
-        Per input a constant, a function of time, or a pair (times, values). A step from t to t + h uses the value at
-        t + h, which keeps the trapezoidal rule second order. With a tolerance the points of tables are ends of steps; a
-        function is taken as smooth.
+        Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
+        use the value at the end of a step, the other methods those at the times of their stages; where a table jumps,
+        a step that begins there the value behind the jump, one that ends there the value before it. With a
+        tolerance the points of tables are ends of steps; a function is taken as smooth.
     settings : Settings, optional
         How steps are solved. With a tolerance `tolerance_r` and `tolerance_phi` are tightened as far as it needs.
     parameters : mapping of str to float, optional
@@ -480,14 +493,18 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 4 % of the work in the motion, or the repeat says that positions, lengths,
-        angles or forces of elements are off by more than 5 % of the largest range in their unit; with a tolerance, when
+        When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
+        lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit; with a tolerance, when
         the error is estimated to be more than ten times that.
     BranchWarning
         When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
     if h is not None:
         _check_step(h)
+    if estimate_error not in (None, True, False):
+        raise ValueError(f"estimate_error = {estimate_error!r}; it must be True, False or None (suspects only).")
+    if every < 1:
+        raise ValueError(f"every = {every}; it must be at least 1.")
     if times is not None and tolerance is None:
         raise ValueError("times need a tolerance: equal steps are recorded where they end.")
     wanted = None if tolerance is None else checked_tolerance(tolerance)
@@ -513,7 +530,7 @@ def simulate(
         )
 
     def equal_steps(step: float, used: Settings, estimate: bool | None) -> Trajectory:
-        return _equal_steps(system, lambda h: start(h, used), t_end, step, inputs, every, progress, estimate)
+        return _equal_steps(system, lambda h: start(h, used), t0, t_end, step, inputs, every, progress, estimate)
 
     if wanted is None and h is not None and chosen != "auto":
         run = equal_steps(h, settings, estimate_error)
@@ -521,8 +538,6 @@ def simulate(
         return run
     from mbs import chosen_run  # only here, since it makes Simulations
 
-    if every < 1:
-        raise ValueError(f"every = {every}; it must be at least 1.")
     if wanted is None:
         run = chosen_run.equal_steps(
             start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress
@@ -537,6 +552,7 @@ def simulate(
 def _equal_steps(
     system: System,
     start: Callable[[float], Simulation],
+    t0: float,
     t_end: float,
     h: float,
     inputs: Mapping[str, Signal] | None,
@@ -545,7 +561,6 @@ def _equal_steps(
     estimate_error: bool | None,
 ) -> Trajectory:
     """A run in steps of h, with a repeat where its accuracy asks for one."""
-
     made: list[Simulation] = []
 
     def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
@@ -553,17 +568,26 @@ def _equal_steps(
         made.append(simulation)
         return simulation._march(t_end, step, inputs, every, progress, look)
 
+    checked = estimate_error is not False
+    look = checked and not accuracy.has_motion_sensor(system)
+    often = accuracy.recorded_every(every, _count_steps(t0, t_end, h)) if checked else every
     try:
-        look = estimate_error is not False and not accuracy.has_motion_sensor(system)
         with progress_for(progress) as bar:
             first = 1.0 / 3.0 if estimate_error else 1.0
-            run = march(h, every, lambda share: bar.update(first * share), look)
-            if estimate_error is not False:
-                run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+            run = march(h, often, lambda share: bar.update(first * share), look)
+            found = run[0].accuracy
+            if checked:
+                found = repeat.check(system, run, march, h, often, bar.update, estimate_error is True)
+    except SimulationError as error:
+        if error.trajectory is not None:
+            error.trajectory = error.trajectory.thinned(every // often)
+        raise
     finally:  # of the run that was asked for, also when it failed
         if made and made[0].branch_change:
             warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
-    return run[0]
+    trajectory = run[0].thinned(every // often)
+    trajectory.accuracy = found
+    return trajectory
 
 
 def _warn_of(run: Trajectory) -> None:

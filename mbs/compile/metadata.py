@@ -34,7 +34,10 @@ def metadata(
             for i in model.inputs
         ],
         "sensors": [
-            {"name": s.name, "unit": s.unit, "description": s.description} | ({"notice": s.notice} if s.notice else {})
+            {"name": s.name, "unit": s.unit, "description": s.description}
+            | ({"whole": True} if s.whole else {})
+            | ({"display_unit": s.display_unit} if s.display_unit else {})
+            | ({"notice": s.notice} if s.notice else {})
             for s in model.sensors
         ],
         "parameters": [

@@ -9,6 +9,7 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from mbs.compile.fronts import Fronts
+from mbs.compile.overconstrained import correction_text
 from mbs.model.core import ModelCore
 
 RANK_TOLERANCE = 1e-7
@@ -89,4 +90,6 @@ def report_text(name: str, dimension: int, report: dict[str, Any]) -> str:
         *_length(r),
         f"  inputs, sensors       {r['inputs']:>8}, {r['sensors']}",
     ]
+    if r.get("closed"):
+        lines.append(f"  closed by least squares        {correction_text(r['closed'])}")
     return "\n".join(lines)

@@ -11,6 +11,7 @@ from mbs.elements.input_force import InputForce
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.types import ElementType
 from mbs.elements.tyre import Tyre, TyreCurve
@@ -33,6 +34,7 @@ __all__ = [
     "PlaneRoad",
     "Road",
     "ScalarSpringDamper",
+    "SpinTorque",
     "SpringDamper",
     "Tyre",
     "TyreCurve",

@@ -17,3 +17,4 @@ class ElementType(IntEnum):
     BRAKE = 9
     AUTOMATIC_DRIVE = 10
     CONTACT_POINTS = 11
+    SPIN_TORQUE = 12

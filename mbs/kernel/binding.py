@@ -40,6 +40,9 @@ OPEN = 1e-9
 FARTHEST, FASTEST = 1e8, 1e6
 """Largest distance, m, and speed, m/s, of a start: ALI3_FARTHEST, ALI3_FASTEST."""
 
+NO_DOUBT, DOUBT_HALVINGS, DOUBT_BALANCE = range(3)
+"""Codes of `ali3_doubt`."""
+
 
 class KernelError(RuntimeError):
     """A call that the kernel refused.
@@ -217,6 +220,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
     "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_time": (c_double, [c_void_p]),
+    "ali3_solver_value": (c_double, [c_void_p, c_int32]),
+    "ali3_run_doubt": (c_int32, [POINTER(ReportFields)]),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_state_restore": (c_int32, [c_void_p, c_char_p, c_size_t]),
@@ -583,6 +588,16 @@ class Instance:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def solver_value(self, kind: int) -> float:
+        """What the solver says about itself: number `kind` of ALI3_SOLVER_* in `ali3.h`."""
+        return float(self._library.ali3_solver_value(self._handle, kind))
+
+    def doubt(self) -> int:
+        """Whether the run says that it is wrong: one of NO_DOUBT, DOUBT_HALVINGS and DOUBT_BALANCE."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return int(self._library.ali3_run_doubt(byref(fields)))
 
     def energy_balance(self) -> float:
         """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""

@@ -17,11 +17,13 @@ from mbs.elements.input_force import InputForce
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.inputs import Input, owned_input
+from mbs.model.spin import Spin
 
 
 class ForceVocabulary(ModelCore):
@@ -94,10 +96,14 @@ class ForceVocabulary(ModelCore):
         return self.add(BodyTorque(self._numbers(channels, count, what), axes).record(name, frame))
 
     def torque_on(self, name: str, angle: Coordinate, *, input: Input, gain: float = 1.0) -> ElementRecord:
-        """Torque ``gain * input``, N m, on a relative angle (its first body takes the reaction) or on a spin."""
+        """Torque ``gain * input``, N m, on a relative angle or a spin; the first body of the angle or the carrier of
+        the spin takes the reaction.
+        """
         what = f"torque '{name}'"
         expression = self.expression(angle, f"The {what}")
         channel = owned_input(self, input, f"The {what}")
+        if isinstance(angle, Spin):
+            return self.add(SpinTorque(channel.index, gain).record(name, angle.f, angle.g, angle.affine))
         return self.add(InputForce(channel.index, (gain,)).record(name, [expression]))
 
     def drag(

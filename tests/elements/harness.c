@@ -12,7 +12,8 @@
 #endif
 
 extern const ali3_element_type ali3_spring_damper, ali3_scalar_spring_damper, ali3_input_force, ali3_body_force,
-    ali3_body_torque, ali3_gyroscopic_spin, ali3_drag, ali3_tyre, ali3_brake, ali3_automatic_drive, ali3_contact_points;
+    ali3_body_torque, ali3_gyroscopic_spin, ali3_drag, ali3_tyre, ali3_brake, ali3_automatic_drive, ali3_contact_points,
+    ali3_spin_torque;
 
 static const ali3_element_type *type_of(int32_t type) {
   const ali3_element_type *all[] = {0,
@@ -26,7 +27,8 @@ static const ali3_element_type *type_of(int32_t type) {
                                     &ali3_tyre,
                                     &ali3_brake,
                                     &ali3_automatic_drive,
-                                    &ali3_contact_points};
+                                    &ali3_contact_points,
+                                    &ali3_spin_torque};
   return all[type];
 }
 

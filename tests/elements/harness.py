@@ -34,6 +34,7 @@ SOURCES = (
     "contact_law",
     "contact_points",
     "automatic_drive",
+    "spin_torque",
     "road",
     "elementary",
 )

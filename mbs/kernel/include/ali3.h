@@ -215,15 +215,34 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* Farthest and fastest start, m and m/s: coordinates have 16 digits. */
 #define ALI3_FARTHEST 1e8
 #define ALI3_FASTEST 1e6
-/* |energy_error| over the energy that was in the motion: largest kinetic energy and work. Above ALI3_BALANCE_WRONG no
- * run was right that was tried; below it a run may be wrong. */
-#define ALI3_BALANCE_WRONG 0.04
+/* |energy_error| over the energy that was in the motion: largest kinetic energy and work. Above ALI3_BALANCE_WRONG, at
+ * any time, no run was right that was tried; below it a run may be wrong. */
+#define ALI3_BALANCE_WRONG 0.036
 ALI3_API double ali3_energy_balance(const ali3_report *report);
+/* What a run can say without being repeated: nothing; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a balance
+ * above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps say nothing: they have no motion to compare with. */
+#define ALI3_HALVINGS_SUSPECT 0.1
+#define ALI3_DOUBT_FROM 100
+typedef enum { ALI3_DOUBT_NONE, ALI3_DOUBT_HALVINGS, ALI3_DOUBT_BALANCE } ali3_doubt;
+ALI3_API ali3_doubt ali3_run_doubt(const ali3_report *report);
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */
 ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);
+
+enum { /* what the solver says about itself; the integer of sensors of type 13 */
+       ALI3_SOLVER_ITERATIONS = 0,         /* of the last step */
+       ALI3_SOLVER_VIOLATION,              /* m */
+       ALI3_SOLVER_RESIDUAL,               /* m */
+       ALI3_SOLVER_FACTORIZATIONS,         /* since the start */
+       ALI3_SOLVER_HALVINGS,               /* since the start */
+       ALI3_SOLVER_STATUS,                 /* as ali3_run_status */
+       ALI3_SOLVER_ENERGY_ERROR,           /* J, since the start */
+       ALI3_SOLVER_ENERGY_BALANCE,         /* the same as a share of the motion, see ali3_energy_balance */
+       ALI3_SOLVER_COUNT
+};
+ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
 
 /* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit,
  * parameters and settings too. */
@@ -233,7 +252,7 @@ ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, si
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is
-   zero and the jacobian is A. */
+   zero and the jacobian is A. Signs are those of M qdd + Phi_q' lam = Q: rows put the force -Phi_q' lam on q. */
 ALI3_API ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam,
                                     double *y);
 ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, const double *y, double t,

@@ -33,8 +33,8 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   in->halves_left = depth > 0 && depth < in->settings.max_halvings;
   const ali3_status status = by_method(in, t, h);
-  if (status == ALI3_OK && !relative(in)) ali3_books_step(in, h);
   if (status == ALI3_OK) in->t_now = t;
+  if (status == ALI3_OK && !relative(in)) ali3_books_step(in, h);
   if (status == ALI3_OK || status == ALI3_BAD_ARGUMENT || depth <= 0) return status;
   in->report.halvings++;
   ali3_keep(in);

@@ -46,6 +46,8 @@
   X(double, 2, tree_centre) X(double, 2, tree_inertia) X(double, 2, tree_gravity) X(int32_t, 1, tree_frame) \
   X(int32_t, 1, tree_out_body) X(double, 2, tree_out_local) X(int32_t, 1, tree_out_col) \
   X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place) \
+  X(int32_t, 1, tree_angle_col) X(int32_t, 1, tree_angle_ptr) X(int32_t, 1, tree_angle_joint) \
+  X(double, 2, tree_angle_sign) X(double, 2, tree_angle_inertia) \
   X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
   X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
   X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner)
@@ -355,8 +357,8 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
 
 /* energy_momentum_report.c */
-void ali3_energy_momentum_velocity(ali3_instance *in, ali3_vectors *v, double weight);
-ali3_status ali3_energy_momentum_forces(ali3_instance *in, ali3_vectors *v);
+void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight);
+ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v);
 void ali3_energy_momentum_report(ali3_instance *in);
 void ali3_energy_momentum_restart(ali3_instance *in, double h);
 

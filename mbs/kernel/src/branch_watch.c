@@ -71,6 +71,7 @@ void ali3_branch_before(ali3_instance *in) {
 static void again(ali3_instance *in) {
   ali3_vectors_copy(in, &in->now, &in->before);
   in->report = in->report_before;
+  in->t_now = ali3_time(in); /* that of the last whole step */
 }
 
 /* The step from in->before in n equal parts, the angles at its end; false where a part fails. */

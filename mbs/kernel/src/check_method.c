@@ -20,6 +20,7 @@ static bool conservative(const ali3_instance *in, int32_t e) {
   case ALI3_BODY_FORCE:
   case ALI3_BODY_TORQUE:
   case ALI3_GYROSCOPIC_SPIN:
+  case ALI3_SPIN_TORQUE:
     return true;
   default:
     return false;

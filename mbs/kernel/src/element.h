@@ -18,6 +18,7 @@ enum { /* element types; the numbers are part of the file format and equal mbs/e
        ALI3_BRAKE,                  /* elastoplastic friction between a spin and its carrier */
        ALI3_AUTOMATIC_DRIVE,        /* engine, converter, gears, open differential */
        ALI3_CONTACT_POINTS,         /* points of a body on a road */
+       ALI3_SPIN_TORQUE,            /* an input between a spin and its carrier */
        ALI3_ELEMENT_TYPE_END
 };
 

@@ -250,9 +250,8 @@ def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
             assert isinstance(body, FlexibleBody)
             assert rows is not None
             m.sense_recovery(name, body, body.reduced.recovery(rows[k : k + 1])[0], unit, text + note)
-    m.sense_constant(
-        "stress.computed", float(fidelity != RIGID), "1", "1 where moments and stresses are computed; 0: they read zero"
-    )
+    text = "1 where moments and stresses are computed; 0: they read zero"
+    m.sense_constant("stress.computed", float(fidelity != RIGID), "1", text, whole=True)
 
 
 __all__ = ["FIDELITIES", "Chassis", "chassis", "quasi_static", "reduced_chassis", "stress_outputs"]
