@@ -22,6 +22,7 @@ _POSE = (
     ("initial.speed", "m/s", "Initial speed along the heading, wheels rolling"),
 )
 STEP_SIZE = "step_size"
+_DEPRECATED = "deprecated"
 # Name, number in the kernel (ALI3_SOLVER_*), unit, whether it is a whole number, description.
 _SOLVER = (
     ("solver.status", 5, "1", True, "What the last step ended with: 0 good, else a code of the solver"),
@@ -187,7 +188,11 @@ def _distinct(table: Sequence[Variable]) -> tuple[Variable, ...]:
 
 
 def _preceded(v: Variable, word: str) -> Variable:
-    return replace(v, description=f"{word}: {v.description}") if v.description and word else v
+    if not (v.description and word):
+        return v
+    if v.description.startswith(_DEPRECATED):  # the first word of what goes
+        return replace(v, description=f"{_DEPRECATED}, {word}{v.description.removeprefix(_DEPRECATED)}")
+    return replace(v, description=f"{word}: {v.description}")
 
 
 def check_variants(metas: Sequence[Mapping[str, Any]]) -> None:
