@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.accuracy import Accuracy
+from mbs.control import Control
 from mbs.report import Report
 from mbs.settings import Settings
 
@@ -38,13 +39,16 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     settings : Settings, optional
         How the steps were solved.
     wall_s : float
-        Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted.
+        Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted. All runs that a
+        tolerance needed are.
     accuracy : Accuracy, optional
         What is known of the error.
     notices : sequence of str
         What the scene wants told, see `Model.notice`; judged at the recorded times.
     branch_change : str
         A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
+    control : Control, optional
+        How method and steps were chosen, where `simulate` chose them.
     """
 
     def __init__(
@@ -59,6 +63,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         accuracy: Accuracy | None = None,
         notices: Sequence[str] = (),
         branch_change: str = "",
+        control: Control | None = None,
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
@@ -68,6 +73,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.accuracy = accuracy
         self.notices = tuple(notices)
         self.branch_change = branch_change
+        self.control = control
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
@@ -89,7 +95,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             return self
         values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))
         names, units = list(self.units), list(self.units.values())
-        rest = (self.report, self.settings, self.wall_s, self.accuracy)
+        rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
         return Trajectory(self.t[::every], values[::every], names, units, *rest)
 
     @property
@@ -101,7 +107,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
         told = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
         samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
-        return f"Trajectory({samples}, {len(self)} sensors{known}){told}"
+        text = f"Trajectory({samples}, {len(self)} sensors{known}){told}"
+        return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write one column per sensor, headed ``name [unit]``, with all digits."""

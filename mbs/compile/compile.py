@@ -12,6 +12,7 @@ from mbs.compile.assembly_modes import mode_arrays
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
 from mbs.compile.equilibrium import equilibrium, start_arrays
+from mbs.compile.extent import coordinate_lengths, model_length, unit_vectors
 from mbs.compile.flexible import (
     deformation_metric,
     flexible_arrays,
@@ -159,7 +160,11 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         "closed": closed,
     }
     frames = frames_of(model, T[:, order], z0)
-    system = System(tables, metadata(model, [natural.info[kept[k]].name for k in order], rows, report), frames)
+    info = [natural.info[kept[k]] for k in order]
+    length = model_length(model)
+    lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [kept[k] for k in order]), length)
+    report["length"], report["length_stated"] = length, model.length is not None
+    system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths), frames)
     if not model.start_in_equilibrium:
         return system
     q = equilibrium(system, model.equilibrium_parameters)

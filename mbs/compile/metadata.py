@@ -9,7 +9,13 @@ from mbs.compile.polynomial import RowTerms
 from mbs.model.model import Model
 
 
-def metadata(model: Model, coordinates: list[str], rows: list[RowTerms], report: dict[str, Any]) -> dict[str, Any]:
+def metadata(
+    model: Model,
+    coordinates: list[str],
+    rows: list[RowTerms],
+    report: dict[str, Any],
+    lengths: list[float],
+) -> dict[str, Any]:
     """What Python reads of a System and the kernel does not."""
     return {
         "name": model.name,
@@ -51,4 +57,6 @@ def metadata(model: Model, coordinates: list[str], rows: list[RowTerms], report:
         "report": report,
         "experiment": {"stop_time_s": model.stop_time, "step_s": model.step},
         "floating": model.floating,
+        "gravity": math.hypot(*model.gravity),
+        "coordinate_lengths": lengths,
     }

@@ -62,6 +62,14 @@ def structure_report(model: ModelCore, fronts: Fronts, rank: int | None, rows: i
     }
 
 
+def _length(report: dict[str, Any]) -> list[str]:
+    """What tolerances are relative to; older Systems do not tell it."""
+    if "length" not in report:
+        return []
+    source = "stated" if report["length_stated"] else "extent of the drawing"
+    return [f"  length, m             {report['length']:>8.4g}   ({source}; tolerances are relative to it)"]
+
+
 def report_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     """The report as lines of text."""
     rank, dofs = report["rank"], report["degrees_of_freedom"]
@@ -79,6 +87,7 @@ def report_text(name: str, dimension: int, report: dict[str, Any]) -> str:
         f"  non-zeros of tangent  {r['tangent_nonzeros']:>8}   (lower triangle)",
         f"  non-zeros of factor   {r['factor_nonzeros']:>8}   ({r['fronts']} fronts, largest {r['largest_front']})",
         f"  force elements        {r['elements']:>8}",
+        *_length(r),
         f"  inputs, sensors       {r['inputs']:>8}, {r['sensors']}",
     ]
     if r.get("closed"):

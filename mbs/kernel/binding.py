@@ -125,6 +125,27 @@ class ReportFields(Structure):
     )
 
 
+class ControlFields(Structure):
+    """`ali3_control`: what a controlled run is told, and what it counts."""
+
+    _fields_ = (
+        *((name, c_double) for name in ("tolerance", "length", "span", "rate", "longest", "h", "last")),
+        *((name, c_double) for name in ("usual", "smallest", "largest", "error_sum", "forced_error")),
+        *((name, c_int64) for name in ("accepted", "rejected", "failed", "forced", "kept", "side_steps")),
+    )
+
+
+class RecordFields(Structure):
+    """`ali3_record`."""
+
+    _fields_ = (
+        ("n", c_int64),
+        ("time", POINTER(c_double)),
+        ("sensors", POINTER(c_double)),
+        ("positions", POINTER(c_double)),
+    )
+
+
 class Sizes(Structure):
     """`ali3_sizes`: what a System has how many of."""
 
@@ -179,6 +200,19 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
     "ali3_step": (c_int32, [c_void_p, c_double]),
     "ali3_run": (c_int32, [c_void_p, c_double, c_int64, _DOUBLES, c_int64, _DOUBLES, POINTER(c_int64)]),
+    "ali3_control_run": (
+        c_int32,
+        [
+            c_void_p,
+            POINTER(ControlFields),
+            _DOUBLES,
+            c_double,
+            c_int64,
+            POINTER(RecordFields),
+            POINTER(c_int64),
+        ],
+    ),
+    "ali3_refresh": (c_int32, [c_void_p]),
     "ali3_sensors": (c_int32, [c_void_p, _DOUBLES]),
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
@@ -486,6 +520,60 @@ class Instance:
         done = c_int64()
         self._check(self._library.ali3_run(self._handle, h, n, given, every, taken, byref(done)))
         return done.value
+
+    def control_run(
+        self,
+        control: ControlFields,
+        scale: Any,
+        t_end: float,
+        most_steps: int,
+        times: Any,
+        sensors: Any,
+        positions: Any,
+        done: int,
+    ) -> int:
+        """Steps whose errors add up to a tolerance, see `ali3_control_run`.
+
+        Parameters
+        ----------
+        control : ControlFields
+            Changed in place.
+        scale : buffer of float64, shape (nq,)
+            Size of a unit of each coordinate, m.
+        t_end : float
+            Time that is the end of a step, s.
+        most_steps : int
+            After so many accepted steps the call returns.
+        times : buffer of float64, shape (n,)
+            Times to record at, ascending.
+        sensors, positions : writable buffers of float64, shape (n, ns) and (n, nq)
+            Take the records; either may be None.
+        done : int
+            Rows that are already written.
+
+        Returns
+        -------
+        int
+            Rows written, those before included.
+        """
+        sizes, n = self.system.sizes, memoryview(times).nbytes // 8
+        rows = (
+            _buffer(times, n, "times", writable=False),
+            _buffer(sensors, n * sizes.ns, "sensors", writable=True),
+            _buffer(positions, n * sizes.nq, "positions", writable=True),
+        )
+        record = RecordFields(n, *(None if r is None else ctypes.cast(r, POINTER(c_double)) for r in rows))
+        written = c_int64(done)
+        lengths = _buffer(scale, sizes.nq, "scale", writable=False)
+        status = self._library.ali3_control_run(
+            self._handle, byref(control), lengths, t_end, most_steps, byref(record), byref(written)
+        )
+        self._check(status)
+        return written.value
+
+    def refresh(self) -> None:
+        """Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs."""
+        self._check(self._library.ali3_refresh(self._handle))
 
     def sensors(self, out: Any = None) -> Any:
         """Sensor values (ns,) at the present state, in a new C array or in `out`."""

@@ -63,15 +63,20 @@ class ModelCore:
     dimension : {2, 3}
     gravity : array_like, shape (dimension,)
         Acceleration of gravity in earth axes, m/s2.
+    length : float, optional
+        What the tolerance of a run is relative to, m; by default the extent of the drawing.
     """
 
-    def __init__(self, name: str, dimension: int = 3, gravity: ArrayLike | None = None) -> None:
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
         if dimension not in (2, 3):
             raise ModelError(f"The dimension of model '{name}' is {dimension!r}; it must be 2 or 3.")
         self.name = str(name)
         self.dimension = dimension
         fall = np.array([0.0, -9.81]) if dimension == 2 else np.array([0.0, 0.0, -9.81])
         self.gravity: Vector = fall if gravity is None else vector(gravity, dimension, f"gravity of model '{name}'")
+        self.length = None if length is None else positive(length, f"length of model '{name}'")
         self.floating = False
         self.grounded = False  # a joint ties something to the ground
         self.start_in_equilibrium = False
@@ -120,10 +125,8 @@ class ModelCore:
         if body.is_point:
             return body.point(position)  # type: ignore[arg-type]
         local = vector(position, self.dimension, f"the point of {what} on body '{body.name}'")  # type: ignore[arg-type]
-        if body.is_ground:
-            self.grounded = True
-        else:
-            body.joint_points.append(local - body.com)
+        self.grounded = self.grounded or body.is_ground
+        body.joint_points.append(local - body.com)
         return body.point(local)
 
     def anchor_axis(self, body: Body, axis: ArrayLike, what: str) -> AffineVector:

@@ -48,6 +48,8 @@ class Model(ForceVocabulary, JointSensorVocabulary):
         Planar (x, y) or spatial.
     gravity : array_like, shape (dimension,), optional
         m/s2; by default 9.81 along -y (planar) or -z (spatial).
+    length : float, optional
+        What the tolerance of `simulate` is relative to, m; by default the extent of bodies and joints as drawn.
 
     Examples
     --------

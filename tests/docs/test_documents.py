@@ -76,7 +76,7 @@ def test_modelling_page_runs(tmp_path):
     code = "\n".join(snippets((ROOT / "docs" / "modelling.md").read_text(encoding="utf-8")))
     printed = run(code, tmp_path)
     assert "degrees of freedom           1" in printed
-    assert "Trajectory(8001 samples" in printed
+    assert "Trajectory(2001 samples" in printed
     assert "the crank has turned 758.63 rad" in printed
 
 

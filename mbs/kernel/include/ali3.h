@@ -175,6 +175,34 @@ ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
    (n_steps/every x ns). *done is the number of accepted steps. */
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
                               double *out, int64_t *done);
+/* Steps of any length by step doubling, so that their errors add up to the tolerance over the span (error per unit
+ * step). Errors of positions are in parts of `length`, those of velocities in parts of length * rate or of the present
+ * speed. What is given comes first; the counts start at 0 and go on from call to call. */
+typedef struct {
+  double tolerance, length, span, rate; /* 1, m, s, 1/s: the least rate of the motion */
+  double longest; /* of steps, s */
+  double h; /* next step to try, s; 0: chosen */
+  double last; /* error of the last step over what it might be, for the controller; 0: none */
+  double usual; /* mean of the last some hundred steps, s */
+  double smallest, largest; /* accepted steps, s */
+  double error_sum; /* of the estimates of accepted steps */
+  double forced_error; /* the part of it of steps as short as they may be that erred more than they might */
+  int64_t accepted, rejected, failed, forced; /* steps; failed: did not converge */
+  int64_t kept; /* steps that erred more than their share and no more than a fixed one */
+  int64_t side_steps; /* made for a record where no polynomial through the steps served */
+} ali3_control;
+typedef struct {
+  int64_t n;
+  const double *time; /* n, ascending, after the present time */
+  double *sensors, *positions; /* n x ns, n x nq; may be NULL */
+} ali3_record;
+/* At most most_steps steps towards t_end, which is the end of one. Breaks of guides of time are ends of steps; inputs
+ * must not jump before t_end. scale (nq): size of a unit of each coordinate, m; NULL: 1. *done counts the rows of the
+ * record that are written. A step that fails as short as it may be ends the call; the state before it is kept. */
+ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const double *scale, double t_end,
+                                      int64_t most_steps, const ali3_record *record, int64_t *done);
+/* Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs. */
+ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
 /* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] = 0). */
 ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);

@@ -8,11 +8,14 @@ static bool relative(const ali3_instance *in) {
 }
 
 static ali3_status by_method(ali3_instance *in, double t, double h) {
+  const int32_t method = in->settings.method;
   const ali3_status inputs = ali3_inputs_begin(in, t, h);
   if (inputs != ALI3_OK) return inputs;
   if (relative(in)) return ali3_semi_recursive(in, t, h); /* fills in->next only when somebody looks */
+  if (method == ALI3_METHOD_ENERGY_MOMENTUM) ali3_energy_momentum_restart(in, h);
+  if (method == ALI3_METHOD_ENERGY_MOMENTUM_4) ali3_energy_momentum_restart(in, ali3_composed(h));
   ali3_vectors_copy(in, &in->next, &in->now);
-  switch (in->settings.method) {
+  switch (method) {
   case ALI3_METHOD_ENERGY_MOMENTUM:
     return ali3_energy_momentum(in, t, h, 0.5, !in->quiet);
   case ALI3_METHOD_ENERGY_MOMENTUM_4:

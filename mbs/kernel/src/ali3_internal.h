@@ -153,10 +153,12 @@ struct ali3_instance {
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
   ali3_vectors now, next, start, whole, tangent;
+  ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
   ali3_rule rule;
   bool kept; /* in->start holds the state before the step */
   bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
   bool sampled; /* only sensors will look at it */
+  bool controlled; /* steps change from one to the next, and may be forgotten */
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */
@@ -358,6 +360,7 @@ double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alp
 void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight);
 ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v);
 void ali3_energy_momentum_report(ali3_instance *in);
+void ali3_energy_momentum_restart(ali3_instance *in, double h);
 
 /* history.c */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
@@ -392,6 +395,7 @@ ali3_status ali3_explain_refusal(ali3_instance *in, ali3_status status, double h
 
 /* composition.c */
 ali3_status ali3_composition(ali3_instance *in, double t, double h);
+double ali3_composed(double h);
 
 /* check_method.c */
 bool ali3_without_memory(const ali3_system *S);
@@ -416,6 +420,7 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t);
 /* branch_watch.c */
 void ali3_branch_before(ali3_instance *in);
 ali3_status ali3_branch_after(ali3_instance *in, double t, double h);
+void ali3_branch_look(ali3_instance *in, double t);
 
 /* switches.c */
 void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J);

@@ -3,9 +3,13 @@
 #include "ali3_internal.h"
 
 enum { STAGES = 5 };
+static const double OUTER = 0.41449077179437573714;
+
+/* The last of the steps that a step of h is composed of. */
+double ali3_composed(double h) { return OUTER * h; }
 
 ali3_status ali3_composition(ali3_instance *in, double t, double h) {
-  const double outer = 0.41449077179437573714, share[STAGES] = {outer, outer, 1.0 - 4.0 * outer, outer, outer};
+  const double share[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
   int32_t iterations = 0, most = in->report.max_iterations;
   double done = -1.0; /* time from the end of the step, in steps */
   ali3_vectors_copy(in, &in->whole, &in->now);

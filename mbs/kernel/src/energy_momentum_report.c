@@ -9,6 +9,8 @@ enum { MAX_SWEEPS = 3 };
 static const double VELOCITY_TOLERANCE = 1e-11, ROUND_OFF = 1e-11;
 static const double LEAST_RATIO = 0.5, MOST_RATIO = 2.0; /* of kinetic energies that may be made equal */
 
+static const double SAME_STEP = 1e-6; /* relative difference of two steps that counts as none */
+
 /* Gives v the kinetic energy of v->own, except where a drive sets the velocity or much was taken away. */
 static void scale(ali3_instance *in, const ali3_vectors *v) {
   const int32_t nq = in->system->size.nq;
@@ -70,4 +72,16 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
 void ali3_energy_momentum_report(ali3_instance *in) {
   ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
   ali3_energy_momentum_show(in, &in->now);
+}
+
+/* Before a step of h: the carried velocity goes to the reported one where steps change. What it has off the rows has
+ * the size that belongs to the step it comes from; in a step a hundred times as short it would be a force a hundred
+ * times as large, as it would stay what it is. */
+void ali3_energy_momentum_restart(ali3_instance *in, double h) {
+  const double *memory = in->now.memory, last = -2.0 * memory[ALI3_MEMORY_TIME];
+  if (memory[ALI3_MEMORY_OWNER] != (double)ALI3_METHOD_ENERGY_MOMENTUM || !(memory[ALI3_MEMORY_COUNT] >= 1.0)) return;
+  if (!in->controlled && fabs(h - last) <= SAME_STEP * fabs(h)) return;
+  ali3_keep(in);
+  if (!in->controlled) ali3_energy_momentum_report(in); /* after a quiet step nothing is reported yet */
+  memcpy(in->now.own, in->now.qd, (size_t)in->system->size.nq * sizeof(double));
 }

@@ -48,7 +48,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
   const size_t stages = ali3_without_memory(s) ? ALI3_RADAU : 0;
-  const size_t total = 5 * n_vector + (4 + ALI3_RADAU) * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
+  const size_t total = 8 * n_vector + (4 + ALI3_RADAU) * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
                        5 * (size_t)z->nnz_rows + (size_t)z->front_size + 2 * nq + (size_t)z->ng + (size_t)z->n_switch +
                        2 * (size_t)z->nsig + n_S + n_work + ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
                        stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + stages * (size_t)z->front_size) +
@@ -79,6 +79,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   ali3_vectors_place(s, &in->start, &pool);
   ali3_vectors_place(s, &in->whole, &pool);
   ali3_vectors_place(s, &in->tangent, &pool);
+  ali3_vectors_place(s, &in->origin, &pool);
+  ali3_vectors_place(s, &in->centre, &pool);
+  ali3_vectors_place(s, &in->coarse, &pool);
   in->input = ali3_take(&pool, nu);
   in->input_work = ali3_take(&pool, nu);
   in->input_middle = ali3_take(&pool, nu);

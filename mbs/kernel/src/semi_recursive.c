@@ -180,6 +180,7 @@ static ali3_status show(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   ali3_tree_accelerate(S->tree, in->tree, in->tree->qdd);
   ali3_tree_write(in, v->q, v->qd, v->qdd);
+  if (in->controlled && in->sampled) return ALI3_OK; /* only the motion is looked at */
   if (in->sampled && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
   /* not from the last multipliers: bits must not depend on who looked when */
   memset(v->lam, 0, (size_t)S->size.nc * sizeof(double));
