@@ -241,6 +241,10 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
     status = begin(in);
   else if (ali3_inputs_jump(in))
     status = after_jump(in);
+  else if (S->n_work > 0)
+    memcpy(in->watched, in->now.watched, (size_t)S->n_work * sizeof(double));
+  if (S->n_work > 0) memset(in->work_sum, 0, (size_t)S->n_work * sizeof(double));
+  ali3_work_stage(in, h * rule->weight[0], in->watched, in->work_sum);
   memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
   for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
@@ -251,6 +255,7 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
     position(in);
     memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));
     status = accelerations(in, w->sum + n, w->stage[stage] + n);
+    ali3_work_stage(in, h * rule->weight[stage], in->watched, in->work_sum);
   }
   in->force_input = in->input;
   if (status == ALI3_OK) {
@@ -268,6 +273,10 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   if (!in->quiet) {
     v = &in->next;
     ali3_vectors_copy(in, v, &in->now);
+  }
+  ali3_work_stage(in, 1.0, in->work_sum, v->work);
+  ali3_work_keep(in, v);
+  if (!in->quiet) {
     status = show(in, v);
     if (status != ALI3_OK) return status;
   }
