@@ -10,6 +10,17 @@ from hosts.run import Result
 WHEELS = ("FL", "FR", "RL", "RR")
 # A wheel that carries less is in the air, N.
 _LIFT_FORCE = 1.0
+# Outputs that hold energy, and those of the work since the start, with the words of the table.
+_STORED = ("energy.kinetic", "energy.gravity", "energy.elastic")
+_WORKS = {
+    "energy.drive": "drive",
+    "energy.brakes": "brakes",
+    "energy.tyres": "tyres",
+    "energy.dampers": "dampers and stops",
+    "energy.drag": "air",
+    "energy.ground": "ground on the chassis",
+}
+_ERROR = "solver.energy_error"
 
 
 def summary(
@@ -62,6 +73,7 @@ def summary(
     if course is not None and "chassis.x" in result and "chassis.y" in result and "chassis.yaw" in result:
         out = course.corners_outside(result["chassis.x"], result["chassis.y"], result["chassis.yaw"], *outline)
         rows.append((course.name, f"passed, {-out:.2f} m to spare" if out <= 0.0 else f"missed by {out:.2f} m"))
+    rows += energy_balance(result)
     if "solver.iterations" in result and len(result.time) > 1:
         n = result["solver.iterations"][1:]
         rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))
@@ -75,6 +87,26 @@ def summary(
             f"{factor:.1f} ({result.simulated:.2f} s simulated in {result.wall:.3f} s, step {1e3 * step:g} ms)",
         )
     )
+    return rows
+
+
+def energy_balance(result: Result) -> list[tuple[str, str]]:
+    """Change of the energy and what worked on the car, kJ; empty where the FMU lacks one of the outputs.
+
+    What is left of the change has no output of its own: the work of steering and other guides, the damping of a
+    flexible structure, and what the error of the steps does not name.
+    """
+    if any(name not in result for name in (*_STORED, *_WORKS, _ERROR)):
+        return []
+
+    def change(name: str) -> float:
+        return float(result[name][-1] - result[name][0])
+
+    stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in _WORKS}, change(_ERROR)
+    rows = [("change of the energy", f"{1e-3 * stored:+.4f} kJ, kinetic and potential; of it the work of")]
+    rows += [(f"  {_WORKS[name]}", f"{1e-3 * work:+.4f} kJ") for name, work in works.items()]
+    rows.append(("  rest (steering, structure)", f"{1e-3 * (stored - sum(works.values()) - error):+.4f} kJ"))
+    rows.append(("  error of the steps", f"{1e-3 * error:+.4f} kJ"))
     return rows
 
 
