@@ -24,13 +24,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--only",
         default="native,fmi3,python",
         metavar="LIST",
-        help="native (FMI 2.0 in C), fmi3 (FMI 3.0 in C), python (FMI 2.0, runs in the host's Python); default: all",
+        help="native (FMI 2.0 in C), fmi3 (FMI 3.0 in C), python (FMI 2.0, runs in the host's Python); default: these; "
+        "fmi3_scalar: FMI 3.0 without arrays, for hosts that read them as zeros",
     )
     parser.add_argument(
         "--platforms",
         metavar="LIST",
-        help="out of linux64, win64 and darwin64; default: all that the kind can have",
+        help="out of linux64, win64, darwin64 and aarch64-linux; default: all that the kind can have",
     )
+    parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
+    parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
+    parser.add_argument("--license", default="", help="of the model; default: the solver's")
     options = parser.parse_args(arguments)
     from fmu_src.build import KINDS, build_fmu
     from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
@@ -61,10 +65,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 lambda text, kind=kind: print(f"{kind}: {text}", flush=True),
                 kind,
                 fidelity,
+                *(options.author, options.copyright, options.license),
             )
             print(
                 f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(meta['inputs'])} inputs, "
-                f"{len(meta['sensors'])} outputs",
+                f"{len(meta['sensors'])} sensors",
                 flush=True,
             )
     except (ValueError, RuntimeError, OSError) as error:

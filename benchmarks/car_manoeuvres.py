@@ -20,7 +20,7 @@ from mbs.scenes.prototype_car.tyre_data import FRICTION
 
 FOLDER = Path(__file__).parent / "manoeuvres"
 HOST = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "steady_cornering")
-OWN = ("double_lane_change_replay", "full_lock", "brake_on_slope")
+OWN = ("double_lane_change_replay", "full_lock", "brake_on_slope", "kerb_lock_brake")
 NAMES = HOST + OWN
 CLOSED_LOOP = "double_lane_change"  # of the host; its replay is OWN[0]
 RISE_BEGINS, RISE_ENDS, GRADE = 20.0, 25.0, 0.1  # m, m, dz/dx behind

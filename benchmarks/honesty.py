@@ -20,7 +20,7 @@ from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table
 from benchmarks.honesty_scenes import SCENES
 from benchmarks.kernel_methods import TITLES
-from mbs.accuracy import WRONG_ERROR
+from mbs.accuracy import WRONG_BALANCE, WRONG_ERROR
 
 LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
 HOLDS = 1e-3  # of the range: a smaller error need not be told
@@ -48,6 +48,7 @@ SUMMARY = {
     "false alarms": "d",
     "wrong": "d",
     "missed": "d",
+    "said by the balance": "d",
     "right without a repeat": ".0%",
     "off by more than told": "d",
 }
@@ -101,6 +102,7 @@ def summary(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
                 "false alarms": sum(r["verdict"] == VERDICTS[1] for r in done),
                 "wrong": len(done) - len(right),
                 "missed": sum(r["verdict"] == VERDICTS[3] for r in done),
+                "said by the balance": sum((r["balance"] or 0.0) > WRONG_BALANCE for r in done),
                 "right without a repeat": quiet / len(right) if right else None,
                 "off by more than told": sum(r["error"] > FACTOR * r["told"] for r in told),
             }
@@ -114,6 +116,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--scene", action="append", choices=list(SCENES), help="a scene; may be given again")
     parser.add_argument("--method", action="append", choices=list(TITLES), help="a method; may be given again")
     parser.add_argument("--quick", action="store_true", help="three scenes, the default method, a few steps")
+    parser.add_argument("--longest", type=float, default=LONG, metavar="S", help="of a run, before finer steps stop")
     options = parser.parse_args(arguments)
     rows = []
     for name in watched(options.scene or list(QUICK if options.quick else SCENES)):
@@ -121,7 +124,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for method in [m for m in methods if not options.method or m in options.method]:
             for h in QUICK[name] if options.quick else SCENES[name].steps:
                 rows.append(measure(name, method, h))
-                if rows[-1]["cpu_s"] > LONG:
+                if rows[-1]["cpu_s"] > options.longest:
                     break
     print_table(rows, TABLE)
     lines = summary(rows)

@@ -24,6 +24,11 @@ TREE_ONLY = ("semi_recursive", "semi_recursive_4")
 POSITIONS_ONLY = ("radau_5",)
 
 
+def controlled(title: str) -> str:
+    """Title of a method under error control."""
+    return f"{title}, controlled"
+
+
 def suits(name: str, conservative: bool, system: mbs.System) -> bool:
     """Whether a method takes a scene: one without dissipation, with a spanning tree, without velocity rows."""
     return (

@@ -15,13 +15,14 @@ from typing import Any
 
 import mbs
 from benchmarks.cases import CASES
+from benchmarks.honesty import FACTOR, HOLDS, SUMMARY, VERDICTS, summary
 from benchmarks.kernel_methods import TITLES
 from benchmarks.stability import OUTCOMES
 from benchmarks.stability_margins import SQUEEZED, USUAL_STEP
 from benchmarks.work_precision import LEVELS, compare, time_at_error
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-PAGES = ("speed_and_accuracy.md", "stability.md")
+PAGES = ("speed_and_accuracy.md", "stability.md", "accuracy.md")
 FAR = 0.03  # of the usual step: what is fine below it alone is not fine in practice
 Row = Mapping[str, Any]
 
@@ -146,6 +147,29 @@ def dissipative_blocks(data: Row) -> dict[str, str]:
     return {"dissipative": table(lines, dict.fromkeys(lines[0], ""))}
 
 
+def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Wrong runs caught and right ones disturbed, and by name those that went against the rule."""
+    said = []
+    for verdict in (VERDICTS[3], VERDICTS[1]):
+        found = [r for r in rows if r["verdict"] == verdict]
+        for method in dict.fromkeys(r["method"] for r in found):
+            runs = (f"{r['scene']} at {r['h_s']:g} s ({r['error']:.2g})" for r in found if r["method"] == method)
+            said.append(f"- {TITLES[method]}, {verdict.replace('wrong, ', '')}: {'; '.join(runs)}.")
+    short = [
+        f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, told {r['told']:.1e}"
+        for r in rows
+        if r["told"] is not None and r["error"] > max(HOLDS, FACTOR * r["told"])
+    ]
+    said += [f"- More than {FACTOR:g} times what was told: {'; '.join(short) or 'none'}."]
+    crank = [r for r in rows if r["scene"] == "printed_crank_slider" and r["method"] == "ali3p"]
+    columns = {"h_s": "g", "ended": "", "error": ".1e", "told": ".1e", "balance": ".1e", "halvings_per_step": ".2g"}
+    return {
+        "honesty": table(summary(list(rows)), SUMMARY),
+        "honesty exceptions": "\n".join(said),
+        "honesty crank": table(crank, columns | {"verdict": ""}),
+    }
+
+
 def growth_blocks(data: Row) -> dict[str, str]:
     """Growth and the distance to what the machine could do."""
     columns = {
@@ -235,12 +259,12 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in ("work", "stability", "growth", "four-bar", "puma", "dissipative"):
+    for name in ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
-    files = (o.work, o.stability, o.growth, o.four_bar, o.puma, o.dissipative)
-    work, stability, growth, four_bar, puma, dissipative = (_read(f) for f in files)
+    files = (o.work, o.stability, o.growth, o.four_bar, o.puma, o.dissipative, o.honesty)
+    work, stability, growth, four_bar, puma, dissipative, honesty = (_read(f) for f in files)
     blocks: dict[str, str] = {}
     if work:
         blocks |= work_blocks([r for f in work for r in f["rows"]]) | {"machine work": machine(work[0]["meta"])}
@@ -254,6 +278,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= puma_blocks(puma[0])
     if dissipative:
         blocks |= dissipative_blocks({"rows": [r for f in dissipative for r in f["rows"]]})
+    if honesty:
+        blocks |= honesty_blocks([r for f in honesty for r in f["rows"]])
+        blocks |= {"machine honesty": machine(honesty[0]["meta"])}
     for page in PAGES:
         file = o.docs / page
         file.write_text(replace(file.read_text(encoding="utf-8"), blocks), encoding="utf-8")

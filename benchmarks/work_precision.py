@@ -1,6 +1,7 @@
 """Error against time: ``python -m benchmarks.work_precision [--scene NAME ...] [--json FILE] [--charts DIR]``.
 
-Every method over a range of steps against the exact motion, one chart a scene; Exudyn and MuJoCo in the same run when
+Every method over a range of steps, and under error control over a range of tolerances, against the exact motion, one
+chart a scene; Exudyn and MuJoCo in the same run when
 they are installed, and the ratio of our time to the best of theirs at equal error.
 """
 
@@ -21,8 +22,11 @@ from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.cases import CASES, SAMPLES, SHARED, exact_of, size_of, system_of
 from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table
-from benchmarks.kernel_methods import all_settings
+from benchmarks.kernel_methods import TITLES, all_settings, controlled, suits
 from benchmarks.work_precision_chart import draw
+from mbs.controlled_run import ControlledRun, StalledError, Task
+from mbs.kernel.binding import KernelError
+from mbs.method_choice import ORDERS
 
 ROUNDS, FEW_ROUNDS = 7, 2
 LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few rounds, or the first run, must do
@@ -45,6 +49,8 @@ TABLE = {
     "evaluations": "d",
     "ended": "",
 }
+CONTROLLED = ("ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive", "semi_recursive_4", "radau_5")
+CONTROLLED_TOLERANCES, ORDER_TWO_ENDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8), 1e-5
 Action = Callable[[], tuple[float, dict[str, Any]]]
 
 
@@ -65,6 +71,32 @@ def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
             "ended": "finished",
             "position_error_m": _error(np.column_stack([t[s] for s in case.sensors]), scene),
             "energy_deviation_J": float(np.abs(energy - energy[0]).max()) if case.energy_stays else None,
+            "factorizations": report.factorizations,
+            "evaluations": report.iterations + report.steps,
+        }
+
+    return act
+
+
+def controlled_action(scene: str, method: str, tolerance: float) -> Action:
+    """A run under error control, without those that `simulate` makes to estimate the error."""
+    case, system = CASES[scene], system_of(scene)
+    task = Task(0.0, case.end, np.linspace(0.0, case.end, SAMPLES + 1)[1:], {})
+    columns = [[s["name"] for s in system.meta["sensors"]].index(name) for name in case.sensors]
+
+    def act() -> tuple[float, dict[str, Any]]:
+        settings = mbs.Settings(method=method)
+        run = ControlledRun(mbs.Simulation(system, settings=settings), task, settings, tolerance)
+        try:
+            run.finish(lambda share: None)
+        except (KernelError, StalledError):
+            return 0.0, {"ended": f"refused at {run.simulation.time:.4g} s"}
+        report = run.simulation.report
+        error = float(np.linalg.norm(run.values[:, columns] - exact_of(scene)[1:], axis=1).max())
+        return run.wall, {
+            "ended": "finished",
+            "position_error_m": error,
+            "energy_deviation_J": None,
             "factorizations": report.factorizations,
             "evaluations": report.iterations + report.steps,
         }
@@ -135,6 +167,10 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
             for name, engine in engines.items():
                 for integrator in engine.integrators(scene):
                     add(name, f"{name}, {integrator}", h, peer_action(scene, engine, integrator, h))
+    for method in (m for m in CONTROLLED if suits(m, case.conservative, system)):
+        for tolerance in CONTROLLED_TOLERANCES[1 : 1 + QUICK_DIVISIONS] if quick else CONTROLLED_TOLERANCES:
+            if ORDERS[method] > 2 or tolerance >= ORDER_TWO_ENDS:
+                add("kernel", controlled(TITLES[method]), None, controlled_action(scene, method, tolerance), tolerance)
     for rtol in SCIPY_TOLERANCES[: 1 if quick else None] if case.classical else ():
         action = classical_action(scene, SCIPY["method"], case.end / SAMPLES, SCIPY["solver"], rtol)
         add("classical", f"index-1 minimum norm, scipy {SCIPY['solver']}", None, action, rtol)

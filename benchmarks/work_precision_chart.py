@@ -9,7 +9,7 @@ from typing import Any
 from benchmarks.cases import Case
 from benchmarks.command import pyplot, save_chart
 from benchmarks.common import machine
-from benchmarks.kernel_methods import TITLES
+from benchmarks.kernel_methods import TITLES, controlled
 
 KERNEL = {
     TITLES["ali3p"]: ("#0072B2", "o"),
@@ -24,6 +24,8 @@ KERNEL = {
 """Colours of Okabe and Ito, and wine of Tol, the same in every chart; methods that are not here are in the tables."""
 OTHERS = {"classical": ("#777777", ":"), "exudyn": ("#444444", "--"), "mujoco": ("#999999", "--")}
 MARKERS = "osD^vPX"
+CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
+"""Runs to a tolerance: the same colours, dash-dotted with open marks."""
 PANELS = {"wall_s": ("kernel", "exudyn", "mujoco"), "factorizations": ("kernel", "classical")}
 """What is compared: times of compiled programs, factorizations of the methods that count them."""
 
@@ -54,17 +56,17 @@ def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) ->
                     for r in rows
                     if r["method"] == method and r["wall_s"] and r[key] and r["position_error_m"] < lost
                 ]
-                if not points or (family == "kernel" and method not in KERNEL):
+                if not points or (family == "kernel" and method not in KERNEL | CONTROLLED):
                     continue
-                colour, line = OTHERS.get(family, ("", "-"))
-                colour, marker = KERNEL.get(method, (colour, MARKERS[k % len(MARKERS)]))
+                colour, line = OTHERS.get(family, ("", "-." if method in CONTROLLED else "-"))
+                colour, marker = (KERNEL | CONTROLLED).get(method, (colour, MARKERS[k % len(MARKERS)]))
                 ax.loglog(
                     *zip(*points, strict=True),
                     line,
                     marker=marker,
                     color=colour,
-                    fillstyle="full" if family == "kernel" else "none",
-                    linewidth=1.8 if family == "kernel" else 1.1,
+                    fillstyle="full" if method in KERNEL else "none",
+                    linewidth=1.8 if method in KERNEL else 1.1,
                     markersize=5.5,
                     label=method,
                 )
@@ -75,5 +77,9 @@ def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) ->
     axes[0].set_ylabel(f"largest error of the output point, {case.unit}")
     handles = {label: handle for ax in axes for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="outside right center", fontsize=7.5, frameon=False)
-    figure.suptitle(f"{case.title}   (solid: kernel, C; dotted: Python; dashed: other engines, C++)", fontsize=10)
+    figure.suptitle(
+        f"{case.title}   (solid: kernel, C, equal steps; dash-dotted: to a tolerance; dotted: Python; "
+        "dashed: other engines, C++)",
+        fontsize=10,
+    )
     save_chart(figure, file)

@@ -70,9 +70,16 @@ def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
     return tuple(found)
 
 
+def scalars(table: Sequence[Variable]) -> tuple[Array, ...]:
+    """Every variable by itself, for hosts that do not read arrays."""
+    return tuple(Array(v.name, (i,), v, v.description) for i, v in enumerate(table))
+
+
 def _alike(table: Sequence[Variable], items: Sequence[int]) -> bool:
     first = table[items[0]]
-    return all(table[k].causality == "output" and table[k].unit == first.unit for k in items)
+    return all(
+        table[k].causality == "output" and table[k].unit == first.unit and table[k].whole == first.whole for k in items
+    )
 
 
 def _vector(table: Sequence[Variable], i: int) -> Array | None:

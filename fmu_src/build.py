@@ -13,9 +13,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import mbs
-from fmu_src.native.faces import FMI2, FMI3
+from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
+from fmu_src.probe import probe, with_nominal
 from fmu_src.variables import check_variants, variable_table
 from mbs.kernel import build
 
@@ -25,12 +26,13 @@ _PATIENCE = 2.0
 KINDS = {
     "native": "FMI 2.0 in C, for every tool",
     "fmi3": "FMI 3.0 in C, with arrays",
+    "fmi3_scalar": "FMI 3.0 in C, without arrays, for hosts that do not read them",
     "python": "FMI 2.0 in Python, for hosts with a Python of their own",
 }
 """Kinds of FMU."""
 
-_FACES = {"native": FMI2, "fmi3": FMI3}
-_NAME_SUFFIX = {"native": "", "fmi3": "FMI3", "python": "Python"}
+_FACES = {"native": FMI2, "fmi3": FMI3, "fmi3_scalar": FMI3_SCALAR}
+_NAME_SUFFIX = {"native": "", "fmi3": "FMI3", "fmi3_scalar": "FMI3Scalar", "python": "Python"}
 
 
 def fmu_name(scene: str, kind: str = "native") -> str:
@@ -50,6 +52,9 @@ def build_fmu(
     say: Say = lambda text: None,
     kind: str = "native",
     fidelity: int = 0,
+    author: str = "",
+    copyright: str = "",
+    licence: str = "",
 ) -> Path:
     """Build the FMU of a System.
 
@@ -62,13 +67,15 @@ def build_fmu(
     out : Path
         Folder; made if it is not there.
     platforms : sequence of str, optional
-        Out of ``linux64``, ``win64`` and ``darwin64``; by default all the kind can have.
+        Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``; by default all the kind can have.
     say : callable
         Is told what is going on, one line at a time.
     kind : str
         One of `KINDS`.
     fidelity : int
         The default among several Systems.
+    author, copyright, licence : str
+        Of the model, for its description; empty: the solver's.
 
     Returns
     -------
@@ -85,23 +92,27 @@ def build_fmu(
     systems = (system,) if isinstance(system, mbs.System) else tuple(system)
     check_variants([s.meta for s in systems])
     meta = systems[fidelity].meta
+    table = variable_table(
+        meta,
+        pose=bool(meta["floating"]),
+        step_size=float(meta["experiment"]["step_s"]),
+        fidelities=len(systems),
+        fidelity=fidelity,
+    )
+    told = functools.partial(_told, say)
+    with told("finding what depends on what"):
+        reach = probe(systems, table)
     contents = NativeContents(
         fmu_name(name, kind),
         meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
         importlib.metadata.version("ali3"),
         systems,
-        variable_table(
-            meta,
-            pose=bool(meta["floating"]),
-            step_size=float(meta["experiment"]["step_s"]),
-            fidelities=len(systems),
-            fidelity=fidelity,
-        ),
+        with_nominal(table, reach),
+        reach,
         fidelity,
+        *(author, copyright, licence),
     )
     file = out / f"{contents.model_name}.fmu"
-
-    told = functools.partial(_told, say)
 
     if kind == "python":
         _pack_python(contents, chosen, file, told)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import datetime, timezone
 from xml.etree import ElementTree
 
-from fmu_src.units import DISPLAY_UNITS, QUANTITIES, canonical_unit, parse_unit
+from fmu_src.probe import Dependencies
+from fmu_src.units import DISPLAY_UNITS, QUANTITIES, parse_unit
 from fmu_src.variables import Variable
 
-# Fixed, so that the same sources give the same bytes.
-GENERATION_DATE = "2000-01-01T00:00:00Z"
+# Of this version: the same sources give the same bytes, so that no clock is read.
+RELEASE_DATE = "2026-11-20T00:00:00Z"
 
 LOG_CATEGORIES = {
     "logStatusWarning": "Values clamped, step size far from the tuned one",
@@ -34,6 +37,8 @@ class Description:
         Default experiment, s.
     needs_execution_tool : bool
         Whether a Python interpreter must be there.
+    author, copyright, licence : str
+        Of the model; by default those of the solver.
     capable : bool
         Whether the slave interpolates inputs, gives derivatives and respects the host's memory functions.
     sources : sequence of str
@@ -49,8 +54,22 @@ class Description:
     stop_time: float
     step_size: float
     needs_execution_tool: bool
+    author: str
+    copyright: str
+    licence: str
     capable: bool = False
     sources: Sequence[str] = ()
+
+
+def generation_date() -> str:
+    """The date of the environment variable SOURCE_DATE_EPOCH, else that of this version."""
+    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if not epoch:
+        return RELEASE_DATE
+    try:
+        return datetime.fromtimestamp(int(epoch), timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    except (ValueError, OverflowError, OSError):
+        raise ValueError(f"SOURCE_DATE_EPOCH is '{epoch}'; seconds since 1970 are needed.") from None
 
 
 def number(value: float) -> str:
@@ -58,7 +77,7 @@ def number(value: float) -> str:
     return repr(float(value))
 
 
-def model_description(head: Description, table: Sequence[Variable]) -> bytes:
+def model_description(head: Description, table: Sequence[Variable], reach: Dependencies) -> bytes:
     """Write the document.
 
     Parameters
@@ -67,6 +86,8 @@ def model_description(head: Description, table: Sequence[Variable]) -> bytes:
         Attributes and default experiment.
     table : sequence of Variable
         All variables; the place is the value reference.
+    reach : Dependencies
+        Which of them reach which outputs.
 
     Returns
     -------
@@ -79,9 +100,12 @@ def model_description(head: Description, table: Sequence[Variable]) -> bytes:
         modelName=head.model_name,
         guid=head.guid,
         description=head.description,
+        author=head.author,
         version=head.version,
+        copyright=head.copyright,
+        license=head.licence,
         generationTool=head.tool,
-        generationDateAndTime=GENERATION_DATE,
+        generationDateAndTime=generation_date(),
         variableNamingConvention="structured",
         numberOfEventIndicators="0",
     )
@@ -112,7 +136,7 @@ def model_description(head: Description, table: Sequence[Variable]) -> bytes:
     types = declared_types(table)
     for reference, v in enumerate(table):
         _variable(variables, reference, v, types)
-    _structure(root, table)
+    _structure(root, table, reach)
     return to_bytes(root)
 
 
@@ -135,7 +159,7 @@ def categories_and_experiment(root: ElementTree.Element, head: Description) -> N
 def units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
     """Definitions of all units in use; the same in FMI 2.0 and 3.0."""
     definitions = ElementTree.SubElement(root, "UnitDefinitions")
-    for name in sorted({v.unit for v in table}):
+    for name in sorted({v.unit for v in table if not v.whole}):
         unit = parse_unit(name)
         element = ElementTree.SubElement(definitions, "Unit", name=name)
         attributes = {base: str(exponent) for base, exponent in unit.exponents.items()}
@@ -143,27 +167,36 @@ def units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
             attributes["factor"] = number(unit.factor)
         ElementTree.SubElement(element, "BaseUnit", attributes)
         if name in DISPLAY_UNITS:
-            display, factor = DISPLAY_UNITS[name]
-            ElementTree.SubElement(element, "DisplayUnit", name=display, factor=number(factor))
+            for display, factor in DISPLAY_UNITS[name].items():
+                ElementTree.SubElement(element, "DisplayUnit", name=display, factor=number(factor))
 
 
 def type_name(v: Variable) -> str:
-    """Name of the declared type of a variable: its quantity and, where it has one, its range."""
-    name = QUANTITIES.get(canonical_unit(v.unit), "Quantity_" + re.sub(r"\W", "_", v.unit))
-    if v.min is None and v.max is None:
-        return name if v.display_unit is not None or v.unit not in DISPLAY_UNITS else f"{name}_plain"
-    return f"{name}_{_end(v.min)}_to_{_end(v.max)}"
+    """Name of the declared type of a variable: its quantity, a display unit that is not the usual one, its range."""
+    name = "Count" if v.whole else QUANTITIES.get(v.unit, "Quantity_" + re.sub(r"\W", "_", v.unit))
+    usual = next(iter(DISPLAY_UNITS.get(v.unit, {})), None)
+    if v.display_unit != usual:
+        name += "_" + re.sub(r"\W", "_", v.display_unit or "plain")
+    return name if v.min is None and v.max is None else f"{name}_{_end(v.min)}_to_{_end(v.max)}"
 
 
 def type_attributes(v: Variable) -> dict[str, str]:
     """Attributes of the declared type of a variable."""
-    attributes = {"quantity": QUANTITIES.get(canonical_unit(v.unit), "Quantity"), "unit": v.unit}
-    if v.display_unit is not None:
-        attributes["displayUnit"] = v.display_unit
+    if v.whole:
+        attributes = {"quantity": "Count"}
+    else:
+        attributes = {"quantity": QUANTITIES.get(v.unit, "Quantity"), "unit": v.unit}
+        if v.display_unit is not None:
+            attributes["displayUnit"] = v.display_unit
     for key, value in (("min", v.min), ("max", v.max)):
         if value is not None:
-            attributes[key] = number(value)
+            attributes[key] = value_text(v, value)
     return attributes
+
+
+def value_text(v: Variable, value: float) -> str:
+    """A number of a variable as its type is written."""
+    return str(int(value)) if v.whole else number(value)
 
 
 def declared_types(table: Sequence[Variable]) -> dict[str, dict[str, str]]:
@@ -189,7 +222,8 @@ def _end(value: float | None) -> str:
 def _types(root: ElementTree.Element, table: Sequence[Variable]) -> None:
     definitions = ElementTree.SubElement(root, "TypeDefinitions")
     for name, attributes in declared_types(table).items():
-        ElementTree.SubElement(ElementTree.SubElement(definitions, "SimpleType", name=name), "Real", attributes)
+        kind = "Real" if "unit" in attributes else "Integer"
+        ElementTree.SubElement(ElementTree.SubElement(definitions, "SimpleType", name=name), kind, attributes)
 
 
 def _variable(parent: ElementTree.Element, reference: int, v: Variable, types: dict[str, dict[str, str]]) -> None:
@@ -200,31 +234,36 @@ def _variable(parent: ElementTree.Element, reference: int, v: Variable, types: d
     if v.causality != "input":
         attributes["initial"] = "calculated" if v.causality == "output" else "exact"
     scalar = ElementTree.SubElement(parent, "ScalarVariable", attributes)
-    real = {"declaredType": declared_type(v, types), "unit": v.unit}
+    value = {"declaredType": declared_type(v, types)} | variable_attributes(v)
+    ElementTree.SubElement(scalar, "Integer" if v.whole else "Real", value)
+
+
+def variable_attributes(v: Variable) -> dict[str, str]:
+    """Unit, range, typical size and start of a variable; the same in FMI 2.0 and 3.0."""
+    attributes = {} if v.whole else {"unit": v.unit}
     if v.display_unit is not None:
-        real["displayUnit"] = v.display_unit
-    for key, value in (("min", v.min), ("max", v.max), ("start", v.start)):
+        attributes["displayUnit"] = v.display_unit
+    for key, value in (("min", v.min), ("max", v.max), ("nominal", v.nominal), ("start", v.start)):
         if value is not None:
-            real[key] = number(value)
-    ElementTree.SubElement(scalar, "Real", real)
+            attributes[key] = value_text(v, value)
+    return attributes
 
 
-def _structure(root: ElementTree.Element, table: Sequence[Variable]) -> None:
-    """Outputs belong to the end of the last step, so no input reaches them at once; initial ones depend on all set."""
+def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Dependencies) -> None:
+    """Outputs depend on inputs over a step, initial ones on all that was found to change them."""
     structure = ElementTree.SubElement(root, "ModelStructure")
-    unknowns = [i for i, v in enumerate(table, start=1) if v.causality == "output"]
-    if not unknowns:
-        return
-    known = [str(i) for i, v in enumerate(table, start=1) if v.causality != "output" and v.source != "step_size"]
-    outputs = ElementTree.SubElement(structure, "Outputs")
-    for i in unknowns:
-        ElementTree.SubElement(outputs, "Unknown", index=str(i), dependencies="")
-    initial = ElementTree.SubElement(structure, "InitialUnknowns")
-    for i in unknowns:
-        ElementTree.SubElement(
-            initial,
-            "Unknown",
-            index=str(i),
-            dependencies=" ".join(known),
-            dependenciesKind=" ".join(["dependent"] * len(known)),
-        )
+    for tag, of in (("Outputs", reach.step), ("InitialUnknowns", reach.initial)):
+        group = ElementTree.Element(tag)
+        for i, v in enumerate(table):
+            if v.causality == "output":
+                ElementTree.SubElement(group, "Unknown", index=str(i + 1), **dependency_attributes(of[i], 1))
+        if len(group):
+            structure.append(group)
+
+
+def dependency_attributes(known: Sequence[int], offset: int = 0) -> dict[str, str]:
+    """Attributes of an unknown that depends on the variables at these places; `offset` is added to them."""
+    attributes = {"dependencies": " ".join(str(k + offset) for k in known)}
+    if known:
+        attributes["dependenciesKind"] = " ".join(["dependent"] * len(known))
+    return attributes

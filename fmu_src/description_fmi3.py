@@ -7,20 +7,23 @@ from xml.etree import ElementTree
 
 from fmu_src.arrays import Array
 from fmu_src.description import (
-    GENERATION_DATE,
     Description,
     categories_and_experiment,
     declared_type,
     declared_types,
-    number,
+    dependency_attributes,
+    generation_date,
     to_bytes,
-    type_attributes,
     units,
+    variable_attributes,
 )
+from fmu_src.probe import Dependencies
 from fmu_src.variables import Variable
 
 
-def model_description_fmi3(head: Description, table: Sequence[Variable], arrays: Sequence[Array]) -> bytes:
+def model_description_fmi3(
+    head: Description, table: Sequence[Variable], arrays: Sequence[Array], reach: Dependencies
+) -> bytes:
     """modelDescription.xml of FMI 3.0.
 
     Parameters
@@ -30,6 +33,8 @@ def model_description_fmi3(head: Description, table: Sequence[Variable], arrays:
         All scalars, for units and types.
     arrays : sequence of Array
         The place is the value reference; time comes after the last.
+    reach : Dependencies
+        Which variables of the table reach which outputs.
 
     Returns
     -------
@@ -41,9 +46,12 @@ def model_description_fmi3(head: Description, table: Sequence[Variable], arrays:
         modelName=head.model_name,
         instantiationToken=head.guid,
         description=head.description,
+        author=head.author,
         version=head.version,
+        copyright=head.copyright,
+        license=head.licence,
         generationTool=head.tool,
-        generationDateAndTime=GENERATION_DATE,
+        generationDateAndTime=generation_date(),
         variableNamingConvention="structured",
     )
     ElementTree.SubElement(
@@ -61,7 +69,8 @@ def model_description_fmi3(head: Description, table: Sequence[Variable], arrays:
     types = declared_types(table)
     definitions = ElementTree.SubElement(root, "TypeDefinitions")
     for name, attributes in types.items():
-        ElementTree.SubElement(definitions, "Float64Type", {"name": name} | attributes)
+        kind = "Float64Type" if "unit" in attributes else "Int32Type"
+        ElementTree.SubElement(definitions, kind, {"name": name} | attributes)
     categories_and_experiment(root, head)
     variables = ElementTree.SubElement(root, "ModelVariables")
     for reference, array in enumerate(arrays):
@@ -76,7 +85,7 @@ def model_description_fmi3(head: Description, table: Sequence[Variable], arrays:
         description="Simulation time",
         unit="s",
     )
-    _structure(root, arrays)
+    _structure(root, arrays, reach)
     return to_bytes(root)
 
 
@@ -87,6 +96,13 @@ def build_description(model_identifier: str, sources: Sequence[str]) -> bytes:
     files = ElementTree.SubElement(configuration, "SourceFileSet", language="C11", compilerOptions="-ffp-contract=off")
     for name in sources:
         ElementTree.SubElement(files, "SourceFile", name=name)
+    ElementTree.SubElement(
+        configuration,
+        "Library",
+        name="m",
+        external="true",
+        description="The C library's mathematics, where it is apart",
+    )
     return to_bytes(root)
 
 
@@ -121,29 +137,20 @@ def _variable(parent: ElementTree.Element, reference: int, array: Array, types: 
     if array.description:
         attributes["description"] = array.description
     attributes |= {"causality": v.causality, "variability": v.variability}
-    own = type_attributes(v)
     attributes["declaredType"] = declared_type(v, types)
     if v.causality == "parameter":
         attributes["initial"] = "exact"
-    attributes |= {key: own[key] for key in ("unit", "displayUnit", "min", "max") if key in own}
-    if v.start is not None:
-        attributes["start"] = number(v.start)
-    element = ElementTree.SubElement(parent, "Float64", attributes)
+    attributes |= variable_attributes(v)
+    element = ElementTree.SubElement(parent, "Int32" if v.whole else "Float64", attributes)
     if len(array.items) > 1:
         ElementTree.SubElement(element, "Dimension", start=str(len(array.items)))
 
 
-def _structure(root: ElementTree.Element, arrays: Sequence[Array]) -> None:
+def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Dependencies) -> None:
     structure = ElementTree.SubElement(root, "ModelStructure")
-    outputs = [str(i) for i, a in enumerate(arrays) if a.of.causality == "output"]
-    known = [str(i) for i, a in enumerate(arrays) if a.of.causality != "output" and a.of.source != "step_size"]
-    for reference in outputs:
-        ElementTree.SubElement(structure, "Output", valueReference=reference, dependencies="")
-    for reference in outputs:
-        ElementTree.SubElement(
-            structure,
-            "InitialUnknown",
-            valueReference=reference,
-            dependencies=" ".join(known),
-            dependenciesKind=" ".join(["dependent"] * len(known)),
-        )
+    array_of = {k: i for i, a in enumerate(arrays) for k in a.items}
+    for tag, of in (("Output", reach.step), ("InitialUnknown", reach.initial)):
+        for i, a in enumerate(arrays):
+            if a.of.causality == "output":
+                known = sorted({array_of[k] for item in a.items for k in of[item]})
+                ElementTree.SubElement(structure, tag, valueReference=str(i), **dependency_attributes(known))

@@ -1,4 +1,4 @@
-"""The platforms an FMU is built for, by the names of FMI 2.0."""
+"""The platforms an FMU is built for, by the names of FMI 2.0; where it has none, by the tuple of FMI 3.0."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ TARGETS = {
     "linux64": ("x86_64-linux-gnu.2.17",),
     "win64": ("x86_64-windows-gnu",),
     "darwin64": ("x86_64-macos.10.13", "aarch64-macos.11.0"),
+    "aarch64-linux": ("aarch64-linux-gnu.2.17",),
 }
 """Target triples of `zig cc`; the two of darwin64 become one universal file."""
 
-SUFFIXES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"}
+SUFFIXES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-linux": ".so"}
 
 PLATFORMS = tuple(TARGETS)
 
@@ -21,5 +22,6 @@ FMI3_FOLDERS = {
     "x86_64-windows-gnu": "x86_64-windows",
     "x86_64-macos.10.13": "x86_64-darwin",
     "aarch64-macos.11.0": "aarch64-darwin",
+    "aarch64-linux-gnu.2.17": "aarch64-linux",
 }
 """Folders of binaries in FMI 3.0, one per target."""

@@ -26,13 +26,13 @@ _SYMBOLS: dict[str, tuple[dict[str, int], float]] = {
 
 _TOKEN = re.compile(r"([A-Za-z]+|1)\^?([+-]?\d+)?")
 
-# Unit -> (display unit, factor): value in the display unit = factor * value.
-DISPLAY_UNITS: dict[str, tuple[str, float]] = {
-    "rad": ("deg", 180.0 / math.pi),
-    "rad/s": ("deg/s", 180.0 / math.pi),
-    "rad/s2": ("deg/s2", 180.0 / math.pi),
-    "m/s": ("km/h", 3.6),
-    "Pa": ("MPa", 1e-6),
+# Unit -> display units and factors, the usual one first: value in the display unit = factor * value.
+DISPLAY_UNITS: dict[str, dict[str, float]] = {
+    "rad": {"deg": 180.0 / math.pi},
+    "rad/s": {"deg/s": 180.0 / math.pi, "rpm": 30.0 / math.pi},
+    "rad/s2": {"deg/s2": 180.0 / math.pi},
+    "m/s": {"km/h": 3.6},
+    "Pa": {"MPa": 1e-6},
 }
 
 # Unit, with its symbols in one spelling -> what is measured in it.

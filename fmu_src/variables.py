@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import re
 import sys
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from itertools import zip_longest
 from typing import Any
 
-from fmu_src.units import DISPLAY_UNITS, parse_unit
+from fmu_src.units import DISPLAY_UNITS, canonical_unit, parse_unit
 
 _STRUCTURED_NAME = re.compile(r"[A-Za-z_]\w*(\[\d+(,\d+)*\])?(\.[A-Za-z_]\w*(\[\d+(,\d+)*\])?)*", re.ASCII)
 _POSE = (
@@ -21,6 +22,23 @@ _POSE = (
     ("initial.speed", "m/s", "Initial speed along the heading, wheels rolling"),
 )
 STEP_SIZE = "step_size"
+_DEPRECATED = "deprecated"
+# Name, number in the kernel (ALI3_SOLVER_*), unit, whether it is a whole number, description.
+_SOLVER = (
+    ("solver.status", 5, "1", True, "What the last step ended with: 0 good, else a code of the solver"),
+    ("solver.halvings", 4, "1", True, "How often inner steps had to be halved since the start"),
+    (
+        "solver.energy_error",
+        6,
+        "J",
+        False,
+        "Energy that the steps have made or lost since the start where no force did",
+    ),
+    (
+        *("solver.energy_balance", 7, "1", False),
+        "solver.energy_error over the largest kinetic energy and the work so far; above 0.04 results are wrong",
+    ),
+)
 FIDELITY = "fidelity"
 
 
@@ -41,14 +59,19 @@ class Variable:
     description : str
         One sentence.
     source : str
-        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size`` or
-        ``fidelity``.
+        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity`` or
+        ``solver``, what the solver says about itself.
     index : int
-        Number of that input, parameter or sensor; place in (x, y, z, yaw, speed) for ``pose``; 0 for the last two.
+        Number of that input, parameter, sensor or figure of the solver; place in (x, y, z, yaw, speed) for ``pose``;
+        0 for `step_size` and `fidelity`.
     start, min, max : float, optional
         In `unit`.
     display_unit : str, optional
         What a person likes to see.
+    whole : bool
+        Whether it is an integer of FMI.
+    nominal : float, optional
+        A typical size, where there is one.
     """
 
     name: str
@@ -62,6 +85,8 @@ class Variable:
     min: float | None = None
     max: float | None = None
     display_unit: str | None = None
+    whole: bool = False
+    nominal: float | None = None
 
 
 def variable_table(
@@ -86,7 +111,8 @@ def variable_table(
     Returns
     -------
     tuple of Variable
-        Inputs, parameters, outputs; the place is the value reference.
+        Inputs, parameters, outputs; the place is the value reference. Where the sensors have no figures of the solver
+        by these names, `solver.status`, `solver.halvings`, `solver.energy_error` and `solver.energy_balance` come last.
 
     Raises
     ------
@@ -124,31 +150,58 @@ def variable_table(
     if fidelities > 1:
         text = "How much model: 0 the least, up; stress.computed and the documentation say what it computes"
         last = float(fidelities - 1)
-        table.append(Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last))
-    table += [
-        Variable(
-            entry["name"],
-            "output",
-            "continuous",
-            entry["unit"] or "1",
-            entry.get("description", ""),
-            "sensor",
-            k,
-            display_unit=_display(entry["name"], entry["unit"]),
+        table.append(
+            Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
         )
-        for k, entry in enumerate(meta["sensors"])
+    table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
+    sensed = {entry["name"] for entry in meta["sensors"]}
+    table += [
+        Variable(name, "output", "discrete" if whole else "continuous", unit, text, "solver", k, whole=whole)
+        for name, k, unit, whole, text in _SOLVER
+        if name not in sensed
     ]
     _check(table)
-    return tuple(table)
+    return _distinct(table)
+
+
+def _sensor(entry: Mapping[str, Any], index: int) -> Variable:
+    whole, unit = bool(entry.get("whole", False)), canonical_unit(entry["unit"] or "1")
+    return Variable(
+        entry["name"],
+        "output",
+        "discrete" if whole else "continuous",
+        unit,
+        entry.get("description", ""),
+        "sensor",
+        index,
+        display_unit=entry.get("display_unit") or _display(entry["name"], unit),
+        whole=whole,
+    )
+
+
+def _distinct(table: Sequence[Variable]) -> tuple[Variable, ...]:
+    """Descriptions that several variables share are preceded by the part of the model, or by the name."""
+    shared = Counter(v.description for v in table)
+    told = [_preceded(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
+    shared = Counter(v.description for v in told)
+    return tuple(_preceded(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, told, strict=True))
+
+
+def _preceded(v: Variable, word: str) -> Variable:
+    if not (v.description and word):
+        return v
+    if v.description.startswith(_DEPRECATED):  # the first word of what goes
+        return replace(v, description=f"{_DEPRECATED}, {word}{v.description.removeprefix(_DEPRECATED)}")
+    return replace(v, description=f"{word}: {v.description}")
 
 
 def check_variants(metas: Sequence[Mapping[str, Any]]) -> None:
     """Systems to choose from must have the same inputs, parameters and sensors in the same order."""
     for k, meta in enumerate(metas[1:], start=1):
         for kind in ("inputs", "parameters", "sensors"):
-            mine, first = ([(e["name"], e["unit"]) for e in m[kind]] for m in (meta, metas[0]))
+            mine, first = ([(e["name"], e["unit"], e.get("whole")) for e in m[kind]] for m in (meta, metas[0]))
             if mine != first:
-                odd = next((a or b for a, b in zip_longest(mine, first) if a != b), ("", ""))[0]
+                odd = next((a or b for a, b in zip_longest(mine, first) if a != b), ("", "", None))[0]
                 raise ValueError(
                     f"Fidelity {k} has other {kind} than fidelity 0, first '{odd}'; all need the same in one order."
                 )
@@ -162,7 +215,7 @@ def table_records(table: Iterable[Variable]) -> list[dict[str, Any]]:
 def _ranged(
     entry: Mapping[str, Any], causality: str, variability: str, source: str, index: int, start: float
 ) -> Variable:
-    unit = entry["unit"] or "1"
+    unit = canonical_unit(entry["unit"] or "1")
     return Variable(
         entry["name"],
         causality,
@@ -178,15 +231,15 @@ def _ranged(
     )
 
 
-def _bound(value: float) -> float | None:
-    """A bound, or None for an open end, which a System writes as the largest double."""
-    return float(value) if abs(value) < sys.float_info.max else None
+def _bound(value: float | None) -> float | None:
+    """A bound, or None for an open end, which a System writes as None or as the largest double."""
+    return float(value) if value is not None and abs(value) < sys.float_info.max else None
 
 
 def _display(name: str, unit: str) -> str | None:
     if unit == "m/s" and not name.endswith("speed"):
         return None
-    return DISPLAY_UNITS[unit][0] if unit in DISPLAY_UNITS else None
+    return next(iter(DISPLAY_UNITS[unit])) if unit in DISPLAY_UNITS else None
 
 
 def _check(table: Iterable[Variable]) -> None:

@@ -10,6 +10,7 @@ import zipfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from hosts.check_details import DETAIL_CHECKS
 from hosts.check_run import RUNNING_CHECKS
 from hosts.check_text import TEXT_CHECKS
 from hosts.checking import Finding, Subject, open_subject
@@ -74,7 +75,7 @@ def check(fmu: Path, steps: int = 50, say: Callable[[Finding], None] = lambda fi
     findings: list[Finding] = []
     with tempfile.TemporaryDirectory(prefix="fmu_", ignore_cleanup_errors=True) as folder:
         subject = open_subject(fmu, Path(folder), steps)
-        for name, function in (*TEXT_CHECKS, *RUNNING_CHECKS):
+        for name, function in (*TEXT_CHECKS, *RUNNING_CHECKS, *DETAIL_CHECKS):
             findings.append(_one(name, function, subject))
             say(findings[-1])
     return findings

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,9 +57,15 @@ class Subject:
     step: float
 
     @property
+    def three(self) -> bool:
+        """Whether it is FMI 3.0."""
+        return self.description.fmiVersion.startswith("3")
+
+    @property
     def outputs(self) -> list[ScalarVariable]:
-        """Outputs that are real numbers."""
-        return [v for v in self.description.modelVariables if v.causality == "output" and v.type in _REAL]
+        """Outputs that are real or whole numbers, the real ones first."""
+        found = [v for v in self.description.modelVariables if v.causality == "output"]
+        return [v for v in found if v.type in _REAL] + [v for v in found if v.type in _WHOLE]
 
     @property
     def inputs(self) -> list[ScalarVariable]:
@@ -71,20 +78,27 @@ class Subject:
 
 
 _REAL = ("Real", "Float64")
+_WHOLE = ("Integer", "Int32")
+
+
+def _count(variable: ScalarVariable) -> int:
+    return math.prod(int(dimension.start) for dimension in variable.dimensions)
 
 
 class Instance:
     """One instance of either version of FMI with the same calls."""
 
-    def __init__(self, subject: Subject, token: str | None = None) -> None:
+    def __init__(
+        self, subject: Subject, token: str | None = None, name: str = "check", resources: str | None = None
+    ) -> None:
         self.subject = subject
         self.messages: list[str] = []
-        self.three = subject.description.fmiVersion.startswith("3")
+        self.three = subject.three
         arguments: dict[str, Any] = {
             "guid": token or subject.description.guid,
             "unzipDirectory": str(subject.folder),
             "modelIdentifier": subject.description.coSimulation.modelIdentifier,
-            "instanceName": "check",
+            "instanceName": name,
         }
         self.slave = FMU3Slave(**arguments) if self.three else FMU2Slave(**arguments)
         if self.three:
@@ -96,30 +110,33 @@ class Instance:
             self._callbacks.logger = fmi2CallbackLoggerTYPE(
                 lambda e, n, s, c, text: self.messages.append(text.decode("utf-8", "replace"))
             )
+            if resources is not None:
+                take = self.slave.fmi2Instantiate
+                self.slave.fmi2Instantiate = lambda *a: take(*a[:3], resources.encode(), *a[4:])
             self.slave.instantiate(callbacks=self._callbacks)
 
-    def start(self) -> Instance:
+    def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
         """Leave initialisation."""
         if self.three:
-            self.slave.enterInitializationMode(startTime=0.0)
+            self.slave.enterInitializationMode(startTime=start_time, stopTime=stop_time)
         else:
-            self.slave.setupExperiment(startTime=0.0)
+            self.slave.setupExperiment(startTime=start_time, stopTime=stop_time)
             self.slave.enterInitializationMode()
         self.slave.exitInitializationMode()
         return self
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
-        """Values, arrays flattened."""
-        references = [v.valueReference for v in variables]
-        if not self.three:
-            return list(self.slave.getReal(references))
-        count = 0
-        for v in variables:
-            size = 1
-            for dimension in v.dimensions:
-                size *= int(dimension.start)
-            count += size
-        return list(self.slave.getFloat64(references, count))
+        """Values of real variables, then those of whole ones; arrays flattened."""
+        real = [v for v in variables if v.type in _REAL]
+        whole = [v for v in variables if v.type in _WHOLE]
+        values: list[float] = []
+        for members, two, three in ((real, "getReal", "getFloat64"), (whole, "getInteger", "getInt32")):
+            references = [v.valueReference for v in members]
+            if references and self.three:
+                values += getattr(self.slave, three)(references, sum(map(_count, members)))
+            elif references:
+                values += getattr(self.slave, two)(references)
+        return values
 
     def set(self, variable: ScalarVariable, value: float) -> None:
         """Set one real variable."""

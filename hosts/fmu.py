@@ -19,6 +19,7 @@ from fmpy.fmi2 import (
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
     fmi2ComponentEnvironment,
+    fmi2Integer,
     fmi2Real,
     fmi2Status,
     fmi2ValueReference,
@@ -96,8 +97,8 @@ class Fmu:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def names(self, causality: str) -> list[str]:
-        """Names of the real variables of a causality."""
-        return [n for n, v in self.variables.items() if v.causality == causality and v.type == "Real"]
+        """Names of the real and whole variables of a causality."""
+        return [n for n, v in self.variables.items() if v.causality == causality and v.type in ("Real", "Integer")]
 
     def references(self, names: Iterable[str]) -> list[int]:
         """Value references of variables."""
@@ -112,15 +113,25 @@ class Fmu:
                 raise HostError(f"The FMU has no parameter or input '{name}'; it has: {near}.")
         try:
             self._slave.setupExperiment(startTime=start_time)
-            if start:
-                self._slave.setReal(self.references(start), list(start.values()))
+            self._set(start)
             self._slave.enterInitializationMode()
             self._slave.exitInitializationMode()
         except FMICallException as error:
             raise HostError(f"The FMU could not be initialised: {self._last_message() or error}") from None
 
+    def _set(self, values: Mapping[str, float]) -> None:
+        real = {n: float(x) for n, x in values.items() if self.variables[n].type != "Integer"}
+        whole = {n: x for n, x in values.items() if n not in real}
+        for name, value in whole.items():
+            if value != int(value):
+                raise HostError(f"'{name}' was set to {value:g}; it must be a whole number.")
+        if real:
+            self._slave.setReal(self.references(real), list(real.values()))
+        if whole:
+            self._slave.setInteger(self.references(whole), [int(x) for x in whole.values()])
+
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        """A function that sets variables; their references are prepared once."""
+        """A function that sets real variables; their references are prepared once."""
         count = len(names)
         references, buffer = (fmi2ValueReference * count)(*self.references(names)), (fmi2Real * count)()
 
@@ -135,12 +146,21 @@ class Fmu:
 
     def getter(self, names: Sequence[str]) -> Callable[[], list[float]]:
         """A function that gives the values of variables; their references are prepared once."""
-        count = len(names)
-        references, buffer = (fmi2ValueReference * count)(*self.references(names)), (fmi2Real * count)()
+        slave = self._slave
+        whole = [n for n in names if self.variables[n].type == "Integer"]
+        real = [n for n in names if n not in set(whole)]
+        reals, buffer = (fmi2ValueReference * len(real))(*self.references(real)), (fmi2Real * len(real))()
+        wholes, counts = (fmi2ValueReference * len(whole))(*self.references(whole)), (fmi2Integer * len(whole))()
+        place = {n: k for k, n in enumerate((*real, *whole))}
+        order = [place[n] for n in names]
 
         def get_values() -> list[float]:
-            self._slave.fmi2GetReal(self._slave.component, references, count, buffer)
-            return buffer[:]
+            slave.fmi2GetReal(slave.component, reals, len(real), buffer)
+            if not whole:
+                return buffer[:]
+            slave.fmi2GetInteger(slave.component, wholes, len(whole), counts)
+            values = [*buffer, *map(float, counts)]
+            return [values[k] for k in order]
 
         return get_values
 

@@ -13,6 +13,7 @@ from mbs.system import System, SystemFileError
 
 if TYPE_CHECKING:
     from mbs.accuracy import Accuracy, AccuracyWarning
+    from mbs.control import Control
     from mbs.errors import SimulationError
     from mbs.kinks import LinearisationWarning
     from mbs.linear_model import LinearModel, linearise
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 _LAZY = {
     "Accuracy": "mbs.accuracy",
     "AccuracyWarning": "mbs.accuracy",
+    "Control": "mbs.control",
     "Pose": "mbs.simulation",
     "Settings": "mbs.settings",
     "Simulation": "mbs.simulation",
@@ -43,8 +45,9 @@ __all__ = [
     "AccuracyWarning",
     "Affine",
     "AffineVector",
-    "FloquetModel",
+    "Control",
     "BranchWarning",
+    "FloquetModel",
     "LinearModel",
     "LinearisationWarning",
     "Model",

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from mbs.kernel.binding import Instance
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
 
@@ -61,6 +65,58 @@ class InputSignals:
             self._check(i, t, values[:, k])
         return values
 
+    def attach(self, instance: Instance, t0: float, t_end: float, tolerance: float) -> None:
+        """Let the kernel ask for the values at every time at which its method looks at inputs, from `t0` to `t_end`.
+
+        Without functions of time no step calls Python. `instance.set_input_function(None)` ends it.
+        """
+        if not self._signals:
+            return
+        for i, signal in self._signals.items():
+            if not callable(signal):
+                times, values = _table(signal)
+                if not np.isfinite(values).all():
+                    self._check(i, times, values)
+                inside = times[(times >= t0 - tolerance) & (times <= t_end + tolerance)]
+                ends = np.array([t0, t_end])
+                self._check(i, ends, _interpolate(ends, times, values, tolerance, after_jump=False))
+                for after in (False, True):
+                    self._check(i, inside, _interpolate(inside, times, values, tolerance, after))
+        if not any(callable(signal) for signal in self._signals.values()):
+            instance.set_input_tables({i: _table(signal) for i, signal in self._signals.items()}, tolerance)
+            return
+        ask = [(i, self._asker(i, signal, tolerance)) for i, signal in self._signals.items()]
+
+        def function(t: float, after: bool, values: Any) -> None:
+            for i, value in ask:
+                values[i] = value(t, after)
+
+        instance.set_input_function(function)
+
+    def _asker(self, i: int, signal: Signal, tolerance: float) -> Callable[[float, bool], float]:
+        """Value of one signal at a time, before or behind a jump."""
+        low, high = float(self._min[i]), float(self._max[i])
+        if callable(signal):
+
+            def of_function(t: float, after: bool) -> float:
+                value = float(signal(t))
+                if not low <= value <= high or math.isinf(value):
+                    self._check(i, np.array([t]), np.array([value]))
+                return value
+
+            return of_function
+        times, values = (part.tolist() for part in _table(signal))
+
+        def of_table(t: float, after: bool) -> float:
+            right = bisect_right(times, t + tolerance) if after else bisect_left(times, t - tolerance)
+            if right == 0 or right == len(times):
+                return float(values[right and -1])
+            begin, span = times[right - 1], times[right] - times[right - 1]
+            share = min(1.0, max(0.0, (t - begin) / span)) if span > 0.0 else 0.0
+            return float(values[right - 1] + share * (values[right] - values[right - 1]))
+
+        return of_table
+
     def _check(self, i: int, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
         good = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
         if not good.all():
@@ -68,6 +124,13 @@ class InputSignals:
             right = f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
             value = f"{values[k]:g}{unit_text(self._units[i])}"
             raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {right}.")
+
+
+def _table(signal: Signal) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Times and values of a signal that is not a function; a constant has one point."""
+    if isinstance(signal, tuple):
+        return np.array(signal[0], float), np.array(signal[1], float)
+    return np.zeros(1), np.array([signal], float)
 
 
 def _checked(name: str, signal: Signal) -> Signal:

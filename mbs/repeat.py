@@ -29,12 +29,13 @@ def check(
     """What is known of the error of a run, after a repeat where it is wanted or the run is suspect."""
     coarse, seen = run
     report, known = coarse.report, coarse.accuracy
-    if report is None or known is None or len(coarse.t) < 2 or coarse.settings is None:
+    if report is None or known is None or coarse.settings is None:
         return known
     method, driven = coarse.settings.method, len(system.arrays["gterm_row"]) > 0
     wrong = accuracy.balance_says(report, method, driven)
     text = [accuracy.balance_text(report)] if wrong else []
-    if always or (not wrong and accuracy.is_suspect(report, report.steps, report.halvings, method)):
+    wanted = always or (not wrong and accuracy.is_suspect(report, report.steps, report.halvings, method))
+    if wanted and len(coarse.t) > 1:
         parts = accuracy.divisor(report.steps, report.halvings)
         known = replace(known, repeated_with=h / parts)
         share = 1.0 / (1.0 + parts)
@@ -70,10 +71,11 @@ def _compared(system: System, coarse: Run, fine: Run, known: Accuracy, parts: in
     else:
         groups = accuracy.judged_sensors(system)
         units, sensors, ranges = accuracy.differences(run, again, groups)
-    factor = 1.0 / (1.0 - ratio ** -accuracy.ORDER.get(method, 2))
+    order = accuracy.measured_order(method, run.report, again.report, ratio)
+    factor = 1.0 / (1.0 - ratio**-order)
     known = replace(
         known,
-        order=accuracy.measured_order(method, run.report, again.report, ratio),
+        order=order,
         units={unit: factor * e for unit, e in units.items()},
         sensors={name: factor * e for name, e in sensors.items()},
     )

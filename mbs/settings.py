@@ -41,7 +41,7 @@ class Settings:
     max_iterations : int
         Newton iterations of one step.
     max_halvings : int
-        How often a step that does not converge is halved; 0 never.
+        How often a step that does not converge, or in which energy comes or goes without a force, is halved; 0 never.
     project : bool
         Project velocities and accelerations, equations (24) and (25) of the paper.
     update : {"linearised", "paper"}
@@ -110,6 +110,11 @@ class Settings:
                 )
         if not 0.0 <= self.rho_infinity <= 1.0:
             raise ValueError(f"Setting 'rho_infinity' is {self.rho_infinity}; it must lie between 0 and 1.")
+
+    @property
+    def looks_at_ends(self) -> bool:
+        """Whether the method looks at inputs at the ends of its steps only, as the trapezoidal rule does."""
+        return METHODS[self.method]["method"] in (0, 1)
 
     def kernel_fields(self) -> dict[str, float | int]:
         """Values by the field names of `ali3_settings`."""

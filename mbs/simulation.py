@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import astuple, dataclass, replace
+from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mbs import accuracy, repeat
 from mbs.accuracy import AccuracyWarning
 from mbs.branch_warning import BranchWarning
+from mbs.control import checked_tolerance
 from mbs.errors import SimulationError
 from mbs.input_signals import InputSignals, Signal, unit_text
 from mbs.kernel.binding import (
@@ -35,7 +39,7 @@ from mbs.system import System
 from mbs.trajectory import Trajectory
 
 SINGULAR = {"switches": "switch"}
-STIFF_STEP = 2.5  # fastest rate times step that an explicit method follows, at least
+STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -62,7 +66,14 @@ class Pose:
 
 @dataclass(frozen=True)
 class State:
-    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,)."""
+    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,).
+
+    Multipliers have one sign, that of ``M qdd + Phi_q' lam = Q``: a row Phi puts the force -Phi_q' lam on its
+    coordinates. ``lam_user = row_scale * lam`` belongs to the row as the model writes it. The row of a drive is
+    coordinate minus guide, so the drive pushes the coordinate with -lam_user; the rows of a port and of a node of a
+    flexible body are free point minus point of the body, so the body feels +lam_user; a distance of length L has the
+    tension L lam_user. Sensors have the signs that their docstrings say.
+    """
 
     q: NDArray[np.float64]
     qd: NDArray[np.float64]
@@ -101,9 +112,9 @@ class Simulation:
         t0: float = 0.0,
     ) -> None:
         self.system = system
-        self._meta = system.meta
+        loaded, self._meta = prepared(system)
         self.settings = settings or Settings()
-        self.instance = Instance(LoadedSystem(system.to_bytes()))
+        self.instance = Instance(loaded)
         self.instance.set_settings(**self.settings.kernel_fields())
         for name, value in (parameters or {}).items():
             self.set_parameter(name, value)
@@ -112,7 +123,7 @@ class Simulation:
         if pose is not None:
             self._call(f"The starting {pose} was refused", lambda: self.instance.set_pose(*astuple(pose)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
-        self._warned = False
+        self._warned, self._tried = False, 0.0  # whether it has warned, the last step tried
 
     @property
     def time(self) -> float:
@@ -202,6 +213,7 @@ class Simulation:
             Once, when the energy balance since the start says that the result is wrong.
         """
         _check_step(h)
+        self._tried = h
         if n != int(n) or n < 0:
             raise ValueError(f"n = {n}; it must be a whole number of steps.")
         for _ in range(int(n)):
@@ -228,6 +240,10 @@ class Simulation:
         self._warn_once()
         return trajectory
 
+    def march(self, t_end: float, h: float, inputs: Mapping[str, Signal]) -> Trajectory:
+        """As `run`, without a word about the accuracy: for who compares runs himself."""
+        return self._march(t_end, h, inputs, 1, False)[0]
+
     def _march(
         self,
         t_end: float,
@@ -239,6 +255,7 @@ class Simulation:
     ) -> tuple[Trajectory, list[NDArray[np.float64]]]:
         """The steps of `run`; with `look` also the coordinates at the instants where two runs are compared."""
         _check_step(h)
+        self._tried = h
         t0 = self.time
         steps = _count_steps(t0, t_end, h)
         if every < 1:
@@ -249,11 +266,11 @@ class Simulation:
         looks = [int(k) * every for k in accuracy.instants(len(values))] if look else []
         seen = [self.state.q] if look else []
         done, wall, chunk, before = 0, 0.0, every, self.report
-        with progress_for(progress) as bar:
+        with progress_for(progress) as bar, self._inputs(signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
             while done < steps:
                 ahead = [k - done for k in looks if k > done]
                 n = min(chunk, steps - done, *ahead[:1])
-                table = self._input_table(signals, t0 + h * np.arange(done + 1, done + n + 1, dtype=float), 1e-6 * h)
+                table = table_of(t0 + h * np.arange(done + 1, done + n + 1, dtype=float))
                 part = values[done // every + 1 : (done + n) // every + 1]
                 begin = time.perf_counter()
                 try:
@@ -276,13 +293,18 @@ class Simulation:
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""
-        balance, driven = self.instance.energy_balance(), len(self.system.arrays["gterm_row"]) > 0
-        if self._warned or balance <= accuracy.WRONG_BALANCE:
+        if self._warned or self.instance.energy_balance() <= accuracy.WRONG_BALANCE:
             return
+        driven = len(self.system.arrays["gterm_row"]) > 0
         if accuracy.balance_says(self.report, self.settings.method, driven):
             self._warned = True
             text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
             warnings.warn(f"{text} Shorter steps make it right.", AccuracyWarning, stacklevel=3)
+
+    def change_settings(self, settings: Settings) -> None:
+        """Solve the steps from now on in another way."""
+        self.instance.set_settings(**settings.kernel_fields())
+        self.settings = settings
 
     def save(self) -> bytes:
         """All that continues bit for bit, in this or another process."""
@@ -294,6 +316,20 @@ class Simulation:
 
     def _sensor_values(self) -> NDArray[np.float64]:
         return np.array(self.instance.sensors(), float)
+
+    @contextmanager
+    def _inputs(
+        self, signals: InputSignals, t0: float, t_end: float, tolerance: float
+    ) -> Iterator[Callable[[NDArray[np.float64]], NDArray[np.float64] | None]]:
+        """Inputs of a run: a table at the ends of its steps, or the kernel asks at the times of its stages."""
+        if self.settings.looks_at_ends:
+            yield lambda t: self._input_table(signals, t, tolerance)
+            return
+        signals.attach(self.instance, t0, t_end, tolerance)
+        try:
+            yield lambda t: None
+        finally:
+            self.instance.set_input_function(None)
 
     def _input_table(
         self, signals: InputSignals, t: NDArray[np.float64], tolerance: float
@@ -310,8 +346,9 @@ class Simulation:
         self, t0: float, interval: float, values: NDArray[np.float64], wall: float, before: Report
     ) -> Trajectory:
         sensors, report = self._meta["sensors"], self.report
+        t = t0 + interval * np.arange(len(values), dtype=float)
         return Trajectory(
-            t0 + interval * np.arange(len(values), dtype=float),
+            t,
             values,
             [s["name"] for s in sensors],
             [s["unit"] for s in sensors],
@@ -319,7 +356,13 @@ class Simulation:
             self.settings,
             wall,
             accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
+            notices=notices_of(sensors, t, values),
+            branch_change=self.branch_change,
         )
+
+    def failure(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
+        """What the kernel refused, in words, with what was recorded until then."""
+        return self._error(what, error, trajectory)
 
     def _index(self, kind: str, name: str) -> int:
         names = [entry["name"] for entry in self._meta[kind]]
@@ -348,9 +391,11 @@ class Simulation:
             return SimulationError(message, self.time, error.status, trajectory)
         if error.status == TOO_STIFF:
             rate = report["fastest_rate"]
+        if error.status == TOO_STIFF and rate > 0.0:
+            times = f"{rate:.3g} 1/s, which times the step of {self._tried:g} s is {rate * self._tried:.3g}"
             message += (
-                f" Its rate is {rate:.3g} 1/s here: steps of about {STIFF_STEP / rate:.1g} s follow it; implicit "
-                "methods ('ali3p', 'radau_5') need not."
+                f" Its rate here is {times}; that should be below about {STIFF_STEP:g}. Implicit methods "
+                "('ali3p', 'radau_5') need not follow it."
             )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
         if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):
@@ -364,10 +409,20 @@ class Simulation:
         return SimulationError(message, self.time, error.status, trajectory)
 
 
+_PREPARED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, Any]]] = WeakKeyDictionary()
+
+
+def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
+    """What all Simulations of a System share: it in the kernel's memory, and its names, which nobody may change."""
+    if system not in _PREPARED:
+        _PREPARED[system] = LoadedSystem(system.to_bytes()), system.meta
+    return _PREPARED[system]
+
+
 def simulate(
     system: System,
     t_end: float,
-    h: float,
+    h: float | None = None,
     inputs: Mapping[str, Signal] | None = None,
     settings: Settings | None = None,
     parameters: Mapping[str, float] | None = None,
@@ -378,8 +433,11 @@ def simulate(
     pose: Pose | None = None,
     method: str | None = None,
     estimate_error: bool | None = None,
+    tolerance: float | None = None,
+    times: ArrayLike | None = None,
 ) -> Trajectory:
-    """Step a System from `t0` to `t_end` in equal steps, and warn where the result is not what was asked for.
+    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance, and warn where the result is not what was
+    asked for.
 
     Parameters
     ----------
@@ -387,17 +445,20 @@ def simulate(
         What `compile` made.
     t_end : float
         Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
-    h : float
-        Step, s.
+    h : float, optional
+        Step, s. With a tolerance: interval of the record, by default a 200th of the run. Without h and tolerance a step
+        is chosen whose run errs by less than 1e-3 of the model's length (`Trajectory.control` says which).
     inputs : mapping of str to signal, optional
-        Per input a constant, a function of time, or a pair (times, values). A step from t to t + h uses the value at
-        t + h, which keeps the trapezoidal rule second order.
+        Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
+        use the value at the end of a step, the other methods those at the times of their stages; where a table jumps,
+        a step that begins there the value behind the jump, one that ends there the value before it. With a
+        tolerance the points of tables are ends of steps; a function is taken as smooth.
     settings : Settings, optional
-        How steps are solved.
+        How steps are solved. With a tolerance `tolerance_r` and `tolerance_phi` are tightened as far as it needs.
     parameters : mapping of str to float, optional
         Values that differ from their declaration.
     every : int
-        Record the state after every that many steps.
+        Record the state after every that many steps, or intervals of the record.
     progress : bool or callable, optional
         None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives the
         share that is done. A repeat belongs to the run: where it becomes necessary the share goes back once.
@@ -406,11 +467,18 @@ def simulate(
     pose : Pose, optional
         Start of a scene that is not tied to the ground.
     method : str, optional
-        Name of the method, see `Settings`; in place of the one that `settings` names.
+        Name of the method, see `Settings`; in place of the one that `settings` names. "auto" takes the one that suits
+        System and tolerance best; so does a tolerance without a method.
     estimate_error : bool, optional
         Whether to repeat the run with half the step, from which `Trajectory.accuracy` has the error of the sensors.
         None repeats what the books of energy, halvings or predictors make suspect; the others cost nothing more. False
         checks nothing. Functions among `inputs` are called anew in a repeat, so they must depend on time alone.
+    tolerance : float, optional
+        Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
+        the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
+        chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` says what was done.
+    times : array_like, optional
+        Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
 
     Returns
     -------
@@ -425,46 +493,120 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 4 % of the work in the motion, or the repeat says that positions, lengths,
-        angles or forces of elements are off by more than 5 % of the largest range in their unit.
+        When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
+        lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit; with a
+        tolerance, when the error is estimated to be more than ten times that.
     BranchWarning
         When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
-    _check_step(h)
-    if method is not None:
-        settings = replace(settings or Settings(), method=method)
-    signals = InputSignals(inputs or {}, system.meta["inputs"])
-    names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
+    if h is not None:
+        _check_step(h)
+    if estimate_error not in (None, True, False):
+        raise ValueError(f"estimate_error = {estimate_error!r}; it must be True, False or None (suspects only).")
+    if every < 1:
+        raise ValueError(f"every = {every}; it must be at least 1.")
+    if times is not None and tolerance is None:
+        raise ValueError("times need a tolerance: equal steps are recorded where they end.")
+    wanted = None if tolerance is None else checked_tolerance(tolerance)
+    settings = settings or Settings()
+    named = method is not None or settings.method != Settings().method
+    chosen = method if method is not None else settings.method if named or wanted is None else "auto"
+    if chosen not in ("auto", settings.method):
+        settings = replace(settings, method=chosen)
+    given = inputs or {}
+    declared = prepared(system)[1]["inputs"]
+    signals = InputSignals(given, declared)
+    names = [declared[i]["name"] for i in signals.columns()]
 
-    made: list[Simulation] = []
-
-    def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
-        start = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
-        simulation = Simulation(
+    def start(step: float = 0.0, used: Settings = settings) -> Simulation:
+        first = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
+        return Simulation(
             system,
-            settings=settings,
-            inputs=dict(zip(names, start.tolist(), strict=True)),
+            settings=used,
+            inputs=dict(zip(names, first.tolist(), strict=True)),
             parameters=parameters,
             pose=pose,
             t0=t0,
         )
+
+    def equal_steps(step: float, used: Settings, estimate: bool | None) -> Trajectory:
+        return _equal_steps(system, lambda h: start(h, used), t0, t_end, step, inputs, every, progress, estimate)
+
+    if wanted is None and h is not None and chosen != "auto":
+        run = equal_steps(h, settings, estimate_error)
+        _warn_of(run)
+        return run
+    from mbs import chosen_run  # only here, since it makes Simulations
+
+    if wanted is None:
+        run = chosen_run.equal_steps(
+            start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress
+        )
+        _warn_of(run)
+        return run
+    with progress_for(progress) as bar:
+        record = chosen_run.record_times(t0, t_end, h, every, times)
+        return chosen_run.to_tolerance(start, wanted, record, given, settings, chosen, bar)
+
+
+def _equal_steps(
+    system: System,
+    start: Callable[[float], Simulation],
+    t0: float,
+    t_end: float,
+    h: float,
+    inputs: Mapping[str, Signal] | None,
+    every: int,
+    progress: bool | Callable[[float], None] | None,
+    estimate_error: bool | None,
+) -> Trajectory:
+    """A run in steps of h, with a repeat where its accuracy asks for one."""
+    made: list[Simulation] = []
+
+    def march(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
+        simulation = start(step)
         made.append(simulation)
         return simulation._march(t_end, step, inputs, every, progress, look)
 
+    checked = estimate_error is not False
+    look = checked and not accuracy.has_motion_sensor(system)
+    often = accuracy.recorded_every(every, _count_steps(t0, t_end, h)) if checked else every
     try:
-        look = estimate_error is not False and not accuracy.has_motion_sensor(system)
         with progress_for(progress) as bar:
             first = 1.0 / 3.0 if estimate_error else 1.0
-            run = march(h, every, lambda share: bar.update(first * share), look)
-            if estimate_error is not False:
-                run[0].accuracy = repeat.check(system, run, march, h, every, bar.update, estimate_error is True)
+            run = march(h, often, lambda share: bar.update(first * share), look)
+            found = run[0].accuracy
+            if checked:
+                found = repeat.check(system, run, march, h, often, bar.update, estimate_error is True)
+    except SimulationError as error:
+        if error.trajectory is not None:
+            error.trajectory = error.trajectory.thinned(every // often)
+        raise
     finally:  # of the run that was asked for, also when it failed
         if made and made[0].branch_change:
-            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=2)
-    found = run[0].accuracy
-    if found is not None and found.message:
-        warnings.warn(found.message, AccuracyWarning, stacklevel=2)
-    return run[0]
+            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
+    trajectory = run[0].thinned(every // often)
+    trajectory.accuracy = found
+    return trajectory
+
+
+def _warn_of(run: Trajectory) -> None:
+    if run.accuracy is not None and run.accuracy.message:
+        warnings.warn(run.accuracy.message, AccuracyWarning, stacklevel=3)
+
+
+def notices_of(sensors: list[dict[str, str]], t: NDArray[np.float64], values: NDArray[np.float64]) -> list[str]:
+    """What sensors with a notice want told of their columns."""
+    told = []
+    for k, sensor in enumerate(sensors):
+        there = np.flatnonzero(values[:, k] if "notice" in sensor else ())
+        if len(there):
+            most = values[np.argmax(np.abs(values[:, k])), k]
+            told.append(
+                f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[there[0]]:g} s, "
+                f"at most {most:g} {sensor['unit']}."
+            )
+    return told
 
 
 def _check_step(h: float) -> None:
@@ -472,10 +614,15 @@ def _check_step(h: float) -> None:
         raise ValueError(f"The step h is {h} s; it must be positive and finite.")
 
 
-def _count_steps(t0: float, t_end: float, h: float) -> int:
-    """Number of whole steps that end not after `t_end`, give or take round-off."""
+def check_end(t0: float, t_end: float) -> None:
+    """One sentence for an end that is none."""
     if not (math.isfinite(t_end) and t_end >= t0):
         raise ValueError(f"The end t_end is {t_end} s; it must be finite and not before {t0:g} s.")
+
+
+def _count_steps(t0: float, t_end: float, h: float) -> int:
+    """Number of whole steps that end not after `t_end`, give or take round-off."""
+    check_end(t0, t_end)
     return math.floor((t_end - t0) / h + 1e-6)
 
 

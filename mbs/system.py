@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.compile.report import report_text
 from mbs.frames import Frames
+from mbs.meta_check import problem_of
 
 MAGIC = b"ALI3SYS\n"
 VERSION = 1
@@ -28,6 +29,7 @@ sig_val sig_const el_real input_start input_min input_max guide_real road_real p
 sen_real pose_0 pose_cos pose_sin pose_x pose_y pose_z pose_speed
 velocity_h flex_gravity flex_P flex_c flex_T flex_K flex_C
 tree_base tree_mass tree_centre tree_inertia tree_gravity tree_out_local tree_cut_place
+tree_angle_sign tree_angle_inertia
 static_value
 """
 _INTEGER_NAMES = """
@@ -38,6 +40,7 @@ el_loc_ptr el_loc guide_type guide_input guide_real_ptr road_type road_real_ptr 
 sen_int_ptr sen_int sen_real_ptr row_switch switch_start velocity_row velocity_ptr velocity_a velocity_b
 flex_mode_ptr flex_frame flex_mode flex_front flex_loc
 tree_parent tree_slides tree_frame tree_out_body tree_out_col tree_cut_body tree_cut_rows
+tree_angle_col tree_angle_ptr tree_angle_joint
 mode_triad_ptr mode_triad mode_cell_ptr mode_cell mode_name_ptr mode_name
 static_start static_par pose_partner
 """
@@ -145,9 +148,14 @@ class System:
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
             meta = json.loads(found.pop("meta"))
+            problem = problem_of(meta, {name: len(values) for name, values in found.items()})
+            if problem:
+                raise SystemFileError(f"The names in the System file were altered: {problem}.")
             system = cls(found, meta)
             str(system)
-        except (KeyError, TypeError, ValueError) as error:
+        except SystemFileError:
+            raise
+        except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
             raise SystemFileError(f"The names in the System file are damaged: {error}") from None
         return system
 
@@ -158,6 +166,8 @@ class System:
     @classmethod
     def load(cls, path: str | Path) -> System:
         """Read a System file; `SystemFileError` if it is not a valid one."""
+        if Path(path).exists() and not Path(path).is_file():
+            raise SystemFileError(f"{path} is not a file that can be read to its end.")
         return cls.from_bytes(Path(path).read_bytes())
 
 
@@ -165,7 +175,7 @@ def _parse(data: bytes) -> dict[str, Any]:
     """Arrays by name and the text of `meta`, after checks of header, directory and extents."""
     if len(data) < HEADER.size:
         raise SystemFileError(f"Not a System file: {len(data)} bytes are fewer than its header has.")
-    magic, version, count, size, crc, _ = HEADER.unpack_from(data)
+    magic, version, count, size, crc, zero = HEADER.unpack_from(data)
     if magic != MAGIC:
         raise SystemFileError("Not a System file: it does not begin with the mark of one.")
     if version != VERSION:
@@ -174,6 +184,8 @@ def _parse(data: bytes) -> dict[str, Any]:
         raise SystemFileError(f"The System file is cut or extended: {len(data)} bytes instead of {size}.")
     if crc != zlib.crc32(data[HEADER.size :]):
         raise SystemFileError("The System file was altered: its checksum does not fit.")
+    if zero != 0:
+        raise SystemFileError("The System file was altered: the last four bytes of its header are not zero.")
     if HEADER.size + ENTRY.size * count > len(data):
         raise SystemFileError(f"The System file lists {count} arrays, more than it can hold.")
     found: dict[str, Any] = {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.accuracy import Accuracy
+from mbs.control import Control
 from mbs.report import Report
 from mbs.settings import Settings
 
@@ -38,9 +39,16 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     settings : Settings, optional
         How the steps were solved.
     wall_s : float
-        Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted.
+        Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted. All runs that a
+        tolerance needed are.
     accuracy : Accuracy, optional
         What is known of the error.
+    notices : sequence of str
+        What the scene wants told, see `Model.notice`; judged at the recorded times.
+    branch_change : str
+        A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
+    control : Control, optional
+        How method and steps were chosen, where `simulate` chose them.
     """
 
     def __init__(
@@ -53,6 +61,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         settings: Settings | None = None,
         wall_s: float = float("nan"),
         accuracy: Accuracy | None = None,
+        notices: Sequence[str] = (),
+        branch_change: str = "",
+        control: Control | None = None,
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
@@ -60,6 +71,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.settings = settings
         self.wall_s = wall_s
         self.accuracy = accuracy
+        self.notices = tuple(notices)
+        self.branch_change = branch_change
+        self.control = control
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
@@ -75,6 +89,15 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def thinned(self, every: int) -> Trajectory:
+        """Every so many samples, the first one among them, with the same report, settings and accuracy."""
+        if every == 1:
+            return self
+        values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))
+        names, units = list(self.units), list(self.units.values())
+        rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
+        return Trajectory(self.t[::every], values[::every], names, units, *rest)
+
     @property
     def realtime_factor(self) -> float:
         """Simulated time over wall time: above 1 is faster than real time."""
@@ -82,7 +105,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __repr__(self) -> str:
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
-        return f"Trajectory({len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s, {len(self)} sensors{known})"
+        told = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
+        samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
+        text = f"Trajectory({samples}, {len(self)} sensors{known}){told}"
+        return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write one column per sensor, headed ``name [unit]``, with all digits."""

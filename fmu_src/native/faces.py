@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from fmu_src.arrays import arrays
+from collections.abc import Callable, Sequence
+
+from fmu_src.arrays import Array, arrays, scalars
 from fmu_src.description import Description, model_description
 from fmu_src.description_fmi3 import build_description, model_description_fmi3, terminals
 from fmu_src.native.package import Face, NativeContents
 from fmu_src.native.table import c_arrays, c_table
 from fmu_src.platforms import FMI3_FOLDERS, TARGETS
+from fmu_src.variables import Variable
 
 
 def _tables_fmi2(contents: NativeContents, identity: str, guid: str) -> str:
@@ -15,7 +18,7 @@ def _tables_fmi2(contents: NativeContents, identity: str, guid: str) -> str:
 
 
 def _documents_fmi2(head: Description, contents: NativeContents) -> dict[str, bytes]:
-    return {"modelDescription.xml": model_description(head, contents.table)}
+    return {"modelDescription.xml": model_description(head, contents.table, contents.reach)}
 
 
 FMI2 = Face(
@@ -36,30 +39,38 @@ FMI2 = Face(
 )
 
 
-def _tables_fmi3(contents: NativeContents, identity: str, token: str) -> str:
-    return _tables_fmi2(contents, identity, token) + c_arrays(arrays(contents.table))
+def _face_fmi3(group: Callable[[Sequence[Variable]], tuple[Array, ...]], words: str) -> Face:
+    def tables(contents: NativeContents, identity: str, token: str) -> str:
+        return _tables_fmi2(contents, identity, token) + c_arrays(group(contents.table))
+
+    def documents(head: Description, contents: NativeContents) -> dict[str, bytes]:
+        groups = group(contents.table)
+        buses = terminals(groups)
+        return {
+            "modelDescription.xml": model_description_fmi3(head, contents.table, groups, contents.reach),
+            "sources/buildDescription.xml": build_description(contents.model_name, head.sources),
+        } | ({"terminalsAndIcons/terminalsAndIcons.xml": buses} if buses is not None else {})
+
+    return Face(
+        "fmi3",
+        (
+            "FMI 3.0 co-simulation in C: it needs nothing but the C library of its platform, and can be compiled from "
+            f"its folder sources. {words}",
+            "Outputs that are positions, angles or velocities have first time derivatives. Directional and adjoint "
+            "derivatives of outputs by inputs are those over the last inner step, the state before it held; in "
+            "initialisation mode those of the initial state.",
+        ),
+        {platform: {FMI3_FOLDERS[target]: (target,) for target in targets} for platform, targets in TARGETS.items()},
+        "terminalsAndIcons/icon.png",
+        tables,
+        documents,
+    )
 
 
-def _documents_fmi3(head: Description, contents: NativeContents) -> dict[str, bytes]:
-    groups = arrays(contents.table)
-    buses = terminals(groups)
-    return {
-        "modelDescription.xml": model_description_fmi3(head, contents.table, groups),
-        "sources/buildDescription.xml": build_description(contents.model_name, head.sources),
-    } | ({"terminalsAndIcons/terminalsAndIcons.xml": buses} if buses is not None else {})
-
-
-FMI3 = Face(
-    "fmi3",
-    (
-        "FMI 3.0 co-simulation in C: it needs nothing but the C library of its platform, and can be compiled from its "
-        "folder sources. Components of a vector are one array variable, in the order its description says.",
-        "Outputs that are positions, angles or velocities have first time derivatives. Directional and adjoint "
-        "derivatives of outputs by inputs are those over the last inner step, the state before it held; in "
-        "initialisation mode those of the initial state.",
-    ),
-    {platform: {FMI3_FOLDERS[target]: (target,) for target in targets} for platform, targets in TARGETS.items()},
-    "terminalsAndIcons/icon.png",
-    _tables_fmi3,
-    _documents_fmi3,
+FMI3 = _face_fmi3(
+    arrays,
+    "Components of a vector are one array variable, in the order its description says. Some hosts read arrays as zeros "
+    "without a word: give them the kind fmi3_scalar.",
 )
+
+FMI3_SCALAR = _face_fmi3(scalars, "Every variable is a scalar, for hosts that do not read arrays.")

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import mbs
 from fmu_src.archive import identity_of, licence, write_zip
@@ -18,6 +19,7 @@ from fmu_src.native.sources import packed_sources
 from fmu_src.native.table import c_table
 from fmu_src.picture import curves_png
 from fmu_src.platforms import SUFFIXES
+from fmu_src.probe import Dependencies
 from fmu_src.variables import Variable, table_records
 
 Telling = Callable[..., AbstractContextManager[None]]
@@ -35,8 +37,12 @@ class NativeContents:
     systems : sequence of mbs.System
         One per fidelity.
     table : sequence of Variable
+    reach : Dependencies
+        What reaches which outputs.
     fidelity : int
         The default one.
+    author, copyright, licence : str
+        Of the model, for its description; empty: the solver's.
     """
 
     model_name: str
@@ -44,7 +50,29 @@ class NativeContents:
     version: str
     systems: Sequence[mbs.System]
     table: Sequence[Variable]
+    reach: Dependencies
     fidelity: int = 0
+    author: str = ""
+    copyright: str = ""
+    licence: str = ""
+
+    def description_head(self, guid: str, **more: Any) -> Description:
+        """Attributes of modelDescription.xml; what is not given of the rights is the solver's."""
+        text = licence("ali3").decode()
+        line = next((line for line in text.splitlines() if line.startswith("Copyright")), "")
+        return Description(
+            self.model_name,
+            self.model_name,
+            guid,
+            self.description,
+            version=self.version,
+            stop_time=self.stop_time,
+            step_size=self.step_size,
+            author=self.author or "ALi3 contributors (solver)",
+            copyright=self.copyright or f"{line} (solver)",
+            licence=self.licence or "BSD-3-Clause (solver)",
+            **more,
+        )
 
     @property
     def system(self) -> mbs.System:
@@ -75,7 +103,10 @@ class NativeContents:
         """Hash of the content, and the GUID made from it."""
         return identity_of(
             packed_sources(face, c_table(self.table, self.rows, "0" * 32, "")) | self.system_files,
-            [self.model_name, self.description, self.version, self.stop_time, table_records(self.table)],
+            [
+                *(self.model_name, self.description, self.version, self.stop_time, table_records(self.table)),
+                *(self.author, self.copyright, self.licence),
+            ],
         )
 
 
@@ -115,7 +146,7 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
     contents : NativeContents
     face : Face
     platforms : sequence of str
-        Out of ``linux64``, ``win64`` and ``darwin64``.
+        Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``.
     file : Path
         Where to.
     told : callable
@@ -135,7 +166,7 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
     files = {
         **{f"sources/{path}": data for path, data in sources.items()},
         **contents.system_files,
-        "documentation/licenses/ALi3.txt": licence("ali3"),
+        "documentation/licenses/license.txt": licence("ali3"),
         "documentation/index.html": _page(contents, face.words),
         face.picture: _picture(run),
     } | reference_files(name, run, contents.stop_time, contents.step_size)
@@ -148,15 +179,9 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
                 with told(f"compiling for {folder}", "the first time takes up to two minutes"):
                     made = compile_library(targets, face.name, table, Path(temporary), library)
                 files[f"binaries/{folder}/{library}"] = made
-    head = Description(
-        name,
-        name,
+    head = contents.description_head(
         guid,
-        contents.description,
-        f"ALi3 {contents.version}",
-        contents.version,
-        contents.stop_time,
-        contents.step_size,
+        tool=f"ALi3 {contents.version}",
         needs_execution_tool=False,
         capable=True,
         sources=[path for path in sources if path.endswith(".c")],

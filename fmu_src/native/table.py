@@ -14,6 +14,7 @@ _SOURCES = {
     "step_size": "SLAVE_STEP_SIZE",
     "fidelity": "SLAVE_FIDELITY",
     "sensor": "SLAVE_SENSOR",
+    "solver": "SLAVE_SOLVER",
 }
 
 
@@ -39,7 +40,8 @@ def c_table(table: Sequence[Variable], rows: Sequence[Sequence[str]], identity: 
     units = ["" if v.unit == "1" else f" {v.unit}" for v in table]
     variables = "\n".join(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
-        f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}}},"
+        f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
+        f"{str(v.whole).lower()}}},"
         for v, unit in zip(table, units, strict=True)
     )
     names = "\n".join(f"    {c_string(name)}," for one in rows for name in one) or "    NULL,"

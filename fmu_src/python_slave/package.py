@@ -9,7 +9,7 @@ from pathlib import Path
 import pythonfmu
 
 from fmu_src.archive import identity_of, licence, write_zip
-from fmu_src.description import Description, model_description
+from fmu_src.description import model_description
 from fmu_src.documentation import documentation
 from fmu_src.native.package import NativeContents
 from fmu_src.platforms import SUFFIXES
@@ -44,7 +44,10 @@ def pack(contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[
     template = (_HERE / "main_template.py").read_text(encoding="utf-8")
     identity, guid = identity_of(
         entries | {"main": template.encode()},
-        [contents.model_name, contents.description, contents.version, contents.stop_time, records],
+        [
+            *(contents.model_name, contents.description, contents.version, contents.stop_time, records),
+            *(contents.author, contents.copyright, contents.licence),
+        ],
     )
 
     # Names of their own per build: a host's Python keeps one module per name, whatever FMU it came from.
@@ -60,7 +63,7 @@ def pack(contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[
         ).encode(),
         "resources/slavemodule.txt": main.encode(),
         "resources/guid.txt": guid.encode(),
-        "documentation/licenses/ALi3.txt": licence("ali3"),
+        "documentation/licenses/license.txt": licence("ali3"),
         "documentation/licenses/PythonFMU.txt": licence("pythonfmu"),
         "documentation/index.html": documentation(
             contents.model_name,
@@ -71,18 +74,11 @@ def pack(contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[
             ["FMI 2.0 co-simulation in Python: the host's machine needs Python 3.10 or newer."],
         ).encode(),
         "modelDescription.xml": model_description(
-            Description(
-                contents.model_name,
-                contents.model_name,
-                guid,
-                contents.description,
-                f"ALi3 {contents.version}, PythonFMU {pythonfmu.__version__}",
-                contents.version,
-                contents.stop_time,
-                contents.step_size,
-                needs_execution_tool=True,
+            contents.description_head(
+                guid, tool=f"ALi3 {contents.version}, PythonFMU {pythonfmu.__version__}", needs_execution_tool=True
             ),
             contents.table,
+            contents.reach,
         ),
     }
     write_zip(files, file)

@@ -10,6 +10,7 @@
 #if !defined(_WIN32)
 #define _GNU_SOURCE
 #include <dlfcn.h>
+#include <sys/stat.h>
 #else
 #include <windows.h>
 #endif
@@ -25,10 +26,19 @@ typedef struct {
   fmi2CallbackFunctions host;
   fmi2CallbackFunctions own; /* what PythonFMU gets; it keeps a pointer to it */
   fmi2Component inner;
-  fmi2Status worst;
+  fmi2Status worst, last_step;
   int logging;
+  unsigned categories; /* bits of those that are heard; 0: all */
   double last_time;
+  struct { /* a step that was refused, if the count is not 0, and nothing was changed since */
+    int count;
+    double time, step;
+  } refusal;
 } shell;
+
+static const char *const category_name[] = {"logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal",
+                                            "logAll"};
+enum { CATEGORIES = sizeof category_name / sizeof *category_name };
 
 typedef fmi2Component (*instantiate_f)(fmi2String, fmi2Type, fmi2String, fmi2String, const fmi2CallbackFunctions *,
                                        fmi2Boolean, fmi2Boolean);
@@ -38,6 +48,8 @@ typedef fmi2Status (*setup_f)(fmi2Component, fmi2Boolean, fmi2Real, fmi2Real, fm
 typedef fmi2Status (*step_f)(fmi2Component, fmi2Real, fmi2Real, fmi2Boolean);
 typedef fmi2Status (*get_real_f)(fmi2Component, const fmi2ValueReference *, size_t, fmi2Real *);
 typedef fmi2Status (*set_real_f)(fmi2Component, const fmi2ValueReference *, size_t, const fmi2Real *);
+typedef fmi2Status (*get_integer_f)(fmi2Component, const fmi2ValueReference *, size_t, fmi2Integer *);
+typedef fmi2Status (*set_integer_f)(fmi2Component, const fmi2ValueReference *, size_t, const fmi2Integer *);
 typedef fmi2Status (*state_f)(fmi2Component, fmi2FMUstate *);
 typedef fmi2Status (*set_state_f)(fmi2Component, fmi2FMUstate);
 typedef fmi2Status (*state_size_f)(fmi2Component, fmi2FMUstate, size_t *);
@@ -53,6 +65,8 @@ static struct {
   step_f step;
   get_real_f get_real;
   set_real_f set_real;
+  get_integer_f get_integer;
+  set_integer_f set_integer;
   state_f get_state, free_state;
   set_state_f set_state;
   state_size_f state_size;
@@ -60,28 +74,31 @@ static struct {
   deserialize_f deserialize;
 } py;
 
-/* The text goes out as the format itself, with every % doubled: hosts that do not format show it all the same. */
+/* What is wrong is always told, what is well only to who asked; a host that named categories hears those. The text goes
+ * out as the format itself, with every % doubled: hosts that do not format show it all the same. */
 static void shell_log(shell *s, fmi2String name, fmi2Status status, fmi2String text) {
-  static const char *const category[] = {"logAll", "logStatusWarning", "logStatusDiscard", "logStatusError",
-                                         "logStatusFatal"};
+  const int category = status == fmi2OK || status > fmi2Fatal ? CATEGORIES - 1 : (int)status - 1;
+  const unsigned bit = 1u << category, all = 1u << (CATEGORIES - 1);
   char format[2048];
   size_t n = 0;
-  if (!s->host.logger || (!s->logging && status == fmi2OK)) return;
+  if (!s->host.logger) return;
+  if (s->categories ? !(s->categories & (bit | all)) : !s->logging && status == fmi2OK) return;
   for (; *text && n + 2 < sizeof format; text++) {
     if (*text == '%') format[n++] = '%';
     format[n++] = *text;
   }
   format[n] = 0;
-  s->host.logger(s->host.componentEnvironment, name, status, category[status <= fmi2Fatal ? status : 0], format);
+  s->host.logger(s->host.componentEnvironment, name, status, category_name[category], format);
 }
 
-/* PythonFMU hands over finished text, so there is nothing to format. */
+/* PythonFMU hands over finished text, so there is nothing to format. A warning that is no answer of a call comes as
+ * good, with the category of warnings. */
 static void inner_log(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
                       fmi2String text, ...) {
   shell *s = environment;
-  (void)category;
+  const int told = status == fmi2OK && category && strcmp(category, category_name[0]) == 0;
   if (status > s->worst && status <= fmi2Fatal) s->worst = status;
-  shell_log(s, name, status, text);
+  shell_log(s, name, told ? fmi2Warning : status, text);
 }
 
 #if defined(_WIN32)
@@ -157,6 +174,8 @@ static const char *load_inner(void) {
   py.step = (step_f)find(library, "fmi2DoStep");
   py.get_real = (get_real_f)find(library, "fmi2GetReal");
   py.set_real = (set_real_f)find(library, "fmi2SetReal");
+  py.get_integer = (get_integer_f)find(library, "fmi2GetInteger");
+  py.set_integer = (set_integer_f)find(library, "fmi2SetInteger");
   py.get_state = (state_f)find(library, "fmi2GetFMUstate");
   py.free_state = (state_f)find(library, "fmi2FreeFMUstate");
   py.set_state = (set_state_f)find(library, "fmi2SetFMUstate");
@@ -174,10 +193,18 @@ static int hex(char c) {
   return -1;
 }
 
+/* The scheme of a URI may be written in any case (RFC 3986, 3.1). */
+static int is_file_uri(const char *uri) {
+  static const char scheme[] = "file:";
+  size_t n = 0;
+  while (scheme[n] && (uri[n] == scheme[n] || uri[n] == scheme[n] - ('a' - 'A'))) n++;
+  return scheme[n] == 0;
+}
+
 /* file URI -> path with every %xx decoded; 0 if it does not fit. */
 static int path_of_uri(const char *uri, char *path) {
   size_t n = 0;
-  if (strncmp(uri, "file:", 5) == 0) {
+  if (is_file_uri(uri)) {
     uri += 5;
     if (strncmp(uri, "//", 2) == 0) {
       uri += 2;
@@ -206,6 +233,10 @@ static int guid_agrees(const char *resources, const char *guid, char *expected, 
   FILE *file;
   size_t n;
   snprintf(path, sizeof path, "%s/guid.txt", resources);
+#if !defined(_WIN32)
+  struct stat kind; /* a named pipe would wait for its writer */
+  if (stat(path, &kind) != 0 || !S_ISREG(kind.st_mode)) return -1;
+#endif
   file = fopen(path, "rb");
   if (!file) return -1;
   n = fread(expected, 1, size - 1, file);
@@ -230,7 +261,9 @@ FMI2_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2St
   s->own.logger = inner_log;
   s->own.componentEnvironment = s;
   s->logging = logging;
-  if (!name || !guid || !resources) {
+  if (name && !name[0]) {
+    problem = "An instance needs a name.";
+  } else if (!name || !guid || !resources) {
     problem = "fmi2Instantiate needs an instance name, a GUID and the location of the resources.";
   } else if (type != fmi2CoSimulation) {
     problem = "This FMU is for co-simulation only.";
@@ -285,9 +318,22 @@ static fmi2Status answer(shell *s, fmi2Status status) {
 
 FMI2_EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[]) {
   shell *s = c;
-  (void)n, (void)categories;
-  if (!s) return fmi2Error;
+  unsigned chosen = 0;
+  char text[256];
+  if (!s || (n && !categories)) return fmi2Error;
+  for (size_t i = 0; i < n; i++) {
+    int k = 0;
+    while (k < CATEGORIES && (!categories[i] || strcmp(categories[i], category_name[k]) != 0)) k++;
+    if (k == CATEGORIES) {
+      snprintf(text, sizeof text, "There is no log category '%.64s'; see modelDescription.xml for their names.",
+               categories[i] ? categories[i] : "");
+      shell_log(s, "", fmi2Error, text);
+      return fmi2Error;
+    }
+    chosen |= 1u << k;
+  }
   s->logging = on;
+  s->categories = on ? chosen : 0;
   return fmi2OK;
 }
 
@@ -302,7 +348,28 @@ FMI2_EXPORT fmi2Status fmi2ExitInitializationMode(fmi2Component c) { CALL(py.exi
 
 FMI2_EXPORT fmi2Status fmi2Terminate(fmi2Component c) { CALL(py.terminate(s->inner)); }
 
-FMI2_EXPORT fmi2Status fmi2Reset(fmi2Component c) { CALL(py.reset(s->inner)); }
+FMI2_EXPORT fmi2Status fmi2Reset(fmi2Component c) {
+  if (c) ((shell *)c)->refusal.count = 0, ((shell *)c)->last_step = fmi2OK;
+  CALL(py.reset(s->inner));
+}
+
+/* A host that asks for a refused step again, with nothing changed, is stopped: first by the wish to end, then by an
+ * error. */
+static fmi2Status refused(shell *s, double time, double step) {
+  char text[256];
+  const int again = s->refusal.count > 0 && s->refusal.time == time && s->refusal.step == step;
+  s->refusal.count = again ? s->refusal.count + 1 : 1;
+  s->refusal.time = time;
+  s->refusal.step = step;
+  if (!again) return fmi2Discard;
+  snprintf(
+      text, sizeof text,
+      "The step from %.6g s over %.6g s was refused %d times with nothing changed in between; the simulation should "
+      "end here. Run it anew with a smaller step_size, or go on from another state.",
+      time, step, s->refusal.count);
+  shell_log(s, "", s->refusal.count == 2 ? fmi2Discard : fmi2Error, text);
+  return s->refusal.count == 2 ? fmi2Discard : fmi2Error;
+}
 
 FMI2_EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_set_state_prior) {
   shell *s = c;
@@ -310,7 +377,12 @@ FMI2_EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step,
   if (!s) return fmi2Error;
   s->worst = fmi2OK;
   status = answer(s, py.step(s->inner, time, step, no_set_state_prior));
-  s->last_time = status <= fmi2Warning ? time + step : time;
+  if (status == fmi2Discard)
+    status = refused(s, time, step);
+  else if (status <= fmi2Warning)
+    s->refusal.count = 0;
+  if (status <= fmi2Warning) s->last_time = time + step;
+  s->last_step = status;
   return status;
 }
 
@@ -319,17 +391,37 @@ FMI2_EXPORT fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[
   CALL(py.get_real(s->inner, vr, n, value));
 }
 
+/* After a refused step: whether a value is another one than before. */
+static int differs(shell *s, const fmi2ValueReference *vr, size_t n, const fmi2Real *value) {
+  fmi2Real present;
+  for (size_t i = 0; i < n; i++)
+    if (py.get_real(s->inner, vr + i, 1, &present) != fmi2OK || present != value[i]) return 1;
+  return 0;
+}
+
 FMI2_EXPORT fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[]) {
   if (n && (!vr || !value)) return fmi2Error;
+  if (c && ((shell *)c)->refusal.count && differs(c, vr, n, value)) ((shell *)c)->refusal.count = 0;
   CALL(py.set_real(s->inner, vr, n, value));
 }
 
-/* All variables are real, so the other types have nothing to get or set. */
+FMI2_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Integer value[]) {
+  if (n && (!vr || !value)) return fmi2Error;
+  CALL(py.get_integer(s->inner, vr, n, value));
+}
+
+FMI2_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                                      const fmi2Integer value[]) {
+  if (n && (!vr || !value)) return fmi2Error;
+  CALL(py.set_integer(s->inner, vr, n, value));
+}
+
+/* All variables are real or whole, so the other types have nothing to get or set. */
 static fmi2Status other_type(fmi2Component c, size_t n) {
   shell *s = c;
   if (!s) return fmi2Error;
   if (n == 0) return fmi2OK;
-  shell_log(s, "", fmi2Error, "All variables of this FMU are of type Real.");
+  shell_log(s, "", fmi2Error, "All variables of this FMU are of type Real or Integer.");
   return fmi2Error;
 }
 
@@ -339,10 +431,8 @@ static fmi2Status other_type(fmi2Component c, size_t n) {
     return other_type(c, n);                                                                                           \
   }
 
-OTHER_TYPE(fmi2GetInteger, fmi2Integer)
 OTHER_TYPE(fmi2GetBoolean, fmi2Boolean)
 OTHER_TYPE(fmi2GetString, fmi2String)
-OTHER_TYPE(fmi2SetInteger, const fmi2Integer)
 OTHER_TYPE(fmi2SetBoolean, const fmi2Boolean)
 OTHER_TYPE(fmi2SetString, const fmi2String)
 
@@ -365,6 +455,7 @@ FMI2_EXPORT fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
 
 FMI2_EXPORT fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
   if (!state) return fmi2Error;
+  if (c) ((shell *)c)->refusal.count = 0;
   CALL(py.set_state(s->inner, state));
 }
 
@@ -412,10 +503,13 @@ FMI2_EXPORT fmi2Status fmi2CancelStep(fmi2Component c) {
   return not_supported(c, "Steps are finished when fmi2DoStep returns; there is nothing to cancel.");
 }
 
-/* Only the end of the last accepted step and the wish to terminate (there is none) can be asked for. */
+/* What the last step was answered with, the end of the last accepted one and the wish to end can be asked for. */
 FMI2_EXPORT fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value) {
-  (void)kind, (void)value;
-  return c ? fmi2Discard : fmi2Error;
+  shell *s = c;
+  if (!s || !value) return fmi2Error;
+  if (kind != fmi2DoStepStatus) return fmi2Discard;
+  *value = s->last_step;
+  return fmi2OK;
 }
 
 FMI2_EXPORT fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value) {
@@ -432,9 +526,10 @@ FMI2_EXPORT fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKin
 }
 
 FMI2_EXPORT fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value) {
-  if (!c || !value) return fmi2Error;
+  const shell *s = c;
+  if (!s || !value) return fmi2Error;
   if (kind != fmi2Terminated) return fmi2Discard;
-  *value = 0;
+  *value = s->refusal.count > 1;
   return fmi2OK;
 }
 

@@ -19,10 +19,12 @@ from .pythonfmu.enums import Fmi2Status
 from .pythonfmu.fmi2slave import Fmi2Slave
 
 _HERE = Path(__file__).parent
-_STATE_MAGIC = b"ALI3FMU1"
-_STATE_HEAD = struct.Struct("<8s16sIId")
+_STATE_MAGIC = b"ALI3FMU3"
+_STATE_HEAD = struct.Struct("<8s16sIIdd")
+_LOWEST, _HIGHEST = -(2**31), 2**31 - 1
 _CHECKSUM = struct.Struct("<I")
 _INSTANTIATED, _INITIALISING, _STEPPING, _TERMINATED = range(4)
+_STATUS, _BALANCE = 5, 7  # ALI3_SOLVER_STATUS, ALI3_SOLVER_ENERGY_BALANCE
 _POSE_HEIGHT, _POSE_SPEED = 2, 4  # places in a pose
 _PHASE_NAMES = ("before initialisation", "in initialisation", "after initialisation", "after termination")
 # A host adds up its time in floating point; it may be this much off, s.
@@ -30,6 +32,17 @@ _TIME_TOLERANCE = 1e-6
 # End points this near (in steps) are reached with the tuned step itself.
 _STEP_TOLERANCE = 1e-6
 _STEP_DEVIATION = 0.05
+# In one call, which cannot be cancelled.
+_MOST_STEPS = 1e6
+# Neighbouring times are not farther apart than this share of an inner step.
+_CLOCK_TOLERANCE = 1e-3
+
+
+def _bytes_of(file: Path) -> bytes:
+    """Content of a file; a named pipe would wait for its writer."""
+    if not file.is_file():
+        raise FileNotFoundError(f"{file} is no file.")
+    return file.read_bytes()
 
 
 class _Shared:
@@ -46,7 +59,7 @@ class _Shared:
         library = next(folder.iterdir())
         # All at once: a host may remove this folder while a later instance, unpacked elsewhere, shares this module.
         self.systems = [
-            binding.LoadedSystem((_HERE / f"system_{k}.ali3").read_bytes(), library) for k in range(len(self.rows))
+            binding.LoadedSystem(_bytes_of(_HERE / f"system_{k}.ali3"), library) for k in range(len(self.rows))
         ]
 
     @classmethod
@@ -69,6 +82,7 @@ class Slave(Fmi2Slave):
         self._n_known = sum(v["causality"] != "output" for v in self._table)
         # Values by value reference; the outputs are filled when they are asked for.
         self._values = [0.0 if v["start"] is None else v["start"] for v in self._table]
+        self._solver = [v["index"] for v in self._table if v["source"] == "solver"]
         self._step_reference = next(i for i, v in enumerate(self._table) if v["source"] == "step_size")
         self._fidelity_reference = next((i for i, v in enumerate(self._table) if v["source"] == "fidelity"), None)
         self._fidelity = self._wanted_fidelity(self._values)
@@ -78,9 +92,12 @@ class Slave(Fmi2Slave):
         self._clamped: set[int] = set()
         self._phase = _INSTANTIATED
         self._start_time = 0.0
+        self._stop_time = math.inf
         self._outputs_fresh = False
         self._initialised = False
         self._step_warned = False
+        self._energy_warned = False
+        self._mode_warned = False
 
     # Calls of the host, in their usual order
 
@@ -91,8 +108,11 @@ class Slave(Fmi2Slave):
             self._refuse(f"fmi2SetupExperiment is not allowed {_PHASE_NAMES[self._phase]}.")
         elif not math.isfinite(start_time):
             self._refuse(f"The start time is {start_time}; a finite number is needed.")
+        elif stop_time is not None and not stop_time > start_time:
+            self._refuse(f"The stop time {stop_time:g} s does not lie after the start time {start_time:g} s.")
         else:
             self._start_time = float(start_time)
+            self._stop_time = math.inf if stop_time is None else float(stop_time)
             self._stale()
 
     def enter_initialization_mode(self) -> None:
@@ -122,14 +142,11 @@ class Slave(Fmi2Slave):
         """
         if self._phase != _STEPPING:
             return self._refuse(f"fmi2DoStep is not allowed {_PHASE_NAMES[self._phase]}.")
-        if not (math.isfinite(current_time) and math.isfinite(step_size) and step_size > 0.0):
-            return self._refuse(
-                f"fmi2DoStep from {current_time} s over {step_size} s: a finite time and a positive step are needed."
-            )
         kernel = self._kernel
         time = kernel.time
-        if abs(current_time - time) > _TIME_TOLERANCE:
-            return self._refuse(f"fmi2DoStep starts at {current_time} s, but this instance stands at {time} s.")
+        problem = self._impossible(current_time, step_size, time)
+        if problem:
+            return self._refuse(problem)
         n, h = self._division(time, current_time + step_size)
         # One step keeps the last state when it fails; several, or a changed parameter, must be taken back together.
         saved = kernel.save() if n > 1 or self._pending & self._parameters else None
@@ -148,11 +165,65 @@ class Slave(Fmi2Slave):
                 kernel.set_input(self._table[vr]["index"], value)
             return self._discard(
                 f"The step from {time:.6g} s over {step_size:.6g} s was refused, "
-                f"the state at {time:.6g} s is kept: {error}{worst}"
+                f"the state at {time:.6g} s is kept: {error}{worst} A smaller step_size may pass: it is "
+                f"{self._values[self._step_reference]:g} s and can be set before initialisation."
             )
         self._pending.clear()
         self._outputs_fresh = False
+        self._watch_modes()
+        self._watch()
         return True
+
+    def _impossible(self, time: float, step: float, now: float) -> str:
+        """Why a step cannot be asked for here at all; empty if it can."""
+        inner = self._values[self._step_reference]
+        if not (math.isfinite(time) and math.isfinite(step) and step > 0.0):
+            return f"A step from {time:g} s over {step:g} s: a finite time and a positive step are needed."
+        if abs(time - now) > _TIME_TOLERANCE:
+            return f"The step starts at {time:.10g} s, but this instance stands at {now:.10g} s."
+        if time + step > self._stop_time + _TIME_TOLERANCE:
+            return f"The step from {time:g} s over {step:g} s goes beyond the stop time {self._stop_time:g} s."
+        if step / inner > _MOST_STEPS:
+            return (
+                f"The step of {step:g} s has more than {_MOST_STEPS:g} inner steps of {inner:g} s and could not be "
+                "cancelled; ask for shorter ones."
+            )
+        apart = abs(time) * sys.float_info.epsilon
+        if not time + step > time or apart > _CLOCK_TOLERANCE * inner:
+            return (
+                f"At {time:g} s neighbouring times are {apart:.2g} s apart: the clock cannot follow a step of {step:g} "
+                f"s with inner steps of {inner:g} s; begin nearer to zero."
+            )
+        return ""
+
+    def _watch_modes(self) -> None:
+        """A closed loop that changed its assembly mode, once."""
+        if self._mode_warned or self._kernel.solver_value(_STATUS) != binding.BRANCH_CHANGED:
+            return
+        self._mode_warned = True
+        self.log(f"{self._kernel.branch_text()} This is said once.", Fmi2Status.warning)
+
+    def _watch(self) -> None:
+        """What a run says about itself after a step, once: that its numbers are not what was asked."""
+        doubt = binding.NO_DOUBT if self._energy_warned else self._kernel.doubt()
+        if doubt == binding.NO_DOUBT:
+            return
+        self._energy_warned = True
+        report, time, h = self._kernel.report(), self._kernel.time, self._values[self._step_reference]
+        if doubt == binding.DOUBT_BALANCE:
+            balance = self._kernel.solver_value(_BALANCE)
+            text = (
+                f"At {time:.6g} s the steps have made or lost {report['energy_error']:.3g} J where no force did, "
+                f"{100.0 * balance:.2g} % of the energy in the motion: the results are not to be relied on. Run anew "
+                f"with a step_size below {h:g} s. This is said once."
+            )
+        else:
+            text = (
+                f"Up to {time:.6g} s the solver had to halve its step {report['halvings']} times in {report['steps']} "
+                "steps: the motion is too fast for step_size. Compare with a run of half the step_size, "
+                f"{0.5 * h:g} s. This is said once."
+            )
+        self.log(text, Fmi2Status.warning)
 
     def terminate(self) -> None:
         if self._phase != _STEPPING:
@@ -163,6 +234,9 @@ class Slave(Fmi2Slave):
     # Values
 
     def get_real(self, vrs: list[int]) -> list[float]:
+        if self._phase == _INSTANTIATED:
+            self._refuse(f"Values cannot be read {_PHASE_NAMES[self._phase]}.")
+            return [math.nan] * len(vrs)
         if not vrs:
             return []
         lowest, highest = min(vrs), max(vrs)
@@ -191,7 +265,9 @@ class Slave(Fmi2Slave):
                 self._stale()
 
     def get_integer(self, vrs: list[int]) -> list[int]:
-        return self._other_type(vrs, 0)
+        if not self._all_whole(vrs):
+            return [0] * len(vrs)
+        return [0 if math.isnan(x) else int(min(max(x, _LOWEST), _HIGHEST)) for x in self.get_real(vrs)]
 
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         return self._other_type(vrs, False)
@@ -200,7 +276,16 @@ class Slave(Fmi2Slave):
         return self._other_type(vrs, "")
 
     def set_integer(self, vrs: list[int], values: list[int]) -> None:
-        self._other_type(vrs, 0)
+        if self._all_whole(vrs):
+            self.set_real(vrs, [float(value) for value in values])
+
+    def _all_whole(self, vrs: list[int]) -> bool:
+        for vr in vrs:
+            if not 0 <= vr < len(self._table):
+                return self._refuse(f"There is no variable with value reference {vr}.")
+            if not self._table[vr]["whole"]:
+                return self._refuse(f"'{self._table[vr]['name']}' is a real number, not an integer.")
+        return True
 
     def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
         self._other_type(vrs, False)
@@ -219,9 +304,15 @@ class Slave(Fmi2Slave):
         head = _STATE_HEAD.pack(
             _STATE_MAGIC,
             self._identity,
-            self._phase | self._initialised << 2 | self._outputs_fresh << 3 | self._step_warned << 4,
+            self._phase
+            | self._initialised << 2
+            | self._outputs_fresh << 3
+            | self._step_warned << 4
+            | self._energy_warned << 5
+            | self._mode_warned << 6,
             len(values),
             self._start_time,
+            self._stop_time,
         )
         kernel = self._kernel.save() if self._initialised else b""
         content = head + struct.pack(f"<{len(values)}d", *values) + bytes(flags) + kernel
@@ -234,8 +325,8 @@ class Slave(Fmi2Slave):
         if len(content) < size:
             self._refuse("These bytes are not a state of this FMU: they are too short.")
             return
-        magic, identity, word, count, start_time = _STATE_HEAD.unpack_from(state)
-        if magic != _STATE_MAGIC or identity != self._identity or count != n or word >> 5:
+        magic, identity, word, count, start_time, stop_time = _STATE_HEAD.unpack_from(state)
+        if magic != _STATE_MAGIC or identity != self._identity or count != n or word >> 7:
             self._refuse("These bytes are not a state of this FMU; only states of the same build can be set.")
             return
         if _CHECKSUM.unpack(state[-_CHECKSUM.size :])[0] != zlib.crc32(content):
@@ -256,7 +347,10 @@ class Slave(Fmi2Slave):
         self._initialised = initialised
         self._outputs_fresh = bool(word >> 3 & 1)
         self._step_warned = bool(word >> 4 & 1)
+        self._energy_warned = bool(word >> 5 & 1)
+        self._mode_warned = bool(word >> 6 & 1)
         self._start_time = start_time
+        self._stop_time = stop_time
         self._values = values
         self._pending = {k for k in range(n) if flags[k]}
 
@@ -282,7 +376,8 @@ class Slave(Fmi2Slave):
             self.log(
                 f"The communication step {end - time:.6g} s gives inner steps of {h:.6g} s, while step_size is "
                 f"{step:.6g} s; results will differ a little. This is said once.",
-                Fmi2Status.warning,
+                Fmi2Status.ok,
+                "logStatusWarning",
             )
         return n, h
 
@@ -360,8 +455,9 @@ class Slave(Fmi2Slave):
     def _evaluate_outputs(self) -> None:
         if not self._initialised and not self._initialise():
             return
-        # The outputs stand in the table in the order of the sensors.
-        self._values[self._n_known :] = self._kernel.sensors()[:]
+        sensors = self._kernel.sensors()[:]
+        # The sensors come in their order, then the figures of the solver.
+        self._values[self._n_known :] = [*sensors, *map(self._kernel.solver_value, self._solver)]
         self._outputs_fresh = True
 
     def _evaluate_if_possible(self) -> None:
@@ -388,7 +484,7 @@ class Slave(Fmi2Slave):
                 f"the last value {self._values[vr]}{unit} is kept."
             )
             return None
-        if v["source"] == "fidelity" and value != math.floor(value):
+        if v["whole"] and value != math.floor(value):
             self._refuse(f"'{name}' was set to {value}; it must be a whole number, it keeps {self._values[vr]:g}.")
             return None
         low = -math.inf if v["min"] is None else v["min"]
@@ -412,7 +508,7 @@ class Slave(Fmi2Slave):
 
     def _other_type(self, vrs: list[int], value: Any) -> list[Any]:
         if vrs:
-            self._refuse("All variables of this FMU are of type Real.")
+            self._refuse("All variables of this FMU are of type Real or Integer.")
         return [value] * len(vrs)
 
     def _refuse(self, message: str) -> bool:

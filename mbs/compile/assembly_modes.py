@@ -33,6 +33,8 @@ Array = NDArray[np.float64]
 
 MOST_VERTICES = 24
 """Blocks with more bodies and rods are not traced."""
+MOST_COORDINATES = 120
+"""Those of more moving coordinates neither: the matrices are dense."""
 MOST_TRIADS = 15
 """Two bits each in an int32."""
 DEFINITE = 0.15
@@ -94,13 +96,13 @@ def _modes(
 ) -> list[tuple[int, int]]:
     """Modes as (signs, mask); none where the block has not one freedom or does not come back to its start."""
     part = moving_part(model, block, rows, full)
-    if not part.coordinates or not part.rows:
+    if not part.rows or part.bends or len(part.coordinates) > MOST_COORDINATES:
         return []
     hinges = _frame_hinges(block, full, q)
     seen = [*found, *hinges]
     parts = np.array([affine_of(c, full, part.coordinates, q) for t in seen for c in t.components])
     turned = np.array([t.turned for t in seen])
-    way = trace(quadratics(part, q, guides), parts[:, 0], parts[:, 1:], turned, q[part.coordinates], part.bends)
+    way = trace(quadratics(part, q, guides), parts[:, 0], parts[:, 1:], turned, q[part.coordinates])
     if way is None:
         return []
     n = len(found)

@@ -30,7 +30,7 @@ SPRINGS = {ElementType.SPRING_DAMPER, ElementType.SCALAR_SPRING_DAMPER}
 
 @dataclass(frozen=True)
 class MovingPart:
-    """What of z moves in a block, the rows that tie it, whether bodies bend, a joint has a drive, a spring acts."""
+    """What of z moves in a block, the rows that tie it, and whether a body of it bends, is driven or sprung."""
 
     coordinates: list[int]
     rows: list[RowTerms]
@@ -75,7 +75,7 @@ def moving_part(model: Model, block: Block, rows: Sequence[RowTerms], full: Sequ
             driven = True
         elif columns <= known and not row.rates and row.switch < 0:
             tied.append(row)
-    bends = any(b.is_flexible for b in (*moving_bodies, *held_bodies))
+    bends = any(b.is_flexible for b in moving_bodies)
     return MovingPart(sorted(moving), tied, bends, driven, _sprung(model, moving, full))
 
 

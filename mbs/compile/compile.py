@@ -12,6 +12,7 @@ from mbs.compile.assembly_modes import mode_arrays
 from mbs.compile.consistent import close_position
 from mbs.compile.dependent_rows import independent_rows
 from mbs.compile.equilibrium import equilibrium, start_arrays
+from mbs.compile.extent import coordinate_lengths, model_length, unit_vectors
 from mbs.compile.flexible import (
     deformation_metric,
     flexible_arrays,
@@ -27,6 +28,7 @@ from mbs.compile.metadata import metadata
 from mbs.compile.natural import natural_coordinates
 from mbs.compile.open_joints import joint_gaps, joints_of_bodies
 from mbs.compile.ordering import clique_pattern, fill_reducing_order
+from mbs.compile.overconstrained import MOST_TOLERANCE, TOLERANCE, corrected_joints, redrawn
 from mbs.compile.polynomial import RowTerms, row_terms
 from mbs.compile.pose import pose_arrays, pose_partners
 from mbs.compile.report import rank_at, structure_report
@@ -42,11 +44,20 @@ from mbs.model.model import Model
 from mbs.system import System
 
 
-def compile(model: Model) -> System:
+def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     """Compile a model.
 
     Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
-    computed, and the start position and velocity solved.
+    computed, and the start position and velocity solved. Overconstrained loops are closed by least squares before:
+    points and axes of their joints are moved, by as little as possible, to where the loop moves; the System's report
+    says by how much, joint by joint (`closed`: distance in m, angle in rad).
+
+    Parameters
+    ----------
+    model : Model
+    tolerance : float
+        Largest correction of an overconstrained loop, parts of the size of its drawing (m/m) and rad; 0 takes every
+        drawing as it is.
 
     Raises
     ------
@@ -55,6 +66,18 @@ def compile(model: Model) -> System:
     """
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
+    if isinstance(tolerance, bool) or not isinstance(tolerance, (int, float)) or not 0.0 <= tolerance <= MOST_TOLERANCE:
+        raise ModelError(
+            f"The tolerance of compile is {tolerance!r}; it must be a number from 0 to {MOST_TOLERANCE:g}."
+        )
+    joints = corrected_joints(model, float(tolerance))
+    with redrawn(joints):
+        closed = {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
+        return _compile(model, closed)
+
+
+def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
+    """The System of a model whose loops are closed; `closed` is for its report."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
     kept, full, of_z, redundant, left = reduce_coordinates(natural, linear, model.grounded, flexible_coordinates(model))
@@ -134,9 +157,14 @@ def compile(model: Model) -> System:
         "dependent_rows": dependent,
         "tangent_nonzeros": tangent_nonzeros,
         "no_tree": no_tree,
+        "closed": closed,
     }
     frames = frames_of(model, T[:, order], z0)
-    system = System(tables, metadata(model, [natural.info[kept[k]].name for k in order], rows, report), frames)
+    info = [natural.info[kept[k]] for k in order]
+    length = model_length(model)
+    lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [kept[k] for k in order]), length)
+    report["length"], report["length_stated"] = length, model.length is not None
+    system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths), frames)
     if not model.start_in_equilibrium:
         return system
     q = equilibrium(system, model.equilibrium_parameters)
@@ -149,8 +177,11 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
     """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
     linear, others = [], []
     for j, joint in enumerate(model.joints):
-        kept = joint.force_equations if joint.keep else []
+        kept = {*(joint.force_equations if joint.keep else []), *joint.turning_equations}
+        replaced = set(joint.replaced_equations)
         for k, equation in enumerate(joint.equations):
+            if k in replaced:
+                continue
             if equation.is_linear and k not in kept:
                 linear.append(equation)
             else:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import splu, spsolve
 
 from mbs.compile.polynomial import RowTerms
 from mbs.compile.row_arrays import RowArrays
@@ -107,6 +107,7 @@ def start_velocity(
     q: Array,
     guides: Array,
     guide_rates: Array,
+    near: Array | None = None,
 ) -> Array:
     """Velocity that satisfies the rows and comes nearest to what was given.
 
@@ -122,12 +123,16 @@ def start_velocity(
         Mass of the bodies with a given velocity, over z.
     aim : ndarray, shape (nq,)
         The same mass times the given velocities.
+    near : ndarray, shape (nq,), optional
+        The whole mass times the velocities that what was left out has without joints; None: zero.
     """
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     v = np.zeros(arrays.nq)
     if not np.any(aim) and not np.any(phi_t):
         return v
     metric = (positive_metric(mass) + stiffness).tocsr()
+    if near is not None:
+        v = np.atleast_1d(spsolve(metric.tocsc(), near))
     total = (given + stiffness + FREE * metric).tocsr()
     lu, factor = solver(total, Phiq)
     weight = float(np.mean(total.diagonal()))

@@ -15,8 +15,12 @@ from scipy.linalg import qr
 from mbs.compile.polynomial import Monomial, RowTerms
 from mbs.errors import ModelError
 
-DEPENDENT = 1e-9
-"""Relative size of the remainder of a dependent row."""
+DEPENDENT = 1e-7
+"""Relative size of the remainder of a dependent row. A drawing with rounded numbers that is next to a special one
+leaves remainders that are no conditions of their own.
+"""
+CONTRADICTION = 1e-9
+"""Relative size of the constant that dependent rows may leave."""
 OWNED = 1e-3
 """A row owns a monomial if nobody else has it and its coefficient is this part of the row's largest."""
 CONSTANT: Monomial = (-1, -1)
@@ -44,8 +48,10 @@ def independent_rows(rows: list[RowTerms], joints: Mapping[str, Sequence[str]]) 
     return [row for i, row in enumerate(rows) if i in keep], len(rows) - len(keep)
 
 
-def _must_vanish(rows: list[RowTerms], constant: float, joints: Mapping[str, Sequence[str]]) -> None:
-    if abs(constant) <= DEPENDENT:
+def _must_vanish(
+    rows: list[RowTerms], constant: float, joints: Mapping[str, Sequence[str]], least: float = CONTRADICTION
+) -> None:
+    if abs(constant) <= least:
         return
     bodies = sorted({r.name for r in rows if r.joint < 0})
     names = sorted({r.name for r in rows if r.joint >= 0} | {j for body in bodies for j in joints.get(body, ())})
@@ -134,5 +140,7 @@ def _independent(
     for k in order[rank:]:
         weights, *_ = np.linalg.lstsq(A[chosen].T, A[k], rcond=None)
         parts = [rows[group[c]] for c, w in zip(chosen, weights, strict=True) if abs(w) > 1e-6]
-        _must_vanish([rows[group[k]], *parts], float(constants[k] - weights @ constants[chosen]), joints)
+        remainder = float(np.linalg.norm(A[k] - weights @ A[chosen]))
+        constant = float(constants[k] - weights @ constants[chosen])
+        _must_vanish([rows[group[k]], *parts], constant, joints, CONTRADICTION + 10.0 * remainder)
     return [group[k] for k in chosen]

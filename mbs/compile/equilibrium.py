@@ -20,7 +20,7 @@ MAX_ITERATIONS = 400
 def start_arrays(system: System | None, parameters: Mapping[str, float]) -> dict[str, Any]:
     """The `static_` arrays: whether the System starts in equilibrium, and parameters that hold while it is sought."""
     if system is None:
-        return {"static_start": [0], "static_par": [], "static_value": []}
+        return {"static_start": [], "static_par": [], "static_value": []}
     names = [entry["name"] for entry in system.meta["parameters"]]
     return {
         "static_start": [1],

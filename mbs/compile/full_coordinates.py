@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,11 +64,13 @@ def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, 
     return sparse.csr_matrix((values, columns, pointer), shape=(len(full), nz)), np.array([e.constant for e in full])
 
 
-def full_mass(model: Model, weights: Array | None = None) -> sparse.csr_matrix:
-    """Mass matrix of the full coordinates; `weights` (one per body) scale the bodies."""
+def full_mass(model: Model, weights: Mapping[int, Array] | None = None) -> sparse.csr_matrix:
+    """Mass matrix of the full coordinates, or one of the blocks in `weights` by the number of their body."""
     rows, columns, values = [], [], []
     for k, body in enumerate(model.bodies):
-        block = body.mass_block() * (1.0 if weights is None else weights[k])
+        if weights is not None and k not in weights:
+            continue
+        block = body.mass_block() if weights is None else weights[k]
         i, j = np.nonzero(block)
         rows.append(i + body.start)
         columns.append(j + body.start)

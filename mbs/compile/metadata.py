@@ -9,7 +9,13 @@ from mbs.compile.polynomial import RowTerms
 from mbs.model.model import Model
 
 
-def metadata(model: Model, coordinates: list[str], rows: list[RowTerms], report: dict[str, Any]) -> dict[str, Any]:
+def metadata(
+    model: Model,
+    coordinates: list[str],
+    rows: list[RowTerms],
+    report: dict[str, Any],
+    lengths: list[float],
+) -> dict[str, Any]:
     """What Python reads of a System and the kernel does not."""
     return {
         "name": model.name,
@@ -27,7 +33,13 @@ def metadata(model: Model, coordinates: list[str], rows: list[RowTerms], report:
             }
             for i in model.inputs
         ],
-        "sensors": [{"name": s.name, "unit": s.unit, "description": s.description} for s in model.sensors],
+        "sensors": [
+            {"name": s.name, "unit": s.unit, "description": s.description}
+            | ({"whole": True} if s.whole else {})
+            | ({"display_unit": s.display_unit} if s.display_unit else {})
+            | ({"notice": s.notice} if s.notice else {})
+            for s in model.sensors
+        ],
         "parameters": [
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
             for p in model.parameters
@@ -45,4 +57,6 @@ def metadata(model: Model, coordinates: list[str], rows: list[RowTerms], report:
         "report": report,
         "experiment": {"stop_time_s": model.stop_time, "step_s": model.step},
         "floating": model.floating,
+        "gravity": math.hypot(*model.gravity),
+        "coordinate_lengths": lengths,
     }

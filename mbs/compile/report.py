@@ -9,6 +9,7 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from mbs.compile.fronts import Fronts
+from mbs.compile.overconstrained import correction_text
 from mbs.model.core import ModelCore
 
 RANK_TOLERANCE = 1e-7
@@ -61,6 +62,14 @@ def structure_report(model: ModelCore, fronts: Fronts, rank: int | None, rows: i
     }
 
 
+def _length(report: dict[str, Any]) -> list[str]:
+    """What tolerances are relative to; older Systems do not tell it."""
+    if "length" not in report:
+        return []
+    source = "stated" if report["length_stated"] else "extent of the drawing"
+    return [f"  length, m             {report['length']:>8.4g}   ({source}; tolerances are relative to it)"]
+
+
 def report_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     """The report as lines of text."""
     rank, dofs = report["rank"], report["degrees_of_freedom"]
@@ -78,6 +87,9 @@ def report_text(name: str, dimension: int, report: dict[str, Any]) -> str:
         f"  non-zeros of tangent  {r['tangent_nonzeros']:>8}   (lower triangle)",
         f"  non-zeros of factor   {r['factor_nonzeros']:>8}   ({r['fronts']} fronts, largest {r['largest_front']})",
         f"  force elements        {r['elements']:>8}",
+        *_length(r),
         f"  inputs, sensors       {r['inputs']:>8}, {r['sensors']}",
     ]
+    if r.get("closed"):
+        lines.append(f"  closed by least squares        {correction_text(r['closed'])}")
     return "\n".join(lines)

@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 
 MOST_JOINTS, MOST_CUT_ROWS = 64, 64
 """Relative coordinates are solved for as a dense matrix: beyond so many the sparse methods are faster."""
+PARALLEL = 1e-9
+"""Sine of the angle between two axes that are one."""
 FORMED = ("revolute", "prismatic")
 """Joints that the tree is made of."""
 
@@ -99,16 +101,20 @@ def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
             for group in ends:
                 forming.setdefault(id(group), []).append(n)
     reached, formed = {id(ground)}, set()
-    # prismatic joints first because they cannot be cut, the others breadth first: short paths, little work
-    heap: list[tuple[bool, int, int]] = []
+    measured = {frozenset(id(group_of[id(b)]) for b in j.turn.bodies) for j in model.joints if j.turn is not None}
+    # prismatic joints first because they cannot be cut, then those whose angle is a coordinate, the others breadth
+    # first: short paths, little work
+    heap: list[tuple[bool, bool, int, int]] = []
 
     def offer(group: Group) -> None:
         for n in forming.get(id(group), ()):
-            heapq.heappush(heap, (joints[n][0].type != "prismatic", group.depth, n))
+            joint, _, ends = joints[n]
+            angle = frozenset(map(id, ends)) in measured
+            heapq.heappush(heap, (joint.type != "prismatic", not angle, group.depth, n))
 
     offer(ground)
     while heap:
-        n = heapq.heappop(heap)[2]
+        n = heapq.heappop(heap)[3]
         joint, places, ends = joints[n]
         new = [side for side, group in enumerate(ends) if id(group) not in reached]
         if not new:
@@ -133,11 +139,37 @@ def check(model: Model) -> None:
             raise NoTreeError(f"body '{body.name}' is {'flexible' if body.is_flexible else 'a point mass'}")
     if model.guides or model.switches:
         raise NoTreeError("guides or switches move or hold something")
-    if len(model.coordinates) > sum(body.size for body in model.bodies):
-        raise NoTreeError("angles or spins are coordinates of their own")
+    angles = sum(joint.turn is not None for joint in model.joints)
+    if len(model.coordinates) > sum(body.size for body in model.bodies) + angles:
+        raise NoTreeError("spins or ports are coordinates of their own")
     for joint in model.joints:
-        if joint.places is None:
+        if joint.places is None and joint.turn is None:
             raise NoTreeError(f"joint '{joint.name}' is neither revolute, prismatic, spherical nor a weld")
+
+
+def turning(model: Model, groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
+    """The joints whose coordinates add up to a relative angle, by the numbers of their bodies, and their signs.
+
+    Raises
+    ------
+    NoTreeError
+        Where a joint between its bodies turns about another axis.
+    """
+    assert joint.turn is not None
+    axis = np.array([0.0, 0.0, 1.0]) if joint.turn.axis is None else in_space(joint.turn.axis)
+    axis = axis / np.linalg.norm(axis)
+    owner = {id(body): group for group in groups for body in group.bodies}
+    found: dict[int, float] = {}
+    for body, sign in zip(joint.turn.bodies, (-1.0, 1.0), strict=True):
+        group = owner[id(body)]
+        while group.parent is not None:
+            if not group.slides and found.pop(group.number, None) is None:
+                found[group.number] = sign * float(np.sign(group.axes[:, 2] @ axis))
+            group = group.parent
+    for number in found:
+        if np.linalg.norm(np.cross(groups[number].axes[:, 2], axis)) > PARALLEL:
+            raise NoTreeError(f"not all joints between the bodies of relative angle '{joint.name}' turn about its axis")
+    return sorted(found.items())
 
 
 def rows_of(model: Model, cut: Cut) -> tuple[int, int]:

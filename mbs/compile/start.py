@@ -67,12 +67,15 @@ def velocity(
     """Start velocity in elimination order, from the velocities of bodies and coordinates."""
     position = full_values(full, z)
     rates = np.zeros(len(full))
-    weights = np.zeros(len(model.bodies))
+    weights, partly = {}, False
     for k, (linear, angular) in model.body_velocities.items():
         body = model.bodies[k]
         part = slice(body.start, body.start + body.size)
-        rates[part] = body.velocity(linear, angular, position[part])
-        weights[k] = 1.0
+        none = np.zeros(model.dimension), np.zeros(1 if model.dimension == 2 else 3)
+        v, w = (at_rest if given is None else given for given, at_rest in zip((linear, angular), none, strict=True))
+        rates[part] = body.velocity(v, w, position[part])
+        weights[k] = body.velocity_weight(linear is not None, angular is not None or body.is_point)
+        partly = partly or (linear is None) != (angular is None)
     M_given = full_mass(model, weights)
     mean = float(np.mean(mass.diagonal()))
     own = np.zeros(len(full))
@@ -82,5 +85,5 @@ def velocity(
     M_given = M_given + sparse.diags(own)
     given = symmetric(T.T @ M_given @ T)[order][:, order].tocsr()
     aim = (T.T @ (M_given @ rates))[order]
-    q = z[order]
-    return start_velocity(arrays, mass, stiffness, given, aim, q, guides, guide_rates)
+    near = (T.T @ (full_mass(model) @ rates))[order] if partly else None
+    return start_velocity(arrays, mass, stiffness, given, aim, z[order], guides, guide_rates, near)

@@ -12,7 +12,11 @@ from mbs.affine import Affine
 from mbs.compile.front_arrays import Locate
 from mbs.compile.polynomial import substitute
 from mbs.elements.types import ElementType
+from mbs.errors import ModelError
+from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
+from mbs.model.reactions import MOST_FACTORS
+from mbs.model.sensors import Sensor
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -105,17 +109,36 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
     """The `sen_` arrays; `row_of` maps (joint, equation) to its row."""
     joints = {id(j): k for k, j in enumerate(model.joints)}
     ints = []
+    reals: list[Sequence[float]] = []
+
+    def row(sensor: Sensor, joint: Joint, equation: int) -> int:
+        found = row_of.get((joints[id(joint)], equation))
+        if found is None:
+            raise ModelError(
+                f"The sensor '{sensor.name}' has no value: an equation of joint '{joint.name}' follows from the others "
+                "and was left out, so how the load is shared is not determined. Let a body bend, or loosen a joint."
+            )
+        return found
+
     for sensor in model.sensors:
-        if sensor.joint is not None:
-            rows = [row_of[joints[id(sensor.joint)], k] for k in sensor.integers]
+        reals.append(sensor.reals)
+        if sensor.joint is not None and not sensor.integers:
+            ints.append([len(sensor.terms)])
+            reals[-1] = [t.weight for t in sensor.terms]
+            for t in sensor.terms:
+                factors = [signals.number(f) for f in t.factors]
+                none = [-1] * (MOST_FACTORS - len(factors))
+                ints[-1] += [row(sensor, sensor.joint, t.equation), *factors, *none, t.guide]
+        elif sensor.joint is not None:
+            rows = [row(sensor, sensor.joint, k) for k in sensor.integers]
             ints.append([len(rows), *rows])
         else:
-            rows = [row_of[joints[id(j)], k] for j in sensor.joints for k in j.force_equations]
+            rows = [row(sensor, j, k) for j in sensor.joints for k in j.force_equations]
             ints.append([*sensor.integers, *(signals.number(s) for s in sensor.signals), *rows])
     return {
         "sen_type": np.array([s.type for s in model.sensors], dtype=np.int64),
         **ragged("sen_int", ints, np.int64),
-        **ragged("sen_real", [s.reals for s in model.sensors], float),
+        **ragged("sen_real", reals, float),
     }
 
 

@@ -22,8 +22,6 @@ NEAR = 0.05
 """Below this part of its median on the way the second singular value says that a branch crosses."""
 CLOSED = 1e-7
 """Rows hold to this part of the size of the block."""
-DEFECT = 0.02
-"""Rows of bodies that bend need hold only to this part: they bend to close."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +47,7 @@ def sine_cosine(vectors: Array, turned: NDArray[np.bool_]) -> tuple[Array, Array
     return np.where(turned, cosine, sine), np.where(turned, -sine, cosine)
 
 
-def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_], x: Array, bends: bool) -> Way | None:
+def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_], x: Array) -> Way | None:
     """Follow the motion from x until it comes back; None if it has not one freedom or does not come back.
 
     Parameters
@@ -58,24 +56,21 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
         The vectors of the angles, ``offset + slope x``.
     turned : ndarray of bool
         Angles from the perpendicular of their second arm.
-    bends : bool
-        Whether bodies bend, so that the rows of rigid ones need hold only nearly.
     """
 
     def angles(at: Array) -> tuple[Array, Array]:
         return sine_cosine((offset + slope @ at).reshape(-1, 3, 3), turned)
 
-    found = _first_tangent(phi.at(x)[1], slope, bends)
+    found = _first_tangent(phi.at(x)[1], slope)
     if found is None:
         return None
     vectors = (offset + slope @ x).reshape(-1, 3, 3)
     size = float(np.max(np.linalg.norm(vectors[:, 1], axis=1)))  # of the longest arm
-    loose = (DEFECT if bends else CLOSED) * size
     first, t_first, t, step, travelled = x, found, found, 0.05 * size, 0.0
     sine, cosine = angles(x)
     sines, cosines, steps, seconds = [sine], [cosine], [], []
     for _ in range(MOST_STEPS):
-        y = _corrected(phi, x + step * t, t, loose)
+        y = _corrected(phi, x + step * t, t, CLOSED * size)
         if y is not None:
             s, c = angles(y)
             turn = np.arctan2(s * cosine - c * sine, c * cosine + s * sine)
@@ -87,7 +82,7 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
             continue
         went = y - x
         length = float(np.linalg.norm(went))
-        new = _next_tangent(phi.at(y)[1], went / length, bends)
+        new = _next_tangent(phi.at(y)[1], went / length)
         if new is None:
             return None
         sines.append(s)
@@ -105,25 +100,34 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
     return None
 
 
-def _corrected(phi: Quadratics, x: Array, t: Array, loose: float) -> Array | None:
-    """The position on the rows across the tangent, or the nearest one to them that is not more than `loose` off."""
+def _corrected(phi: Quadratics, x: Array, t: Array, tolerance: float) -> Array | None:
+    """The position on the rows across the tangent."""
     for _ in range(8):
         value, J = phi.at(x)
-        right = np.append(-value, 0.0)
-        move = np.linalg.lstsq(np.vstack([J, t]), right, rcond=1e-8)[0]
+        move = _solved(np.vstack([J, t]), np.append(-value, 0.0))
         x = x + move
         if np.linalg.norm(move) < CLOSED * np.linalg.norm(x):
             break
-    return x if np.max(np.abs(phi.at(x)[0])) <= loose else None
+    return x if np.max(np.abs(phi.at(x)[0])) <= tolerance else None
 
 
-def _first_tangent(J: Array, slope: Array, bends: bool) -> Array | None:
+def _solved(A: Array, b: Array) -> Array:
+    """By elimination where that will do, else by least squares: of redundant rows and where branches cross."""
+    if A.shape[0] == A.shape[1]:
+        try:
+            x = np.linalg.solve(A, b)
+        except np.linalg.LinAlgError:
+            x = np.full(len(b), np.inf)
+        if np.linalg.norm(x) <= 10.0 * np.linalg.norm(b):
+            return np.asarray(x)
+    return np.asarray(np.linalg.lstsq(A, b, rcond=1e-8)[0])
+
+
+def _first_tangent(J: Array, slope: Array) -> Array | None:
     """The one direction in which an angle changes; turns that none sees, of a rod about itself, do not count."""
     _, values, right = np.linalg.svd(J)
     values = np.append(values, np.zeros(J.shape[1] - len(values)))
     null = right[values <= SMALL * values[0]]
-    if bends and len(null) == 0:
-        null = right[-1:]
     if len(null) == 0:
         return None
     _, size, turn = np.linalg.svd(slope @ null.T, full_matrices=False)
@@ -133,14 +137,14 @@ def _first_tangent(J: Array, slope: Array, bends: bool) -> Array | None:
     return t / np.linalg.norm(t)
 
 
-def _next_tangent(J: Array, went: Array, bends: bool) -> tuple[Array, float] | None:
+def _next_tangent(J: Array, went: Array) -> tuple[Array, float] | None:
     """Unit tangent next to the way that was made, and the smallest singular value that is not of it, of the largest.
 
     Of several directions at a singular position the one that goes straight on.
     """
     _, values, right = np.linalg.svd(J)
     values = np.append(values, np.zeros(J.shape[1] - len(values)))
-    free = max(int(np.sum(values <= SMALL * values[0])), int(bends))
+    free = int(np.sum(values <= SMALL * values[0]))
     if free == 0:
         return None
     second = float(values[-free - 1] / values[0]) if free < len(values) else 1.0

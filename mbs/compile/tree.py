@@ -13,7 +13,17 @@ from numpy.typing import NDArray
 
 from mbs.affine import Affine, AffineVector
 from mbs.compile.natural import choose
-from mbs.compile.spanning_tree import Cut, Group, NoTreeError, frame_along, in_space, rows_of, spanning_tree
+from mbs.compile.spanning_tree import (
+    MOST_JOINTS,
+    Cut,
+    Group,
+    NoTreeError,
+    frame_along,
+    in_space,
+    rows_of,
+    spanning_tree,
+    turning,
+)
 from mbs.compile.tables import Signals
 from mbs.model.body import Body
 from mbs.model.model import Model
@@ -27,6 +37,7 @@ CARRIED = 5
 NAMES = (
     *("parent", "slides", "base", "mass", "centre", "inertia", "gravity", "frame"),
     *("out_body", "out_local", "out_col", "cut_body", "cut_rows", "cut_place"),
+    *("angle_col", "angle_ptr", "angle_joint", "angle_sign", "angle_inertia"),
 )
 
 
@@ -48,7 +59,8 @@ def tree_arrays(
         groups, cuts = spanning_tree(model)
         moving = groups[1:]
         rows = sum(sum(rows_of(model, cut)) for cut in cuts)
-        if 4 * len(moving) + 1 + rows > CARRIED * len(kept):
+        angles = _angles(model, groups, kept, new)
+        if 4 * len(moving) + 1 + rows + len(angles["angle_col"]) > CARRIED * len(kept):
             raise NoTreeError(f"{len(moving)} joints and {rows} rows of loops are many for {len(kept)} coordinates")
         arrays = {
             "parent": [g.parent.number for g in moving if g.parent is not None],
@@ -58,6 +70,7 @@ def tree_arrays(
             "gravity": in_space(model.gravity),
             **_coordinates(model, groups, kept, new),
             **_cut_arrays(model, cuts),
+            **angles,
             "frame": [number for g in moving for number in _frame_signals(g, signals)],
         }
         return {f"tree_{name}": values for name, values in arrays.items()}, ""
@@ -131,6 +144,36 @@ def _coordinates(model: Model, groups: Sequence[Group], kept: Sequence[int], new
             locals_.append(np.array([o, *(group.local(drawn) if o else group.axes.T @ drawn)]))
             columns += mine + [-1] * (3 - d)
     return {"out_body": bodies, "out_local": _joined(locals_), "out_col": columns}
+
+
+def _angles(model: Model, groups: Sequence[Group], kept: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
+    """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
+    place = {i: int(new[z]) for z, i in enumerate(kept)}
+    arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
+    for joint in model.joints:
+        if joint.turn is None:
+            continue
+        parts = turning(model, list(groups), joint)
+        inertia = model.inertias.get(joint.turn.coordinate, 0.0)
+        if inertia > 0.0 and not _one_path(groups, [number for number, _ in parts]):
+            raise NoTreeError(f"the armature of relative angle '{joint.name}' couples two branches of the tree")
+        arrays["col"].append(place[joint.turn.coordinate])
+        arrays["joint"] += [number for number, _ in parts]
+        arrays["sign"] += [sign for _, sign in parts]
+        arrays["ptr"].append(len(arrays["joint"]))
+        arrays["inertia"].append(inertia)
+    if len(arrays["col"]) > MOST_JOINTS:
+        raise NoTreeError(f"{len(arrays['col'])} relative angles are there, at most {MOST_JOINTS} may be")
+    return {f"angle_{name}": values for name, values in arrays.items()}
+
+
+def _one_path(groups: Sequence[Group], numbers: Sequence[int]) -> bool:
+    """Whether bodies are all on the way from one of them to the ground."""
+    path, group = set(), groups[max(numbers, default=0)]
+    while group.parent is not None:
+        path.add(group.number)
+        group = group.parent
+    return path.issuperset(numbers)
 
 
 def _cut_arrays(model: Model, cuts: Sequence[Cut]) -> dict[str, Any]:

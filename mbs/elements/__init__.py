@@ -4,12 +4,14 @@ from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.brake import Brake
+from mbs.elements.contact_points import ContactPoints
 from mbs.elements.drag import Drag
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.elements.input_force import InputForce
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.types import ElementType
 from mbs.elements.tyre import Tyre, TyreCurve
@@ -19,6 +21,7 @@ __all__ = [
     "BodyForce",
     "BodyTorque",
     "Brake",
+    "ContactPoints",
     "Drag",
     "ElementRecord",
     "ElementType",
@@ -31,6 +34,7 @@ __all__ = [
     "PlaneRoad",
     "Road",
     "ScalarSpringDamper",
+    "SpinTorque",
     "SpringDamper",
     "Tyre",
     "TyreCurve",

@@ -92,8 +92,8 @@ class AutomaticDrive:
             (index(throttle, f"The input of {what}"), len(ratios)),
             (float(gear), float(gear), 1e3, 0.0),
             (
-                Output("engine_speed", "rad/s", "speed of the engine"),
-                Output("gear", "1", "gear engaged"),
+                Output("engine_speed", "rad/s", "speed of the engine", display_unit="rpm"),
+                Output("gear", "1", "gear engaged", whole=True),
                 Output("wheel_torque", "N m", "torque on each of the two wheels"),
                 Output("engine_torque", "N m", "torque of the engine"),
             ),

@@ -11,11 +11,13 @@ from mbs.elements.types import ElementType
 
 @dataclass(frozen=True)
 class Output:
-    """One value an element computes beside its force."""
+    """One value an element computes beside its force; `display_unit` is what engineers read it in, if not the unit."""
 
     name: str
     unit: str
     description: str
+    whole: bool = False
+    display_unit: str = ""
 
 
 @dataclass(frozen=True)

@@ -1,31 +1,69 @@
-"""Spring and damper between two points."""
+"""Spring and damper between two points, with stops."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import not_negative, size
+from mbs.elements.checks import not_negative, positive, size
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.types import ElementType
 
 
 @dataclass(frozen=True)
 class EndStops:
-    """Linear springs that act beyond two lengths; a stiffness of 0 switches one off.
+    """Stops that act beyond two lengths; a stiffness of 0 switches one off.
+
+    Over the compression x beyond its length a stop has the force ``k x (1 + (x/L)^2)``, and beyond its travel that of
+    metal on metal besides, which sets in as a parabola. Times ``1 + chi x'`` while it is compressed and
+    ``1/(1 - chi x')`` while it is let go (K. H. Hunt, F. R. E. Crossley, Journal of Applied Mechanics 42, 1975,
+    440-445, without their pull), it takes energy and never pulls. Without the last eight numbers it is linear.
 
     Parameters
     ----------
     bump_length, rebound_length : float
         Lengths, m, below and above which the stops act.
     bump_stiffness, rebound_stiffness : float
-        N/m.
+        k, N/m.
+    bump_progression, rebound_progression : float
+        L, m, the compression at which the stiffness is four times k; 0: linear.
+    bump_travel, rebound_travel : float
+        Compression at which metal meets metal, m.
+    metal_stiffness : float
+        N/m; 0: no metal end.
+    metal_onset : float
+        Depth over which it sets in, m.
+    bump_loss, rebound_loss : float
+        chi, s/m.
     """
 
     bump_length: float = 0.0
     bump_stiffness: float = 0.0
     rebound_length: float = 0.0
     rebound_stiffness: float = 0.0
+    bump_progression: float = 0.0
+    rebound_progression: float = 0.0
+    bump_travel: float = 0.0
+    rebound_travel: float = 0.0
+    metal_stiffness: float = 0.0
+    metal_onset: float = 0.001
+    bump_loss: float = 0.0
+    rebound_loss: float = 0.0
+
+    def progressive(self, what: str) -> dict[str, float]:
+        """Checked numbers beside lengths and stiffnesses, in the order of the kernel; none for linear stops."""
+        names = ("bump_progression", "bump_travel", "rebound_progression", "rebound_travel", "metal_stiffness")
+        numbers = {
+            name: not_negative(getattr(self, name), f"The {name.replace('_', ' ')} of {what}")
+            for name in (*names, "metal_onset", "bump_loss", "rebound_loss")
+        }
+        if not any(
+            v > 0.0 for name, v in numbers.items() if name not in ("metal_onset", "bump_travel", "rebound_travel")
+        ):
+            return {}
+        if self.metal_stiffness > 0.0:
+            positive(self.metal_onset, f"The metal onset of {what}")
+        return numbers
 
 
 @dataclass(frozen=True)
@@ -59,6 +97,7 @@ class SpringDamper:
             raise ValueError(
                 f"The bump length {bump:g} m of {what} must be less than the rebound length {rebound:g} m."
             )
+        progressive = stops.progressive(what)
         return ElementRecord(
             name,
             ElementType.SPRING_DAMPER,
@@ -71,6 +110,7 @@ class SpringDamper:
                 not_negative(stops.bump_stiffness, f"The bump stiffness of {what}"),
                 not_negative(rebound, f"The rebound length of {what}"),
                 not_negative(stops.rebound_stiffness, f"The rebound stiffness of {what}"),
+                *progressive.values(),
             ),
             outputs=(
                 Output("length", "m", "distance of the two points"),
@@ -85,5 +125,6 @@ class SpringDamper:
                 "bump_stiffness",
                 "rebound_length",
                 "rebound_stiffness",
+                *progressive,
             ),
         )

@@ -16,3 +16,5 @@ class ElementType(IntEnum):
     TYRE = 8
     BRAKE = 9
     AUTOMATIC_DRIVE = 10
+    CONTACT_POINTS = 11
+    SPIN_TORQUE = 12

@@ -10,7 +10,7 @@ import ctypes
 import math
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
 from pathlib import Path
 from typing import Any
@@ -39,6 +39,9 @@ OPEN = 1e-9
 """A row that is open by less, m, is not why something failed: ALI3_OPEN."""
 FARTHEST, FASTEST = 1e8, 1e6
 """Largest distance, m, and speed, m/s, of a start: ALI3_FARTHEST, ALI3_FASTEST."""
+
+NO_DOUBT, DOUBT_HALVINGS, DOUBT_BALANCE = range(3)
+"""Codes of `ali3_doubt`."""
 
 
 class KernelError(RuntimeError):
@@ -122,6 +125,27 @@ class ReportFields(Structure):
     )
 
 
+class ControlFields(Structure):
+    """`ali3_control`: what a controlled run is told, and what it counts."""
+
+    _fields_ = (
+        *((name, c_double) for name in ("tolerance", "length", "span", "rate", "longest", "h", "last")),
+        *((name, c_double) for name in ("usual", "smallest", "largest", "error_sum", "forced_error")),
+        *((name, c_int64) for name in ("accepted", "rejected", "failed", "forced", "kept", "side_steps")),
+    )
+
+
+class RecordFields(Structure):
+    """`ali3_record`."""
+
+    _fields_ = (
+        ("n", c_int64),
+        ("time", POINTER(c_double)),
+        ("sensors", POINTER(c_double)),
+        ("positions", POINTER(c_double)),
+    )
+
+
 class Sizes(Structure):
     """`ali3_sizes`: what a System has how many of."""
 
@@ -135,6 +159,21 @@ class Sizes(Structure):
 
 
 _DOUBLES = POINTER(c_double)
+_INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLES)
+
+
+class InputTable(Structure):
+    """`ali3_input_table`: an input over time, straight lines between its points."""
+
+    _fields_ = (("input", c_int32), ("n", c_int64), ("time", _DOUBLES), ("value", _DOUBLES))
+
+
+class InputTables(Structure):
+    """`ali3_input_tables`."""
+
+    _fields_ = (("tolerance", c_double), ("n", c_int32), ("table", POINTER(InputTable)))
+
+
 _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_status_text": (c_char_p, [c_int32]),
     "ali3_version": (c_uint32, []),
@@ -149,6 +188,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_get_settings": (c_int32, [c_void_p, POINTER(SettingsFields)]),
     "ali3_set_input": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_get_input": (c_int32, [c_void_p, c_int32, _DOUBLES]),
+    "ali3_set_input_function": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "ali3_set_parameter": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),
     "ali3_set_pose": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double]),
@@ -160,6 +200,19 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
     "ali3_step": (c_int32, [c_void_p, c_double]),
     "ali3_run": (c_int32, [c_void_p, c_double, c_int64, _DOUBLES, c_int64, _DOUBLES, POINTER(c_int64)]),
+    "ali3_control_run": (
+        c_int32,
+        [
+            c_void_p,
+            POINTER(ControlFields),
+            _DOUBLES,
+            c_double,
+            c_int64,
+            POINTER(RecordFields),
+            POINTER(c_int64),
+        ],
+    ),
+    "ali3_refresh": (c_int32, [c_void_p]),
     "ali3_sensors": (c_int32, [c_void_p, _DOUBLES]),
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
@@ -167,6 +220,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
     "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_time": (c_double, [c_void_p]),
+    "ali3_solver_value": (c_double, [c_void_p, c_int32]),
+    "ali3_run_doubt": (c_int32, [POINTER(ReportFields)]),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_state_restore": (c_int32, [c_void_p, c_char_p, c_size_t]),
@@ -291,6 +346,8 @@ class Instance:
         # Bound once: an attribute of the library costs more than the call of a small step.
         self._step = self._library.ali3_step
         self._sensors = self._library.ali3_sensors
+        self._inputs: Any = None  # keeps what the kernel calls and reads
+        self._input_error: BaseException | None = None
 
     def __del__(self) -> None:
         if self._handle is not None:
@@ -299,6 +356,9 @@ class Instance:
 
     def _check(self, status: int) -> None:
         if status:
+            error, self._input_error = self._input_error, None
+            if error is not None:
+                raise error
             raise KernelError(status, _status_text(self._library, status))
 
     def reset(self) -> None:
@@ -331,6 +391,51 @@ class Instance:
         value = c_double()
         self._check(self._library.ali3_get_input(self._handle, index, byref(value)))
         return value.value
+
+    def set_input_function(self, function: Callable[[float, bool, Any], None] | None) -> None:
+        """Inputs as a function of time, asked for at every time at which a method looks at them; None ends that.
+
+        Parameters
+        ----------
+        function : callable or None
+            Called with the time in s, whether the value behind a jump is meant, and a writable array of all inputs
+            that holds the present ones. What it raises ends the step and is raised by `step` or `run`.
+        """
+
+        def ask(_: Any, t: float, after: int, values: Any) -> int:
+            try:
+                function(t, bool(after), values)  # type: ignore[misc]
+            except BaseException as error:
+                self._input_error = error
+                return 1
+            return 0
+
+        callback = _INPUT_FUNCTION(ask) if function is not None else None
+        address = ctypes.cast(callback, c_void_p) if callback is not None else None
+        self._check(self._library.ali3_set_input_function(self._handle, address, None))
+        self._inputs = callback
+
+    def set_input_tables(self, tables: Mapping[int, tuple[Any, Any]], tolerance: float) -> None:
+        """The same from tables, without a call of Python.
+
+        Parameters
+        ----------
+        tables : mapping of int to (times, values)
+            Per number of an input two contiguous float64 buffers of equal length; times do not decrease.
+        tolerance : float
+            Times this near to a jump are at it, s.
+        """
+        kept, rows = [], []
+        for index, (times, values) in tables.items():
+            n = memoryview(times).nbytes // 8
+            arrays = [_buffer(part, n, "a table", writable=False) for part in (times, values)]
+            kept.append(arrays)
+            rows.append(InputTable(index, n, *(ctypes.cast(a, _DOUBLES) for a in arrays)))
+        table = (InputTable * len(rows))(*rows)
+        context = InputTables(tolerance, len(rows), table)
+        address = ctypes.cast(self._library.ali3_input_of_tables, c_void_p)
+        self._check(self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p)))
+        self._inputs = (context, table, kept)
 
     def set_parameter(self, index: int, value: float) -> None:
         """Value of a parameter from now on; refused outside its range."""
@@ -416,6 +521,60 @@ class Instance:
         self._check(self._library.ali3_run(self._handle, h, n, given, every, taken, byref(done)))
         return done.value
 
+    def control_run(
+        self,
+        control: ControlFields,
+        scale: Any,
+        t_end: float,
+        most_steps: int,
+        times: Any,
+        sensors: Any,
+        positions: Any,
+        done: int,
+    ) -> int:
+        """Steps whose errors add up to a tolerance, see `ali3_control_run`.
+
+        Parameters
+        ----------
+        control : ControlFields
+            Changed in place.
+        scale : buffer of float64, shape (nq,)
+            Size of a unit of each coordinate, m.
+        t_end : float
+            Time that is the end of a step, s.
+        most_steps : int
+            After so many accepted steps the call returns.
+        times : buffer of float64, shape (n,)
+            Times to record at, ascending.
+        sensors, positions : writable buffers of float64, shape (n, ns) and (n, nq)
+            Take the records; either may be None.
+        done : int
+            Rows that are already written.
+
+        Returns
+        -------
+        int
+            Rows written, those before included.
+        """
+        sizes, n = self.system.sizes, memoryview(times).nbytes // 8
+        rows = (
+            _buffer(times, n, "times", writable=False),
+            _buffer(sensors, n * sizes.ns, "sensors", writable=True),
+            _buffer(positions, n * sizes.nq, "positions", writable=True),
+        )
+        record = RecordFields(n, *(None if r is None else ctypes.cast(r, POINTER(c_double)) for r in rows))
+        written = c_int64(done)
+        lengths = _buffer(scale, sizes.nq, "scale", writable=False)
+        status = self._library.ali3_control_run(
+            self._handle, byref(control), lengths, t_end, most_steps, byref(record), byref(written)
+        )
+        self._check(status)
+        return written.value
+
+    def refresh(self) -> None:
+        """Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs."""
+        self._check(self._library.ali3_refresh(self._handle))
+
     def sensors(self, out: Any = None) -> Any:
         """Sensor values (ns,) at the present state, in a new C array or in `out`."""
         values = out if out is not None else (c_double * self.system.sizes.ns)()
@@ -429,6 +588,16 @@ class Instance:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def solver_value(self, kind: int) -> float:
+        """What the solver says about itself: number `kind` of ALI3_SOLVER_* in `ali3.h`."""
+        return float(self._library.ali3_solver_value(self._handle, kind))
+
+    def doubt(self) -> int:
+        """Whether the run says that it is wrong: one of NO_DOUBT, DOUBT_HALVINGS and DOUBT_BALANCE."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return int(self._library.ali3_run_doubt(byref(fields)))
 
     def energy_balance(self) -> float:
         """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""

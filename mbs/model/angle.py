@@ -10,7 +10,7 @@ from mbs.model.body import Body
 from mbs.model.checks import direction, number, perpendicular
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.equation import AnglePart, Equation, dot_products
-from mbs.model.joints.joint import Joint
+from mbs.model.joints.joint import Joint, Turn
 from mbs.model.joints.points import different
 
 
@@ -42,4 +42,6 @@ def relative_angle(
     e1, e2 = body_1.vector(x), body_1.vector(y)
     theta = model.new_coordinate(name, "angle", start)
     row = Equation(name, "angle", angle=AnglePart(theta, dot_products(v, e1), dot_products(v, e2)))
-    return Coordinate(name, theta, "rad"), Joint(name, "relative_angle", [row])
+    return Coordinate(name, theta, "rad"), Joint(
+        name, "relative_angle", [row], turn=Turn((body_1, body_2), axis, theta)
+    )

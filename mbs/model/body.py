@@ -112,6 +112,19 @@ class Body:
         moments[1:, 1:] = J
         return np.array(np.kron(moments, np.eye(3)), dtype=float)
 
+    def velocity_weight(self, linear: bool, angular: bool) -> NDArray[np.float64]:
+        """Weights (size, size) that a start velocity has of which these parts are given."""
+        if self.is_point or (linear and angular):
+            return self.mass_block()
+        d, block = self.dimension, np.zeros((self.size, self.size))
+        if linear:
+            block[:d, :d] = self.mass * np.eye(d)
+        if angular:
+            axes = slice(d, 4 if d == 2 else 12)
+            of_axes = self.mass_block()[axes, axes]
+            block[axes, axes] = (float(np.mean(np.diag(of_axes))) or self.mass) * np.eye(len(of_axes))
+        return block
+
     def reference(self) -> NDArray[np.float64]:
         """Full coordinates in the reference configuration, shape (size,)."""
         axes = np.eye(3).ravel() if self.dimension == 3 else np.array([1.0, 0.0])

@@ -63,15 +63,20 @@ class ModelCore:
     dimension : {2, 3}
     gravity : array_like, shape (dimension,)
         Acceleration of gravity in earth axes, m/s2.
+    length : float, optional
+        What the tolerance of a run is relative to, m; by default the extent of the drawing.
     """
 
-    def __init__(self, name: str, dimension: int = 3, gravity: ArrayLike | None = None) -> None:
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
         if dimension not in (2, 3):
             raise ModelError(f"The dimension of model '{name}' is {dimension!r}; it must be 2 or 3.")
         self.name = str(name)
         self.dimension = dimension
         fall = np.array([0.0, -9.81]) if dimension == 2 else np.array([0.0, 0.0, -9.81])
         self.gravity: Vector = fall if gravity is None else vector(gravity, dimension, f"gravity of model '{name}'")
+        self.length = None if length is None else positive(length, f"length of model '{name}'")
         self.floating = False
         self.grounded = False  # a joint ties something to the ground
         self.start_in_equilibrium = False
@@ -91,7 +96,7 @@ class ModelCore:
         self.roads: list[Any] = []
         self.sensors: list[Sensor] = []
         self.parameters: list[Parameter] = []
-        self.body_velocities: dict[int, tuple[Vector, Vector]] = {}
+        self.body_velocities: dict[int, tuple[Vector | None, Vector | None]] = {}  # None: left to the joints
         self.coordinate_rates: dict[int, float] = {}
         self._names: dict[str, set[str]] = {}
 
@@ -120,10 +125,8 @@ class ModelCore:
         if body.is_point:
             return body.point(position)  # type: ignore[arg-type]
         local = vector(position, self.dimension, f"the point of {what} on body '{body.name}'")  # type: ignore[arg-type]
-        if body.is_ground:
-            self.grounded = True
-        else:
-            body.joint_points.append(local - body.com)
+        self.grounded = self.grounded or body.is_ground
+        body.joint_points.append(local - body.com)
         return body.point(local)
 
     def anchor_axis(self, body: Body, axis: ArrayLike, what: str) -> AffineVector:
@@ -254,18 +257,23 @@ class ModelCore:
         return new
 
     def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
-        """Start velocity of a body at its centre of mass (m/s, earth axes) and its angular velocity (rad/s).
+        """Start velocity of a body: of its centre of mass (m/s, earth axes), its angular velocity (rad/s), or both.
 
-        Bodies without one take what the joints ask for with the least kinetic energy.
+        What is left out follows from the joints: of all velocities that have the given part, the start takes the one
+        with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
+        rest. What the joints do not allow of the given part is left away, as little of it as they ask for.
         """
         what = f"initial velocity of body '{getattr(body, 'name', body)}'"
         self.owned(body, f"The {what}")
         if body.is_ground or isinstance(body, Interface):
             raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
-        v = np.zeros(self.dimension) if linear is None else vector(linear, self.dimension, f"the linear {what}")
-        size = 1 if self.dimension == 2 else 3
-        given = np.zeros(size) if angular is None else np.atleast_1d(np.asarray(angular, dtype=float))
-        w = vector(given, size, f"the angular {what}")
+        d, size = self.dimension, 1 if self.dimension == 2 else 3
+        if linear is None and angular is None:
+            linear, angular = np.zeros(d), np.zeros(size)
+        v = None if linear is None else vector(linear, d, f"the linear {what}")
+        w = None if angular is None else vector(np.atleast_1d(np.asarray(angular, float)), size, f"the angular {what}")
+        if body.is_point and v is None:
+            raise ModelError(f"The {what} is angular; a point mass has a linear one only.")
         self.body_velocities[body.number] = (v, w)
 
     def initial_rate(self, coordinate: Coordinate, rate: float) -> None:

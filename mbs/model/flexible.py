@@ -141,6 +141,15 @@ class FlexibleBody(Body):
         block[12:, 12:] = self.integrals.modal_mass()
         return block
 
+    def velocity_weight(self, linear: bool, angular: bool) -> NDArray[np.float64]:
+        """As of a rigid body; the frame begins beside the centre of mass, and the modes stay as they are."""
+        block = super().velocity_weight(linear, angular)
+        if linear and not angular:
+            place = np.array([1.0, *(self.first_moment / self.mass)])
+            block[:12, :12] = self.mass * np.kron(np.outer(place, place), np.eye(3))
+        block[12:, 12:] = self.integrals.modal_mass()
+        return block
+
     def reference(self) -> NDArray[np.float64]:
         """Full coordinates in the reference configuration."""
         return np.concatenate([super().reference(), np.zeros(self.n_modes)])

@@ -11,16 +11,19 @@ from numpy.typing import ArrayLike
 from mbs.affine import AffineVector
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
+from mbs.elements.contact_points import ContactPoints
 from mbs.elements.drag import Drag
 from mbs.elements.input_force import InputForce
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.inputs import Input, owned_input
+from mbs.model.spin import Spin
 
 
 class ForceVocabulary(ModelCore):
@@ -93,10 +96,14 @@ class ForceVocabulary(ModelCore):
         return self.add(BodyTorque(self._numbers(channels, count, what), axes).record(name, frame))
 
     def torque_on(self, name: str, angle: Coordinate, *, input: Input, gain: float = 1.0) -> ElementRecord:
-        """Torque ``gain * input``, N m, on a relative angle (its first body takes the reaction) or on a spin."""
+        """Torque ``gain * input``, N m, on a relative angle or a spin; the first body of the angle or the carrier of
+        the spin takes the reaction.
+        """
         what = f"torque '{name}'"
         expression = self.expression(angle, f"The {what}")
         channel = owned_input(self, input, f"The {what}")
+        if isinstance(angle, Spin):
+            return self.add(SpinTorque(channel.index, gain).record(name, angle.f, angle.g, angle.affine))
         return self.add(InputForce(channel.index, (gain,)).record(name, [expression]))
 
     def drag(
@@ -109,6 +116,38 @@ class ForceVocabulary(ModelCore):
         """Add a road; the number is what a tyre asks for."""
         self.roads.append(road)
         return len(self.roads) - 1
+
+    def contact_points(
+        self, name: str, body: Body, points: ArrayLike, *, road: int, contact: ContactPoints
+    ) -> ElementRecord:
+        """Points of a body that touch a road, with friction.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 3)
+            Earth axes in the reference configuration, m.
+        road : int
+            Number of the road.
+        contact : ContactPoints
+            How they touch; `ContactPoints.for_mass` chooses numbers.
+        """
+        what = f"contact points '{name}'"
+        self.owned(body, f"The {what}")
+        if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
+            raise ModelError(f"The {what} need a rigid body in space, not '{body.name}'.")
+        if not 0 <= road < len(self.roads):
+            raise ModelError(f"The {what} ask for road {road!r}; the model has {len(self.roads)}.")
+        places = np.array(points, dtype=float)
+        if places.ndim != 2 or places.shape[1:] != (3,):
+            raise ModelError(f"The places of {what} have shape {places.shape}; they need (n, 3).")
+        axes = [body.vector(v) for v in np.eye(3)]
+        return self.add(contact.record(name, body.point(body.com), axes, places - body.com, road))
+
+    def contact_point(
+        self, name: str, body: Body, point: ArrayLike, *, road: int, contact: ContactPoints
+    ) -> ElementRecord:
+        """One point of a body (earth axes, reference configuration, m) that touches a road; see `contact_points`."""
+        return self.contact_points(name, body, np.atleast_2d(np.asarray(point, float)), road=road, contact=contact)
 
     def _end(self, end: Any, what: str) -> AffineVector:
         if isinstance(end, Body) and end.is_point:

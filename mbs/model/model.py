@@ -18,6 +18,7 @@ from mbs.model.flexible import FlexibleBody
 from mbs.model.forces import ForceVocabulary
 from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input
+from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joints.distance import distance
 from mbs.model.joints.drive import drive
 from mbs.model.joints.gear import gear
@@ -29,12 +30,11 @@ from mbs.model.joints.rolling import rolling, skate
 from mbs.model.joints.screw import Screw, screw
 from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
 from mbs.model.parameters import Parameter, new_parameter
-from mbs.model.sensors import SensorVocabulary
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin, spin
 
 
-class Model(ForceVocabulary, SensorVocabulary):
+class Model(ForceVocabulary, JointSensorVocabulary):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 
     Points, axes and inertias are given in earth axes in the reference configuration, as read off a drawing. Where the
@@ -48,6 +48,8 @@ class Model(ForceVocabulary, SensorVocabulary):
         Planar (x, y) or spatial.
     gravity : array_like, shape (dimension,), optional
         m/s2; by default 9.81 along -y (planar) or -z (spatial).
+    length : float, optional
+        What the tolerance of `simulate` is relative to, m; by default the extent of bodies and joints as drawn.
 
     Examples
     --------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,13 +15,18 @@ from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.flexible import FlexibleBody
-from mbs.model.joints.joint import SCALAR_FORCES, Joint
+from mbs.model.joints.joint import Joint
 from mbs.model.ports import PortedBody
+from mbs.model.reactions import Term
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
-SOLVER = ("iterations", "violation", "residual", "factorizations", "halvings", "status")
-SOLVER_UNITS = ("1", "m", "m", "1", "1", "1")
+SOLVER = (
+    *("iterations", "violation", "residual", "factorizations", "halvings", "status"),
+    *("energy_error", "energy_balance"),
+)
+SOLVER_UNITS = ("1", "m", "m", "1", "1", "1", "J", "1")
+SOLVER_WHOLE = ("iterations", "factorizations", "halvings", "status")
 RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
 
 
@@ -41,6 +46,14 @@ class Sensor:
         For joint forces: the joint whose kept rows are weighted; ``integers`` are then numbers of its equations.
     joints : sequence of Joint
         Joints whose three kept rows each come last among the integers.
+    terms : sequence of Term
+        Products with multipliers of `joint`, which make up all integers and reals.
+    whole : bool
+        Whether its values are whole numbers.
+    display_unit : str
+        What engineers read it in, if that is not `unit`.
+    notice : str
+        What a run tells when the value is not zero; empty: nothing.
     """
 
     name: str
@@ -52,6 +65,10 @@ class Sensor:
     reals: Sequence[float] = ()
     joint: Joint | None = None
     joints: Sequence[Joint] = ()
+    terms: Sequence[Term] = ()
+    whole: bool = False
+    display_unit: str = ""
+    notice: str = ""
 
 
 def component_number(component: Any, dimension: int, what: str) -> int:
@@ -82,9 +99,14 @@ class SensorVocabulary(ModelCore):
         reals: Sequence[float] = (),
         joint: Joint | None = None,
         joints: Sequence[Joint] = (),
+        terms: Sequence[Term] = (),
+        whole: bool = False,
+        display_unit: str = "",
     ) -> Sensor:
         self.unique("sensor", name)
-        sensor = Sensor(name, unit, description, type, signals, integers, reals, joint, joints)
+        sensor = Sensor(
+            name, unit, description, type, signals, integers, reals, joint, joints, terms, whole, display_unit
+        )
         self.sensors.append(sensor)
         return sensor
 
@@ -177,6 +199,7 @@ class SensorVocabulary(ModelCore):
         scale: float = 1.0,
         unit: str = "",
         description: str = "",
+        display_unit: str = "",
     ) -> Sensor:
         """A coordinate (relative angle, spin) or any affine expression, its rate (order 1) or second rate (order 2)."""
         if order not in (0, 1, 2):
@@ -184,7 +207,20 @@ class SensorVocabulary(ModelCore):
         expression = self.expression(coordinate, f"The sensor '{name}'")
         if not unit:
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
-        return self._sense(name, unit, description, order, [expression], reals=[scale])
+        return self._sense(name, unit, description, order, [expression], reals=[scale], display_unit=display_unit)
+
+    def notice(self, sensor: Sensor, text: str) -> Sensor:
+        """Let a run say `text` when a sensor is not zero: what a user should hear of without looking at every output.
+
+        `Trajectory.notices` has the sentence with the first time and the largest value; the run goes on.
+        """
+        if sensor not in self.sensors or not isinstance(text, str) or not text.strip():
+            raise ModelError(
+                f"A notice of model {self.name!r} needs a sensor and a sentence, got {sensor!r}, {text!r}."
+            )
+        told = replace(sensor, notice=text)
+        self.sensors[self.sensors.index(sensor)] = told
+        return told
 
     def sense_recovery(
         self, name: str, body: FlexibleBody, weights: ArrayLike, unit: str = "", description: str = ""
@@ -284,52 +320,14 @@ class SensorVocabulary(ModelCore):
                             8,
                             integers=[index, k],
                             reals=[scale],
+                            whole=out.whole and scale == 1.0,
+                            display_unit=out.display_unit if not unit else "",
                         )
                 known = ", ".join(o.name for o in record.outputs) or "none"
                 raise ModelError(
                     f"The sensor '{name}' asks for '{output}' of element '{element_name}', which has: {known}."
                 )
         raise ModelError(f"The sensor '{name}' asks for element '{element_name}', but the model has no such element.")
-
-    def sense_joint_force(
-        self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
-    ) -> Sensor:
-        """Force of a joint on its first body: a component in earth axes at a shared point or from a line of the
-        ground, "tension" of a distance, "drive" of a drive, "torque" of a gear on its first wheel, "force" of a rack
-        on its body and of a screw on its first body, both along the axis.
-
-        The equations of the joint stay rows of the System, so that the multipliers exist.
-        """
-        found = self.joint_named(joint) if isinstance(joint, str) else joint
-        if found not in self.joints:
-            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {joint!r}.")
-        rows = found.force_equations
-        if not rows:
-            raise ModelError(
-                f"The joint '{found.name}' ({found.type}) has no force reading; points, lines of the ground, "
-                "distances, driven coordinates, gears, racks and screws have one."
-            )
-        if found.normals:
-            k = component_number(component, self.dimension, f"sensor '{name}'")
-            if any(n[k].terms for n in found.normals):
-                raise ModelError(
-                    f"The line of joint '{found.name}' turns with its second body; "
-                    "only a line of the ground, as second body, has components in earth axes."
-                )
-            rows, weights = list(rows), [-n[k].constant for n in found.normals]
-        elif found.type in SCALAR_FORCES:
-            expected = SCALAR_FORCES[found.type]
-            if component not in (expected, "x"):
-                raise ModelError(
-                    f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
-                )
-            rows, weights = rows[:1], [found.rows_weight if found.type == "distance" else -found.rows_weight]
-        else:
-            k = component_number(component, self.dimension, f"sensor '{name}'")
-            rows, weights = rows[k : k + 1], [-found.rows_weight]
-        found.keep = True
-        unit = unit or ("N m" if found.type == "gear" else "N")
-        return self._sense(name, unit, description, 9, integers=rows, reals=weights, joint=found)
 
     def sense_quasi_static(
         self,
@@ -365,9 +363,11 @@ class SensorVocabulary(ModelCore):
         reals = [*self.gravity, *weights]
         return self._sense(name, unit, description, 17, signals, [n], reals, joints=list(body.ports.values()))
 
-    def sense_constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Sensor:
-        """A number that does not change."""
-        return self._sense(name, unit, description, 0, [Affine({}, 1.0)], reals=[float(value)])
+    def sense_constant(
+        self, name: str, value: float, unit: str = "1", description: str = "", whole: bool = False
+    ) -> Sensor:
+        """A number that does not change; `whole`: an integer for an FMU."""
+        return self._sense(name, unit, description, 0, [Affine({}, 1.0)], reals=[float(value)], whole=whole)
 
     def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
         """ "kinetic", "gravity", "elastic" or "total" energy, J."""
@@ -390,11 +390,21 @@ class SensorVocabulary(ModelCore):
         return self._sense(name, unit or guide.unit, description, 12, integers=[guide.index, order], reals=[scale])
 
     def sense_solver(self, name: str, kind: str, description: str = "") -> Sensor:
-        """Health of the solver: "iterations", "violation", "residual", "factorizations", "halvings" or "status"."""
+        """What the solver says about itself.
+
+        Parameters
+        ----------
+        name : str
+        kind : str
+            "iterations" and "status" of the last step, "violation" (m) and "residual" (m) after it; since the start
+            "factorizations", "halvings", "energy_error" (J, what the steps gave where no force did) and
+            "energy_balance" (the same over the largest kinetic energy and the work).
+        description : str
+        """
         if kind not in SOLVER:
             raise ModelError(f"The solver sensor '{name}' asks for {kind!r}; it must be one of {', '.join(SOLVER)}.")
         k = SOLVER.index(kind)
-        return self._sense(name, SOLVER_UNITS[k], description, 13, integers=[k])
+        return self._sense(name, SOLVER_UNITS[k], description, 13, integers=[k], whole=kind in SOLVER_WHOLE)
 
     def _spatial_only(self, name: str) -> None:
         if self.dimension == 2:

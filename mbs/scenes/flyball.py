@@ -31,8 +31,8 @@ def build() -> Model:
     m.revolute("bearing", m.ground, shaft, point=(0, 0, 0), axis=(0, 0, 1))
     slider = m.body("slider", mass=cube, com=(0, 0, SLIDER_HEIGHT), inertia=[cube * SLIDER_SIDE**2 / 6.0] * 3)
     m.prismatic("guide", slider, shaft, axis=(0, 0, 1))
-    m.initial_velocity(shaft, angular=(0, 0, SPIN))
-    m.initial_velocity(slider, angular=(0, 0, SPIN))
+    m.initial_velocity(shaft, (0, 0, 0), (0, 0, SPIN))
+    m.initial_velocity(slider, (0, 0, 0), (0, 0, SPIN))
     for side, sign in (("right", 1.0), ("left", -1.0)):
         along = np.array([sign * cos(DROP), 0.0, -sin(DROP)])
         hinge = np.array([sign * OFFSET, 0.0, LENGTH])

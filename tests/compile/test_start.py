@@ -86,7 +86,7 @@ def test_velocities_against_the_joints_are_projected():
     m = Model("pin", dimension=2)
     body = m.body("bar", mass=2.0, com=(0.5, 0), inertia=2.0 / 12.0)
     m.revolute("pin", m.ground, body, point=(0, 0))
-    m.initial_velocity(body, linear=(5.0, 1.0))
+    m.initial_velocity(body, linear=(5.0, 1.0), angular=0.0)
     m.sense_angular_rate("rate", body)
     # least change in kinetic energy: angular momentum about the pin is kept, (2/3) w = 2 * 0.5 * 1
     assert Simulation(compile(m)).sensors["rate"] == pytest.approx(1.5, rel=1e-9)
@@ -116,3 +116,79 @@ def test_the_kernel_finds_nothing_to_correct():
         state = Simulation(system).state
         np.testing.assert_allclose(state.q, system.arrays["q0"], rtol=0, atol=1e-9)
         np.testing.assert_allclose(state.qd, system.arrays["qd0"], rtol=0, atol=1e-9)
+
+
+# --- parts of a start velocity ---
+def pendulum_at(angle, **given):
+    m = Model("pendulum", dimension=2)
+    place = 0.5 * np.array([np.sin(angle), -np.cos(angle)])
+    rod = m.body("rod", mass=2.0, com=place, inertia=0.17)
+    m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
+    m.initial_velocity(rod, **given)
+    m.sense_angular_rate("rate", rod)
+    return Simulation(compile(m)).sensors["rate"]
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.7, 2.0])
+def test_a_pendulum_turns_as_fast_as_it_is_told(angle):
+    assert pendulum_at(angle, angular=10.0) == pytest.approx(10.0, rel=1e-9)
+    along = np.array([np.cos(angle), np.sin(angle)])
+    assert pendulum_at(angle, linear=5.0 * along) == pytest.approx(10.0, rel=1e-9)
+    assert pendulum_at(angle, linear=5.0 * along, angular=10.0) == pytest.approx(10.0, rel=1e-9)
+    assert pendulum_at(angle) == 0.0
+
+
+def test_a_part_that_the_joints_do_not_allow_is_left_away():
+    """Along the rod nothing moves; with both parts given the nearest in the metric of the mass is taken."""
+    assert pendulum_at(0.0, linear=(5.0, 3.0)) == pytest.approx(10.0, rel=1e-9)
+    assert pendulum_at(0.0, linear=(0.0, 0.0), angular=10.0) == pytest.approx(10.0 * 0.17 / 0.67, rel=1e-9)
+
+
+def test_the_crank_of_a_four_bar_turns_as_fast_as_it_is_told():
+    m = Model("four-bar", dimension=2)
+    points = {"A": (0.0, 0.0), "B": (0.0, 1.0), "C": (2.0, 1.6), "D": (2.0, 0.0)}
+    bars = {}
+    for name, (p, q) in {"crank": "AB", "coupler": "BC", "rocker": "CD"}.items():
+        p, q = np.array(points[p]), np.array(points[q])
+        bars[name] = m.body(name, mass=2.0, com=0.5 * (p + q), inertia=2.0 * np.dot(q - p, q - p) / 12.0)
+    m.revolute("A", m.ground, bars["crank"], point=points["A"])
+    m.revolute("B", bars["crank"], bars["coupler"], point=points["B"])
+    m.revolute("C", bars["coupler"], bars["rocker"], point=points["C"])
+    m.revolute("D", m.ground, bars["rocker"], point=points["D"])
+    m.initial_velocity(bars["crank"], angular=10.0)
+    for name, bar in bars.items():
+        m.sense_angular_rate(name, bar)
+    rate = Simulation(compile(m)).sensors
+    assert rate["crank"] == pytest.approx(10.0, rel=1e-9)
+    # loop equations: velocities of B and C along x, y
+    a = np.array([[-0.6, 1.6], [2.0, 0.0]])  # w_coupler x (C - B) = w_rocker x (C - D) - w_crank x (B - A)
+    coupler, rocker = np.linalg.solve(a, [10.0, 0.0])
+    assert rate["coupler"] == pytest.approx(coupler, rel=1e-9, abs=1e-9)
+    assert rate["rocker"] == pytest.approx(rocker, rel=1e-9)
+
+
+def test_a_free_body_does_only_what_it_is_told():
+    """A wheel on its carrier moves the common centre of mass; what is not given stays as without joints."""
+    for given, linear, angular in (
+        ({"linear": (3.0, 1.0, 0.0)}, (3.0, 1.0, 0.0), (0.0, 0.0, 0.0)),
+        ({"angular": (1.0, 2.0, -3.0)}, (0.0, 0.0, 0.0), (1.0, 2.0, -3.0)),
+    ):
+        m = Model("free", gravity=(0.0, 0.0, 0.0))
+        body = m.body("body", mass=3.0, com=(1.0, 2.0, 3.0), inertia=(0.3, 0.4, 0.5))
+        m.spin(
+            "wheel", carrier=body, centre=(1.5, 2.0, 3.0), axis=(0.0, 1.0, 0.0), mass=1.0, spin_inertia=0.05,
+            diametral_inertia=0.03,
+        )  # fmt: skip
+        m.initial_velocity(body, **given)
+        for c in "xyz":
+            m.sense_velocity(f"v{c}", body, None, c)
+            m.sense_angular_rate(f"w{c}", body, c)
+        found = Simulation(compile(m)).sensors
+        np.testing.assert_allclose([found[f"v{c}"] for c in "xyz"], linear, atol=1e-9)
+        np.testing.assert_allclose([found[f"w{c}"] for c in "xyz"], angular, atol=1e-9)
+
+
+def test_a_point_mass_has_no_angular_velocity():
+    m = Model("point", dimension=2)
+    with pytest.raises(ModelError, match="a point mass has a linear one only"):
+        m.initial_velocity(m.point_mass("p", mass=1.0, position=(0.0, 0.0)), angular=3.0)

@@ -77,6 +77,7 @@ def test_modelling_page_runs(tmp_path):
     printed = run(code, tmp_path)
     assert "degrees of freedom           1" in printed
     assert "Trajectory(2001 samples" in printed
+    assert "the crank has turned 758.63 rad" in printed
 
 
 def test_readme_lists_the_manoeuvres_and_the_scene_of_ones_own():

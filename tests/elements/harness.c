@@ -12,7 +12,8 @@
 #endif
 
 extern const ali3_element_type ali3_spring_damper, ali3_scalar_spring_damper, ali3_input_force, ali3_body_force,
-    ali3_body_torque, ali3_gyroscopic_spin, ali3_drag, ali3_tyre, ali3_brake, ali3_automatic_drive;
+    ali3_body_torque, ali3_gyroscopic_spin, ali3_drag, ali3_tyre, ali3_brake, ali3_automatic_drive, ali3_contact_points,
+    ali3_spin_torque;
 
 static const ali3_element_type *type_of(int32_t type) {
   const ali3_element_type *all[] = {0,
@@ -25,7 +26,9 @@ static const ali3_element_type *type_of(int32_t type) {
                                     &ali3_drag,
                                     &ali3_tyre,
                                     &ali3_brake,
-                                    &ali3_automatic_drive};
+                                    &ali3_automatic_drive,
+                                    &ali3_contact_points,
+                                    &ali3_spin_torque};
   return all[type];
 }
 
@@ -34,7 +37,7 @@ EXPORT int32_t harness_sizes_match(int32_t type, const int32_t sizes[5]) {
   const ali3_element_type *t = type_of(type);
   const int32_t want[5] = {t->nsig, t->nreal, t->nint, t->nstate, t->nout};
   for (int i = 0; i < 5; i++)
-    if (want[i] >= 0 && want[i] != sizes[i]) return 0;
+    if (want[i] >= 0 && want[i] != sizes[i]) return 0; /* below 0: any, or a number for each item */
   return 1;
 }
 
@@ -50,8 +53,8 @@ EXPORT double harness_evaluate(int32_t type, int32_t accepted, const int32_t siz
                                int32_t road_nreal, const double *road_real, double *f, double *S, double *out) {
   const ali3_element_type *t = type_of(type);
   const ali3_road road = {road_type, road_nreal, road_real};
-  ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u,     ud, y_old, y_new, h,
-                         wC,       wK,       real,     integer,  input,    &road, f,  S,     out,   0.0};
+  ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u, ud, y_old, y_new, h, wC,
+                         wK,       real,     integer,  input,    &road,    f, S,  out,   0.0,   0};
   memset(f, 0, (size_t)sizes[0] * sizeof *f);
   if (S) memset(S, 0, (size_t)(sizes[0] * sizes[0]) * sizeof *S);
   t->evaluate(&a);

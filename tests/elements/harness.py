@@ -31,7 +31,10 @@ SOURCES = (
     "tyre",
     "tmeasy",
     "brake",
+    "contact_law",
+    "contact_points",
     "automatic_drive",
+    "spin_torque",
     "road",
     "elementary",
 )

@@ -18,6 +18,7 @@ from mbs.elements import (
     KerbRoad,
     PlaneRoad,
     ScalarSpringDamper,
+    SpinTorque,
     SpringDamper,
 )
 from tests.elements.harness import Element, contacts, signals, vectors
@@ -43,6 +44,7 @@ def elements() -> dict[str, Element]:
         "body force": Element(BodyForce((0, 1, None)).record("f", p, (a, b, c))),
         "body torque": Element(BodyTorque((0, 1, 2), "body").record("t", vectors(3, 3, 3))),
         "gyroscopic spin": Element(GyroscopicSpin(0.5).record("g", f, g, chi[0])),
+        "spin torque": Element(SpinTorque(1, 2.0).record("t", f, g, chi[0])),
         "drag": Element(Drag(0.8).record("d", p)),
         "brake": Element(Brake(650.0, 2e5, 600.0).record("b", f, g, chi[0], 0)),
         "drive": Element(AutomaticDrive(110.0, 5e4).record("a", left[0], right[0], f2, g2, 0)),

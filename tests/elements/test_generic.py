@@ -15,6 +15,7 @@ from mbs.elements import (
     GyroscopicSpin,
     InputForce,
     ScalarSpringDamper,
+    SpinTorque,
     SpringDamper,
 )
 from tests.elements.harness import Element, frame, signals, tangent_by_differences, vectors
@@ -51,6 +52,7 @@ def elements() -> dict[str, Element]:
         "torque in body axes": Element(BodyTorque((0, 1, 2), "body").record("t", vectors(3, 3, 3))),
         "torque in the plane": Element(BodyTorque((1,)).record("t", vectors(2))),
         "gyroscopic spin": Element(GyroscopicSpin(0.55).record("g", f, g, chi[0])),
+        "spin torque": Element(SpinTorque(1, 1.5).record("t", f, g, chi[0])),
         "drag in space": Element(Drag(0.8).record("d", p)),
         "drag in the plane": Element(Drag(0.8).record("d", p2)),
     }

@@ -376,3 +376,35 @@ def test_kernel_checks_tyre_data(change: dict[str, float], word: str) -> None:
     element.element = replace(element.element, real=real)
     assert word in (element.check() or "")
     assert "road that does not exist" in (tyre_element().check(n_roads=0) or "")
+
+
+@pytest.mark.parametrize("sine", [0.0, 0.1, 0.3, 0.49, 0.51, 0.8])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_wheel_on_its_side_or_upside_down_is_pushed_off_the_road(sine, side):
+    """The radial force is the gradient of its energy at every lean, and never pulls; a flat wheel has a width."""
+    element, cosine = tyre_element(), np.sqrt(1.0 - sine**2)
+    radius = element.element.real[0]
+    divisor = sine if sine > 0.5 else 0.25 * (1.0 + 4.0 * sine**2)
+    for depth in (-0.01, 0.02, 1.2 * radius):  # the last with its centre below the road
+        height = (radius - depth) * divisor
+        u = np.array([0.0, 0.0, height, 0.0, side * sine, cosine, 0.0])
+        r = element(u, np.zeros(7))
+        if depth < 0.0:
+            assert r.out["vertical_force"] == 0.0
+            continue
+        assert r.out["vertical_force"] > 0.0
+        assert r.f[2] == pytest.approx(r.out["vertical_force"])
+        slope = []
+        for k in range(6):
+            d = np.zeros(7)
+            d[k] = 1e-7
+            up, down = (element(_unit(u + s * d), np.zeros(7)).potential for s in (1.0, -1.0))
+            slope.append((up - down) / 2e-7)
+        axis = u[3:6]
+        turned = r.f[3:6] - (r.f[3:6] @ axis) * axis
+        assert np.allclose(r.f[:3], -np.array(slope[:3]), rtol=1e-4, atol=1.0)
+        assert np.allclose(turned, -np.array(slope[3:]), rtol=1e-3, atol=0.002 * np.abs(r.f).max() + 1.0)
+
+
+def _unit(u):
+    return np.r_[u[:3], u[3:6] / np.linalg.norm(u[3:6]), u[6]]

@@ -28,8 +28,9 @@ def _stored(name: str) -> np.ndarray:
     return np.loadtxt(REFERENCE / f"{name}.csv", delimiter=",", skiprows=2)
 
 
-def _spin_run(parts: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    run = simulate(compile(spinning_beam.build(parts)), spinning_beam.DURATION, 0.01, progress=False)
+def _spin_run(parts: int, check: bool | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    beam = compile(spinning_beam.build(parts))
+    run = simulate(beam, spinning_beam.DURATION, 0.01, progress=False, estimate_error=check)
     return run.t, *spinning_beam.in_turning_axes(run.t, run["tip.x"], run["tip.y"])
 
 
@@ -51,7 +52,7 @@ def test_spin_up_converges_with_the_parts() -> None:
 
 def test_spin_up_in_one_part_buckles() -> None:
     """With one floating frame the tension never arises: the tip leaves the beam's axis by metres."""
-    assert np.max(np.abs(_spin_run(1)[2])) > 1.0
+    assert np.max(np.abs(_spin_run(1, check=False)[2])) > 1.0
 
 
 @pytest.mark.parametrize(("parts", "most"), [(1, 0.012), (4, 0.003)])

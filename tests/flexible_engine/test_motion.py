@@ -69,7 +69,8 @@ def test_joints_hold_a_flexible_body_to_a_rigid_one_exactly() -> None:
     for name, gap in gaps:
         m.sense_coordinate(name, gap)
     m.sense_position("tip.z", beam, (0.5, 0, 0), "z")
-    run = simulate(compile(m), 0.5, 0.005, progress=False)
+    # the vibration of the bar is too fast for the step
+    run = simulate(compile(m), 0.5, 0.005, progress=False, estimate_error=False)
     assert np.ptp(run["tip.z"]) > 5e-4
     for name, _ in gaps:
         assert np.max(np.abs(run[name])) < 1e-11

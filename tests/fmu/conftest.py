@@ -22,6 +22,7 @@ from fmu_src.scene_registry import load_scene
 SCENES = Path(__file__).parent / "scenes.py"
 PLATFORM = fmpy.platform
 OK, WARNING, DISCARD, ERROR = range(4)
+SOLVER = ("solver.status", "solver.halvings", "solver.energy_error", "solver.energy_balance")
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -157,7 +158,10 @@ class Host:
         return float(self.slave.getReal([self.references[name]])[0])
 
     def outputs(self) -> list[float]:
+        """Those that are sensors of the scene, whole ones as real numbers; the solver's figures come after."""
         names = [v.name for v in self.description.modelVariables if v.causality == "output"]
+        while names[-1] in SOLVER:
+            names.pop()
         return list(self.slave.getReal([self.references[n] for n in names]))
 
     def step(self, time: float, step: float) -> int:

@@ -52,3 +52,39 @@ def sled() -> mbs.Model:
     m.sense_yaw("chassis.yaw", body)
     m.sense_norm("speed", body.point((0.3, 0.0)), 1, "m/s")
     return m
+
+
+def turned_rail() -> mbs.Model:
+    """Forces and moments that are products of multipliers and places."""
+    m = mbs.Model("turned_rail", dimension=2)
+    rail = m.body("rail", mass=2.0, com=(0.5, 0.0), inertia=0.2)
+    m.revolute("hinge", m.ground, rail, point=(0.0, 0.0))
+    slider = m.body("slider", mass=0.7, com=(0.4, 0.1), inertia=0.02)
+    m.prismatic("slide", slider, rail, axis=(1.0, 0.0), point=(0.5, 0.1))
+    m.torque("motor", rail, inputs=m.input("torque", min=-30.0, max=30.0, unit="N.m"))
+    load = m.point_mass("load", mass=0.5, position=(1.0, -1.0))
+    m.drive("winch", ((slider, (0.5, 0.1)), load), m.guide_time("rope", ([0.0, 1.0], [1.2, 0.9]), unit="m"))
+    for c in "xy":
+        m.sense_joint_force(f"slide.{c}", "slide", c)
+    m.sense_joint_moment("slide.moment", "slide")
+    m.sense_joint_moment("rail.moment", "slide", on="second")
+    m.sense_joint_force("winch.tension", "winch", "tension")
+    return m
+
+
+def crank_slider() -> mbs.Model:
+    """The model of docs/modelling.md: its crank turns ever faster, and its steps lose energy."""
+    m = mbs.Model("crank slider", dimension=2)
+    crank = m.body("crank", mass=1.0, com=(0.05, 0.0), inertia=0.001)
+    rod = m.body("rod", mass=0.5, com=(0.25, 0.0), inertia=0.004)
+    piston = m.point_mass("piston", mass=0.8, position=(0.4, 0.0))
+    m.revolute("main bearing", m.ground, crank, point=(0.0, 0.0))
+    m.revolute("big end", crank, rod, point=(0.1, 0.0))
+    m.spherical("small end", rod, piston, point=(0.4, 0.0))
+    m.point_on_line("bore", (piston, None), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
+    angle = m.relative_angle("crank angle", m.ground, crank)
+    torque = m.input("torque", unit="N m", description="Torque on the crank")
+    m.torque_on("motor", angle, input=torque)
+    m.sense_coordinate("crank.angle", angle, description="Angle of the crank, not wrapped")
+    m.sense_input("torque_used", torque)
+    return m

@@ -43,7 +43,8 @@ def values(fmu: Fmu, steps: int = 0, begin: int = 0) -> list[float]:
 def test_the_description_offers_the_rungs(kerb: Path) -> None:
     assert validate_fmu(str(kerb)) == []
     (v,) = (v for v in read_model_description(str(kerb)).modelVariables if v.name == "fidelity")
-    assert (v.causality, v.variability, v.start, v.min, v.max) == ("parameter", "fixed", "3.0", "0.0", "3.0")
+    assert (v.causality, v.variability, v.start, v.min, v.max) == ("parameter", "fixed", "3", "0", "3")
+    assert v.type == "Integer"
 
 
 @pytest.mark.parametrize("fidelity", [0, 1, 2, 3])

@@ -16,6 +16,7 @@ import mbs
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
 from mbs.simulation import Pose
+from tests.fmu import scenes
 
 HostMaker = Callable[..., Any]
 STEP, SPEED = 0.01, 12.0
@@ -96,6 +97,29 @@ def test_random_communication_steps(build: Callable[..., Path], host: HostMaker)
             rows.append(driven.outputs())
         ends.append(rows)
     assert ends[0] == ends[1]
+
+
+def test_forces_and_moments_of_joints_that_turn(build: Callable[..., Path], host: HostMaker) -> None:
+    """The same bits as the engine, and their derivatives by an input those of differences."""
+    names = ["slide.x", "slide.y", "slide.moment", "rail.moment", "winch.tension"]
+    driven, simulation = host(build("turned_rail")).start(), mbs.Simulation(mbs.compile(scenes.turned_rail()))
+    inner = simulation.system.meta["experiment"]["step_s"]
+    for k in range(30):
+        driven.set("torque", float(k))
+        simulation.set_input("torque", float(k))
+        assert driven.step(k * inner, inner) == OK
+        simulation.step(inner)
+    assert [driven.get(n) for n in names] == [simulation.sensors[n] for n in names]
+    references, state, ends = [driven.references[n] for n in names], driven.slave.getFMUstate(), []
+    for sign in (1.0, -1.0, 0.0):
+        driven.slave.setFMUstate(state)
+        driven.set("torque", 10.0 + 1e-2 * sign)
+        assert driven.step(30 * inner, inner) == OK
+        ends.append(np.array(driven.slave.getReal(references)))
+    expected = (ends[0] - ends[1]) / 2e-2
+    found = driven.slave.getDirectionalDerivative(references, [driven.references["torque"]], [1.0])
+    assert np.allclose(found, expected, rtol=1e-3, atol=1e-4 * np.max(np.abs(expected)))
+    assert np.min(np.abs(expected)) > 1e-3
 
 
 def test_a_tunable_parameter_takes_effect_at_the_next_step(
@@ -191,3 +215,21 @@ def test_a_start_below_the_road_is_refused_and_can_be_put_right(
     assert driven.call("exitInitializationMode") == OK
     assert driven.get("wheel_RL.Fz") == driven.get("wheel_FR.Fz") == 0.0
     driven.run(3, STEP)
+
+
+@pytest.mark.parametrize("kind", ["native", "python"])
+@pytest.mark.parametrize(("name", "unit"), [("initial.x", "m"), ("initial.speed", "m/s")])
+def test_a_start_beyond_the_digits_is_refused_by_its_name(
+    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, kind: str, name: str, unit: str
+) -> None:
+    driven = host(cars[1][kind])
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
+    assert driven.set(name, 1e300) == OK
+    assert driven.call("exitInitializationMode") == ERROR
+    said = driven.messages[-1]
+    assert "too far away or too fast" in said
+    assert said.endswith(f" '{name}' is 1e+300 {unit}.")
+    assert "wishbone" not in said
+    assert driven.set(name, 0.0) == OK
+    assert driven.call("exitInitializationMode") == OK

@@ -78,7 +78,7 @@ def test_documentation_and_picture(build: Callable[..., Path]) -> None:
     picture = read(fmu, "model.png")
     assert picture.startswith(b"\x89PNG")
     assert struct.unpack_from(">2I", picture, 16) == (200, 150)
-    assert b"Redistribution" in read(fmu, "documentation/licenses/ALi3.txt")
+    assert b"Redistribution" in read(fmu, "documentation/licenses/license.txt")
 
 
 def test_types_are_declared_with_their_ranges(build: Callable[..., Path]) -> None:
@@ -87,6 +87,7 @@ def test_types_are_declared_with_their_ranges(build: Callable[..., Path]) -> Non
     torque = by_name["torque"].declaredType
     assert (torque.quantity, torque.unit, torque.min, torque.max) == ("Torque", "N.m", "-30.0", "30.0")
     assert by_name["rod.angle"].declaredType.displayUnit == "deg"
+    assert by_name["solver.halvings"].type == by_name["solver.halvings"].declaredType.type == "Integer"
     assert all(v.declaredType is not None and v.declaredType.unit == v.unit for v in description.modelVariables)
 
 

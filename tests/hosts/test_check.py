@@ -14,7 +14,7 @@ from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
 
 ROOT = Path(__file__).parents[2]
-CHECKS = 13
+CHECKS = 26
 
 
 @pytest.fixture(scope="module")

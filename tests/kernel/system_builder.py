@@ -16,6 +16,7 @@ REALS = {
     "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed", "sen_real",
     "velocity_h", "flex_gravity", "flex_P", "flex_c", "flex_T", "flex_K", "flex_C",
     "tree_base", "tree_mass", "tree_centre", "tree_inertia", "tree_gravity", "tree_out_local", "tree_cut_place",
+    "tree_angle_sign", "tree_angle_inertia",
     "static_value",
 }  # fmt: skip
 INTS = {
@@ -28,6 +29,7 @@ INTS = {
     "par_ptr", "par_target", "par_index", "sen_type", "sen_int_ptr", "sen_int", "sen_real_ptr",
     "flex_mode_ptr", "flex_frame", "flex_mode", "flex_front", "flex_loc",
     "tree_parent", "tree_slides", "tree_frame", "tree_out_body", "tree_out_col", "tree_cut_body", "tree_cut_rows",
+    "tree_angle_col", "tree_angle_ptr", "tree_angle_joint",
     "mode_triad_ptr", "mode_triad", "mode_cell_ptr", "mode_cell", "mode_name_ptr", "mode_name",
     "static_start", "static_par", "pose_partner",
 }  # fmt: skip

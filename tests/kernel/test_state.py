@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -161,3 +162,43 @@ def test_arguments_out_of_range_are_refused() -> None:
     assert bits(instance) == before
     instance.set_input(0, 5.0)
     assert instance.get_input(0) == 1.0  # clamped to its range
+
+
+def forged(saved: bytes, at: int, value: float) -> bytes:
+    """The number at a place replaced, under a checksum that fits."""
+    data = bytearray(saved)
+    data[at : at + 8] = np.float64(value).tobytes()
+    data[24:28] = np.uint32(zlib.crc32(bytes(data[28:]))).tobytes()
+    return bytes(data)
+
+
+def test_an_input_out_of_its_range_is_refused_under_a_right_checksum() -> None:
+    instance = moving()
+    saved, sizes = instance.save(), instance.system.sizes
+    at = len(saved) - 8 * (sizes.np + sizes.nu)
+    assert np.frombuffer(saved[at : at + 8])[0] == instance.get_input(0) == 0.4
+    before = bits(instance)
+    for bad in (1e9, -1e9, np.inf, np.nan):
+        with pytest.raises(KernelError) as caught:
+            instance.restore(forged(saved, at, bad))
+        assert caught.value.status == binding.BAD_STATE
+    assert bits(instance) == before
+    instance.restore(forged(saved, at, 0.3))
+    assert instance.get_input(0) == 0.3
+
+
+def test_forged_numbers_never_give_infinite_outputs() -> None:
+    instance = moving()
+    saved = instance.save()
+    rng = np.random.default_rng(SEED)
+    taken = 0
+    for _ in range(1500):
+        at = 40 + 8 * int(rng.integers((len(saved) - 40) // 8))
+        value = float(rng.choice([1e300, -1e200, 1e155, 1e100, 1e30, -1e10, np.inf]))
+        try:
+            instance.restore(forged(saved, at, value))
+        except KernelError:
+            continue
+        taken += 1
+        assert np.isfinite(instance.sensors()[:]).all()
+    assert taken > 100

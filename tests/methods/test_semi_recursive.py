@@ -10,7 +10,7 @@ from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.scenes import bricard, double_four_bar, flyball, prototype_car, spatial_chain
 from mbs.settings import METHODS
-from tests.methods.models import driven, hinge
+from tests.methods.models import driven
 from tests.methods.trees import GRAVITY, branching, carriage, double_pendulum, measured, pendulum, random_tree
 
 SEED = 11
@@ -228,10 +228,9 @@ def test_a_step_that_fails_leaves_the_last_state_and_a_run_shows_it():
     ("model", "reason"),
     [
         (driven(), "guides or switches"),
-        (hinge(0.0), "angles or spins"),
         (prototype_car.build(), "guides or switches"),
     ],
-    ids=["driven", "angle", "car"],
+    ids=["driven", "car"],
 )
 def test_what_has_no_tree_is_refused_with_the_reason(model, reason):
     system = compile(model)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs import Model, ModelError, Simulation, compile
+from mbs import Model, ModelError, Simulation, compile, simulate
 
 MASS, I_SPIN, I_DIAMETRAL = 2.0, 0.05, 0.03
 CENTRE = np.array([0.4, 0.0, 0.1])
@@ -74,3 +74,60 @@ def test_impossible_wheels_are_refused(given, sentence):
     with pytest.raises(ModelError, match="spin 'wheel'") as error:
         m.spin("wheel", carrier=carrier, **data)
     assert sentence in str(error.value)
+
+
+def satellite(reduced):
+    """A free body with a wheel that a motor turns against it, in no field of gravity."""
+    m = Model("satellite", gravity=(0.0, 0.0, 0.0))
+    carrier = m.body("carrier", mass=3.0, com=(0.1, -0.2, 0.0), inertia=(0.3, 0.4, 0.5))
+    torque = m.input("torque", unit="N.m")
+    if reduced:
+        wheel = m.spin(
+            "wheel", carrier=carrier, centre=CENTRE, axis=AXIS, mass=MASS, spin_inertia=I_SPIN,
+            diametral_inertia=I_DIAMETRAL,
+        )  # fmt: skip
+        m.torque_on("motor", wheel, input=torque, gain=2.0)
+        m.sense_coordinate("spin", wheel, order=1)
+    else:
+        inertia = I_DIAMETRAL * np.eye(3) + (I_SPIN - I_DIAMETRAL) * np.outer(AXIS, AXIS)
+        full = m.body("wheel", mass=MASS, com=CENTRE, inertia=inertia)
+        m.revolute("bearing", carrier, full, point=CENTRE, axis=AXIS)
+        angle = m.relative_angle("angle", carrier, full, axis=AXIS)
+        m.torque_on("motor", angle, input=torque, gain=2.0)
+    m.initial_velocity(carrier, angular=(0.0, 0.0, 0.0), linear=(0.0, 0.0, 0.0))
+    for c in "xyz":
+        m.sense_angular_rate(f"rate.{c}", carrier, c)
+    m.sense_energy("kinetic", "kinetic")
+    return compile(m)
+
+
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5"])
+def test_the_carrier_takes_the_reaction_of_a_torque_on_a_spin(method):
+    """As a full wheel on a bearing; the energy is the work of the motor on the relative angle."""
+    runs = [
+        simulate(satellite(reduced), 1.0, 0.0005, {"torque": 1.0}, method=method, every=20) for reduced in (True, False)
+    ]
+    for c in "xyz":
+        gap = np.abs(runs[0][f"rate.{c}"] - runs[1][f"rate.{c}"]).max()
+        assert gap < 5e-4 * max(np.abs(runs[1][f"rate.{s}"]).max() for s in "xyz")
+    turned = np.array([runs[0][f"rate.{c}"] for c in "xyz"])
+    assert np.abs(turned[:, -1]).max() > 0.5
+    power = 2.0 * (runs[0]["spin"] - AXIS @ turned)
+    work = np.sum(0.5 * (power[1:] + power[:-1]) * np.diff(runs[0].t))
+    assert runs[0]["kinetic"][-1] - runs[0]["kinetic"][0] == pytest.approx(work, rel=1e-4)
+
+
+def test_the_wheel_and_its_carrier_keep_the_momentum_about_a_fixed_axis():
+    """Both about one axis through the common centre of mass: 2 N m for 1 s give the wheel 2 N m s, the carrier -2."""
+    m = Model("rotor", gravity=(0.0, 0.0, 0.0))
+    carrier = m.body("carrier", mass=3.0, com=(0.0, 0.0, 0.0), inertia=(0.3, 0.4, 0.5))
+    wheel = m.spin(
+        "wheel", carrier=carrier, centre=(0.0, 0.0, 0.2), axis=(0.0, 0.0, 1.0), mass=1.0, spin_inertia=0.5,
+        diametral_inertia=0.3,
+    )  # fmt: skip
+    m.torque_on("motor", wheel, input=m.input("torque", unit="N.m"))
+    m.sense_coordinate("wheel.rate", wheel, order=1)
+    m.sense_angular_rate("carrier.rate", carrier, "z")
+    run = simulate(compile(m), 1.0, 0.01, {"torque": 2.0})
+    assert run["wheel.rate"][-1] == pytest.approx(4.0, rel=5e-4)
+    assert run["carrier.rate"][-1] == pytest.approx(-4.0, rel=5e-4)

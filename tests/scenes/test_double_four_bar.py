@@ -30,7 +30,7 @@ def position_error(windows, t_end, h, settings=None):
 def recorded(system, h, settings):
     """A run to the end or to the step that is refused."""
     try:
-        return simulate(system, END, h, settings=settings)
+        return simulate(system, END, h, settings=settings, estimate_error=False)
     except SimulationError as error:
         return error.trajectory
 
@@ -54,7 +54,7 @@ def test_the_exact_reduction_is_the_known_one():
 @pytest.mark.parametrize("settings", [Settings(), PAPER_UPDATE], ids=["linearised", "paper's update"])
 @pytest.mark.parametrize("h", ENERGY_BOUND)
 def test_energy_stays_within_the_paper_s_and_all_ten_singular_positions_are_crossed(h, settings):
-    trajectory = simulate(compile(double_four_bar.build()), END, h, settings=settings)
+    trajectory = simulate(compile(double_four_bar.build()), END, h, settings=settings, estimate_error=False)
     assert energy_deviation(trajectory) < ENERGY_BOUND[h]
     assert trajectory["energy.total"][0] == pytest.approx(35.835, abs=1e-9)
     times = crossing_times(trajectory)
@@ -104,6 +104,7 @@ def test_singular_passages_at_small_steps_need_a_violation_well_below_the_regula
     assert loose.max() > 3.0 * default.max()
 
 
+@pytest.mark.filterwarnings("ignore::mbs.BranchWarning")  # with that energy it jumps branches, and says so
 @pytest.mark.parametrize("windows", [1, 2])
 def test_without_projections_the_velocities_run_away(windows):
     system, h = compile(double_four_bar.build(windows)), 0.01
@@ -117,8 +118,10 @@ def test_without_projections_the_velocities_run_away(windows):
 @pytest.mark.parametrize("h", [0.01, 0.03])
 def test_the_result_does_not_depend_on_the_penalty_over_decades(h):
     system = compile(double_four_bar.build())
-    runs = [simulate(system, END, h, settings=Settings(eps_rel=10.0**-k)) for k in range(6, 14)]
-    expected = energy_deviation(simulate(system, END, h, settings=Settings(eps_rel=1e-9, tolerance_phi=1e-14)))
+    runs = [simulate(system, END, h, settings=Settings(eps_rel=10.0**-k), estimate_error=False) for k in range(6, 14)]
+    expected = energy_deviation(
+        simulate(system, END, h, settings=Settings(eps_rel=1e-9, tolerance_phi=1e-14), estimate_error=False)
+    )
     for run in runs:
         assert energy_deviation(run) == pytest.approx(expected, rel=0.02)
         assert run.report.halvings == 0

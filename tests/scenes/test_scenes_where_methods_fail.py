@@ -134,7 +134,7 @@ def test_the_chain_follows_the_motion_of_minimum_norm_accelerations():
 
 @pytest.mark.parametrize("h", [0.01])
 def test_the_pendulum_keeps_its_energy_and_rod_over_a_thousand_seconds(h):
-    t = simulate(compile(pendulum.build()), 1000.0, h, every=10)
+    t = simulate(compile(pendulum.build()), 1000.0, h, every=10, estimate_error=False)
     length = np.hypot(t["bob.position.x"], t["bob.position.y"])
     np.testing.assert_allclose(length, 1.0, atol=1e-9)
     energy = t["energy.total"]

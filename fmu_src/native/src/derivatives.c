@@ -20,7 +20,11 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
       return slave_say(s, SLAVE_ERROR, "The derivative of '%s' was set to %g; a finite number is needed.",
                        t->variable[reference[i]].name, value[i]);
   }
-  for (size_t i = 0; i < n; i++) s->slope[reference[i] * SLAVE_MOST_ORDERS + (uint32_t)order[i] - 1] = value[i];
+  for (size_t i = 0; i < n; i++) {
+    double *slope = &s->slope[reference[i] * SLAVE_MOST_ORDERS + (uint32_t)order[i] - 1];
+    if (*slope != value[i]) slave_forget_refusal(s);
+    *slope = value[i];
+  }
   return SLAVE_OK;
 }
 
@@ -37,7 +41,7 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
   const ali3_status status = ali3_sensor_rates(s->rung.kernel, s->sensors, s->known);
   if (status != ALI3_OK) return slave_say(s, SLAVE_ERROR, "No output rates: %s.", ali3_status_text(status));
   for (size_t i = 0; i < n; i++)
-    if (!s->known[t->variable[reference[i]].index])
+    if (t->variable[reference[i]].source != SLAVE_SENSOR || !s->known[t->variable[reference[i]].index])
       return slave_say(s, SLAVE_ERROR,
                        "The rate of '%s' is not known: it depends on forces or accelerations. Positions, angles and "
                        "velocities have rates.",
@@ -59,7 +63,8 @@ static bool initial_change(slave *s, uint32_t reference, double seed, double *ou
     s->value[reference] = side == 0 ? up : down;
     good = slave_initialise(s) && ali3_sensors(s->rung.kernel, s->sensors) == ALI3_OK;
     const double weight = (side == 0 ? seed : -seed) / (up - down);
-    for (size_t i = t->n_known; i < t->n_variables && good; i++) out[i] += weight * s->sensors[t->variable[i].index];
+    for (size_t i = t->n_known; i < t->n_variables && good; i++)
+      if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->sensors[t->variable[i].index];
   }
   s->value[reference] = value;
   return good;
@@ -87,7 +92,8 @@ static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, c
   if (status != ALI3_OK)
     return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s%s.", ali3_status_text(status),
                      status == ALI3_NOT_INITIALISED ? "; after initialisation it takes one step" : "");
-  for (size_t i = t->n_known; i < t->n_variables; i++) out[i] = s->sensors[t->variable[i].index];
+  for (size_t i = t->n_known; i < t->n_variables; i++)
+    if (t->variable[i].source == SLAVE_SENSOR) out[i] = s->sensors[t->variable[i].index];
   return SLAVE_OK;
 }
 

@@ -25,7 +25,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetStatus)(fmi2Component c, const fmi2Statu
   slave *s = fmi2_slave(c, "fmi2GetStatus", FMI2_DONE);
   if (s == NULL || !fmi2_given(s, "fmi2GetStatus", value != NULL)) return fmi2Error;
   if (kind != fmi2DoStepStatus) return no_status(c, "fmi2GetStatus");
-  *value = s->calls.phase == SLAVE_STEP_FAILED ? fmi2Discard : fmi2OK;
+  *value = (fmi2Status)s->last_step;
   return fmi2OK;
 }
 
@@ -46,7 +46,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBooleanStatus)(fmi2Component c, const fm
   slave *s = fmi2_slave(c, "fmi2GetBooleanStatus", FMI2_DONE);
   if (s == NULL || !fmi2_given(s, "fmi2GetBooleanStatus", value != NULL)) return fmi2Error;
   if (kind != fmi2Terminated) return no_status(c, "fmi2GetBooleanStatus");
-  *value = 0; /* the model never asks for the end of the simulation */
+  *value = slave_wants_end(s);
   return fmi2OK;
 }
 

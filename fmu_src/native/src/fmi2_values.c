@@ -1,4 +1,4 @@
-/* FMI 2.0: getting and setting. All variables are real. */
+/* FMI 2.0: getting and setting. Whole numbers can be read and set as real ones too, as they were before 0.2. */
 #include "fmi2_face.h"
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -15,17 +15,25 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component c, const fmi2ValueRe
   return (fmi2Status)slave_set(s, vr, n, value);
 }
 
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                                                 fmi2Integer value[]) {
+  slave *s = fmi2_slave(c, "fmi2GetInteger", FMI2_GET);
+  if (s == NULL || !fmi2_given(s, "fmi2GetInteger", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
+  return (fmi2Status)slave_get_whole(s, vr, n, value);
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                                                 const fmi2Integer value[]) {
+  slave *s = fmi2_slave(c, "fmi2SetInteger", FMI2_SET);
+  if (s == NULL || !fmi2_given(s, "fmi2SetInteger", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
+  return (fmi2Status)slave_set_whole(s, vr, n, value);
+}
+
 static fmi2Status other_type(fmi2Component c, const char *function, unsigned mask, size_t n) {
   slave *s = fmi2_slave(c, function, mask);
   if (s == NULL) return fmi2Error;
   if (n == 0) return fmi2OK;
-  return (fmi2Status)slave_say(s, SLAVE_ERROR, "%s: all variables of this FMU are of type Real.", function);
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                                 fmi2Integer value[]) {
-  (void)vr, (void)value;
-  return other_type(c, "fmi2GetInteger", FMI2_GET, n);
+  return (fmi2Status)slave_say(s, SLAVE_ERROR, "%s: all variables of this FMU are of type Real or Integer.", function);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBoolean)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -38,12 +46,6 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetString)(fmi2Component c, const fmi2Value
                                                 fmi2String value[]) {
   (void)vr, (void)value;
   return other_type(c, "fmi2GetString", FMI2_GET, n);
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                                 const fmi2Integer value[]) {
-  (void)vr, (void)value;
-  return other_type(c, "fmi2SetInteger", FMI2_SET, n);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component c, const fmi2ValueReference vr[], size_t n,

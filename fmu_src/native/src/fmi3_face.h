@@ -36,4 +36,8 @@ bool fmi3_given(fmi3_face *face, const char *function, bool given);
 /* Numbers of variables of arrays into face->items[which]; false, and said, if a reference is unknown or the count is
  * not n_values. */
 bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference, size_t n, size_t n_values);
+/* Values of one array; time is one value. The reference must be known. */
+size_t fmi3_size(fmi3ValueReference reference);
+/* Whether the references, time among them, are known and have n_values values; said if not. */
+bool fmi3_counted(fmi3_face *face, const fmi3ValueReference *reference, size_t n, size_t n_values);
 #endif

@@ -14,6 +14,26 @@ bool fmi3_given(fmi3_face *face, const char *function, bool given) {
   return given;
 }
 
+size_t fmi3_size(fmi3ValueReference reference) {
+  const fmi3_table *t = &fmi3_the_table;
+  return reference < t->n_arrays ? t->first[reference + 1] - t->first[reference] : 1;
+}
+
+bool fmi3_counted(fmi3_face *face, const fmi3ValueReference *reference, size_t n, size_t n_values) {
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (reference[i] > fmi3_the_table.n_arrays) {
+      slave_say(face->s, SLAVE_ERROR, "There is no variable with value reference %u for this call.",
+                (unsigned)reference[i]);
+      return false;
+    }
+    count += fmi3_size(reference[i]);
+  }
+  if (count == n_values) return true;
+  slave_say(face->s, SLAVE_ERROR, "The variables have %zu values, the call gives room for %zu.", count, n_values);
+  return false;
+}
+
 bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference, size_t n, size_t n_values) {
   const fmi3_table *t = &fmi3_the_table;
   size_t count = 0;

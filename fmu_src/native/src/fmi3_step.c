@@ -12,7 +12,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 
   if (face == NULL) return fmi3Error;
   const slave_status status = slave_step(face->s, time, step);
   if (event_needed != NULL) *event_needed = false;
-  if (terminate != NULL) *terminate = false;
+  if (terminate != NULL) *terminate = slave_wants_end(face->s);
   if (early_return != NULL) *early_return = false;
   if (last_successful_time != NULL) *last_successful_time = ali3_time(face->s->rung.kernel);
   return (fmi3Status)status;

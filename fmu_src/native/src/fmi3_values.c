@@ -1,16 +1,52 @@
-/* FMI 3.0: getting and setting. All variables are of type Float64. */
+/* FMI 3.0: getting and setting. Whole numbers can be read and set as Float64 too, as they were before 0.2. */
 #include "fmi3_face.h"
 
+static double time_of(const slave *s) {
+  return s->calls.phase == SLAVE_INITIALISING ? s->calls.start_time : ali3_time(s->rung.kernel);
+}
+
+/* Time stands anywhere in a call and as often as the host likes; the variables between are read in one piece. */
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetFloat64)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                  fmi3Float64 value[], size_t n_values) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetFloat64", FMI3_GET);
   if (face == NULL || !fmi3_given(face, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
-  if (n == 1 && n_values == 1 && vr[0] == fmi3_the_table.n_arrays) {
-    value[0] = face->s->calls.phase == SLAVE_INITIALISING ? face->s->calls.start_time : ali3_time(face->s->rung.kernel);
-    return fmi3OK;
+  const fmi3ValueReference time = (fmi3ValueReference)fmi3_the_table.n_arrays;
+  if (!fmi3_counted(face, vr, n, n_values)) return fmi3Error;
+  size_t at = 0;
+  for (size_t i = 0; i < n;) {
+    if (vr[i] == time) {
+      value[at++] = time_of(face->s);
+      i++;
+      continue;
+    }
+    size_t end = i, count = 0, size = fmi3_size(vr[i]);
+    while (end < n && vr[end] != time && count + (size = fmi3_size(vr[end])) <= face->room) {
+      count += size;
+      end++;
+    }
+    if (!fmi3_expand(face, 0, vr + i, end - i, count)) return fmi3Error;
+    const slave_status status = slave_get(face->s, face->items[0], count, value + at);
+    if (status != SLAVE_OK) return (fmi3Status)status;
+    at += count;
+    i = end;
   }
+  return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetInt32)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
+                                               fmi3Int32 value[], size_t n_values) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3GetInt32", FMI3_GET);
+  if (face == NULL || !fmi3_given(face, "fmi3GetInt32", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
-  return (fmi3Status)slave_get(face->s, face->items[0], n_values, value);
+  return (fmi3Status)slave_get_whole(face->s, face->items[0], n_values, value);
+}
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetInt32)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
+                                               const fmi3Int32 value[], size_t n_values) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3SetInt32", FMI3_SET);
+  if (face == NULL || !fmi3_given(face, "fmi3SetInt32", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
+  if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
+  return (fmi3Status)slave_set_whole(face->s, face->items[0], n_values, value);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetFloat64)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
@@ -25,7 +61,8 @@ static fmi3Status other_type(fmi3Instance instance, const char *function, unsign
   fmi3_face *face = fmi3_slave(instance, function, mask);
   if (face == NULL) return fmi3Error;
   if (n == 0) return fmi3OK;
-  return (fmi3Status)slave_say(face->s, SLAVE_ERROR, "%s: all variables of this FMU are of type Float64.", function);
+  return (fmi3Status)slave_say(face->s, SLAVE_ERROR, "%s: all variables of this FMU are of type Float64 or Int32.",
+                               function);
 }
 
 #define OTHER_TYPE(Type)                                                                                               \
@@ -45,7 +82,6 @@ OTHER_TYPE(Int8)
 OTHER_TYPE(UInt8)
 OTHER_TYPE(Int16)
 OTHER_TYPE(UInt16)
-OTHER_TYPE(Int32)
 OTHER_TYPE(UInt32)
 OTHER_TYPE(Int64)
 OTHER_TYPE(UInt64)

@@ -51,8 +51,10 @@ static bool load(slave *s, const char *resources) {
 
 static void start_values(slave *s) {
   const slave_table *t = &slave_the_table;
-  const slave_memory_of_calls calls = {SLAVE_INSTANTIATED, 0, 0, 0.0, HUGE_VAL};
+  const slave_memory_of_calls calls = {SLAVE_INSTANTIATED, 0, 0, 0, 0, 0.0, HUGE_VAL};
   s->calls = calls;
+  s->last_step = SLAVE_OK;
+  slave_forget_refusal(s);
   s->outputs_fresh = false;
   memset(s->pending, 0, t->n_known);
   memset(s->clamped, 0, t->n_known);

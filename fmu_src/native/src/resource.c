@@ -1,6 +1,9 @@
 /* The folder of the resources: from a URI to a path, and a file in it. */
 #if defined(_WIN32)
 #include <windows.h>
+#else
+#define _POSIX_C_SOURCE 200809L
+#include <sys/stat.h>
 #endif
 #include <stdio.h>
 #include <string.h>
@@ -16,11 +19,19 @@ static int hex(char c) {
   return -1;
 }
 
+/* The scheme of a URI may be written in any case (RFC 3986, 3.1). */
+static bool is_file_uri(const char *uri) {
+  static const char scheme[] = "file:";
+  size_t n = 0;
+  while (scheme[n] != 0 && (uri[n] == scheme[n] || uri[n] == scheme[n] - ('a' - 'A'))) n++;
+  return scheme[n] == 0;
+}
+
 /* file:, file:/, file:// or file://host/ and any %xx; a plain path stays. False if it does not fit. */
 bool slave_path_of_uri(const char *uri, char *path, size_t size) {
   size_t n = 0;
   bool coded = false;
-  if (strncmp(uri, "file:", 5) == 0) {
+  if (is_file_uri(uri)) {
     coded = true;
     uri += 5;
     if (strncmp(uri, "//", 2) == 0) {
@@ -52,6 +63,8 @@ static FILE *open_file(const char *path) {
   if (MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, PATH_SIZE) <= 0) return NULL;
   return _wfopen(wide, L"rb");
 #else
+  struct stat kind; /* a named pipe would wait for its writer */
+  if (stat(path, &kind) != 0 || !S_ISREG(kind.st_mode)) return NULL;
   return fopen(path, "rb");
 #endif
 }

@@ -9,13 +9,22 @@
 #include "ali3.h"
 
 /* The table, generated with the FMU (table.c); the place of a variable is its number. */
-typedef enum { SLAVE_INPUT, SLAVE_PARAMETER, SLAVE_POSE, SLAVE_STEP_SIZE, SLAVE_FIDELITY, SLAVE_SENSOR } slave_source;
+typedef enum {
+  SLAVE_INPUT,
+  SLAVE_PARAMETER,
+  SLAVE_POSE,
+  SLAVE_STEP_SIZE,
+  SLAVE_FIDELITY,
+  SLAVE_SENSOR,
+  SLAVE_SOLVER /* what the solver says about itself: ali3_solver_value */
+} slave_source;
 
 typedef struct {
   const char *name, *unit; /* the unit as it stands behind a number */
   slave_source source;
-  int32_t index;          /* of that input, parameter or sensor; place in x, y, z, yaw, speed */
+  int32_t index;          /* of that input, parameter, sensor or ALI3_SOLVER_*; place in x, y, z, yaw, speed */
   double start, min, max; /* infinite where open */
+  bool whole;             /* an integer of FMI */
 } slave_variable;
 
 typedef struct {
@@ -48,9 +57,14 @@ typedef void slave_logger(slave *s, slave_status status, const char *category, c
 
 typedef struct { /* what a state is beside the kernel's bytes; numbers only */
   slave_phase phase;
-  int32_t initialised, step_warned;
+  int32_t initialised, step_warned, energy_warned, mode_warned; /* said once a run */
   double start_time, stop_time; /* infinite where not given */
 } slave_memory_of_calls;
+
+typedef struct { /* a step that was refused and what the host did since: nothing, or count is 0 */
+  int32_t count; /* how often the same step was refused */
+  double time, step;
+} slave_refusal;
 
 typedef struct { /* a System of the FMU at work */
   size_t fidelity;
@@ -68,6 +82,8 @@ struct slave {
   unsigned categories; /* bits, see slave_category */
   slave_rung rung;
   slave_memory_of_calls calls;
+  slave_refusal refusal;
+  slave_status last_step; /* what the last step was answered with */
   double *value;          /* per variable; the outputs are filled when they are asked for */
   double *slope;          /* per variable and order: derivatives of the inputs from the communication point on */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
@@ -115,8 +131,22 @@ slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *va
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value);
 bool slave_outputs(slave *s);
 
+slave_status slave_may_set(slave *s, uint32_t reference, double value); /* the answer it would get; nothing is set */
+
+/* whole.c: the same of whole numbers */
+slave_status slave_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value);
+slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value);
+
 /* step.c */
 slave_status slave_step(slave *s, double time, double step);
+
+/* refusal.c: a host that asks for a refused step again is stopped */
+slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst);
+void slave_forget_refusal(slave *s);
+bool slave_wants_end(const slave *s);
+
+/* watch.c: what a run says about itself, once */
+slave_status slave_watch(slave *s);
 
 /* derivatives.c */
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);

@@ -11,7 +11,7 @@ typedef struct { /* 72 bytes without holes */
   uint64_t size;
   unsigned char identity[16];
   uint32_t phase;
-  uint16_t initialised, step_warned;
+  uint8_t initialised, step_warned, energy_warned, mode_warned;
   uint32_t fidelity, n_known; /* fidelity of the kernel's bytes; the value may be set for the next initialisation */
   double start_time, stop_time;
 } header;
@@ -23,7 +23,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 2, CRC_AT = 12, CHECKED_FROM = 16 };
+enum { STATE_VERSION = 3, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
@@ -48,8 +48,10 @@ static void save(const slave *s, unsigned char *bytes) {
                  size,
                  {0},
                  (uint32_t)c->phase,
-                 (uint16_t)c->initialised,
-                 (uint16_t)c->step_warned,
+                 (uint8_t)c->initialised,
+                 (uint8_t)c->step_warned,
+                 (uint8_t)c->energy_warned,
+                 (uint8_t)c->mode_warned,
                  (uint32_t)s->rung.fidelity,
                  (uint32_t)n,
                  c->start_time,
@@ -79,8 +81,8 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (head.fidelity >= slave_the_table.n_systems) return "their header makes no sense";
   if (head.fidelity == s->rung.fidelity && size != whole_size(s)) return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
-      head.initialised > 1 || head.step_warned > 1 || !(fabs(head.start_time) < HUGE_VAL) ||
-      !(head.stop_time > head.start_time))
+      head.initialised > 1 || head.step_warned > 1 || head.energy_warned > 1 || head.mode_warned > 1 ||
+      !(fabs(head.start_time) < HUGE_VAL) || !(head.stop_time > head.start_time))
     return "their header makes no sense";
   if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header makes no sense";
   return NULL;
@@ -95,8 +97,7 @@ static const char *bad_value(const unsigned char *p) {
     if (!(fabs(v) < HUGE_VAL)) return "a number in them is not finite";
     if (i < t->n_known && !(v >= t->variable[i].min && v <= t->variable[i].max))
       return "a number in them is out of its range";
-    if (i < t->n_known && t->variable[i].source == SLAVE_FIDELITY && v != floor(v))
-      return "a number in them is out of its range";
+    if (i < t->n_known && t->variable[i].whole && v != floor(v)) return "a number in them is out of its range";
   }
   const unsigned char *flag = p + t->n_known * (1 + SLAVE_MOST_ORDERS) * sizeof v;
   for (size_t i = 0; i < 2 * t->n_known; i++)
@@ -139,6 +140,9 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   s->calls.phase = (slave_phase)head.phase;
   s->calls.initialised = (int32_t)head.initialised;
   s->calls.step_warned = (int32_t)head.step_warned;
+  s->calls.energy_warned = (int32_t)head.energy_warned;
+  s->calls.mode_warned = (int32_t)head.mode_warned;
+  slave_forget_refusal(s);
   s->calls.start_time = head.start_time;
   s->calls.stop_time = head.stop_time;
   get(s->value, &p, n * sizeof(double));

@@ -1,4 +1,5 @@
 /* A communication step: equal inner steps, inputs along their derivatives, all or nothing. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +8,8 @@
 static const double TIME_TOLERANCE = 1e-6; /* s: a host adds up its time in floating point */
 static const double STEP_TOLERANCE = 1e-6; /* end points this near, in steps, are reached with the tuned step itself */
 static const double STEP_DEVIATION = 0.05;
-static const double MOST_STEPS = 1e9;
+static const double MOST_STEPS = 1e6; /* in one call, which cannot be cancelled: about half a minute of a car */
+static const double CLOCK_TOLERANCE = 1e-3; /* neighbouring times are not farther apart than this share of a step */
 
 /* Number and size of the equal inner steps from time to end. */
 static int64_t division(slave *s, double time, double end, double *h) {
@@ -96,27 +98,35 @@ static void take_back(slave *s, bool whole) {
   for (int32_t i = 0; i < nu; i++) ali3_set_input(s->rung.kernel, i, s->input[i]);
 }
 
-static slave_status refused(slave *s, ali3_status status, double time, double step, const char *worst) {
-  s->calls.phase = SLAVE_STEP_FAILED;
-  return slave_say(s, SLAVE_DISCARD, "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s",
-                   time, step, time, ali3_status_text(status), worst);
+/* Whether a step can be asked for here at all; said if not. */
+static bool possible(slave *s, double time, double step, double now) {
+  if (!(fabs(time) < HUGE_VAL && step > 0.0 && step < HUGE_VAL))
+    slave_say(s, SLAVE_ERROR, "A step from %g s over %g s: a finite time and a positive step are needed.", time, step);
+  else if (fabs(time - now) > TIME_TOLERANCE)
+    slave_say(s, SLAVE_ERROR, "The step starts at %.10g s, but this instance stands at %.10g s.", time, now);
+  else if (time + step > s->calls.stop_time + TIME_TOLERANCE)
+    slave_say(s, SLAVE_ERROR, "The step from %g s over %g s goes beyond the stop time %g s.", time, step,
+              s->calls.stop_time);
+  else if (step / s->value[s->step_reference] > MOST_STEPS)
+    slave_say(s, SLAVE_ERROR,
+              "The step of %g s has more than %g inner steps of %g s and could not be cancelled; ask for shorter ones.",
+              step, MOST_STEPS, s->value[s->step_reference]);
+  else if (!(time + step > time) || fabs(time) * DBL_EPSILON > CLOCK_TOLERANCE * s->value[s->step_reference])
+    slave_say(
+        s, SLAVE_ERROR,
+        "At %g s neighbouring times are %.2g s apart: the clock cannot follow a step of %g s with inner steps of %g "
+        "s; begin nearer to zero.",
+        time, fabs(time) * DBL_EPSILON, step, s->value[s->step_reference]);
+  else
+    return true;
+  return false;
 }
 
-slave_status slave_step(slave *s, double time, double step) {
+static slave_status try_step(slave *s, double time, double step) {
   char worst[SLAVE_TEXT / 2];
   const double now = ali3_time(s->rung.kernel);
   double h;
-  if (!(fabs(time) < HUGE_VAL && step > 0.0 && step < HUGE_VAL))
-    return slave_say(s, SLAVE_ERROR, "A step from %g s over %g s: a finite time and a positive step are needed.", time,
-                     step);
-  if (fabs(time - now) > TIME_TOLERANCE)
-    return slave_say(s, SLAVE_ERROR, "The step starts at %.10g s, but this instance stands at %.10g s.", time, now);
-  if (time + step > s->calls.stop_time + TIME_TOLERANCE)
-    return slave_say(s, SLAVE_ERROR, "The step from %g s over %g s goes beyond the stop time %g s.", time, step,
-                     s->calls.stop_time);
-  if (step / s->value[s->step_reference] > MOST_STEPS)
-    return slave_say(s, SLAVE_ERROR, "The step of %g s has more than %g inner steps.", step, MOST_STEPS);
-  const int32_t warned = s->calls.step_warned;
+  if (!possible(s, time, step, now)) return SLAVE_ERROR;
   const int64_t n = division(s, now, time + step, &h);
   /* one step keeps the last state when it fails; several, or a changed parameter, must be taken back together */
   const bool whole = n > 1 || any_pending(s, SLAVE_PARAMETER);
@@ -127,11 +137,17 @@ slave_status slave_step(slave *s, double time, double step) {
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
     take_back(s, whole);
-    return refused(s, status, now, step, worst);
+    return slave_refuse_step(s, status, now, step, worst);
   }
   forget_slopes(s);
   memset(s->pending, 0, slave_the_table.n_known);
   s->outputs_fresh = false;
   s->calls.phase = SLAVE_STEPPING;
-  return s->calls.step_warned != warned ? SLAVE_WARNING : SLAVE_OK;
+  slave_forget_refusal(s);
+  return slave_watch(s);
+}
+
+slave_status slave_step(slave *s, double time, double step) {
+  s->last_step = try_step(s, time, step);
+  return s->last_step;
 }

@@ -11,7 +11,10 @@ bool slave_outputs(slave *s) {
   if (s->outputs_fresh) return true;
   if (!s->calls.initialised && !slave_initialise(s)) return false;
   if (ali3_sensors(s->rung.kernel, s->sensors) != ALI3_OK) return false;
-  for (size_t i = t->n_known; i < t->n_variables; i++) s->value[i] = s->sensors[t->variable[i].index];
+  for (size_t i = t->n_known; i < t->n_variables; i++) {
+    const slave_variable *v = &t->variable[i];
+    s->value[i] = v->source == SLAVE_SENSOR ? s->sensors[v->index] : ali3_solver_value(s->rung.kernel, v->index);
+  }
   s->outputs_fresh = true;
   return true;
 }
@@ -36,14 +39,14 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
     return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference);
   const slave_variable *v = &t->variable[reference];
   const bool fixed = v->source == SLAVE_POSE || v->source == SLAVE_STEP_SIZE || v->source == SLAVE_FIDELITY;
-  if (v->source == SLAVE_SENSOR) return slave_say(s, SLAVE_ERROR, "'%s' is an output and cannot be set.", v->name);
+  if (reference >= t->n_known) return slave_say(s, SLAVE_ERROR, "'%s' is an output and cannot be set.", v->name);
   if (!(s->calls.phase & SETTABLE) || (fixed && (s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))))
     return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s%s.", v->name, slave_phase_name(s->calls.phase),
                      fixed ? "; it is a fixed parameter" : "");
   if (!(fabs(value) < HUGE_VAL))
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g%s is kept.",
                      v->name, value, s->value[reference], v->unit);
-  if (v->source == SLAVE_FIDELITY && value != floor(value))
+  if (v->whole && value != floor(value))
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g; it must be a whole number, it keeps %g.", v->name, value,
                      s->value[reference]);
   *clamped = value;
@@ -73,18 +76,23 @@ static void take(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
   if (value == s->value[reference]) return;
   s->value[reference] = value;
+  slave_forget_refusal(s);
   if (v->source == SLAVE_INPUT || v->source == SLAVE_PARAMETER) s->pending[reference] = 1;
   if (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) slave_stale(s);
+}
+
+slave_status slave_may_set(slave *s, uint32_t reference, double value) {
+  double clamped;
+  const slave_status status = check(s, reference, value, &clamped);
+  if (status > SLAVE_WARNING || clamped == s->value[reference]) return status;
+  return try_parameter(s, reference, clamped) == SLAVE_OK ? status : SLAVE_ERROR;
 }
 
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value) {
   slave_status worst = SLAVE_OK;
   double clamped;
   for (size_t i = 0; i < n; i++) {
-    slave_status status = check(s, reference[i], value[i], &clamped);
-    if (status <= SLAVE_WARNING && clamped != s->value[reference[i]] &&
-        try_parameter(s, reference[i], clamped) != SLAVE_OK)
-      status = SLAVE_ERROR;
+    const slave_status status = slave_may_set(s, reference[i], value[i]);
     if (status > SLAVE_WARNING) return status;
   }
   for (size_t i = 0; i < n; i++) {

@@ -130,6 +130,27 @@ ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
 ALI3_API ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings);
 ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value); /* clamped to its range */
+/* Inputs as a function of time: writes those at time t to `input` (nu), which comes with the present ones, so that some
+ * may be left as they are; returns other than 0 to refuse. Steps then ask at every time at which their method looks at
+ * inputs, halves of a step too: with after = 1 at the start of a step, where the value behind a jump counts, else with
+ * 0. Numbers are clamped to their ranges; what is refused or not finite ends the step with ALI3_BAD_ARGUMENT. NULL: the
+ * values of ali3_set_input, along straight lines from step to step, as before. The function is no part of a saved
+ * state; ali3_reset takes it away. */
+typedef int32_t ali3_input_function(void *context, double t, int32_t after, double *input);
+ALI3_API ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context);
+/* Such a function, whose context is an ali3_input_tables: straight lines between the points of each table, held outside;
+ * a time given twice is a jump, and times within `tolerance` of a jump are at it. A table of one point is a constant. */
+typedef struct {
+  int32_t input; /* its number */
+  int64_t n;
+  const double *time, *value; /* n; times do not decrease */
+} ali3_input_table;
+typedef struct {
+  double tolerance; /* s */
+  int32_t n;
+  const ali3_input_table *table;
+} ali3_input_tables;
+ALI3_API int32_t ali3_input_of_tables(void *tables, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value); /* range checked */
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
@@ -154,6 +175,34 @@ ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
    (n_steps/every x ns). *done is the number of accepted steps. */
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
                               double *out, int64_t *done);
+/* Steps of any length by step doubling, so that their errors add up to the tolerance over the span (error per unit
+ * step). Errors of positions are in parts of `length`, those of velocities in parts of length * rate or of the present
+ * speed. What is given comes first; the counts start at 0 and go on from call to call. */
+typedef struct {
+  double tolerance, length, span, rate; /* 1, m, s, 1/s: the least rate of the motion */
+  double longest; /* of steps, s */
+  double h; /* next step to try, s; 0: chosen */
+  double last; /* error of the last step over what it might be, for the controller; 0: none */
+  double usual; /* mean of the last some hundred steps, s */
+  double smallest, largest; /* accepted steps, s */
+  double error_sum; /* of the estimates of accepted steps */
+  double forced_error; /* the part of it of steps as short as they may be that erred more than they might */
+  int64_t accepted, rejected, failed, forced; /* steps; failed: did not converge */
+  int64_t kept; /* steps that erred more than their share and no more than a fixed one */
+  int64_t side_steps; /* made for a record where no polynomial through the steps served */
+} ali3_control;
+typedef struct {
+  int64_t n;
+  const double *time; /* n, ascending, after the present time */
+  double *sensors, *positions; /* n x ns, n x nq; may be NULL */
+} ali3_record;
+/* At most most_steps steps towards t_end, which is the end of one. Breaks of guides of time are ends of steps; inputs
+ * must not jump before t_end. scale (nq): size of a unit of each coordinate, m; NULL: 1. *done counts the rows of the
+ * record that are written. A step that fails as short as it may be ends the call; the state before it is kept. */
+ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const double *scale, double t_end,
+                                      int64_t most_steps, const ali3_record *record, int64_t *done);
+/* Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs. */
+ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
 /* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] = 0). */
 ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);
@@ -166,15 +215,34 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* Farthest and fastest start, m and m/s: coordinates have 16 digits. */
 #define ALI3_FARTHEST 1e8
 #define ALI3_FASTEST 1e6
-/* |energy_error| over the energy that was in the motion: largest kinetic energy and work. Above ALI3_BALANCE_WRONG no
- * run was right that was tried; below it a run may be wrong. */
-#define ALI3_BALANCE_WRONG 0.04
+/* |energy_error| over the energy that was in the motion: largest kinetic energy and work. Above ALI3_BALANCE_WRONG, at
+ * any time, no run was right that was tried; below it a run may be wrong. */
+#define ALI3_BALANCE_WRONG 0.036
 ALI3_API double ali3_energy_balance(const ali3_report *report);
+/* What a run can say without being repeated: nothing; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a balance
+ * above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps say nothing: they have no motion to compare with. */
+#define ALI3_HALVINGS_SUSPECT 0.1
+#define ALI3_DOUBT_FROM 100
+typedef enum { ALI3_DOUBT_NONE, ALI3_DOUBT_HALVINGS, ALI3_DOUBT_BALANCE } ali3_doubt;
+ALI3_API ali3_doubt ali3_run_doubt(const ali3_report *report);
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */
 ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);
+
+enum { /* what the solver says about itself; the integer of sensors of type 13 */
+       ALI3_SOLVER_ITERATIONS = 0, /* of the last step */
+       ALI3_SOLVER_VIOLATION, /* m */
+       ALI3_SOLVER_RESIDUAL, /* m */
+       ALI3_SOLVER_FACTORIZATIONS, /* since the start */
+       ALI3_SOLVER_HALVINGS, /* since the start */
+       ALI3_SOLVER_STATUS, /* as ali3_run_status */
+       ALI3_SOLVER_ENERGY_ERROR, /* J, since the start */
+       ALI3_SOLVER_ENERGY_BALANCE, /* the same as a share of the motion, see ali3_energy_balance */
+       ALI3_SOLVER_COUNT
+};
+ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
 
 /* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit,
  * parameters and settings too. */
@@ -184,7 +252,7 @@ ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, si
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is
-   zero and the jacobian is A. */
+   zero and the jacobian is A. Signs are those of M qdd + Phi_q' lam = Q: rows put the force -Phi_q' lam on q. */
 ALI3_API ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam,
                                     double *y);
 ALI3_API ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, const double *y, double t,

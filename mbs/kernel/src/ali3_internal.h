@@ -46,6 +46,8 @@
   X(double, 2, tree_centre) X(double, 2, tree_inertia) X(double, 2, tree_gravity) X(int32_t, 1, tree_frame) \
   X(int32_t, 1, tree_out_body) X(double, 2, tree_out_local) X(int32_t, 1, tree_out_col) \
   X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place) \
+  X(int32_t, 1, tree_angle_col) X(int32_t, 1, tree_angle_ptr) X(int32_t, 1, tree_angle_joint) \
+  X(double, 2, tree_angle_sign) X(double, 2, tree_angle_inertia) \
   X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
   X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
   X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner)
@@ -151,10 +153,12 @@ struct ali3_instance {
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
   ali3_vectors now, next, start, whole, tangent;
+  ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
   ali3_rule rule;
   bool kept; /* in->start holds the state before the step */
   bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
   bool sampled; /* only sensors will look at it */
+  bool controlled; /* steps change from one to the next, and may be forgotten */
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */
@@ -174,6 +178,7 @@ struct ali3_instance {
   double *u, *ud; /* signals */
   double *S; /* signal tangents of all elements */
   double *SB; /* one element: signals x coordinates */
+  unsigned char *idle; /* ne: 1 where the last ali3_forces met no force and no tangent */
   double *correction_q, *step_q, *correction_lam, *step_lam; /* of the last iteration */
   double *local; /* one front */
   double *shifted; /* nq */
@@ -185,6 +190,11 @@ struct ali3_instance {
   double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;
   ali3_tree_work *tree;
+  /* inputs.c: who is asked, inputs at the start of the step, when it starts, its length, the time of in->now */
+  ali3_input_function *input_function;
+  void *input_context;
+  double *input_begin, *stage_input; /* nu; of the stages of radau.c */
+  double input_time, input_length, t_now;
   /* of branch_watch.c, signed squares: sines and cosines of the triads at in->now; sines before the step, after it, after it in parts;
    * loops that left their modes */
   double *mode_sine, *mode_cosine, *sine_before, *sine_after, *sine_few, *mode_left;
@@ -343,12 +353,14 @@ void ali3_predict_rates(ali3_instance *in, double h);
 void ali3_accelerate(ali3_instance *in, int32_t iteration);
 
 /* energy_momentum.c */
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool report);
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool report);
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alpha */
 
 /* energy_momentum_report.c */
-void ali3_energy_momentum_complete(ali3_instance *in, ali3_vectors *v, double weight);
+void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight);
+ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v);
 void ali3_energy_momentum_report(ali3_instance *in);
+void ali3_energy_momentum_restart(ali3_instance *in, double h);
 
 /* history.c */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own);
@@ -361,6 +373,9 @@ void ali3_history_velocity(const ali3_instance *in, double h, double *v);
 /* index_one.c */
 #define ALI3_INDEX_ONE_PENALTY 1e8 /* of mass-normalised rows, with unit weight of M */
 ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v);
+ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q);
+ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const double *b, double tolerance, double *x,
+                                 double *lam);
 
 /* check_tree.c */
 ali3_status ali3_check_tree(const ali3_system *s, ali3_message m);
@@ -380,6 +395,7 @@ ali3_status ali3_explain_refusal(ali3_instance *in, ali3_status status, double h
 
 /* composition.c */
 ali3_status ali3_composition(ali3_instance *in, double t, double h);
+double ali3_composed(double h);
 
 /* check_method.c */
 bool ali3_without_memory(const ali3_system *S);
@@ -404,6 +420,7 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t);
 /* branch_watch.c */
 void ali3_branch_before(ali3_instance *in);
 ali3_status ali3_branch_after(ali3_instance *in, double t, double h);
+void ali3_branch_look(ali3_instance *in, double t);
 
 /* switches.c */
 void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J);
@@ -430,5 +447,9 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
 void ali3_keep(ali3_instance *in);
 ali3_status ali3_accept(ali3_instance *in);
-void ali3_input_between(ali3_instance *in, const double *u0, double share);
+
+/* inputs.c */
+ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h);
+ali3_status ali3_inputs_at(ali3_instance *in, double share);
+bool ali3_inputs_jump(const ali3_instance *in);
 #endif

@@ -37,6 +37,8 @@ ali3_status ali3_check_modes(const ali3_system *s, ali3_message m) {
   const int64_t loops = ali3_loop_count(s);
   if (s->n_mode_triad_ptr == 0) {
     CHECK(ali3_check_length(m, "mode_triad", s->n_mode_triad, 0));
+    CHECK(ali3_check_length(m, "mode_cell_ptr", s->n_mode_cell_ptr, 0));
+    CHECK(ali3_check_length(m, "mode_name_ptr", s->n_mode_name_ptr, 0));
     CHECK(ali3_check_length(m, "mode_cell", s->n_mode_cell, 0));
     return ali3_check_length(m, "mode_name", s->n_mode_name, 0);
   }

@@ -71,6 +71,7 @@ void ali3_branch_before(ali3_instance *in) {
 static void again(ali3_instance *in) {
   ali3_vectors_copy(in, &in->now, &in->before);
   in->report = in->report_before;
+  in->t_now = ali3_time(in); /* that of the last whole step */
 }
 
 /* The step from in->before in n equal parts, the angles at its end; false where a part fails. */
@@ -126,6 +127,21 @@ static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
   return status;
 }
 
+/* Tells the loops that have left their modes at time t. */
+static void left_modes(ali3_instance *in, double t) {
+  ali3_mode_angles(in, in->now.q);
+  for (int64_t loop = 0; loop < ali3_loop_count(in->system); loop++) {
+    const int32_t left = ali3_mode_left(in, loop);
+    if (left >= 0 && in->mode_left[loop] == 0.0) report(in, loop, left, ALI3_BRANCH_LEFT, t);
+    in->mode_left[loop] = left >= 0 ? 1.0 : 0.0;
+  }
+}
+
+/* After a controlled step, whose halves have shown already that no other branch is near enough to be jumped to. */
+void ali3_branch_look(ali3_instance *in, double t) {
+  if (watches(in)) left_modes(in, t);
+}
+
 /* After a good step that ended at t. */
 ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
@@ -135,12 +151,7 @@ ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
     in->mode_known = false;
     return ALI3_OK;
   }
-  ali3_mode_angles(in, in->now.q);
-  for (int64_t loop = 0; loop < ali3_loop_count(S); loop++) {
-    const int32_t left = ali3_mode_left(in, loop);
-    if (left >= 0 && in->mode_left[loop] == 0.0) report(in, loop, left, ALI3_BRANCH_LEFT, t);
-    in->mode_left[loop] = left >= 0 ? 1.0 : 0.0;
-  }
+  left_modes(in, t);
   if (!in->branch_kept) return ALI3_OK;
   memcpy(in->sine_after, in->mode_sine, all);
   ali3_status status = ALI3_OK;

@@ -3,6 +3,13 @@
 
 static bool fits(int32_t expected, int32_t n) { return expected == -1 || expected == n; }
 
+/* A negative number of states is that of each item, see element.h. */
+static bool states_fit(const ali3_system *s, int32_t e, int32_t expected, int32_t n) {
+  if (expected >= -1) return fits(expected, n);
+  const int32_t last = s->el_int_ptr[e + 1] - 1, items = last < s->el_int_ptr[e] ? 0 : s->el_int[last];
+  return items > 0 && (int64_t)items * -expected == n;
+}
+
 /* Local indices must name the coordinates of the signals in the element's front. */
 static ali3_status check_element_places(const ali3_system *s, int32_t e, int64_t entries, ali3_message m) {
   const int32_t f = s->el_front[e], n_loc = s->el_loc_ptr[e + 1] - s->el_loc_ptr[e];
@@ -40,7 +47,7 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
                   nstate = s->el_state_ptr[e + 1] - s->el_state_ptr[e];
     if (type == NULL) return ali3_bad(m, "element %d has the unknown type %d", (int)e, (int)s->el_type[e]);
     if (nsig > ALI3_MAX_SIGNALS || !fits(type->nsig, nsig) || !fits(type->nreal, nreal) || !fits(type->nint, nint) ||
-        !fits(type->nstate, nstate) || !fits(type->nout, nout))
+        !states_fit(s, e, type->nstate, nstate) || !fits(type->nout, nout))
       return ali3_bad(m, "element %d of type %d has %d signals, %d reals, %d integers, %d states, %d outputs", (int)e,
                       (int)s->el_type[e], (int)nsig, (int)nreal, (int)nint, (int)nstate, (int)nout);
     int64_t entries = 0;
@@ -52,11 +59,26 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
 }
 
 /* What the integers of a sensor mean, one letter each: s signal, e element, o output of it, u input, g guide, d order,
- * k energy, q quaternion component, h health. Rows (types 9 and 17) and norms (type 14) have their own rule. */
-static const char *const sensor_integers[] = {"s", "s", "s", "dssssss", "ss", "s", "ssssss",     "qsssssssss", "eo",
-                                              "",  "k", "u", "gd",      "h",  "",  "dsssssssss", "sssssssss",  ""};
-static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0, -1};
+ * k energy, q quaternion component, h health. Rows (types 9, 17 and 18) and norms (type 14) have their own rule. */
+static const char *const sensor_integers[] = {"s",          "s",          "s",         "dssssss", "ss", "s",  "ssssss",
+                                              "qsssssssss", "eo",         "",          "k",       "u",  "gd", "h",
+                                              "",           "dsssssssss", "sssssssss", "",        ""};
+static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0, -1, -1};
 enum { SENSOR_TYPES = sizeof sensor_reals / sizeof sensor_reals[0] };
+
+/* Type 18: a number of terms, then a row, three signals and a guide (-1: none) a term. */
+static ali3_status check_products(const ali3_system *s, int32_t i, ali3_message m) {
+  const int32_t *v = s->sen_int + s->sen_int_ptr[i], n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i];
+  const int32_t n_real = s->sen_real_ptr[i + 1] - s->sen_real_ptr[i];
+  if (n < 1 || v[0] < 0 || v[0] != n_real || (int64_t)n != 1 + 5 * (int64_t)v[0])
+    return ali3_bad(m, "sensor %d lists %d integers and %d reals", (int)i, (int)n, (int)n_real);
+  for (int32_t k = 0; k < v[0]; k++) {
+    CHECK(ali3_check_indices(m, "sen_int", v + 1 + 5 * k, 1, 0, s->size.nc));
+    CHECK(ali3_check_indices(m, "sen_int", v + 2 + 5 * k, 3, -1, s->size.nsig));
+    CHECK(ali3_check_indices(m, "sen_int", v + 5 + 5 * k, 1, -1, s->size.ng));
+  }
+  return ALI3_OK;
+}
 
 static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m) {
   const int32_t type = s->sen_type[i], *v = s->sen_int + s->sen_int_ptr[i];
@@ -71,6 +93,7 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
     CHECK(ali3_check_indices(m, "sen_int", v + 1, 12, 0, s->size.nsig));
     return ali3_check_indices(m, "sen_int", v + 13, n - 13, 0, s->size.nc);
   }
+  if (type == 18) return check_products(s, i, m);
   if (sensor_reals[type] != n_real)
     return ali3_bad(m, "sensor %d of type %d has %d reals", (int)i, (int)type, (int)n_real);
   if (type == 14) {
@@ -106,7 +129,7 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
       limit = 4;
       break;
     default:
-      limit = 6;
+      limit = ALI3_SOLVER_COUNT;
       break;
     }
     CHECK(ali3_check_indices(m, "sen_int", v + k, 1, 0, limit));

@@ -3,16 +3,20 @@
 #include "ali3_internal.h"
 
 enum { STAGES = 5 };
+static const double OUTER = 0.41449077179437573714;
+
+/* The last of the steps that a step of h is composed of. */
+double ali3_composed(double h) { return OUTER * h; }
 
 ali3_status ali3_composition(ali3_instance *in, double t, double h) {
-  const double outer = 0.41449077179437573714, share[STAGES] = {outer, outer, 1.0 - 4.0 * outer, outer, outer};
+  const double share[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
   int32_t iterations = 0, most = in->report.max_iterations;
   double done = -1.0; /* time from the end of the step, in steps */
   ali3_vectors_copy(in, &in->whole, &in->now);
   for (int stage = 0; stage < STAGES; stage++) {
     done = stage == STAGES - 1 ? 0.0 : done + share[stage];
-    const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, in->whole.used,
-                                                    1.0 + done - 0.5 * share[stage], stage == STAGES - 1 && !in->quiet);
+    const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, 1.0 + done - 0.5 * share[stage],
+                                                    stage == STAGES - 1 && !in->quiet);
     if (status != ALI3_OK) {
       ali3_vectors_copy(in, &in->now, &in->whole);
       return status;

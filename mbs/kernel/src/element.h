@@ -17,6 +17,8 @@ enum { /* element types; the numbers are part of the file format and equal mbs/e
        ALI3_TYRE,
        ALI3_BRAKE,                  /* elastoplastic friction between a spin and its carrier */
        ALI3_AUTOMATIC_DRIVE,        /* engine, converter, gears, open differential */
+       ALI3_CONTACT_POINTS,         /* points of a body on a road */
+       ALI3_SPIN_TORQUE,            /* an input between a spin and its carrier */
        ALI3_ELEMENT_TYPE_END
 };
 
@@ -39,6 +41,7 @@ typedef struct {
   double *S;                     /* nsig x nsig, row major, symmetric, zeroed by the caller; NULL when not wanted */
   double *out;                   /* nout element outputs, always written */
   double potential;              /* stored energy, J, written */
+  int32_t idle;                  /* 0; set to 1 by an element whose f and S are zero */
 } ali3_element_args;
 
 typedef void ali3_element_function(ali3_element_args *a);
@@ -48,7 +51,8 @@ typedef void ali3_element_accept_function(
 typedef struct {
   ali3_element_function *evaluate;
   ali3_element_accept_function *accept;  /* may be NULL */
-  /* sizes that the loader checks; -1: any. check (may be NULL) returns NULL or one sentence for bad data. */
+  /* sizes that the loader checks; -1: any; nstate = -k, k > 1: k for each of the items that the last integer counts.
+   * check (may be NULL) returns NULL or one sentence for bad data. */
   int32_t nsig, nreal, nint, nstate, nout;
   const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                        int32_t n_inputs, int32_t n_roads);

@@ -4,7 +4,8 @@
 #include "element.h"
 
 extern const ali3_element_type ali3_spring_damper, ali3_scalar_spring_damper, ali3_input_force, ali3_body_force,
-    ali3_body_torque, ali3_gyroscopic_spin, ali3_drag, ali3_tyre, ali3_brake, ali3_automatic_drive;
+    ali3_body_torque, ali3_gyroscopic_spin, ali3_drag, ali3_tyre, ali3_brake, ali3_automatic_drive, ali3_contact_points,
+    ali3_spin_torque;
 
 const ali3_element_type *ali3_element_type_get(int32_t type) {
   switch (type) {
@@ -28,6 +29,10 @@ const ali3_element_type *ali3_element_type_get(int32_t type) {
     return &ali3_brake;
   case ALI3_AUTOMATIC_DRIVE:
     return &ali3_automatic_drive;
+  case ALI3_CONTACT_POINTS:
+    return &ali3_contact_points;
+  case ALI3_SPIN_TORQUE:
+    return &ali3_spin_torque;
   default:
     return NULL;
   }

@@ -9,13 +9,14 @@
 
 #include "ali3_internal.h"
 
-enum { REFINEMENTS = 2, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
+enum { REFINEMENTS = 2, REFINEMENTS_COMPOSED = 4, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
 static const double TWO_MORE = 10.0; /* tolerances: made anew also if two more iterations with the old end above */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
 static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 50.0; /* of the tolerance; s^-1 */
 static const double EPS_SHARE = 1e-3;                          /* of eps_rel */
-static const double STRADDLE = 1e5, MOST_RAISED = 100.0;       /* of penalties */
+static const double SHARE = 1e-2, ROUND_OFF = 1e-12; /* of accelerations: what may be left of what the method errs by */
+static const double STRADDLE = 1e5, MOST_RAISED = 100.0; /* of penalties */
 static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0}; /* factors of the penalty; the last with patience */
 
 /* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
@@ -153,6 +154,35 @@ static bool start(ali3_instance *in, double h) {
   return ali3_judge(in, in->r);
 }
 
+/* Size of the last correction in parts of what accelerations add to the step, in the metric of the masses. */
+static double change_of(const ali3_instance *in) {
+  double change = 0.0, size = 0.0;
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
+    const double m = in->system->mass_floor[i];
+    change += m * in->step_q[i] * in->step_q[i];
+    size += m * in->w[i] * in->w[i];
+  }
+  return size > 0.0 ? sqrt(change / size) : 0.0;
+}
+
+/* What may be left of a sub-step of order four, as `change_of`: a part of what the method errs by, the fourth power of
+ * the change of the accelerations from one to the next. A tolerance in metres spoils the order at small steps. */
+static double need_of(const ali3_instance *in, double h) {
+  const ali3_vectors *v = &in->now;
+  const int32_t nq = in->system->size.nq;
+  const double *time = v->memory + ALI3_MEMORY_TIME;
+  double change = 0.0, size = 0.0;
+  if (!(v->memory[ALI3_MEMORY_COUNT] >= 2.0) || time[0] == time[1]) return ROUND_OFF;
+  for (int32_t i = 0; i < nq; i++) {
+    const double a = v->past_a[i], difference = a - v->past_a[nq + i], m = in->system->mass_floor[i];
+    change += m * difference * difference;
+    size += m * a * a;
+  }
+  if (!(size > 0.0)) return ROUND_OFF;
+  const double turn = h / (time[0] - time[1]), square = change / size * turn * turn;
+  return fmax(ROUND_OFF, SHARE * square * square);
+}
+
 /* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. A tangent serves until
  * the errors, which fall by the same ratio with each iteration, show that a new one is cheaper. Without patience an
  * iteration that new tangents make worse is given up. */
@@ -161,7 +191,8 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
   const bool composed = settings->method != ALI3_METHOD_ENERGY_MOMENTUM;
   const double alpha = 2.0 * weight / (h * h), refine = fmin(1.0, REFINE_COMPOSED * fabs(h));
   const double least_r = composed ? refine : REFINE_R * fabs(h), least_v = composed ? refine : REFINE_PHI;
-  double r, v, last = error(in, &r, &v);
+  const int32_t most = composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
+  double r, v, last = error(in, &r, &v), need = composed ? need_of(in, h) : HUGE_VAL;
   int32_t refinements = 0, worse = 0;
   bool fresh = true;
   for (int32_t k = 0; k < settings->max_iterations; k++) {
@@ -172,11 +203,12 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
     evaluate(in, h);
     if (!ali3_judge(in, in->r)) return ALI3_NOT_FINITE;
     const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
-    if (r <= least_r && v <= least_v) return ALI3_OK;
+    const double change = change_of(in), left = change * fmin(1.0, ratio);
+    if (r <= least_r && v <= least_v && left <= need) return ALI3_OK;
     if (last <= 1.0 && size > last) return undo(in, h);
     if (!patient && fresh && size > last && ++worse == MOST_WORSE) return ALI3_NOT_CONVERGED;
     const bool slow = k > 0 && ratio > SLOW;
-    if (size <= 1.0 && (refinements++ == REFINEMENTS || slow)) return ALI3_OK;
+    if (size <= 1.0 && (refinements++ == most || slow)) return ALI3_OK;
     fresh = slow || (size > 1.0 && size * ratio * ratio > TWO_MORE);
     last = size;
   }
@@ -214,8 +246,9 @@ static bool carries_projected(const ali3_instance *in) {
 }
 
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
- * Inputs go straight from u0 to the present ones; the middle of this step has the given share of the latter. */
-ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const double *u0, double share, bool reported) {
+ * The middle of this step is that share of the one
+ * that ali3_inputs_begin was told of. */
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   double weight = 0.0;
@@ -223,11 +256,12 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   int32_t iterations = 0;
   ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
   ali3_guides_step(in, from, to, t, h);
-  ali3_input_between(in, u0, share);
+  ali3_status status = ali3_inputs_at(in, share);
+  if (status != ALI3_OK) return status;
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
   if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
-  const ali3_status status = solve(in, h, &weight, &iterations);
+  status = solve(in, h, &weight, &iterations);
   in->report.iterations += iterations;
   ali3_iterations_since(in, in->report.iterations - iterations);
   if (status != ALI3_OK) return status;
@@ -247,10 +281,9 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, const do
   }
   to->h_last[0] = 0.0;
   if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
-  const bool on_rows = carries_projected(in);
-  if (reported || on_rows) ali3_energy_momentum_complete(in, to, weight);
-  if (on_rows) memcpy(to->own, to->qd, (size_t)nq * sizeof(double));
   same_place(in, to);
   memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
-  return ali3_accept(in);
+  if (carries_projected(in)) ali3_energy_momentum_carry(in, to, weight);
+  if (reported) status = ali3_energy_momentum_show(in, to);
+  return status == ALI3_OK ? ali3_accept(in) : status;
 }

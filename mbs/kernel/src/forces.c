@@ -48,6 +48,7 @@ static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, d
   a->S = NULL;
   a->out = call->out + S->el_out_ptr[e];
   a->potential = 0.0;
+  a->idle = 0;
 }
 
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
@@ -71,6 +72,8 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     ali3_element_function *discrete = in->discrete ? ali3_discrete_gradient(S->el_type[e]) : NULL;
     (discrete != NULL ? discrete : S->el_kind[e]->evaluate)(&a);
     call->potential[e] = a.potential;
+    in->idle[e] = (unsigned char)a.idle;
+    if (a.idle) continue;
     for (int32_t i = 0; i < a.nsig; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
       for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++)
@@ -86,7 +89,7 @@ void ali3_elements_tangent(ali3_instance *in, double *F) {
   double *restrict SB = in->SB; /* a row per signal, a column per coordinate of the element */
   for (int32_t e = 0; e < S->size.ne; e++) {
     const int32_t front = S->el_front[e];
-    if (front < 0) continue;
+    if (front < 0 || in->idle[e]) continue;
     const int32_t n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
     const int32_t m = S->el_coordinate_ptr[e + 1] - S->el_coordinate_ptr[e];
     const int32_t *loc = S->el_coordinate_loc + S->el_coordinate_ptr[e];

@@ -64,7 +64,8 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
      * one; held over the step it would lead by h/2, which is an error of first order */
     const double *real = in->guide_real + S->guide_real_ptr[g];
     const double w = real[0], target = real[1] * in->input[S->guide_input[g]],
-                 before = real[1] * from->used[S->guide_input[g]], slope = (target - before) / h, lag = 2.0 * slope / w;
+                 before = real[1] * in->input_begin[S->guide_input[g]], slope = (target - before) / h,
+                 lag = 2.0 * slope / w;
     const double e = from->s[g] - before + lag, rate = from->sd[g] - slope + w * e, decay = ali3_exp(-w * h);
     to->s[g] = target - lag + (e + rate * h) * decay;
     to->sd[g] = slope + (from->sd[g] - slope - w * rate * h) * decay;

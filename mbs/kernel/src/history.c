@@ -8,6 +8,7 @@
 static const double WELL = 1e-4;   /* squared relative error of a good guess */
 static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
 static const double FAR = 2.0;     /* times the last step that the next may be long */
+static const double CONTROLLED_FAR = 4.5; /* of a controlled one: the last was a half, and steps grow */
 
 /* Number of past steps, at most `most`; a restored state may hold any number there. */
 static int32_t past(const ali3_vectors *v, int32_t most) {
@@ -72,7 +73,8 @@ bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   const int32_t nq = in->system->size.nq;
   const double *memory = in->now.memory, *time = memory + ALI3_MEMORY_TIME, *a = in->now.past_a;
   double weight[ALI3_PAST], error = 0.0, change = 0.0;
-  if (!(memory[ALI3_MEMORY_COUNT] > (double)n && h < FAR * (time[0] - time[1]))) return false;
+  if (!(memory[ALI3_MEMORY_COUNT] > (double)n && h < (in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1])))
+    return false;
   lagrange(time + 1, n, time[0], weight);
   for (int32_t i = 0; i < nq; i++) {
     const double m = in->system->mass_floor[i], one = a[i] - a[nq + i];

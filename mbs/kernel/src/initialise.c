@@ -12,18 +12,17 @@ static const double ASSEMBLED = 1e-9; /* violation accepted when nothing better 
 static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
 static const double BENDING = 1.0; /* of K beside M when positions are closed, s^2: bodies turn rather than bend */
 static const double ROUND_OFF = 1e-13;
-enum { POSITION_ITERATIONS = 200, MULTIPLIER_ITERATIONS = 60 };
+enum { POSITION_ITERATIONS = 200 };
 
-/* F = M(q) (+ what massless coordinates lack + BENDING K) + ALPHA Phi_q' Phi_q, factorised. */
-static ali3_status factorise_metric(ali3_instance *in, const double *q, bool close) {
+/* F = M(q) + what massless coordinates lack + BENDING K + ALPHA Phi_q' Phi_q, factorised. */
+static ali3_status factorise_metric(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   ali3_flexible_prepare(in, q);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  if (close)
-    for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
+  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
   ali3_rows_square(in, in->J, ALPHA, in->F);
   ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
-  if (close) ali3_flexible_stiffen(in, BENDING, in->F);
+  ali3_flexible_stiffen(in, BENDING, in->F);
   return ali3_factorise(in, in->F);
 }
 
@@ -41,7 +40,7 @@ static ali3_status close_position(ali3_instance *in) {
     if (in->report.violation <= CLOSED) break;
     if (iteration == POSITION_ITERATIONS) return in->report.violation <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
     if (!(in->report.violation < 1e300)) return ALI3_NOT_ASSEMBLED;
-    const ali3_status status = factorise_metric(in, q, true);
+    const ali3_status status = factorise_metric(in, q);
     if (status != ALI3_OK) return status;
     for (int32_t i = 0; i < nq; i++) in->w[i] = q[i] - in->now.q[i];
     ali3_mass_times(in, in->w, in->r);
@@ -64,40 +63,6 @@ static ali3_status close_position(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* M x + Phi_q' lam = Q, Phi_q x = -b, in corrections with the factorised metric; x and lam start from zero. */
-static ali3_status solve_index_one(ali3_instance *in, const double *Q, const double *b, double *x, double *lam) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq, nc = S->size.nc;
-  memset(x, 0, (size_t)nq * sizeof(double));
-  memset(lam, 0, (size_t)nc * sizeof(double));
-  for (int iteration = 0; iteration < MULTIPLIER_ITERATIONS; iteration++) {
-    double force = 0.0, force_scale = 0.0, violation = 0.0, violation_scale = 0.0;
-    ali3_mass_times(in, x, in->r);
-    ali3_rows_transposed(S, in->J, lam, in->x);
-    ali3_rows_times(S, in->J, x, in->mu);
-    for (int32_t i = 0; i < nq; i++) {
-      in->r[i] -= Q[i];
-      force = fmax(force, fabs(in->r[i] + in->x[i]) * S->mass_floor_inverse[i]);
-      force_scale = fmax(force_scale, (fabs(in->r[i]) + fabs(in->x[i])) * S->mass_floor_inverse[i]);
-    }
-    for (int32_t k = 0; k < nc; k++) {
-      violation_scale = fmax(violation_scale, fabs(in->mu[k]) + fabs(b[k]));
-      in->mu[k] += b[k];
-      violation = fmax(violation, fabs(in->mu[k]));
-      in->mu[k] = lam[k] + ALPHA * in->mu[k];
-    }
-    if (force <= ROUND_OFF * force_scale && violation <= ROUND_OFF * violation_scale) break;
-    ali3_rows_transposed(S, in->J, in->mu, in->x);
-    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
-    ali3_solve(in, in->F, in->x);
-    if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
-    for (int32_t i = 0; i < nq; i++) x[i] += in->x[i];
-    ali3_rows_times(S, in->J, in->x, in->Phi);
-    for (int32_t k = 0; k < nc; k++) lam[k] = in->mu[k] + ALPHA * in->Phi[k];
-  }
-  return ALI3_OK;
-}
-
 /* The velocity nearest to the one given in the mass metric: M dv + Phi_q' mu = 0, Phi_q (v + dv) + Phi_t = 0. */
 static ali3_status close_velocity(ali3_instance *in) {
   const ali3_system *S = in->system;
@@ -107,7 +72,7 @@ static ali3_status close_velocity(ali3_instance *in) {
   ali3_rows_times(S, in->J, v->qd, in->gamma);
   for (int32_t k = 0; k < nc; k++) in->gamma[k] += in->Phit[k];
   memset(in->D, 0, (size_t)nq * sizeof(double));
-  const ali3_status status = solve_index_one(in, in->D, in->gamma, in->w, in->lam);
+  const ali3_status status = ali3_index_one_solve(in, in->D, in->gamma, ROUND_OFF, in->w, in->lam);
   if (status != ALI3_OK) return status;
   for (int32_t i = 0; i < nq; i++) v->qd[i] += in->w[i];
   ali3_rows_times(S, in->J, v->qd, in->gamma);
@@ -123,7 +88,7 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  ali3_status status = factorise_metric(in, v->q, false);
+  ali3_status status = ali3_index_one_factorise(in, v->q);
   if (status == ALI3_OK) status = close_velocity(in);
   if (status != ALI3_OK) return status;
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
@@ -142,7 +107,7 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
     memcpy(v->mean, v->qd, (size_t)S->size.nq * sizeof(double));
     memcpy(v->mean_before, v->qd, (size_t)S->size.nq * sizeof(double));
   }
-  status = solve_index_one(in, in->Q, in->gamma, v->qdd, v->lam);
+  status = ali3_index_one_solve(in, in->Q, in->gamma, ROUND_OFF, v->qdd, v->lam);
   return status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector) ? ALI3_NOT_FINITE : status;
 }
 

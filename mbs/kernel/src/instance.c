@@ -48,7 +48,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
   const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
   const size_t stages = ali3_without_memory(s) ? ALI3_RADAU : 0;
-  const size_t total = 5 * n_vector + 3 * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
+  const size_t total = 8 * n_vector + (4 + ALI3_RADAU) * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
                        5 * (size_t)z->nnz_rows + (size_t)z->front_size + 2 * nq + (size_t)z->ng + (size_t)z->n_switch +
                        2 * (size_t)z->nsig + n_S + n_work + ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
                        stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + stages * (size_t)z->front_size) +
@@ -60,14 +60,15 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
                tree = s->tree != NULL ? (sizeof(ali3_tree_work) + 15u) / 16u * 16u : 0;
   *out = NULL;
-  char *block =
-      s->memory.allocate(1, head + roads + tree + (total + n_flex + n_flex_work + n_modes + n_start) * sizeof(double));
+  const size_t numbers = (total + n_flex + n_flex_work + n_modes + n_start) * sizeof(double);
+  char *block = s->memory.allocate(1, head + roads + tree + numbers + ne);
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
   double *pool = (double *)(block + head + roads + tree);
   in->system = s;
   in->release = s->memory.release;
   in->road = (ali3_road *)(block + head);
+  in->idle = (unsigned char *)(block + head + roads + tree + numbers);
   if (s->tree != NULL) {
     in->tree = (ali3_tree_work *)(block + head + roads);
     ali3_tree_start(s, in->tree);
@@ -78,9 +79,14 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   ali3_vectors_place(s, &in->start, &pool);
   ali3_vectors_place(s, &in->whole, &pool);
   ali3_vectors_place(s, &in->tangent, &pool);
+  ali3_vectors_place(s, &in->origin, &pool);
+  ali3_vectors_place(s, &in->centre, &pool);
+  ali3_vectors_place(s, &in->coarse, &pool);
   in->input = ali3_take(&pool, nu);
   in->input_work = ali3_take(&pool, nu);
   in->input_middle = ali3_take(&pool, nu);
+  in->input_begin = ali3_take(&pool, nu);
+  in->stage_input = ali3_take(&pool, ALI3_RADAU * nu);
   in->force_input = in->input;
   in->parameter = ali3_take(&pool, np);
   in->parameter_work = ali3_take(&pool, np);
@@ -209,6 +215,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   in->t_base = in->h_last = 0.0;
   in->count = 0;
   in->initialised = 0;
+  in->input_function = NULL;
   in->mode_known = false;
   in->placed = ALI3_PLACED_BY_FILE;
   in->start_moved = false;

@@ -9,10 +9,12 @@
 
 #include "ali3_internal.h"
 
-enum { STAGES = ALI3_RADAU, LAST = STAGES - 1, SWEEPS = 3, REFINEMENTS = 1 };
-static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
+enum { STAGES = ALI3_RADAU, LAST = STAGES - 1, SWEEPS = 3, REFINEMENTS = 3 };
+static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-12;
 static const double SLOW = 0.3;         /* ratio of two errors from which on the tangent is made anew */
-static const double LEAST_R = 1e-2;     /* of the tolerance, what makes refinement end early */
+static const double LEAST = 1e-2;       /* of the tolerances, what makes refinement end early */
+static const double SHARE = 1e-5, ROUND_OFF = 1e-12; /* of accelerations, what may be left of them */
+static const double STALLED = 1e-9; /* less is round-off where corrections do not fall any more */
 static const double EPS_SHARE = 1e-3;   /* of eps_rel, for rows that singular positions nearly lose */
 static const double LONGEST = 2.0;      /* steps; the last collocation polynomial is no guide farther on */
 
@@ -41,7 +43,7 @@ static void place(ali3_instance *in, double t, double h, int i) {
     to->q[k] = from->q[k] +
                h * (node[i] * from->qd[k] + h * (second[i][0] * a0[k] + second[i][1] * a1[k] + second[i][2] * a2[k]));
   }
-  ali3_input_between(in, from->used, node[i]);
+  in->force_input = in->stage_input + (int64_t)i * in->system->size.nu;
   ali3_guides_time(in, to, t - (1.0 - node[i]) * h);
 }
 
@@ -139,7 +141,19 @@ static void twice(ali3_instance *in, int i) {
   }
 }
 
-static ali3_status correct(ali3_instance *in, double h, double alpha) {
+/* Size of accelerations in the metric of the masses, stage i of coordinate k at v[k * along + i * across]. */
+static double size_of(const ali3_instance *in, const double *v, int64_t along, int64_t across) {
+  double square = 0.0;
+  for (int32_t k = 0; k < in->system->size.nq; k++)
+    for (int i = 0; i < STAGES; i++) {
+      const double x = v[k * along + i * across];
+      square += in->system->mass_floor[k] * x * x;
+    }
+  return sqrt(square);
+}
+
+/* *change: of the accelerations, in parts of them. */
+static ali3_status correct(ali3_instance *in, double h, double alpha, double *change) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   for (int i = 0; i < STAGES; i++) {
@@ -158,6 +172,8 @@ static ali3_status correct(ali3_instance *in, double h, double alpha) {
     for (int32_t k = 0; k < nc; k++) lam[k] += alpha * (Phi[k] + h * h * in->mu[k]);
     for (int32_t k = 0; k < nq; k++) a[k] += in->stage_x[STAGES * k + i];
   }
+  const double size = size_of(in, in->stage, 1, nq);
+  *change = size > 0.0 ? size_of(in, in->stage_x, STAGES, 1) / size : 0.0;
   return ALI3_OK;
 }
 
@@ -167,33 +183,41 @@ static double opening(const ali3_instance *in) {
   return largest;
 }
 
-static ali3_status newton(ali3_instance *in, double t, double h, double alpha) {
+/* Until the tolerances hold and what is left, told from the last correction and the ratio of the last two errors, is
+ * small beside the error of the method: a guess from the last collocation polynomial (`near`) errs by h^3, the method by
+ * h^5. A tolerance in metres alone spoils the order at small steps, where it lets through accelerations of 2 / h^2 times
+ * itself. */
+static ali3_status newton(ali3_instance *in, double t, double h, double alpha, bool near) {
   const ali3_settings *settings = &in->settings;
-  double last = 0.0;
+  double last, change = 0.0, need = ROUND_OFF;
   bool fresh = true;
   int32_t refinements = 0;
   if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
+  last = fmax(in->report.residual / settings->tolerance_r, opening(in) / settings->tolerance_phi);
   for (int32_t iteration = 0; iteration < settings->max_iterations; iteration++) {
     ali3_status status = fresh ? factorise(in, t, h, alpha) : ALI3_OK;
-    if (status == ALI3_OK) status = correct(in, h, alpha);
+    if (status == ALI3_OK) status = correct(in, h, alpha, &change);
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
     const double r = in->report.residual / settings->tolerance_r, v = opening(in) / settings->tolerance_phi;
-    const double size = fmax(r, v);
-    if (r <= LEAST_R && v <= 1.0) return ALI3_OK;
-    fresh = iteration > 0 && size > SLOW * last;
-    if (size <= 1.0 && (refinements++ == REFINEMENTS || fresh)) return ALI3_OK;
+    const double size = fmax(r, v), left = size < last ? change * size / last : change;
+    if (iteration == 0 && near) need = fmax(ROUND_OFF, SHARE * change * change);
+    if (r <= LEAST && v <= LEAST && left <= need) return ALI3_OK;
+    const bool slow = iteration > 0 && size > SLOW * last;
+    if (size <= 1.0 && (refinements++ == REFINEMENTS || (slow && (fresh || left <= STALLED)))) return ALI3_OK;
+    fresh = slow;
     last = size;
   }
   return ALI3_NOT_CONVERGED;
 }
 
-/* Stages from the collocation polynomial of the last step, or as the state is. */
-static void predict(ali3_instance *in, double h) {
+/* Stages from the collocation polynomial of the last step, or as the state is; returns whether the former. */
+static bool predict(ali3_instance *in, double h) {
   const double *time = in->now.memory + ALI3_MEMORY_TIME;
   const bool near = -time[LAST] > 0.0 && (1.0 - node[0]) * h <= LONGEST * -time[LAST];
   for (int i = 0; i < STAGES; i++)
     ali3_history_predict(in, node[i] * h, near ? STAGES : 1, acceleration(in, i), of_rows(in, in->stage_lam, i));
+  return near;
 }
 
 /* Takes out of the multipliers what makes no force (redundant rows): round-off that extrapolation would let grow. */
@@ -254,6 +278,16 @@ static ali3_status project(ali3_instance *in, double h, double alpha) {
   return ALI3_OK;
 }
 
+static ali3_status inputs(ali3_instance *in) {
+  const int32_t nu = in->system->size.nu;
+  ali3_status status = ALI3_OK;
+  for (int i = 0; i < STAGES && status == ALI3_OK; i++) {
+    status = ali3_inputs_at(in, node[i]);
+    memcpy(in->stage_input + (int64_t)i * nu, in->input_middle, (size_t)nu * sizeof(double));
+  }
+  return status;
+}
+
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
 ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
@@ -262,9 +296,9 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   const double alpha = ali3_penalty(in, h) / EPS_SHARE;
   ali3_vectors *from = &in->now, *to = &in->next;
   ali3_history_own(in, ALI3_METHOD_RADAU_5, from->qdd);
-  predict(in, h);
-  in->force_input = in->input_middle;
-  ali3_status status = newton(in, t, h, alpha);
+  ali3_status status = inputs(in);
+  if (status != ALI3_OK) return status;
+  status = newton(in, t, h, alpha, predict(in, h));
   in->force_input = in->input;
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;

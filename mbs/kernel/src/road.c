@@ -1,8 +1,19 @@
-/* Plane, kerb and regular grid. The wheel is a disc: the nearest point is sought within the wheel plane. */
+/* Plane, kerb and regular grid. A wheel is a disc: its nearest point is sought within the wheel plane. */
 #include "road.h"
 #include "element_math.h"
 
-#define FLATTEST 0.05 /* least sine between wheel axis and road normal used as a divisor */
+#define FLATTEST 0.05 /* least cosine of an edge used as a divisor */
+/* Sine between wheel axis and road normal below which the width of a wheel tells: lying flat it touches with its
+ * centre LYING/2 radii high, half as high as it is wide, and is 4/LYING^2 times as stiff as upright. */
+#define LYING 0.5
+
+/* What stands for the sine as a divisor, and its slope: the sine itself, and below LYING a parabola of the same slope
+ * there. */
+static double upright(double sine, double *slope) {
+  const double part = sine / LYING;
+  *slope = part < 1.0 ? part : 1.0;
+  return part < 1.0 ? 0.5 * LYING * (1.0 + part * part) : sine;
+}
 
 enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_REALS };
 enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_REALS };
@@ -20,10 +31,10 @@ static double half_space(const double centre[3], const double axis[3], double ra
   if (size < 1e-9) { /* the wheel lies flat: any direction in its plane */
     const double other[3] = {fabs(axis[0]) < 0.6 ? 1.0 : 0.0, fabs(axis[0]) < 0.6 ? 0.0 : 1.0, 0.0};
     ali3_cross(axis, other, inplane);
+    out->cosine = upright(0.0, &out->leaning);
     size = ali3_norm(inplane);
-    out->cosine = FLATTEST;
   } else {
-    out->cosine = size > FLATTEST ? size : FLATTEST;
+    out->cosine = upright(size, &out->leaning);
   }
   const double distance = height / out->cosine;
   out->penetration = radius - distance;
@@ -57,6 +68,7 @@ static int edge_line(const double centre[3], const double axis[3], double radius
   const double size = ali3_norm(g);
   out->penetration = radius - distance;
   out->cosine = 1.0 / size > FLATTEST ? 1.0 / size : FLATTEST;
+  out->leaning = 1.0;
   for (int i = 0; i < 3; i++) {
     out->normal[i] = g[i] / size;
     out->down[i] = w[i] / distance;
@@ -110,37 +122,47 @@ static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   return 1;
 }
 
+typedef struct {
+  double height, normal[3], friction;
+} surface;
+
+static surface grid_at(const double *p, int nx, int ny, double x, double y) {
+  const double *z = p + GRID_DATA, *mu = z + (int64_t)nx * ny;
+  double wx[4], dx[4], wy[4], dy[4], height = 0.0, slope[2] = {0.0, 0.0};
+  const double sx = ali3_clamp((x - p[GRID_X0]) / p[GRID_DX], -1.0, (double)nx),
+               sy = ali3_clamp((y - p[GRID_Y0]) / p[GRID_DY], -1.0, (double)ny);
+  const int i0 = cubic(sx, nx, wx, dx), j0 = cubic(sy, ny, wy, dy);
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      const int ic = i0 + i < 0     ? 0
+                     : i0 + i >= nx ? nx - 1
+                                    : i0 + i,
+                jc = j0 + j < 0     ? 0
+                     : j0 + j >= ny ? ny - 1
+                                    : j0 + j;
+      const double value = z[(int64_t)ic * ny + jc];
+      height += wx[i] * wy[j] * value;
+      slope[0] += dx[i] * wy[j] * value / p[GRID_DX];
+      slope[1] += wx[i] * dy[j] * value / p[GRID_DY];
+    }
+  const double tx = ali3_clamp(sx - (i0 + 1), 0.0, 1.0), ty = ali3_clamp(sy - (j0 + 1), 0.0, 1.0);
+  const double *m = mu + (int64_t)(i0 + 1) * ny + j0 + 1;
+  const double friction = (1.0 - tx) * ((1.0 - ty) * m[0] + ty * m[1]) + tx * ((1.0 - ty) * m[ny] + ty * m[ny + 1]);
+  const double size = sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
+  const surface found = {height, {-slope[0] / size, -slope[1] / size, 1.0 / size}, p[GRID_FRICTION] * friction};
+  return found;
+}
+
 static int grid(const double *p, int32_t nreal, const double centre[3], const double axis[3], double radius,
                 ali3_contact *out) {
   int nx, ny;
   if (!grid_size(p, nreal, &nx, &ny)) return 0; /* a parameter may have spoilt the header */
-  const double *z = p + GRID_DATA, *mu = z + (int64_t)nx * ny;
   double x = centre[0], y = centre[1];
   for (int pass = 0; pass < 3; pass++) { /* tangent plane under the centre, then twice at the point it gives */
-    double wx[4], dx[4], wy[4], dy[4], q[3] = {x, y, 0.0}, slope[2] = {0.0, 0.0}, friction = 0.0;
-    const double sx = ali3_clamp((x - p[GRID_X0]) / p[GRID_DX], -1.0, (double)nx),
-                 sy = ali3_clamp((y - p[GRID_Y0]) / p[GRID_DY], -1.0, (double)ny);
-    const int i0 = cubic(sx, nx, wx, dx), j0 = cubic(sy, ny, wy, dy);
-    for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) {
-        const int ic = i0 + i < 0     ? 0
-                       : i0 + i >= nx ? nx - 1
-                                      : i0 + i,
-                  jc = j0 + j < 0     ? 0
-                       : j0 + j >= ny ? ny - 1
-                                      : j0 + j;
-        const double value = z[(int64_t)ic * ny + jc];
-        q[2] += wx[i] * wy[j] * value;
-        slope[0] += dx[i] * wy[j] * value / p[GRID_DX];
-        slope[1] += wx[i] * dy[j] * value / p[GRID_DY];
-      }
-    const double tx = ali3_clamp(sx - (i0 + 1), 0.0, 1.0), ty = ali3_clamp(sy - (j0 + 1), 0.0, 1.0);
-    const double *m = mu + (int64_t)(i0 + 1) * ny + j0 + 1;
-    friction = (1.0 - tx) * ((1.0 - ty) * m[0] + ty * m[1]) + tx * ((1.0 - ty) * m[ny] + ty * m[ny + 1]);
-    const double size = sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]),
-                 n[3] = {-slope[0] / size, -slope[1] / size, 1.0 / size};
-    const double reach = ali3_clamp(half_space(centre, axis, radius, q, n, out), -radius, radius);
-    out->friction = p[GRID_FRICTION] * friction;
+    const surface under = grid_at(p, nx, ny, x, y);
+    const double q[3] = {x, y, under.height};
+    const double reach = ali3_clamp(half_space(centre, axis, radius, q, under.normal, out), -radius, radius);
+    out->friction = under.friction;
     x = centre[0] + reach * out->down[0];
     y = centre[1] + reach * out->down[1];
   }
@@ -156,6 +178,115 @@ int ali3_road_contacts(const ali3_road *road, const double centre[3], const doub
   for (int i = 0; i < count; i++)
     if (!(out[i].friction > 0.0)) out[i].friction = 0.0;
   return count;
+}
+
+static void plane_clearance(const double n[3], const double q[3], const double point[3], ali3_clearance *out) {
+  out->distance = 0.0;
+  for (int i = 0; i < 3; i++) {
+    out->gradient[i] = n[i];
+    out->distance += n[i] * (point[i] - q[i]);
+  }
+}
+
+/* Step and lower level. Outside the step the distance is the true one. Inside, a below its top and b behind its face,
+ * it is -(a + b - sqrt(a^2 + b^2)) (Fischer and Burmeister): min(a, b) near both, without its kink between them, so a
+ * point that is deep in the edge is not thrown from one side to the other. */
+static int kerb_clearance(const double *p, const double point[3], ali3_clearance out[2]) {
+  const double side = p[KERB_SIDE] >= 0.0 ? 1.0 : -1.0, up[3] = {0.0, 0.0, 1.0}, low[3] = {0.0, 0.0, p[KERB_LOWER]};
+  const double a = p[KERB_LOWER] + p[KERB_STEP] - point[2], b = -side * (point[0] - p[KERB_X]);
+  const double corner = ali3_hypot(a, b);
+  double by_a = -1.0, by_b = 0.0; /* of the distance */
+  out[0].distance = -a;
+  if (a > 0.0 && b <= 0.0) {
+    out[0].distance = -b;
+    by_a = 0.0, by_b = -1.0;
+  } else if (a <= 0.0 && b < 0.0) {
+    out[0].distance = corner;
+    by_a = a / corner, by_b = b / corner;
+  } else if (a > 0.0 && b > 0.0) {
+    out[0].distance = corner - a - b;
+    by_a = a / corner - 1.0, by_b = b / corner - 1.0;
+  }
+  out[0].gradient[0] = -side * by_b;
+  out[0].gradient[1] = 0.0;
+  out[0].gradient[2] = -by_a;
+  plane_clearance(up, low, point, &out[1]);
+  out[0].friction = out[1].friction = p[KERB_FRICTION];
+  return 2;
+}
+
+#define NEAR 0.1 /* m: farther from the tangent plane under it a point is not looked at again */
+
+/* Distance to the nearest point of the surface: tangent plane under the point, then twice at the foot it gives. */
+static int grid_clearance(const double *p, int32_t nreal, const double point[3], ali3_clearance *out) {
+  int nx, ny;
+  if (!grid_size(p, nreal, &nx, &ny)) return 0;
+  double x = point[0], y = point[1];
+  for (int pass = 0; pass < 3; pass++) {
+    const surface under = grid_at(p, nx, ny, x, y);
+    const double q[3] = {x, y, under.height};
+    plane_clearance(under.normal, q, point, out);
+    out->friction = under.friction;
+    if (out->distance > NEAR) return 1;
+    const double reach = ali3_clamp(out->distance, -NEAR, NEAR);
+    x = point[0] - reach * under.normal[0];
+    y = point[1] - reach * under.normal[1];
+  }
+  return 1;
+}
+
+int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clearance out[2]) {
+  const double *p = road->real;
+  int count = 0;
+  if (road->type == ALI3_ROAD_PLANE) {
+    const double size = sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
+    const double n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
+                 q[3] = {0.0, 0.0, p[PLANE_HEIGHT]};
+    plane_clearance(n, q, point, out);
+    out->friction = p[PLANE_FRICTION];
+    count = 1;
+  }
+  if (road->type == ALI3_ROAD_KERB) count = kerb_clearance(p, point, out);
+  if (road->type == ALI3_ROAD_GRID) count = grid_clearance(p, road->nreal, point, out);
+  for (int i = 0; i < count; i++)
+    if (!(out[i].friction > 0.0)) out[i].friction = 0.0;
+  return count;
+}
+
+enum { MOST_CELLS = 400 };     /* looked at for a top */
+#define OVERSHOOT 0.35         /* a bicubic patch leaves the range of its values by less than this part of it */
+
+/* Indices low..high of the values that cells within reach of a place take. */
+static void cells(double place, double reach, double first, double spacing, int n, int *low, int *high) {
+  const double last = (double)(n - 1), a = (place - reach - first) / spacing, b = (place + reach - first) / spacing;
+  *low = (int)ali3_clamp(a - 1.0, 0.0, last);
+  *high = (int)ali3_clamp(b + 3.0, 0.0, last);
+}
+
+static double grid_top(const double *p, int32_t nreal, const double place[3], double reach) {
+  int nx, ny, low[2], high[2];
+  if (!grid_size(p, nreal, &nx, &ny)) return -INFINITY;
+  cells(place[0], reach, p[GRID_X0], p[GRID_DX], nx, &low[0], &high[0]);
+  cells(place[1], reach, p[GRID_Y0], p[GRID_DY], ny, &low[1], &high[1]);
+  if ((int64_t)(high[0] - low[0] + 1) * (high[1] - low[1] + 1) > MOST_CELLS) return INFINITY;
+  double top = -INFINITY, bottom = INFINITY;
+  for (int i = low[0]; i <= high[0]; i++)
+    for (int j = low[1]; j <= high[1]; j++) {
+      const double z = p[GRID_DATA + (int64_t)i * ny + j];
+      top = z > top ? z : top;
+      bottom = z < bottom ? z : bottom;
+    }
+  return top + OVERSHOOT * (top - bottom);
+}
+
+double ali3_road_top(const ali3_road *road, const double place[3], double reach) {
+  const double *p = road->real;
+  if (road->type == ALI3_ROAD_PLANE)
+    return p[PLANE_HEIGHT] + p[PLANE_GRADE_X] * place[0] + p[PLANE_GRADE_Y] * place[1] +
+           ali3_hypot(p[PLANE_GRADE_X], p[PLANE_GRADE_Y]) * reach;
+  if (road->type == ALI3_ROAD_KERB)
+    return p[KERB_LOWER] + (p[KERB_SIDE] * (place[0] - p[KERB_X]) > reach ? 0.0 : p[KERB_STEP]);
+  return grid_top(p, road->nreal, place, reach);
 }
 
 const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {

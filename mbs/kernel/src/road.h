@@ -1,4 +1,4 @@
-/* Roads: where a wheel, taken as a disc, touches the ground. One function for all kinds of road. */
+/* Roads: where a wheel, taken as a disc, touches the ground, and how far a point is from it. */
 #ifndef ALI3_ROAD_H
 #define ALI3_ROAD_H
 #include <stdint.h>
@@ -22,8 +22,10 @@ typedef struct {
   double point[3]; /* nearest point of the road in the wheel plane, m, earth axes */
   double normal[3]; /* unit normal of the road (of the contact line at an edge), upwards */
   double down[3]; /* unit, in the wheel plane, towards the road: point = centre + (radius - penetration) down */
-  double cosine; /* -normal . down = sine of the angle between wheel axis and normal, > 0 */
+  double cosine; /* -normal . down = sine of the angle between wheel axis and normal; more, above 0, where the wheel
+                    * lies nearly flat */
   double friction;
+  double leaning; /* d(cosine)/d(sine between axis and normal): 1, less where the wheel lies nearly flat */
 } ali3_contact;
 
 /* Writes one or two contacts (also open ones, so that outputs stay continuous) and returns their number.
@@ -31,6 +33,18 @@ typedef struct {
  * d(centre). */
 int ali3_road_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
                        ali3_contact out[2]);
+
+typedef struct {
+  double distance; /* of a point from the road, m; < 0 below it */
+  double gradient[3]; /* of the distance: the unit normal, but shorter within a kerb near its edge */
+  double friction;
+} ali3_clearance;
+
+/* Writes one or two clearances of a point (kerb: step and lower level) and returns their number. */
+int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clearance out[2]);
+
+/* No point of the road within `reach` of a place in x and y is higher, m. */
+double ali3_road_top(const ali3_road *road, const double place[3], double reach);
 
 const char *ali3_road_check(int32_t type, const double *real, int32_t nreal); /* NULL or one sentence */
 #endif

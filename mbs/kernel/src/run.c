@@ -47,12 +47,14 @@ static ali3_status step(ali3_instance *in, double h) {
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const ali3_report before = in->report;
   in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
+  in->t_now = ali3_time(in);
   ali3_branch_before(in);
   ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
   if (status == ALI3_OK) status = ali3_branch_after(in, t_base + (double)count * h, h);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);
+    if (in->input_function != NULL) memcpy(in->input, in->now.used, (size_t)in->system->size.nu * sizeof(double));
     ali3_books_back(&in->report, &before);
     in->report.failures++;
     return status;

@@ -67,23 +67,32 @@ static ali3_status close(ali3_instance *in) {
   return ALI3_OK;
 }
 
+/* Where inputs jump at the start of the step its first stage is not the last one of the step before: accelerations and
+ * multipliers of in->next, a copy of in->now, become those behind the jump. */
+static ali3_status after_jump(ali3_instance *in) {
+  if (!ali3_inputs_jump(in)) return ALI3_OK;
+  const ali3_status status = ali3_inputs_at(in, 0.0);
+  return status == ALI3_OK ? ali3_index_one(in, &in->next) : status;
+}
+
 /* From in->now to in->next, a copy of it; in->now changes only when the step is good. t is the time at its end. */
 ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const int64_t before = in->report.iterations;
   ali3_vectors *from = &in->now, *to = &in->next;
-  memcpy(in->stage, from->qdd, (size_t)nq * sizeof(double));
+  in->force_input = in->input_middle;
+  ali3_status status = after_jump(in);
+  memcpy(in->stage, to->qdd, (size_t)nq * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   const bool watched = S->n_flexible == 0; /* else M changes, and in->Q has inertia forces */
   const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->r) : 0.0;
-  double work = watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, from->qdd, in->r) : 0.0;
-  ali3_status status = ALI3_OK;
-  in->force_input = in->input_middle;
+  double work = watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->stage, in->r) : 0.0;
   for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
     combine(in, h, ali3_order_8.node[stage], ali3_order_8.stage_weight[stage], stage);
-    ali3_input_between(in, from->used, ali3_order_8.node[stage]);
     ali3_guides_time(in, to, t - (1.0 - ali3_order_8.node[stage]) * h);
+    status = ali3_inputs_at(in, ali3_order_8.node[stage]);
+    if (status != ALI3_OK) break;
     status = ali3_index_one(in, to);
     if (watched) work += h * ali3_order_8.weight[stage] * power(in, to);
     memcpy(in->stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));

@@ -12,15 +12,17 @@
 static const double TURNS = 1e4, TWO_PI = 6.283185307179586; /* rad: beyond, whole turns are taken off */
 static const double BROKEN = 1e3; /* m: the rows are lost */
 
-/* Numbers of the method in a state: q, qd, qdd, rank, order of rows, order of joints. They begin at `own`. */
+/* Numbers of the method in a state: q, qd, qdd, turned angles, rank, order of rows, order of joints. They begin at
+ * `own`. */
 static void keep(const ali3_instance *in, double *own) {
   const ali3_tree *T = in->system->tree;
   const ali3_tree_work *w = in->tree;
   const size_t n = (size_t)T->n;
   memcpy(own, w->state, 2 * n * sizeof(double));
   memcpy(own + 2 * n, w->qdd, n * sizeof(double));
+  memcpy(own + 3 * n, w->turned, (size_t)T->n_angle * sizeof(double));
   if (T->n_row == 0) return;
-  double *order = own + 3 * n;
+  double *order = own + 3 * n + T->n_angle;
   *order++ = w->rank;
   for (int32_t i = 0; i < T->n_row; i++) *order++ = w->row_order[i];
   for (int32_t j = 0; j < T->n; j++) *order++ = w->column_order[j];
@@ -44,9 +46,10 @@ static bool recall(const ali3_instance *in, const double *own) {
   const size_t n = (size_t)T->n;
   memcpy(w->state, own, 2 * n * sizeof(double));
   memcpy(w->qdd, own + 2 * n, n * sizeof(double));
+  memcpy(w->turned, own + 3 * n, (size_t)T->n_angle * sizeof(double));
   w->rank = 0;
   if (T->n_row == 0) return true;
-  const double *order = own + 3 * n;
+  const double *order = own + 3 * n + T->n_angle;
   if (!(order[0] >= 0.0 && order[0] <= T->n_row && order[0] <= T->n)) return false;
   w->rank = (int32_t)order[0];
   return permutation(order + 1, T->n_row, 0, w->row_order) &&
@@ -84,6 +87,8 @@ static ali3_status accelerations(ali3_instance *in, const double *qd, double *qd
     ali3_tree_load(in, in->Q);
   }
   ali3_tree_mass(T, w);
+  ali3_angles_mass(S, w);
+  if (S->size.ne > 0) ali3_angles_load(S, w, in->Q);
   if (T->n_row > 0) {
     ali3_loops_bias(S, w);
     good = ali3_loops_solve(T, w, qdd);
@@ -102,6 +107,7 @@ static ali3_status begin(ali3_instance *in) {
   ali3_tree_work *w = in->tree;
   const ali3_tree *T = in->system->tree;
   ali3_tree_read(in, in->now.q, in->now.qd, w->state);
+  ali3_angles_read(in->system, w, in->now.q);
   place(in, w->state);
   ali3_tree_joints(T, w);
   if (T->n_row > 0) {
@@ -110,6 +116,14 @@ static ali3_status begin(ali3_instance *in) {
     ali3_loops_factorise(T, w);
   }
   return accelerations(in, w->state + T->n, w->qdd);
+}
+
+/* Accelerations at the start of a step where its inputs are not those at the end of the last. */
+static ali3_status after_jump(ali3_instance *in) {
+  ali3_tree_work *w = in->tree;
+  place(in, w->state);
+  position(in);
+  return accelerations(in, w->state + in->system->tree->n, w->qdd);
 }
 
 /* w->sum = state + h times the rates of the stages with their weights. */
@@ -166,6 +180,7 @@ static ali3_status show(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   ali3_tree_accelerate(S->tree, in->tree, in->tree->qdd);
   ali3_tree_write(in, v->q, v->qd, v->qdd);
+  if (in->controlled && in->sampled) return ALI3_OK; /* only the motion is looked at */
   if (in->sampled && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
   /* not from the last multipliers: bits must not depend on who looked when */
   memset(v->lam, 0, (size_t)S->size.nc * sizeof(double));
@@ -180,9 +195,14 @@ static ali3_status show(ali3_instance *in, ali3_vectors *v) {
   return ALI3_OK;
 }
 
-static void turn_back(const ali3_tree *T, double *q) {
-  for (int32_t j = 0; j < T->n; j++)
-    if (fabs(q[j]) > TURNS && T->slide[j + 1] == 0.0) q[j] -= TWO_PI * floor(q[j] / TWO_PI + 0.5);
+static void turn_back(const ali3_system *S, ali3_tree_work *w) {
+  for (int32_t j = 0; j < S->tree->n; j++)
+    if (fabs(w->state[j]) > TURNS && S->tree->slide[j + 1] == 0.0) {
+      const double angle = TWO_PI * floor(w->state[j] / TWO_PI + 0.5);
+      w->state[j] -= angle;
+      w->q[j + 1] = w->state[j];
+      ali3_angles_turn(S, w, j + 1, angle);
+    }
 }
 
 /* In the metric of the diagonal of the mass matrix; w->stage[0] has rates and accelerations at the start of the step,
@@ -214,14 +234,19 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   const bool mine = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
   ali3_tree_work *w = in->tree;
   (void)t;
-  memcpy(in->input_middle, in->now.used, (size_t)S->size.nu * sizeof(double));
+  ali3_status status = ali3_inputs_at(in, 0.0);
+  if (status != ALI3_OK) return status;
   in->force_input = in->input_middle;
-  ali3_status status = mine && recall(in, in->now.own) ? ALI3_OK : begin(in);
+  if (!(mine && recall(in, in->now.own)))
+    status = begin(in);
+  else if (ali3_inputs_jump(in))
+    status = after_jump(in);
   memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
   for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
     combine(in, h, rule->stage_weight[stage], stage);
-    ali3_input_between(in, in->now.used, rule->node[stage]);
+    status = ali3_inputs_at(in, rule->node[stage]);
+    if (status != ALI3_OK) break;
     place(in, w->sum);
     position(in);
     memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));
@@ -238,7 +263,7 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   if (!ali3_finite(w->sum, 2 * n) || !ali3_finite(w->qdd, n)) return ALI3_NOT_FINITE;
   books(in, h);
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
-  turn_back(T, w->state);
+  turn_back(S, w);
   ali3_vectors *v = &in->now;
   if (!in->quiet) {
     v = &in->next;

@@ -111,6 +111,25 @@ static double reaction(const ali3_instance *in, const int32_t *v, const double *
   return sum;
 }
 
+/* The product rule, factor by factor. */
+static double products(const ali3_instance *in, const int32_t *v, const double *weight) {
+  double sum = 0.0;
+  for (int32_t k = 0; k < v[0]; k++) {
+    const int32_t *term = v + 1 + 5 * k, row = term[0], guide = term[4];
+    const double scale = weight[k] * in->system->row_scale[row];
+    double value = scale * in->now.lam[row], change = scale * in->tangent.lam[row];
+    for (int i = 1; i < 4; i++) {
+      if (term[i] < 0) continue;
+      const moving u = vector(in, term + i, 0, 1);
+      change = change * u.v[0] + value * u.d[0];
+      value *= u.v[0];
+    }
+    if (guide >= 0) change = change * in->now.s[guide] + value * in->tangent.s[guide];
+    sum += change;
+  }
+  return sum;
+}
+
 static double norm(const ali3_instance *in, const int32_t *v) {
   const moving p = vector(in, v + 2, v[0], v[1]);
   const double length = sqrt(dot(p.v, p.v));
@@ -197,8 +216,10 @@ static double change(const ali3_instance *in, int32_t type, const int32_t *v, co
     return direction(in, v);
   case 16:
     return angle_about(in, v);
-  default:
+  case 17:
     return quasi_static(in, v, real);
+  default:
+    return products(in, v, real);
   }
 }
 

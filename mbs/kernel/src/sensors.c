@@ -88,11 +88,17 @@ static double reaction(const ali3_instance *in, const int32_t *v, const double *
   return sum;
 }
 
-static double health(const ali3_instance *in, int32_t kind) {
-  const ali3_report *r = &in->report;
-  const double kinds[6] = {r->last_iterations,        r->violation,        r->residual,
-                           (double)r->factorizations, (double)r->halvings, (double)ali3_run_status(r)};
-  return kinds[kind];
+/* Multipliers times constant weights, up to three signals and a guide. */
+static double products(const ali3_instance *in, const int32_t *v, const double *weight) {
+  double sum = 0.0;
+  for (int32_t k = 0; k < v[0]; k++) {
+    const int32_t *term = v + 1 + 5 * k;
+    double value = weight[k] * in->system->row_scale[term[0]] * in->now.lam[term[0]];
+    for (int i = 1; i < 4; i++)
+      if (term[i] >= 0) value *= signal(in, term[i], 0);
+    sum += term[4] >= 0 ? value * in->now.s[term[4]] : value;
+  }
+  return sum;
 }
 
 static double norm(const ali3_instance *in, const int32_t *v) {
@@ -171,15 +177,17 @@ static double value(const ali3_instance *in, int32_t type, const int32_t *v, con
   case 12:
     return real[0] * (v[1] == 0 ? now->s : (v[1] == 1 ? now->sd : now->sdd))[v[0]];
   case 13:
-    return health(in, v[0]);
+    return ali3_solver_value(in, v[0]);
   case 14:
     return norm(in, v);
   case 15:
     return direction(in, v);
   case 16:
     return angle_about(in, v);
-  default:
+  case 17:
     return quasi_static(in, v, real);
+  default:
+    return products(in, v, real);
   }
 }
 

@@ -12,7 +12,7 @@ enum { ITERATIONS = 400, ROAD = 2 };
 
 ali3_status ali3_check_start(const ali3_system *s, ali3_message m) {
   if (s->n_static_start != 0) CHECK(ali3_check_length(m, "static_start", s->n_static_start, 1));
-  CHECK(ali3_check_indices(m, "static_start", s->static_start, s->n_static_start, 0, 2));
+  CHECK(ali3_check_indices(m, "static_start", s->static_start, s->n_static_start, 1, 2));
   CHECK(ali3_check_length(m, "static_value", s->n_static_value, s->n_static_par));
   CHECK(ali3_check_indices(m, "static_par", s->static_par, s->n_static_par, 0, s->size.np));
   for (int64_t i = 0; i < s->n_static_par; i++)
@@ -104,7 +104,7 @@ static ali3_status search(ali3_instance *in, double t) {
 /* Before a start at time t: moves it to the equilibrium of the parameters, unless coordinates were given. */
 ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
-  if (S->n_static_start == 0 || S->static_start[0] == 0 || in->placed == ALI3_PLACED_BY_Q) return ALI3_OK;
+  if (S->n_static_start == 0 || in->placed == ALI3_PLACED_BY_Q) return ALI3_OK;
   const bool solve = changed(in);
   if (!solve && !in->start_moved) return ALI3_OK;
   ali3_start_of_file(in);

@@ -14,6 +14,7 @@ typedef struct { /* 40 bytes without holes */
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'S', 'T', 'A', '\n'};
 enum { CHECKED_FROM = 28 }; /* the checksum covers what follows it */
+static const double MOST = 1e60; /* of times, positions, rates, multipliers and element states */
 static const int64_t MOST_COUNTED = (int64_t)1 << 53; /* steps: doubles no longer tell two neighbours apart */
 
 size_t ali3_state_size(const ali3_system *s) {
@@ -46,11 +47,21 @@ ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size) {
   return ALI3_OK;
 }
 
-static bool numbers_finite(const unsigned char *p, size_t n) {
+/* Finite, and so small that energies and norms made of them are finite too. */
+static bool numbers_valid(const unsigned char *p, size_t n) {
   for (size_t i = 0; i < n; i++) {
     double v;
     memcpy(&v, p + i * sizeof v, sizeof v);
-    if (!(v - v == 0.0)) return false;
+    if (!(v >= -MOST && v <= MOST)) return false;
+  }
+  return true;
+}
+
+static bool within(const unsigned char *p, int32_t n, const double *low, const double *high) {
+  for (int32_t i = 0; i < n; i++) {
+    double v;
+    memcpy(&v, p + (size_t)i * sizeof v, sizeof v);
+    if (!(v - v == 0.0 && v >= low[i] && v <= high[i])) return false;
   }
   return true;
 }
@@ -59,17 +70,20 @@ static bool counted(int64_t n) { return n >= 0 && n < MOST_COUNTED; }
 
 static bool magnitude(double x) { return x >= 0.0 && x - x == 0.0; }
 
-static bool report_valid(const ali3_system *s, const ali3_report *r) {
-  const bool changed = r->branch_changes > 0;
+static bool branch_valid(const ali3_system *s, const ali3_report *r) {
   if (!counted(r->branch_changes) || !(r->branch_time - r->branch_time == 0.0)) return false;
-  if (changed && (r->branch_loop < 0 || r->branch_loop >= ali3_loop_count(s) || r->branch_triad < 0 ||
-                  ALI3_TRIAD_ITEMS * (r->branch_triad + 1) >
-                      s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]))
-    return false;
-  return magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) && magnitude(r->velocity_path) &&
-         magnitude(r->predictor_path) && r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 &&
-         counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
-         counted(r->halvings) && counted(r->failures) && r->energy_error - r->energy_error == 0.0;
+  return r->branch_changes == 0 ||
+         (r->branch_loop >= 0 && r->branch_loop < ali3_loop_count(s) && r->branch_triad >= 0 &&
+          ALI3_TRIAD_ITEMS * ((int64_t)r->branch_triad + 1) <=
+              s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]);
+}
+
+static bool report_valid(const ali3_system *s, const ali3_report *r) {
+  return branch_valid(s, r) && magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) &&
+         magnitude(r->velocity_path) && magnitude(r->predictor_path) && r->energy - r->energy == 0.0 &&
+         r->open_power - r->open_power == 0.0 && counted(r->steps) && counted(r->iterations) &&
+         counted(r->factorizations) && counted(r->solves) && counted(r->halvings) && counted(r->failures) &&
+         r->energy_error - r->energy_error == 0.0;
 }
 
 static void get(void *to, const unsigned char **from, size_t size) {
@@ -79,7 +93,8 @@ static void get(void *to, const unsigned char **from, size_t size) {
 
 ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size) {
   if (in == NULL || bytes == NULL) return ALI3_BAD_ARGUMENT;
-  const ali3_sizes *z = &in->system->size;
+  const ali3_system *S = in->system;
+  const ali3_sizes *z = &S->size;
   const size_t fixed = sizeof(ali3_state_header) + sizeof(ali3_settings) + sizeof(ali3_report);
   ali3_state_header header;
   ali3_settings settings;
@@ -95,14 +110,10 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   get(&report, &p, sizeof report);
   const unsigned char *numbers = (const unsigned char *)bytes + fixed,
                       *inputs = numbers + (2 + in->n_vector) * sizeof(double);
-  if (!ali3_settings_valid(&settings) || !report_valid(in->system, &report) ||
-      !numbers_finite(numbers, (size - fixed) / sizeof(double)))
+  if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(numbers, 2 + in->n_vector) ||
+      !within(inputs, z->nu, S->input_min, S->input_max) ||
+      !within(inputs + (size_t)z->nu * sizeof(double), z->np, S->par_min, S->par_max))
     return ALI3_BAD_STATE;
-  for (int32_t i = 0; i < z->np; i++) {
-    double v;
-    memcpy(&v, inputs + ((size_t)z->nu + (size_t)i) * sizeof v, sizeof v);
-    if (!(v >= in->system->par_min[i] && v <= in->system->par_max[i])) return ALI3_BAD_STATE;
-  }
   double *parameter = in->parameter_work;
   memcpy(parameter, in->parameter, (size_t)z->np * sizeof(double));
   memcpy(in->parameter, inputs + (size_t)z->nu * sizeof(double), (size_t)z->np * sizeof(double));

@@ -257,7 +257,8 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_flexible(s);
   if (s->tree != NULL) ali3_tree_derive(s, s->tree);
   for (int32_t i = 0; i < s->size.ns; i++)
-    s->senses_rows = s->senses_rows || s->sen_type[i] == 9 || s->sen_type[i] == 13 || s->sen_type[i] == 17;
+    s->senses_rows =
+        s->senses_rows || s->sen_type[i] == 9 || s->sen_type[i] == 13 || s->sen_type[i] == 17 || s->sen_type[i] == 18;
   s->shift_x = s->shift_y = s->shift_z = -1;
   if (s->size.has_pose) {
     s->shift_x = first_nonzero(s->pose_x, s->size.nq);

@@ -54,6 +54,7 @@ static ali3_status check_header(const unsigned char *bytes, size_t size, ali3_me
   if (read_u64(bytes + 16) != size)
     return ali3_bad(m, "the header says %llu bytes, there are %llu", (unsigned long long)read_u64(bytes + 16),
                     (unsigned long long)size);
+  if (read_u32(bytes + 28) != 0) return ali3_bad(m, "the last four bytes of the header are not zero: it was altered");
   if (size > INT32_MAX) return ali3_bad(m, "the file is larger than 2 GB");
   if (read_u32(bytes + 24) != ali3_crc32(bytes + HEADER_SIZE, size - HEADER_SIZE))
     return ali3_bad(m, "the checksum does not fit: the file was altered or damaged");

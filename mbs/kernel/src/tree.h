@@ -6,7 +6,7 @@
 #define ALI3_TREE_H
 #include "ali3_internal.h"
 
-enum { ALI3_MOST_JOINTS = 64, ALI3_LANES = 66, ALI3_MOST_CUT_ROWS = 64 };
+enum { ALI3_MOST_JOINTS = 64, ALI3_LANES = 66, ALI3_MOST_CUT_ROWS = 64, ALI3_MOST_ANGLES = 64 };
 typedef double ali3_lanes[ALI3_LANES];
 
 /* Before a loop whose rounds do not depend on each other; never before a sum, which it would allow to be reordered. */
@@ -21,6 +21,7 @@ typedef double ali3_lanes[ALI3_LANES];
 struct ali3_tree {
   int32_t n, lanes;         /* joints, and n + 1 rounded up to a whole number of vectors */
   int32_t n_cut, n_row;     /* cut joints and their rows */
+  int32_t n_angle;          /* relative angles that are coordinates of the System */
   bool slides, asymmetric;  /* a joint is prismatic; a body has three different moments of inertia */
   int32_t parent[ALI3_LANES],
       run[ALI3_LANES]; /* run: the lowest of the bodies j, j - 1, .. that are each other's parents */
@@ -54,6 +55,7 @@ struct ali3_tree_work {
   int32_t row_order[ALI3_MOST_CUT_ROWS], column_order[ALI3_LANES], rank; /* the first `rank` of both are the chosen */
   double stage[ALI3_STAGES][2 * ALI3_LANES], sum[2 * ALI3_LANES]; /* rates of (q, qd) at the stages of a step */
   double state[2 * ALI3_LANES], qdd[ALI3_LANES]; /* where the method is */
+  double turned[ALI3_MOST_ANGLES]; /* angles where their joints are at zero: whole turns are in them */
 };
 
 /* tree_derive.c */
@@ -76,6 +78,13 @@ void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w);
 void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w);
 bool ali3_tree_factorise(const ali3_tree *T, ali3_tree_work *w, double *b);
 void ali3_tree_solve(const ali3_tree *T, const ali3_tree_work *w, double *b);
+
+/* tree_angles.c: relative angles, sums of joint coordinates */
+void ali3_angles_read(const ali3_system *S, ali3_tree_work *w, const double *q);
+void ali3_angles_turn(const ali3_system *S, ali3_tree_work *w, int32_t joint, double angle);
+void ali3_angles_write(const ali3_system *S, const ali3_tree_work *w, double *q, double *qd, double *qdd);
+void ali3_angles_load(const ali3_system *S, ali3_tree_work *w, const double *Q);
+void ali3_angles_mass(const ali3_system *S, ali3_tree_work *w);
 
 /* tree_loops.c: rows of the cut joints */
 void ali3_loops_rows(const ali3_system *S, ali3_tree_work *w, bool gradients);

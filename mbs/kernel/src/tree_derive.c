@@ -8,6 +8,7 @@ void ali3_tree_derive(const ali3_system *s, ali3_tree *T) {
   T->n = (int32_t)s->n_tree_parent;
   T->lanes = (T->n + 2) / 2 * 2;
   T->n_cut = (int32_t)(s->n_tree_cut_body / 2);
+  T->n_angle = (int32_t)s->n_tree_angle_col;
   for (int32_t c = 0; c < 2 * T->n_cut; c++) T->n_row += s->tree_cut_rows[c];
   for (int32_t b = 1; b <= T->n; b++) {
     const double *base = s->tree_base + 12 * (b - 1), *inertia = s->tree_inertia + 9 * (b - 1);

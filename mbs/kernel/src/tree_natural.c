@@ -66,6 +66,7 @@ void ali3_tree_read(ali3_instance *in, const double *q, const double *qd, double
 void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd) {
   const ali3_system *S = in->system;
   const ali3_tree_work *w = in->tree;
+  ali3_angles_write(S, w, q, qd, qdd);
   for (int64_t n = 0; n < S->n_tree_out_body; n++) {
     const int32_t b = S->tree_out_body[n], *column = S->tree_out_col + 3 * n;
     const double *local = S->tree_out_local + 4 * n, o = local[0];

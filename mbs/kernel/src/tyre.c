@@ -69,7 +69,7 @@ static patch radial(ali3_element_args *a, const double e[3]) {
     for (int i = 0; i < 3; i++) {
       rho[i] = radius * c->down[i];
       b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth */
-      b[3 + i] = -lean * rho[i] / c->cosine;
+      b[3 + i] = -lean * rho[i] / c->cosine * c->leaning;
     }
     if (k == 0) { /* what a wheel in the air reports */
       mean.friction = c->friction;

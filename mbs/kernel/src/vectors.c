@@ -62,8 +62,3 @@ ali3_status ali3_accept(ali3_instance *in) {
   in->next = swap;
   return ALI3_OK;
 }
-
-/* Inputs go straight from u0 (nu) to the present ones; in->input_middle becomes those at a share of the way. */
-void ali3_input_between(ali3_instance *in, const double *u0, double share) {
-  for (int32_t i = 0; i < in->system->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
-}

@@ -12,7 +12,7 @@ from mbs.model.body import Body
 from mbs.model.checks import positive
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, GuideTerm, dot_products
-from mbs.model.joints.joint import Joint, JointEnds
+from mbs.model.joints.joint import Drawing, Joint, JointEnds
 from mbs.model.slide import SlidingPoint
 
 End = Any  # (body, point), a point mass, or a SlidingPoint
@@ -74,4 +74,19 @@ def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float 
         rows_weight=length,
     )
     joint.ends = JointEnds((end_body(end_1), end_body(end_2)), (p1, p2), rod=True)
+    if slide is None:
+        joint.drawing = _drawing(model, name, end_1, end_2, length)
     return joint
+
+
+def _drawing(model: ModelCore, name: str, end_1: End, end_2: End, length: float) -> Drawing:
+    """The bodies and points of a rod."""
+    first, second = ((end, end.com) if isinstance(end, Body) else end for end in (end_1, end_2))
+    return Drawing(
+        (first[0], second[0]),
+        tuple(b.com if p is None else p for b, p in (first, second)),  # type: ignore[arg-type]
+        None,
+        ("distance",),
+        lambda p, _, rod: distance(model, name, (first[0], p[0]), (second[0], p[1]), rod),
+        length,
+    )

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
@@ -11,11 +11,12 @@ from numpy.typing import ArrayLike
 from mbs.affine import AffineVector
 from mbs.errors import ModelError
 from mbs.model.equation import Equation
+from mbs.model.reactions import Turning
 
 if TYPE_CHECKING:
     from mbs.model.body import Body
 
-FORCE_KINDS = ("point", "line", "distance", "drive", "gear", "rack", "thread")
+FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
 """Kinds of equations whose multipliers are a force or a torque that can be read."""
 SCALAR_FORCES = {"distance": "tension", "drive": "drive", "gear": "torque", "rack": "force", "screw": "force"}
 """What the one force or torque of a type of joint is called."""
@@ -28,6 +29,43 @@ class JointPlaces:
     bodies: tuple[Body, Body]
     points: tuple[Any, Any]
     axes: tuple[Any, Any] | None = None
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What a joint between two rigid bodies asks of a point and an axis on each, so that both can be moved a little.
+
+    Attributes
+    ----------
+    bodies : pair of Body
+    points : pair of array_like, shape (dimension,)
+        As drawn, earth axes, m.
+    axes : pair of array_like or None
+        As drawn, earth axes.
+    conditions : tuple of str
+        Of these: "point" (the points are one), "axis" (the axes are parallel), "orientation" (nothing turns), "line"
+        (the first point on the second axis), "angle" (between the axes), "distance" (between the points).
+    remake : callable
+        ``remake(points, axes, length)`` is the joint with other ends.
+    length : float
+        Of a distance, m.
+    """
+
+    bodies: tuple[Body, Body]
+    points: tuple[Any, Any]
+    axes: tuple[Any, Any] | None
+    conditions: tuple[str, ...]
+    remake: Callable[[tuple[Any, Any], tuple[Any, Any] | None, float], Joint] = field(repr=False)
+    length: float = 0.0
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What a relative angle measures: body 2 against body 1 about an axis (as drawn, earth axes; None in the plane)."""
+
+    bodies: tuple[Body, Body]
+    axis: Any
+    coordinate: int
 
 
 @dataclass(frozen=True)
@@ -69,8 +107,14 @@ class Joint:
         Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
     normals : sequence of AffineVector
         Of a line: the unit vectors of the second body along which ``-lam_k`` of its line equations push the first.
+    turning : Turning or None
+        Vectors whose products keep the bodies from turning; `hold_turning` makes it.
     places : JointPlaces or None
         Of joints that a tree of bodies can be built from: revolute, prismatic, spherical and weld.
+    drawing : Drawing or None
+        Of joints between two rigid bodies whose drawing can be corrected.
+    turn : Turn or None
+        Of a relative angle.
     ends : JointEnds or None
         Of joints that can be part of a closed loop.
     """
@@ -83,6 +127,8 @@ class Joint:
         rows_weight: float = 0.0,
         normals: Sequence[AffineVector] = (),
         places: JointPlaces | None = None,
+        turning: Callable[[], Turning] | None = None,
+        turn: Turn | None = None,
     ) -> None:
         self.name = name
         self.type = type
@@ -90,9 +136,39 @@ class Joint:
         self.rows_weight = rows_weight
         self.normals = tuple(normals)
         self.places = places
+        self.turn = turn
         self.keep = False
+        self.turning: Turning | None = None
+        self._make_turning = turning
         self.switch: Any = None
         self.ends: JointEnds | None = None
+        self.drawing: Drawing | None = None
+
+    @property
+    def turns(self) -> bool:
+        """Whether a moment of it can be read."""
+        return self._make_turning is not None
+
+    def hold_turning(self) -> Turning:
+        """Keep the conditions on turning as rows whose multipliers are the moment of the joint: products of vectors
+        square to each other take the place of equal vectors, which would state a unit length twice.
+        """
+        if self._make_turning is None:
+            raise ModelError(f"The joint '{self.name}' ({self.type}) transmits no moment.")
+        if self.turning is None:
+            self.turning = self._make_turning()
+            self.equations += self.turning.equations(self.name)
+        return self.turning
+
+    @property
+    def turning_equations(self) -> list[int]:
+        """Numbers of the equations whose multipliers are its moment."""
+        return [k for k, e in enumerate(self.equations) if e.kind == "turning"]
+
+    @property
+    def replaced_equations(self) -> list[int]:
+        """Numbers of the equations that those take the place of."""
+        return [] if self.turning is None else [k for k, e in enumerate(self.equations) if e.kind in ("axis", "axes")]
 
     def __repr__(self) -> str:
         return f"<Joint {self.name!r} ({self.type})>"

@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import Affine
+from mbs.affine import Affine, AffineVector
 from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
-from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
+from mbs.model.reactions import Turning
 
 _BIG = 1.0 - 1e-12
 
@@ -35,6 +36,18 @@ def shared_axis(model: ModelCore, name: str, body_1: Body, body_2: Body, axis: A
     along = model.anchor_axis(body_1, a1, what)
     across = perpendicular(direction(a2, 3, f"the axis of {what} on body '{body_2.name}'"))
     return [Equation(name, "axis", dot_products(along, model.anchor_axis(body_2, e, what))) for e in across]
+
+
+def points_of(body_1: Body, p1: Any, body_2: Body, p2: Any) -> tuple[AffineVector, AffineVector]:
+    """Where a joint is, on either body."""
+    return body_1.point(p1), body_2.point(p2)
+
+
+def turning_about(body_1: Body, p1: Any, a1: ArrayLike, body_2: Body, p2: Any, a2: ArrayLike) -> Turning:
+    """The axis of body 1 stays square to two vectors of body 2 that are square to its own axis."""
+    u = body_1.vector(direction(a1, 3, "an axis"))
+    across = perpendicular(direction(a2, 3, "an axis"))
+    return Turning(points_of(body_1, p1, body_2, p2), [(u, body_2.vector(e), 0.0) for e in across])
 
 
 def may_share(body_1: Body, body_2: Body) -> bool:
@@ -62,6 +75,9 @@ def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     equations = shared_point(model, name, body_1, body_2, point, what)
     joint = Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    joint.drawing = Drawing(
+        (body_1, body_2), (p1, p2), None, ("point",), lambda p, u, _: spherical(model, name, body_1, body_2, p)
+    )
     return joint
 
 
@@ -80,9 +96,17 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
         raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
     axes = None if axis is None else point_pair(axis, 3, what)
     places = JointPlaces((body_1, body_2), (p1, p2), axes)
-    joint = Joint(name, "revolute", equations, rows_weight=1.0, places=places)
+    turning = None
+    if axes is not None:
+        a1, a2 = axes
+        turning = lambda: turning_about(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
+    joint = Joint(name, "revolute", equations, rows_weight=1.0, places=places, turning=turning)
     shared = None if axes is None else body_1.vector(direction(axes[0], 3, f"the axis of {what}"))
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), shared)
+    conditions = ("point",) if axes is None else ("point", "axis")
+    joint.drawing = Drawing(
+        (body_1, body_2), (p1, p2), axes, conditions, lambda p, u, _: revolute(model, name, body_1, body_2, p, u)
+    )
     return joint
 
 
@@ -103,6 +127,14 @@ def universal(
     a1, a2 = model.anchor_axis(body_1, u1, what), model.anchor_axis(body_2, u2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
     equations.append(Equation(name, "axes", dot_products(a1, a2), Affine({}, -cosine)))
-    joint = Joint(name, "universal", equations, rows_weight=1.0)
+    turning = lambda: Turning(points_of(body_1, p1, body_2, p2), [(a1, a2, cosine)])  # noqa: E731
+    joint = Joint(name, "universal", equations, rows_weight=1.0, turning=turning)
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    joint.drawing = Drawing(
+        (body_1, body_2),
+        (p1, p2),
+        (u1, u2),
+        ("point", "angle"),
+        lambda p, u, _: universal(model, name, body_1, body_2, p, *(u or (u1, u2))),
+    )
     return joint

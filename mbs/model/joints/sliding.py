@@ -14,8 +14,9 @@ from mbs.model.checks import direction, perpendicular
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import Interface, bends, located
-from mbs.model.joints.joint import Joint, JointEnds, JointPlaces, equal_vectors, point_pair
-from mbs.model.joints.points import different, may_share, shared_axis, shared_point
+from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
+from mbs.model.joints.points import different, may_share, points_of, shared_axis, shared_point, turning_about
+from mbs.model.reactions import Turning
 
 
 def _normals(model: ModelCore, body: Body, axis: ArrayLike, what: str) -> list[AffineVector]:
@@ -65,6 +66,14 @@ def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, wh
     return [Equation(name, "axis", dot_products(u, v)) for u, v in pairs]
 
 
+def no_turning(body_1: Body, p1: Any, body_2: Body, p2: Any) -> Turning:
+    """Axes of body 1 stay square to other axes of body 2."""
+    axes = np.eye(len(body_1.com))
+    pairs = [(0, 1)] if len(axes) == 2 else [(0, 1), (0, 2), (1, 2)]
+    vectors = [(body_1.vector(axes[i]), body_2.vector(axes[j]), 0.0) for i, j in pairs]
+    return Turning(points_of(body_1, p1, body_2, p2), vectors)
+
+
 def point_on_line(
     model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike
 ) -> Joint:
@@ -74,6 +83,13 @@ def point_on_line(
     line, normals = on_line(model, name, end_1, end_2, axis, what)
     joint = Joint(name, "point_on_line", line, normals=normals)
     joint.ends = _sliding_ends(end_1, end_2, axis, what)
+    joint.drawing = Drawing(
+        (end_1[0], end_2[0]),
+        (end_1[1], end_2[1]),
+        (axis, axis),
+        ("line",),
+        lambda p, u, _: point_on_line(model, name, (end_1[0], p[0]), (end_2[0], p[1]), (u or (axis, axis))[1]),
+    )
     return joint
 
 
@@ -87,8 +103,18 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_axis(model, name, body_1, body_2, axis, what)
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
-    joint = Joint(name, "cylindrical", equations + line, normals=normals)
+    a1, a2 = point_pair(axis, 3, what)
+    turning = lambda: turning_about(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
+    joint = Joint(name, "cylindrical", equations + line, normals=normals, turning=turning)
     joint.ends = _sliding_ends((body_1, p1), (body_2, p2), point_pair(axis, 3, what)[1], what)
+    axes: Any = point_pair(axis, 3, what)
+    joint.drawing = Drawing(
+        (body_1, body_2),
+        (p1, p2),
+        axes,
+        ("axis", "line"),
+        lambda p, u, _: cylindrical(model, name, body_1, body_2, p, u or axes),
+    )
     return joint
 
 
@@ -104,8 +130,16 @@ def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     equations = same_orientation(model, name, body_1, body_2, what)
     line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
     places = JointPlaces((body_1, body_2), (p1, p2), (axis, axis))
-    joint = Joint(name, "prismatic", equations + line, normals=normals, places=places)
+    turning = lambda: no_turning(body_1, p1, body_2, p2)  # noqa: E731
+    joint = Joint(name, "prismatic", equations + line, normals=normals, places=places, turning=turning)
     joint.ends = _sliding_ends((body_1, p1), (body_2, p2), axis, what)
+    joint.drawing = Drawing(
+        (body_1, body_2),
+        (p1, p2),
+        (axis, axis),
+        ("orientation", "line"),
+        lambda p, u, _: prismatic(model, name, body_1, body_2, p, (u or (axis, axis))[1]),
+    )
     return joint
 
 
@@ -121,6 +155,8 @@ def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
         return joint
     equations = shared_point(model, name, body_1, body_2, point, what)
     equations += same_orientation(model, name, body_1, body_2, what)
-    joint = Joint(name, "weld", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (point, point)))
+    places = JointPlaces((body_1, body_2), (point, point))
+    turning = lambda: no_turning(body_1, point, body_2, point)  # noqa: E731
+    joint = Joint(name, "weld", equations, rows_weight=1.0, places=places, turning=turning)
     joint.ends = JointEnds((body_1, body_2), (body_1.point(point), body_2.point(point)))
     return joint

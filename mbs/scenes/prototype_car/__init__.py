@@ -16,6 +16,7 @@ from mbs.scenes.prototype_car import car_data
 from mbs.scenes.prototype_car.chassis import chassis as chassis_of
 from mbs.scenes.prototype_car.chassis import stress_outputs
 from mbs.scenes.prototype_car.front_suspension import front_suspension
+from mbs.scenes.prototype_car.ground_contact import ground_contact
 from mbs.scenes.prototype_car.outputs import chassis_outputs, control_outputs, health_outputs, wheel_outputs
 from mbs.scenes.prototype_car.rear_suspension import rear_suspension
 from mbs.scenes.prototype_car.side import FRONT_SIDES, REAR_SIDES
@@ -89,6 +90,7 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
         wheel_outputs(m, chassis, spin, w)
     health_outputs(m)
     stress_outputs(m, parts, fidelity)
+    ground_contact(m, parts, ground)
     if guide is not None:
         m.drive("guided way", chassis.point(parts.origin)[0], guide(m))
     return m

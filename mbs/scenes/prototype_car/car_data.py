@@ -69,10 +69,6 @@ REAR_BODIES = {  # [A]
 }
 REAR_WHEEL = {"mass": 16.0, "spin_inertia": 0.70, "diametral_inertia": 0.40}  # [A]
 
-BUMP_GAP = {"front": 0.070, "rear": 0.075}  # m of spring length from the drawing to the stop [A]
-REBOUND_GAP = 0.085  # m, likewise [A]
-STOP_STIFFNESS = 80.0e3  # N/m [A]
-
 RACK_TRAVEL = 0.060  # m each way; about 27 deg at the outer and 33 deg at the inner wheel [A]
 RACK_PER_TURN = 0.042  # m per turn of the steering wheel [A]
 RACK_FREQUENCY = 10.0  # Hz, of the follower between input and rack [A]

@@ -33,6 +33,7 @@ from mbs.scenes.prototype_car.frame import (
     GAUGES,
     INTERFACES,
     REFERENCE,
+    joint_places,
     prototype_frame,
     strain_gauges,
 )
@@ -55,6 +56,11 @@ LOAD_PATH_TOLERANCE = 5e-3
 STIFF_PAIRS = tuple((f"{a}{s}", f"{b}{s}") for a, b in (("LF", "LR"), ("UF", "UR"), ("AF", "AR")) for s in "LR")
 
 
+GROUND_PATH = ("LF", "AF", "AR", "TR")
+"""Suspension joints, left and right, through which the ground's forces on the chassis go into a flexible frame: those
+that the final drive ties together anyway and one more, since each makes the tangent wider."""
+
+
 @dataclass(frozen=True)
 class Chassis:
     """What the rest of the car needs of the chassis.
@@ -71,6 +77,8 @@ class Chassis:
         Where accelerometers sit.
     drive_axes : tuple of AffineVector
         z and x axes that take the reaction of the final drive.
+    contact_frame : tuple of AffineVector, list of AffineVector, ndarray
+        Origin, axes and place of the origin in the drawing, m, that take the forces of the ground on the chassis.
     """
 
     body: Body
@@ -78,6 +86,7 @@ class Chassis:
     accelerated: Body
     origin: tuple[float, float, float]
     drive_axes: tuple[AffineVector, AffineVector]
+    contact_frame: tuple[AffineVector, list[AffineVector], np.ndarray]
 
 
 @cache
@@ -177,12 +186,15 @@ def chassis(m: Model, fidelity: int | str) -> Chassis:
         rigid = m.body("chassis", **car_data.CHASSIS)
         if fidelity == RIGID:
             axes = rigid.vector((0.0, 0.0, 1.0)), rigid.vector((1.0, 0.0, 0.0))
-            return Chassis(rigid, rigid, rigid, car_data.FLOOR_CENTRE, axes)
+            frame = rigid.point(rigid.com), [rigid.vector(v) for v in np.eye(3)], rigid.com
+            return Chassis(rigid, rigid, rigid, car_data.FLOOR_CENTRE, axes, frame)
         model, _, _ = _finite_elements()
         ports = m.ported(rigid, {name: model.positions[model.node(name)] for name in INTERFACES})
-        return Chassis(ports, rigid, rigid, car_data.FLOOR_CENTRE, _rear_axes(ports))
+        return Chassis(ports, rigid, rigid, car_data.FLOOR_CENTRE, _rear_axes(ports), _mean_frame(ports))
     flexible = m.flexible_body("chassis", reduced_chassis(fidelity))
-    return Chassis(flexible, flexible.frame, flexible, car_data.FLOOR_CENTRE, _rear_axes(flexible))
+    return Chassis(
+        flexible, flexible.frame, flexible, car_data.FLOOR_CENTRE, _rear_axes(flexible), _mean_frame(flexible)
+    )
 
 
 def _rear_axes(body: Body) -> tuple[AffineVector, AffineVector]:
@@ -200,6 +212,26 @@ def _rear_axes(body: Body) -> tuple[AffineVector, AffineVector]:
     below = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
     height = car_data.REAR["strut_top"][2] - car_data.REAR["lower_pivot_front"][2]
     return ((top[0] + top[1]) * 0.5 - below) * (1.0 / height), x
+
+
+def _mean_frame(body: Body) -> tuple[AffineVector, list[AffineVector], np.ndarray]:
+    """Origin and axes as the shortest combinations of suspension joints that are right for every rigid motion.
+
+    What acts on them loads the frame as forces at these joints. At the floating frame itself, one node, it would bend
+    the floor; a quasi-static chassis would miss it.
+    """
+    places = joint_places()
+    named = [places[f"{joint}{side}"] for joint in GROUND_PATH for side in "LR"]
+    origin = np.mean(named, axis=0)
+    rigid = np.vstack([np.array(named).T, np.ones(len(named))])
+
+    def combination(sums: np.ndarray) -> AffineVector:
+        weights = np.linalg.lstsq(rigid, sums, rcond=None)[0]
+        terms = [body.point(p) * float(w) for p, w in zip(named, weights, strict=True)]
+        return sum(terms[1:], terms[0])
+
+    axes = [combination(np.append(e, 0.0)) for e in np.eye(3)]
+    return combination(np.append(origin, 1.0)), axes, origin
 
 
 def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
@@ -221,9 +253,8 @@ def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
             assert isinstance(body, FlexibleBody)
             assert rows is not None
             m.sense_recovery(name, body, body.reduced.recovery(rows[k : k + 1])[0], unit, text + note)
-    m.sense_constant(
-        "stress.computed", float(fidelity != RIGID), "1", "1 where moments and stresses are computed; 0: they read zero"
-    )
+    text = "1 where moments and stresses are computed; 0: they read zero"
+    m.sense_constant("stress.computed", float(fidelity != RIGID), "1", text, whole=True)
 
 
 __all__ = ["FIDELITIES", "Chassis", "chassis", "quasi_static", "reduced_chassis", "stress_outputs"]

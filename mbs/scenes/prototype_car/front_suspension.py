@@ -7,7 +7,7 @@ from mbs.model.body import Body
 from mbs.model.guides import Guide
 from mbs.scenes.prototype_car.car_data import FRONT, FRONT_BODIES, FRONT_SPRING
 from mbs.scenes.prototype_car.side import Side
-from mbs.scenes.prototype_car.stops import end_stops
+from mbs.scenes.prototype_car.stops import end_stops, steering_stop
 
 
 def front_suspension(m: Model, chassis: Body, side: Side, rack: Guide) -> Body:
@@ -26,5 +26,12 @@ def front_suspension(m: Model, chassis: Body, side: Side, rack: Guide) -> Body:
     ends = p["spring_lower"], p["spring_upper"]
     m.spring_damper(
         f"spring {w}", (lower, ends[0]), (chassis, ends[1]), stops=end_stops(side.axle, *ends), **FRONT_SPRING
+    )
+    m.spring_damper(
+        f"steering stop {w}",
+        (upright, p["tie_rod_outer"]),
+        (lower, p["lower_pivot_front"]),
+        stiffness=0.0,
+        stops=steering_stop(),
     )
     return upright

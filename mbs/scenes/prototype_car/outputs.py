@@ -31,14 +31,31 @@ def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
     m.sense_pitch("chassis.pitch", chassis, description="positive nose down")
     m.sense_roll("chassis.roll", chassis, description="positive left side up")
     for c in "wxyz":
-        m.sense_quaternion(f"chassis.q{c}", chassis, c, description="orientation quaternion, scalar qw")
+        m.sense_quaternion(
+            f"chassis.q{c}",
+            chassis,
+            c,
+            description=f"q{c} of the orientation, scalar first (qw), from vehicle to earth axes",
+        )
     for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
-        m.sense_velocity(f"chassis.v{c}", chassis, REFERENCE_POINT, c, chassis, description=f"velocity {way}")
+        m.sense_velocity(
+            f"chassis.v{c}",
+            chassis,
+            REFERENCE_POINT,
+            c,
+            chassis,
+            description=f"velocity of the reference point along the vehicle's {c} axis, {way}",
+        )
     for c in "xyz":
         m.sense_angular_rate(f"chassis.w{c}", chassis, c, description=f"angular velocity about the vehicle's {c} axis")
     for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
         m.sense_acceleration(
-            f"chassis.a{c}", chassis, REFERENCE_POINT, c, chassis, description=f"acceleration {way}, without gravity"
+            f"chassis.a{c}",
+            chassis,
+            REFERENCE_POINT,
+            c,
+            chassis,
+            description=f"acceleration of the reference point along the vehicle's {c} axis, {way}, without gravity",
         )
     reference = chassis.point(REFERENCE_POINT)
     m.sense_norm("speed", reference, 1, description="speed of the reference point")
@@ -57,7 +74,8 @@ def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
                 point,
                 c,
                 chassis,
-                description=f"acceleration of the {corner} corner of the chassis base, vehicle axes, without gravity",
+                description=f"acceleration of the {corner} corner of the chassis base along the vehicle's {c} axis, "
+                "without gravity",
             )
 
 
@@ -79,7 +97,7 @@ def control_outputs(m: Model, rack: Guide, inputs: list[Input]) -> None:
 
 
 def wheel_outputs(m: Model, chassis: Body, spin: Spin, w: str) -> None:
-    """Attitude, travel, spin and tyre forces of one wheel."""
+    """Attitude, travel, spin and tyre forces of one wheel; the FMU puts the wheel's name before the descriptions."""
     forward, left, up = (chassis.vector(v) for v in (FORWARD, LEFT, UP))
     m.sense_angle_between(
         f"wheel_{w}.steer", spin.axis, left, up, description="steer angle about the vehicle's z axis, positive left"
@@ -97,7 +115,9 @@ def wheel_outputs(m: Model, chassis: Body, spin: Spin, w: str) -> None:
         "inclination",
         description="of the wheel plane from the road's normal about the wheel's x axis, top right positive (ISO 8855)",
     )
-    m.sense_coordinate(f"wheel_{w}.omega", spin, 1, description="absolute angular velocity, positive forward")
+    m.sense_coordinate(
+        f"wheel_{w}.omega", spin, 1, description="absolute angular velocity, positive forward", display_unit="rpm"
+    )
     _travel(m, chassis, spin, w)
     for name, output in (
         ("Fx", "longitudinal_force"),
@@ -119,10 +139,13 @@ def health_outputs(m: Model) -> None:
     for kind in ("kinetic", "gravity", "elastic", "total"):
         m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")
     for kind in ("iterations", "violation", "residual", "halvings", "status"):
-        m.sense_solver(f"solver.{kind}", kind, description=f"{kind} of the solver, last step")
+        when = "since the start" if kind == "halvings" else "last step"
+        m.sense_solver(f"solver.{kind}", kind, description=f"{kind} of the solver, {when}")
 
 
 def _travel(m: Model, chassis: Body, spin: Spin, w: str) -> None:
     reference = np.array([c.reference for c in m.coordinates])
     gap: AffineVector = spin.centre - chassis.point(spin.centre.value(reference))
-    m.sense_component(f"wheel_{w}.travel", gap, chassis.vector(UP), description="of the wheel centre, positive in bump")
+    m.sense_component(
+        f"wheel_{w}.travel", gap, chassis.vector(UP), description="travel of the wheel centre, positive in bump"
+    )

@@ -87,6 +87,11 @@ def strain_gauges(tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
     return tuple(gauges)
 
 
+def joint_places() -> dict[str, np.ndarray]:
+    """Joints by name with their images, m."""
+    return _joints()
+
+
 def _mirrored(name: str) -> str:
     return name[:-1] + {"L": "R", "R": "L", "c": "c"}[name[-1]]
 

@@ -1,0 +1,31 @@
+/* Refused steps: the first time the host may go on from the last good state, by a shorter step or other values; asked
+ * again unchanged the slave wishes the end of the simulation; then it is an error. */
+#include "slave.h"
+
+void slave_forget_refusal(slave *s) { s->refusal.count = 0; }
+
+bool slave_wants_end(const slave *s) { return s->refusal.count > 1; }
+
+slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst) {
+  slave_refusal *r = &s->refusal;
+  const double h = s->value[s->step_reference];
+  r->count = r->count > 0 && r->time == time && r->step == step ? r->count + 1 : 1;
+  r->time = time;
+  r->step = step;
+  s->calls.phase = SLAVE_STEP_FAILED;
+  if (r->count == 1)
+    return slave_say(s, SLAVE_DISCARD,
+                     "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s A smaller "
+                     "step_size may pass: it is %g s and can be set before initialisation.",
+                     time, step, time, ali3_status_text(status), worst, h);
+  if (r->count == 2)
+    return slave_say(
+        s, SLAVE_DISCARD,
+        "The step from %.6g s over %.6g s was asked for again with nothing changed and refused again; the "
+        "simulation should end here. Run it anew with a step_size below %g s, or go on from another state.",
+        time, step, h);
+  return slave_say(s, SLAVE_ERROR,
+                   "The step from %.6g s over %.6g s was refused %d times with nothing changed in between; run anew "
+                   "with a step_size below %g s.",
+                   time, step, (int)r->count, h);
+}

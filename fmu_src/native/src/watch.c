@@ -1,0 +1,36 @@
+/* What a run says about itself after a step, once: that its numbers are not what was asked. */
+#include "slave.h"
+
+static slave_status watch_energy(slave *s, const ali3_report *report) {
+  const ali3_report r = *report;
+  if (s->calls.energy_warned) return SLAVE_OK;
+  const ali3_doubt doubt = ali3_run_doubt(&r);
+  if (doubt == ALI3_DOUBT_NONE) return SLAVE_OK;
+  const double h = s->value[s->step_reference], time = ali3_time(s->rung.kernel);
+  s->calls.energy_warned = 1;
+  if (doubt == ALI3_DOUBT_BALANCE)
+    return slave_say(s, SLAVE_WARNING,
+                     "At %.6g s the steps have made or lost %.3g J where no force did, %.2g %% of the energy in the "
+                     "motion: the results are not to be relied on. Run anew with a step_size below %g s. This is said "
+                     "once.",
+                     time, r.energy_error, 100.0 * ali3_energy_balance(&r), h);
+  return slave_say(s, SLAVE_WARNING,
+                   "Up to %.6g s the solver had to halve its step %lld times in %lld steps: the motion is too fast for "
+                   "step_size. Compare with a run of half the step_size, %g s. This is said once.",
+                   time, (long long)r.halvings, (long long)r.steps, 0.5 * h);
+}
+
+static slave_status watch_modes(slave *s, const ali3_report *report) {
+  char text[SLAVE_TEXT / 2];
+  if (s->calls.mode_warned || report->branch_changes == 0) return SLAVE_OK;
+  if (ali3_branch_text(s->rung.kernel, text, sizeof text) != ALI3_OK) return SLAVE_OK;
+  s->calls.mode_warned = 1;
+  return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
+}
+
+slave_status slave_watch(slave *s) {
+  ali3_report report;
+  if (ali3_report_get(s->rung.kernel, &report) != ALI3_OK) return SLAVE_OK;
+  const slave_status modes = watch_modes(s, &report), energy = watch_energy(s, &report);
+  return modes > energy ? modes : energy;
+}

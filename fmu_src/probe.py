@@ -1,0 +1,212 @@
+"""Which variables reach which outputs, and how large the outputs are: found by trying, at build time.
+
+A variable reaches an output if changing it, and nothing else, changes a bit of the output: over one step from a state
+that random inputs led to (inputs), or in the initial state from random values (all that can be set). Positions and
+velocities show their paths at any values. Forces have regimes, such as a kerb that no wheel stands on: what a force
+reaches is declared to depend on all parameters and the place of the start, and what a step changes on all inputs that
+change anything.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import mbs
+from fmu_src.variables import Variable
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+
+_SEED = 20_261_120
+_INITIAL_TRIES = 6
+_STEP_TRIES = 9
+_STEPS = 40
+_POSE = {"initial.x": 20.0, "initial.y": 20.0, "initial.z": 0.2, "initial.yaw": 1.0, "initial.speed": 20.0}
+_OPEN_RANGE = 10.0
+# Shares of the ranges in turn: a mechanism may not bear all of them.
+_SHARES = (1.0, 0.1, 0.01)
+# Types of sensors, see docs/system_file.md.
+_SECOND, _COMPONENT = 2, 3  # order two; a component
+_ECHOES, _MOTIONS = (11, 12), (0, 1, 3, 4, 5, 6, 7, 13, 14, 15, 16)
+_ECHO, _MOTION, _FORCE = "echo", "motion", "force"
+
+
+@dataclass(frozen=True)
+class Dependencies:
+    """Places of variables, ascending, by the place of an output in the table.
+
+    Parameters
+    ----------
+    step : dict of int to tuple of int
+        Inputs that reach the output at the end of a step.
+    initial : dict of int to tuple of int
+        Inputs and parameters that reach the initial output.
+    size : dict of int to float
+        Largest absolute value seen; 0 where it was never anything else.
+    """
+
+    step: dict[int, tuple[int, ...]]
+    initial: dict[int, tuple[int, ...]]
+    size: dict[int, float]
+
+
+def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependencies:
+    """Try a System, or all rungs of one.
+
+    Parameters
+    ----------
+    systems : sequence of mbs.System
+    table : sequence of Variable
+
+    Returns
+    -------
+    Dependencies
+        Of all rungs together; the same at every call.
+    """
+    outputs = [i for i, v in enumerate(table) if v.causality == "output"]
+    tries = _Tries(table, outputs)
+    for k, system in enumerate(systems):
+        tries.rung(Instance(LoadedSystem(system.to_bytes())), k, float(system.meta["experiment"]["step_s"]))
+    tries.close(systems)
+    return Dependencies(
+        {i: tuple(sorted(tries.step[i])) for i in outputs},
+        {i: tuple(sorted(tries.initial[i])) for i in outputs},
+        tries.size,
+    )
+
+
+class _Tries:
+    def __init__(self, table: Sequence[Variable], outputs: Sequence[int]) -> None:
+        self.table = table
+        self.outputs = outputs
+        self.sensed = [i for i in outputs if table[i].source == "sensor"]
+        self.step: dict[int, set[int]] = {i: set() for i in outputs}
+        self.initial: dict[int, set[int]] = {i: set() for i in outputs}
+        self.size = dict.fromkeys(outputs, 0.0)
+        self.of_rung: list[list[list[float] | None]] = []
+        self.share = 1.0
+        self.inputs = [i for i, v in enumerate(table) if v.source == "input"]
+        self.settable = [i for i, v in enumerate(table) if v.source in ("input", "parameter", "pose")]
+
+    def rung(self, kernel: Instance, number: int, h: float) -> None:
+        rng = random.Random(_SEED)
+        starts = [self._start(kernel, {})]
+        for k in range(_INITIAL_TRIES):
+            self.share = _SHARES[k % len(_SHARES)]
+            values = {i: self._random(i, rng) for i in self.settable}
+            starts.append(self._start(kernel, values))
+            for i in self.settable:
+                self._compare(self.initial, i, starts[-1], self._start(kernel, values | {i: self._random(i, rng)}))
+        self.of_rung.append(starts)
+        fidelity = next((i for i, v in enumerate(self.table) if v.source == "fidelity"), None)
+        if fidelity is not None:
+            for first, mine in zip(self.of_rung[0], starts, strict=True):
+                self._compare(self.initial, fidelity, first, mine)
+        for k in range(_STEP_TRIES):
+            self.share = _SHARES[k % len(_SHARES)]
+            self._steps(kernel, h, rng)
+
+    def close(self, systems: Sequence[mbs.System]) -> None:
+        """Add what no try may have opened."""
+        kinds = {i: {_kind(system, self.table[i].index) for system in systems} for i in self.sensed}
+        kind = {i: next(k for k in (_FORCE, _MOTION, _ECHO) if k in found) for i, found in kinds.items()}
+        acting = {k for i in self.sensed if kind[i] != _ECHO for k in self.step[i]}
+        placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
+        for i in self.outputs:
+            if kind.get(i) == _FORCE:
+                self.step[i] |= acting
+                self.initial[i] |= placed if self.initial[i] else set()
+            elif kind.get(i) != _ECHO and (self.step[i] or i not in kind):
+                self.step[i] |= acting
+
+    def _steps(self, kernel: Instance, h: float, rng: random.Random) -> None:
+        values = {i: self._random(i, rng) for i in self.settable}
+        if self._start(kernel, values) is None and self._start(kernel, {}) is None:
+            return
+        try:
+            for _ in range(rng.randrange(_STEPS)):
+                kernel.step(h)
+                self._sizes(list(kernel.sensors()))
+                if rng.random() < 0.2:
+                    for i in self.inputs:
+                        kernel.set_input(self.table[i].index, self._random(i, rng))
+        except KernelError:
+            pass  # the last good state stays
+        state = kernel.save()
+        base = self._stepped(kernel, h)
+        for i in self.inputs:
+            kernel.restore(state)
+            kernel.set_input(self.table[i].index, self._random(i, rng))
+            self._compare(self.step, i, base, self._stepped(kernel, h))
+
+    def _stepped(self, kernel: Instance, h: float) -> list[float] | None:
+        try:
+            kernel.step(h)
+        except KernelError:
+            return None
+        return list(kernel.sensors())
+
+    def _compare(
+        self, reach: dict[int, set[int]], known: int, one: list[float] | None, other: list[float] | None
+    ) -> None:
+        if one is None or other is None:
+            return
+        for i in self.sensed:
+            if one[self.table[i].index] != other[self.table[i].index]:
+                reach[i].add(known)
+
+    def _sizes(self, sensors: list[float]) -> None:
+        for i in self.sensed:
+            self.size[i] = max(self.size[i], abs(sensors[self.table[i].index]))
+
+    def _random(self, i: int, rng: random.Random) -> float:
+        v = self.table[i]
+        span = _POSE.get(v.name, _OPEN_RANGE) if v.source == "pose" else _OPEN_RANGE
+        centre = v.start or 0.0
+        low = v.min if v.min is not None else min(centre - span, v.max if v.max is not None else centre)
+        high = v.max if v.max is not None else max(centre + span, low)
+        if v.source == "pose":
+            low = 0.0
+        return centre + self.share * (rng.uniform(low, high) - centre)
+
+    def _start(self, kernel: Instance, values: dict[int, float]) -> list[float] | None:
+        """Sensors of the initial state; None where there is none with these values."""
+        kernel.reset()
+        pose = [0.0] * 5
+        try:
+            for i, value in values.items():
+                v = self.table[i]
+                if v.source == "input":
+                    kernel.set_input(v.index, value)
+                elif v.source == "parameter":
+                    kernel.set_parameter(v.index, value)
+                else:
+                    pose[v.index] = value
+            if any(pose):
+                kernel.set_pose(*pose)
+            kernel.initialise(0.0)
+        except KernelError:
+            return None
+        sensors = list(kernel.sensors())
+        self._sizes(sensors)
+        return sensors
+
+
+def _kind(system: mbs.System, sensor: int) -> str:
+    """Whether a sensor repeats inputs, reads positions and velocities, or forces and accelerations."""
+    kind, first = int(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
+    if kind in _ECHOES:
+        return _ECHO
+    second = kind == _COMPONENT and int(system.arrays["sen_int"][first]) == _SECOND
+    return _MOTION if kind in _MOTIONS and not second else _FORCE
+
+
+def with_nominal(table: Sequence[Variable], reach: Dependencies) -> tuple[Variable, ...]:
+    """Real outputs get a typical size: the power of ten below the largest value seen."""
+    return tuple(
+        replace(v, nominal=10.0 ** math.floor(math.log10(reach.size[i])))
+        if reach.size.get(i, 0.0) > 0.0 and not v.whole
+        else v
+        for i, v in enumerate(table)
+    )

@@ -1,0 +1,62 @@
+"""The length of a model, which errors are told in parts of, and what a unit of each coordinate is worth."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbs.model.body import Body
+from mbs.model.checks import Vector
+from mbs.model.flexible import FlexibleBody
+from mbs.model.model import Model
+
+SPIN = 0.1
+"""Radius of a wheel in parts of the length: its spin has no lever of its own."""
+
+
+def model_length(model: Model) -> float:
+    """The stated length, or the diagonal of the box around all bodies and joints as drawn, m.
+
+    A single body without joints has twice its radius of gyration; where nothing has an extent the length is 1 m.
+    """
+    if model.length is not None:
+        return model.length
+    points = [p for body in (model.ground, *model.bodies) for p in _points(body)]
+    extent = float(np.linalg.norm(np.ptp(points, axis=0))) if points else 0.0
+    widest = max((2.0 * _gyration(body) for body in model.bodies), default=0.0)
+    found = max(extent, widest)
+    return found if found > 0.0 else 1.0
+
+
+def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> list[float]:
+    """Metres that one unit of each coordinate moves something by.
+
+    Parameters
+    ----------
+    kinds : list of str
+        point, vector, mode, angle or spin.
+    units : list of bool
+        Whether a vector is a unit vector; others are in m.
+    length : float
+        Of the model, m.
+    """
+    of_kind = {"angle": length, "spin": SPIN * length}
+    return [length if unit else of_kind.get(kind, 1.0) for kind, unit in zip(kinds, units, strict=True)]
+
+
+def unit_vectors(model: Model, numbers: list[int]) -> list[bool]:
+    """Whether full coordinates are components of unit vectors: the axes of flexible bodies; others are in m."""
+    axes = {b.start + k for b in model.bodies if isinstance(b, FlexibleBody) for k in range(3, 12)}
+    return [k in axes for k in numbers]
+
+
+def _points(body: Body) -> list[Vector]:
+    if isinstance(body, FlexibleBody):
+        return list(np.asarray(body.node_positions))
+    own = [] if body.is_ground else [body.com]
+    return own + [body.com + p for p in body.joint_points]
+
+
+def _gyration(body: Body) -> float:
+    if body.is_point or isinstance(body, FlexibleBody) or not body.mass:
+        return 0.0
+    return float(np.sqrt(np.trace(body.second_moment) / body.mass))

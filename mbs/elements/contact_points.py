@@ -1,0 +1,117 @@
+"""Points of a body that touch a road."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import AffineVector
+from mbs.elements.checks import index, not_negative, positive, size
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.types import ElementType
+from mbs.errors import ModelError
+
+STATES = 4
+"""Per point: two deflections in the plane of contact and their rates."""
+
+
+@dataclass(frozen=True)
+class ContactPoints:
+    """Points or spheres of a body that rest, slide and bounce on a road.
+
+    Normal force over the depth d: K d^2/(2 w) up to the onset w, K (d - w/2) beyond; times ``1 + chi d'`` going in and
+    ``1/(1 - chi d')`` coming out (Hunt and Crossley 1975, without their pull), so that a point that meets the road
+    with v leaves it with v1, ``(chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3``. Friction is elastoplastic, a
+    spring and damper in series with a slider that gives way at mu times the normal force: it holds at rest.
+
+    Parameters
+    ----------
+    stiffness : float
+        K of one point, N/m.
+    onset : float
+        w, m.
+    loss : float
+        chi, s/m.
+    stick_stiffness, stick_damping : float
+        Of a point that sticks, N/m and N s/m.
+    friction_factor : float
+        Multiplies the friction of the road.
+    radius : float
+        Of the spheres around the points, m; 0: points.
+    """
+
+    stiffness: float
+    stick_stiffness: float
+    stick_damping: float
+    onset: float = 0.005
+    loss: float = 0.0
+    friction_factor: float = 1.0
+    radius: float = 0.0
+
+    @staticmethod
+    def for_mass(
+        mass: float,
+        depth: float = 0.005,
+        onset: float = 0.005,
+        loss: float = 0.5,
+        friction_factor: float = 1.0,
+        radius: float = 0.0,
+        gravity: float = 9.81,
+    ) -> ContactPoints:
+        """Points of which one carries `mass` (kg) at rest at a depth (m); stick as stiff, critically damped."""
+        m, d, w = (
+            positive(v, f"The {name} of contact points")
+            for v, name in ((mass, "mass"), (depth, "depth"), (onset, "onset"))
+        )
+        stiffness = m * gravity / (0.5 * d * d / w if d < w else d - 0.5 * w)
+        return ContactPoints(stiffness, stiffness, 2.0 * math.sqrt(stiffness * m), w, loss, friction_factor, radius)
+
+    def record(
+        self, name: str, origin: AffineVector, axes: Sequence[AffineVector], points: ArrayLike, road: int
+    ) -> ElementRecord:
+        """Element on the origin and the three axes of a body.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 3)
+            From the origin along the axes, m.
+        """
+        what = f"the contact points '{name}'"
+        for vector in (origin, *axes):
+            size(vector, (3,), f"The origin and each axis of {what}")
+        places = np.array(points, dtype=float)
+        if len(axes) != 3 or places.ndim != 2 or places.shape[1] != 3 or not len(places):
+            raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {places.shape}.")
+        if not np.all(np.isfinite(places)):
+            raise ModelError(f"A point of {what} is not finite.")
+        named = {
+            "radius": not_negative(self.radius, f"The radius of {what}"),
+            "stiffness": positive(self.stiffness, f"The stiffness of {what}"),
+            "onset": positive(self.onset, f"The onset of {what}"),
+            "loss": not_negative(self.loss, f"The loss of {what}"),
+            "stick_stiffness": positive(self.stick_stiffness, f"The stick stiffness of {what}"),
+            "stick_damping": positive(self.stick_damping, f"The stick damping of {what}"),
+            "friction_factor": not_negative(self.friction_factor, f"The friction factor of {what}"),
+        }
+        box = (*places.min(axis=0).tolist(), *places.max(axis=0).tolist())
+        return ElementRecord(
+            name,
+            ElementType.CONTACT_POINTS,
+            (*origin.components, *(s for axis in axes for s in axis.components)),
+            (*named.values(), *box, *places.ravel().tolist()),
+            (index(road, f"The road of {what}"), len(places)),
+            (0.0,) * (STATES * len(places)),
+            (
+                Output("normal_force", "N", "sum of the normal forces of the road on the points"),
+                Output("touching", "1", "number of points that touch the road"),
+                Output("force_x", "N", "force of the road on the body, earth axes"),
+                Output("force_y", "N", "force of the road on the body, earth axes"),
+                Output("force_z", "N", "force of the road on the body, earth axes"),
+                Output("depth", "m", "deepest penetration of a point"),
+            ),
+            tuple(named),
+        )

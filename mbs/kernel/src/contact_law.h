@@ -1,0 +1,27 @@
+/* Normal forces of stops and contacts over the penetration x > 0: conservative force, loss, and exact means for steps
+ * with discrete gradients.
+ *
+ * Conservative part: a progressive stage k x (1 + (x/L)^2) (rubber or foam that fills its housing; L = 0: linear) and
+ * a hard end of stiffness K beyond x_end whose force sets in as a parabola over w, so that the tangent is continuous.
+ * Loss: Hunt and Crossley (Journal of Applied Mechanics 42, 1975, 440-445), force F (1 + chi x'): the damping comes
+ * and goes with the force. For x' < 0 the factor is 1/(1 - chi x') with the same slope at 0, which is never negative:
+ * nothing is pulled. A mass that meets it with v leaves with v1, whatever F(x) is:
+ *   (chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3. */
+#ifndef ALI3_CONTACT_LAW_H
+#define ALI3_CONTACT_LAW_H
+
+typedef struct {
+  double stiffness, progression; /* k, L */
+  double end, hard_stiffness, onset; /* x_end, K, w > 0 where K > 0 */
+  double loss; /* chi, s/m */
+} ali3_contact_law;
+
+/* Conservative force; adds to *slope and *energy. 0 for x <= 0. */
+double ali3_contact_force(const ali3_contact_law *law, double x, double *slope, double *energy);
+
+/* Mean of the conservative force over x from x0 to x1: the difference quotient of its energy, free of cancellation. */
+double ali3_contact_mean(const ali3_contact_law *law, double x0, double x1);
+
+/* Factor of the force at the rate x', and d(factor)/d(rate). */
+double ali3_contact_loss(const ali3_contact_law *law, double rate, double *slope);
+#endif

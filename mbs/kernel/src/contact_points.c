@@ -1,0 +1,211 @@
+/* Points of a body that touch a road: normal force with a smooth onset and loss, friction that holds at rest.
+ *
+ * Signals: origin o (3) and axes x, y, z (3 each) of the body; they need not be orthonormal, so a body that bends may
+ * give averages of its own. Reals: radius m (0: points, else spheres), stiffness N/m, onset m, loss s/m, stick
+ * stiffness N/m, stick damping N s/m, factor of the road's friction, lowest and highest
+ * x, y, z of the points, then x, y, z of each. Integers: road, number of points. States per point: deflections z1, z2
+ * of the stick spring in the plane of contact and their rates. Outputs: sum of the normal forces N, number of points
+ * that touch, force on the body in earth axes N (3), deepest penetration m.
+ *
+ * Normal force: contact_law.h over the depth, with the mean of stiffness K setting in as a parabola over the onset.
+ * Friction as in the brake: a spring and damper (k, c) in series with a slider, here in two directions. With
+ * z = a + h z'/2 and D = c + h k/2 the trial is T = k a + D v; where |T| exceeds mu N it is shortened to it, and
+ * z' = (T - k a)/D. Slip power T.(v - z') >= 0, and what sticks returns to where it was: it does not creep.
+ *
+ * The tangent leaves out the coupling of normal and tangential force, and the turning of the normal. */
+#include "contact_points.h"
+
+#include <string.h>
+
+#include "contact_law.h"
+#include "element_math.h"
+#include "road.h"
+
+enum { RADIUS, STIFFNESS, ONSET, LOSS, STICK_STIFFNESS, STICK_DAMPING, FRICTION_FACTOR, LOW, HIGH = LOW + 3 };
+enum { ROAD, POINTS, INTEGERS };
+enum { NORMAL_FORCE, TOUCHING, FORCE, DEPTH = FORCE + 3, OUTPUTS };
+enum { SIGNALS = 12 };
+
+/* o + X p of signals or rates */
+static void place(const double *u, const double p[3], double out[3]) {
+  for (int i = 0; i < 3; i++) out[i] = u[i] + p[0] * u[3 + i] + p[1] * u[6 + i] + p[2] * u[9 + i];
+}
+
+/* Gradient along g at the local point p: what multiplies the rates of the signals. */
+static void lever(const double g[3], const double p[3], double b[SIGNALS]) {
+  for (int i = 0; i < 3; i++) {
+    b[i] = g[i];
+    for (int k = 0; k < 3; k++) b[3 + 3 * k + i] = p[k] * g[i];
+  }
+}
+
+/* Whether the box around the points is above all the road under it. */
+static int far_above(const ali3_element_args *a) {
+  const double *p = a->real, *u = a->u;
+  double centre[3], half[3], lowest = 0.0, reach = p[RADIUS];
+  for (int k = 0; k < 3; k++) {
+    const double *axis = u + 3 + 3 * k;
+    centre[k] = 0.5 * (p[LOW + k] + p[HIGH + k]);
+    half[k] = 0.5 * (p[HIGH + k] - p[LOW + k]);
+    lowest -= half[k] * fabs(axis[2]);
+    reach += half[k] * ali3_hypot(axis[0], axis[1]);
+  }
+  double middle[3];
+  place(u, centre, middle);
+  return middle[2] + lowest - p[RADIUS] > ali3_road_top(&a->roads[a->integer[ROAD]], middle, reach);
+}
+
+typedef struct {
+  double load, friction, normal[3]; /* sum of the normal forces, load-weighted mean and sum of load times normal */
+} touch;
+
+/* Distance and gradient for a step from u - h ud to u + h ud: the gradient g of the middle, corrected along the way so
+ * that g . (p1 - p0) is the difference of the distances. */
+static void discrete(const ali3_road *road, const double point[3], const double velocity[3], double h, int k,
+                     ali3_clearance *c, double depth[2], double radius) {
+  double from[3], to[3], way = 0.0, along = 0.0;
+  ali3_clearance end[2];
+  for (int i = 0; i < 3; i++) {
+    from[i] = point[i] - h * velocity[i];
+    to[i] = point[i] + h * velocity[i];
+    way += 4.0 * h * h * velocity[i] * velocity[i];
+    along += 2.0 * h * velocity[i] * c->gradient[i];
+  }
+  ali3_road_clearance(road, from, end);
+  const double before = end[k].distance;
+  ali3_road_clearance(road, to, end);
+  depth[0] = radius - before;
+  depth[1] = radius - end[k].distance;
+  if (!(way > 1e-24)) return;
+  const double missing = (end[k].distance - before - along) / way;
+  for (int i = 0; i < 3; i++) c->gradient[i] += missing * 2.0 * h * velocity[i];
+}
+
+/* Normal forces of one point on the one or two parts of the road. */
+static touch press(ali3_element_args *a, const double local[3], int by_gradients) {
+  const double *p = a->real;
+  const ali3_road *road = &a->roads[a->integer[ROAD]];
+  const ali3_contact_law law = {0.0, 0.0, 0.0, p[STIFFNESS], p[ONSET], p[LOSS]};
+  double point[3], velocity[3];
+  ali3_clearance clearance[2];
+  touch t = {0};
+  place(a->u, local, point);
+  place(a->ud, local, velocity);
+  const int count = ali3_road_clearance(road, point, clearance);
+  for (int k = 0; k < count; k++) {
+    ali3_clearance *c = &clearance[k];
+    double depth[2] = {p[RADIUS] - c->distance, p[RADIUS] - c->distance}, slope = 0.0, loss_slope, b[SIGNALS];
+    if (by_gradients) discrete(road, point, velocity, a->h, k, c, depth, p[RADIUS]);
+    if (!(depth[0] > 0.0 || depth[1] > 0.0)) continue;
+    const double now = ali3_contact_force(&law, depth[1], &slope, &a->potential);
+    const double mean = by_gradients ? ali3_contact_mean(&law, depth[0], depth[1]) : now;
+    if (by_gradients && fabs(depth[1] - depth[0]) > 1e-9) slope = 2.0 * (now - mean) / (depth[1] - depth[0]);
+    const double factor = ali3_contact_loss(&law, -ali3_dot(c->gradient, velocity), &loss_slope);
+    const double size = ali3_norm(c->gradient), force = mean * factor, load = force * size;
+    if (!(load > 0.0)) continue;
+    lever(c->gradient, local, b);
+    for (int i = 0; i < SIGNALS; i++) a->f[i] += force * b[i];
+    for (int i = 0; i < 3; i++) {
+      t.normal[i] += force * c->gradient[i];
+      a->out[FORCE + i] += force * c->gradient[i];
+    }
+    t.friction = t.load / (t.load + load) * t.friction + load / (t.load + load) * c->friction;
+    t.load += load;
+    if (depth[1] > a->out[DEPTH]) a->out[DEPTH] = depth[1];
+    if (a->S) ali3_add_outer(a->S, SIGNALS, a->wK * slope * factor + a->wC * mean * loss_slope, b);
+  }
+  return t;
+}
+
+/* Friction of one point under its load, in the plane of contact. */
+static void rub(ali3_element_args *a, const double local[3], const touch *t, const double *y_old, double *y_new) {
+  const double *p = a->real, k = p[STICK_STIFFNESS], c = p[STICK_DAMPING], half = 0.5 * a->h, D = c + half * k;
+  const double bound = t->friction * p[FRICTION_FACTOR] * t->load, size = ali3_norm(t->normal);
+  double n[3] = {0.0, 0.0, 1.0}, first[3], second[3], foot[3], velocity[3], row[2][SIGNALS], wound[2], trial[2];
+  for (int i = 0; i < 3 && size > 0.0; i++) n[i] = t->normal[i] / size;
+  for (int i = 0; i < 3; i++) foot[i] = local[i] - p[RADIUS] * ali3_dot(a->u + 3 + 3 * i, n);
+  first[0] = n[2], first[1] = 0.0, first[2] = -n[0]; /* y x n: no road has a normal along y */
+  const double length = ali3_norm(first);
+  if (length > 1e-6)
+    for (int i = 0; i < 3; i++) first[i] /= length;
+  else
+    first[0] = 1.0, first[2] = 0.0;
+  ali3_cross(n, first, second);
+  place(a->ud, foot, velocity);
+  const double *tangent[2] = {first, second};
+  for (int i = 0; i < 2; i++) {
+    wound[i] = k * (y_old[i] + half * y_old[2 + i]);
+    trial[i] = wound[i] + D * ali3_dot(tangent[i], velocity);
+    lever(tangent[i], foot, row[i]);
+  }
+  const double most = ali3_hypot(trial[0], trial[1]), share = most > bound ? bound / most : 1.0;
+  for (int i = 0; i < 2; i++) {
+    const double force = share * trial[i];
+    for (int j = 0; j < SIGNALS; j++) a->f[j] -= force * row[i][j];
+    for (int j = 0; j < 3; j++) a->out[FORCE + j] -= force * tangent[i][j];
+    y_new[i] = y_old[i];
+    y_new[2 + i] = y_old[2 + i];
+    if (a->h > 0.0) {
+      y_new[2 + i] = (force - wound[i]) / D;
+      y_new[i] = (force - c * y_new[2 + i]) / k;
+    }
+    a->potential += 0.5 * k * y_new[i] * y_new[i];
+  }
+  if (!a->S) return;
+  if (share == 1.0) {
+    for (int i = 0; i < 2; i++) ali3_add_outer(a->S, SIGNALS, a->wC * D, row[i]);
+    return;
+  }
+  double along[SIGNALS], across[SIGNALS]; /* of the sliding: the secant's share, and the secant */
+  for (int j = 0; j < SIGNALS; j++) {
+    along[j] = (trial[0] * row[0][j] + trial[1] * row[1][j]) / most;
+    across[j] = (trial[0] * row[1][j] - trial[1] * row[0][j]) / most;
+  }
+  ali3_add_outer(a->S, SIGNALS, a->wC * ALI3_SECANT_SHARE * D * share, along);
+  ali3_add_outer(a->S, SIGNALS, a->wC * D * share, across);
+}
+
+static void every_point(ali3_element_args *a, int by_gradients) {
+  memset(a->y_new, 0, (size_t)a->nstate * sizeof(double));
+  memset(a->out, 0, OUTPUTS * sizeof(double));
+  a->potential = 0.0;
+  /* a step by gradients may begin in contact and have its middle above it */
+  if (!by_gradients && far_above(a)) {
+    a->idle = 1;
+    return;
+  }
+  for (int32_t i = 0; i < a->integer[POINTS]; i++) {
+    const double *local = a->real + ALI3_CONTACT_HEAD + 3 * i;
+    const touch t = press(a, local, by_gradients);
+    if (!(t.load > 0.0)) continue; /* what leaves the road forgets its deflection, which fell with the load */
+    rub(a, local, &t, a->y_old + ALI3_CONTACT_STATES * i, a->y_new + ALI3_CONTACT_STATES * i);
+    a->out[NORMAL_FORCE] += t.load;
+    a->out[TOUCHING] += 1.0;
+  }
+}
+
+static void evaluate(ali3_element_args *a) { every_point(a, 0); }
+
+void ali3_contact_points_discrete(ali3_element_args *a) { every_point(a, 1); }
+
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
+  (void)nsig, (void)nint, (void)n_inputs;
+  if (integer[ROAD] < 0 || integer[ROAD] >= n_roads) return "contact points name a road that does not exist";
+  if (integer[POINTS] < 1 || nreal != ALI3_CONTACT_HEAD + 3 * (int64_t)integer[POINTS])
+    return "contact points need three numbers a point";
+  if (!(real[STIFFNESS] > 0.0 && real[ONSET] > 0.0 && real[STICK_STIFFNESS] > 0.0 && real[STICK_DAMPING] > 0.0))
+    return "stiffness, onset, stick stiffness and stick damping of contact points must be positive";
+  if (real[RADIUS] < 0.0 || real[LOSS] < 0.0 || real[FRICTION_FACTOR] < 0.0)
+    return "radius, loss and friction factor of contact points must not be negative";
+  for (int32_t i = 0; i < integer[POINTS]; i++)
+    for (int k = 0; k < 3; k++) {
+      const double x = real[ALI3_CONTACT_HEAD + 3 * i + k];
+      if (!(x >= real[LOW + k] && x <= real[HIGH + k])) return "a contact point lies outside the box given for all";
+    }
+  return 0;
+}
+
+extern const ali3_element_type ali3_contact_points;
+const ali3_element_type ali3_contact_points = {evaluate, 0,    SIGNALS, -1, INTEGERS, -ALI3_CONTACT_STATES,
+                                               OUTPUTS,  check};

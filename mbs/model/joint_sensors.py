@@ -1,0 +1,150 @@
+"""Sensors of joints: forces and moments from the multipliers of their rows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import AffineVector
+from mbs.errors import ModelError
+from mbs.model.body import Body
+from mbs.model.joints.joint import SCALAR_FORCES, Joint
+from mbs.model.reactions import Term, folded, force_on_first, moment_terms
+from mbs.model.sensors import Sensor, SensorVocabulary, component_number
+
+ROWS, TERMS = 9, 18  # sensor types of the System file
+
+
+class JointSensorVocabulary(SensorVocabulary):
+    """What can be read of a joint."""
+
+    def _joint(self, name: str, joint: Joint | str) -> Joint:
+        found = self.joint_named(joint) if isinstance(joint, str) else joint
+        if found not in self.joints:
+            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {joint!r}.")
+        return found
+
+    def _sense_terms(self, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
+        joint.keep = joint.keep or any(term.equation in joint.force_equations for term in terms)
+        return self._sense(name, unit, description, TERMS, joint=joint, terms=terms)
+
+    def sense_joint_force(
+        self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
+    ) -> Sensor:
+        """Force of a joint on its first body: a component in earth axes at a shared point or from a line, "tension" of
+        a distance, "drive" of a drive, either of a driven distance ("drive" pushes its ends apart), "torque" of a gear
+        on its first wheel, "force" of a rack on its body and of a screw on its first body, both along the axis.
+
+        The equations of the joint stay rows of the System, so that the multipliers exist.
+        """
+        found = self._joint(name, joint)
+        rows = found.force_equations
+        if not rows:
+            raise ModelError(
+                f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
+                "drives, gears, racks and screws have one."
+            )
+        unit = unit or ("N m" if found.type == "gear" else "N")
+        if found.equations[rows[0]].kind == "driven_distance":
+            return self._driven_distance(name, found, component, unit, description)
+        if found.normals:
+            k = component_number(component, self.dimension, f"sensor '{name}'")
+            if any(n[k].terms for n in found.normals):  # the line turns with its body
+                terms = [t for row, w, n in force_on_first(found) for t in folded(Term(w, row, (n[k],)))]
+                return self._sense_terms(name, unit, description, found, terms)
+            rows, weights = list(rows), [-n[k].constant for n in found.normals]
+        elif found.type in SCALAR_FORCES:
+            expected = SCALAR_FORCES[found.type]
+            if component not in (expected, "x"):
+                raise ModelError(
+                    f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
+                )
+            rows, weights = rows[:1], [found.rows_weight if found.type == "distance" else -found.rows_weight]
+        else:
+            k = component_number(component, self.dimension, f"sensor '{name}'")
+            rows, weights = rows[k : k + 1], [-found.rows_weight]
+        found.keep = True
+        return self._sense(name, unit, description, ROWS, integers=rows, reals=weights, joint=found)
+
+    def _driven_distance(self, name: str, joint: Joint, component: str, unit: str, description: str) -> Sensor:
+        """(|p1 - p2|^2 - s^2)/2 = 0: the multiplier times the length s is the tension."""
+        signs = {"tension": 1.0, "drive": -1.0, "x": -1.0}
+        if component not in signs:
+            raise ModelError(
+                f"The component of sensor '{name}' is {component!r}; for a driven distance it must be 'tension' or "
+                "'drive'."
+            )
+        (row,) = joint.force_equations
+        term = Term(signs[component], row, (), joint.equations[row].guides[0].guide)
+        return self._sense_terms(name, unit, description, joint, [term])
+
+    def sense_joint_moment(
+        self,
+        name: str,
+        joint: Joint | str,
+        component: str = "z",
+        *,
+        on: str = "first",
+        axes: Body | str = "earth",
+        point: ArrayLike | None = None,
+        unit: str = "N.m",
+        description: str = "",
+    ) -> Sensor:
+        """Moment of a joint on one of its bodies, N m.
+
+        Revolute, cylindrical, universal and prismatic joints and welds transmit one; about its own axis a joint has
+        none, and the torque of a drive on an angle is the force of the drive. The conditions on turning stay rows of
+        the System.
+
+        Parameters
+        ----------
+        joint : Joint or str
+            With the drive of an angle, its torque on the angle.
+        component : {"x", "y", "z"}
+            In the plane "z".
+        on : {"first", "second"}
+            The body that the moment acts on, in the order in which the joint was given its bodies.
+        axes : {"earth"} or Body
+            Axes of the component: those of the earth, or moving ones of a body.
+        point : array_like, optional
+            Place (earth axes, reference configuration, m) of the body that it acts on, about which the moment is taken;
+            by default the point of the joint on that body.
+
+        Raises
+        ------
+        ModelError
+            The joint transmits no moment, or the component or body is not one.
+        """
+        found = self._joint(name, joint)
+        if on not in ("first", "second"):
+            raise ModelError(f"The sensor '{name}' asks for the moment on {on!r}; it must be 'first' or 'second'.")
+        if found.type == "drive" and found.equations[0].kind == "drive":
+            return self.sense_joint_force(name, found, "drive", unit, description)
+        axis = self._axis(name, component, axes)
+        about = None
+        if not found.turns:
+            raise ModelError(
+                f"The joint '{found.name}' ({found.type}) transmits no moment; revolute, cylindrical, universal and "
+                "prismatic joints, welds and drives of an angle do."
+            )
+        if point is not None:
+            if found.places is None:
+                raise ModelError(f"The moment of joint '{found.name}' ({found.type}) is taken at its own point only.")
+            about = found.places.bodies[on == "second"].point(point)
+        terms = moment_terms(found, found.hold_turning(), axis, about, on == "first")
+        return self._sense_terms(name, unit, description, found, terms)
+
+    def _axis(self, name: str, component: str, axes: Body | str) -> AffineVector:
+        """Three components of the axis of a moment; in the plane one."""
+        if self.dimension == 2:
+            if component != "z":
+                raise ModelError(f"The component of sensor '{name}' is {component!r}; in the plane it must be 'z'.")
+            return AffineVector.constant([1.0])
+        e = np.eye(3)[component_number(component, 3, f"sensor '{name}'")]
+        if isinstance(axes, Body):
+            return self.owned(axes, f"The sensor '{name}'").vector(e)
+        if axes != "earth":
+            raise ModelError(f"The axes of sensor '{name}' are {axes!r}; they must be 'earth' or a body.")
+        return AffineVector.constant(e)

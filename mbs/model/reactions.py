@@ -1,0 +1,101 @@
+"""Forces and moments of joints as sums of multipliers times products of expressions: what their sensors read.
+
+A row Phi with the multiplier lam puts the generalised force -Phi_q' lam on its coordinates (M qdd + Phi_q' lam = Q), so
+a row u . v of vectors of both bodies turns the first one with the moment -lam u x v.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mbs.affine import Affine, AffineVector
+from mbs.model.equation import Equation, dot_products
+
+if TYPE_CHECKING:
+    from mbs.model.joints.joint import Joint
+
+MOST_FACTORS = 3
+
+
+@dataclass(frozen=True)
+class Term:
+    """``weight * lam * factors[0] * factors[1] * ... * guide``: the multiplier of an equation of a joint times at most
+    three expressions and a guide (-1: none).
+    """
+
+    weight: float
+    equation: int
+    factors: tuple[Affine, ...] = ()
+    guide: int = -1
+
+
+@dataclass(frozen=True)
+class Turning:
+    """What a joint holds of the turning of its bodies.
+
+    Parameters
+    ----------
+    points : pair of AffineVector
+        Of the first and the second body, where the joint is.
+    pairs : sequence of (u, v, value)
+        Vectors of the first and the second body whose product keeps the value.
+    """
+
+    points: tuple[AffineVector, AffineVector]
+    pairs: Sequence[tuple[AffineVector, AffineVector, float]]
+
+    def equations(self, name: str) -> list[Equation]:
+        """One per pair."""
+        return [Equation(name, "turning", dot_products(u, v), Affine({}, -value)) for u, v, value in self.pairs]
+
+
+def force_on_first(joint: Joint) -> list[tuple[int, float, AffineVector]]:
+    """Equation, weight and direction in earth axes of each part: the force is the sum of weight lam direction."""
+    rows = joint.force_equations
+    if joint.normals:
+        return [(row, -1.0, normal) for row, normal in zip(rows, joint.normals, strict=True)]
+    directions = np.eye(len(rows))
+    return [(row, -joint.rows_weight, AffineVector.constant(e)) for row, e in zip(rows, directions, strict=True)]
+
+
+def moment_terms(
+    joint: Joint, turning: Turning, axis: AffineVector, about: AffineVector | None, on_first: bool
+) -> list[Term]:
+    """Moment of a joint on one of its bodies, about a point (None: of the joint), along an axis of three components or,
+    in the plane, about z (axis of one).
+    """
+    sign = 1.0 if on_first else -1.0
+    terms = []
+    for row, (u, v, _) in zip(joint.turning_equations, turning.pairs, strict=True):
+        terms += _cross(row, -sign, u, v, axis)
+    if about is None and (on_first or not joint.normals):
+        return terms
+    arm = turning.points[0] - (turning.points[1] if about is None else about)
+    for row, weight, direction in force_on_first(joint):
+        terms += _cross(row, sign * weight, arm, direction, axis)
+    return terms
+
+
+def _cross(row: int, weight: float, a: AffineVector, b: AffineVector, axis: AffineVector) -> list[Term]:
+    """Terms of ``weight * lam * axis . (a x b)``; in the plane a x b is a number."""
+    parts = [(0, 0, 1)] if len(a) == 2 else [(k, (k + 1) % 3, (k + 2) % 3) for k in range(3)]
+    terms = []
+    for k, i, j in parts:
+        for first, second, sign in ((i, j, 1.0), (j, i, -1.0)):
+            terms += folded(Term(sign * weight, row, (axis[k], a[first], b[second])))
+    return terms
+
+
+def folded(term: Term) -> list[Term]:
+    """The term with its constant factors in the weight; none where it vanishes."""
+    weight, factors = term.weight, []
+    for factor in term.factors:
+        if factor.terms:
+            factors.append(factor)
+        else:
+            weight *= factor.constant
+    return [Term(weight, term.equation, tuple(factors), term.guide)] if weight != 0.0 else []

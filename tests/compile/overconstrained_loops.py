@@ -1,0 +1,149 @@
+"""Overconstrained loops as they are drawn: every number of a drawing goes through a pen that rounds or shifts it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs import Model
+from mbs.model.body import Body
+from mbs.scenes import bricard as scene
+
+Array = NDArray[np.float64]
+Pen = Callable[[Array], Array]
+
+
+def exact(v: Array) -> Array:
+    """The drawing as it should be."""
+    return np.asarray(v, dtype=float)
+
+
+def rounded(decimals: int) -> Pen:
+    """A drawing with so many decimals."""
+    return lambda v: np.round(np.asarray(v, dtype=float), decimals)
+
+
+def shifted(size: float, seed: int = 3) -> Pen:
+    """Every number off by up to `size`, always in the same way."""
+    random = np.random.default_rng(seed)
+    return lambda v: np.asarray(v, dtype=float) + size * random.uniform(-1.0, 1.0, np.shape(v))
+
+
+def _loop(m: Model, points: Array, axes: Array, pen: Pen, density: float = 2.0) -> list[Body]:
+    """A closed chain of slender bars from joint to joint, the first one the ground."""
+    bodies = [m.ground]
+    for k in range(len(points) - 1):
+        p, q = points[k], points[k + 1]
+        length = float(np.linalg.norm(q - p))
+        e = (q - p) / length
+        mass = density * length
+        inertia = mass * length**2 / 12.0 * (np.eye(3) - np.outer(e, e)) + 1e-3 * mass * length**2 * np.eye(3)
+        bodies.append(m.body(f"link {k + 1}", mass=mass, com=0.5 * (p + q), inertia=inertia))
+    for k, (p, u) in enumerate(zip(points, axes, strict=True)):
+        m.revolute("ABCDEFGH"[k], bodies[k], bodies[(k + 1) % len(bodies)], point=pen(p), axis=pen(u))
+    return bodies
+
+
+def bennett_joints(a: float = 1.0, b: float = 1.5, alpha: float = 0.6, theta: float = 1.1) -> tuple[Array, Array]:
+    """Points and axes of a Bennett loop: opposite links are alike and a / sin(alpha) = b / sin(beta)."""
+    beta = np.arcsin(b * np.sin(alpha) / a)
+    other = 2.0 * np.arctan2(np.sin(0.5 * (beta + alpha)), np.sin(0.5 * (beta - alpha)) * np.tan(0.5 * theta))
+    T = np.eye(4)
+    points, axes = [], []
+    for turn, length, twist in ((theta, a, alpha), (other, b, beta), (-theta, a, alpha), (-other, b, beta)):
+        points.append(T[:3, 3].copy())
+        axes.append(T[:3, 2].copy())
+        c, s, ct, st = np.cos(turn), np.sin(turn), np.cos(twist), np.sin(twist)
+        T = T @ np.array(
+            [[c, -s * ct, s * st, length * c], [s, c * ct, -c * st, length * s], [0.0, st, ct, 0.0], [0, 0, 0, 1]]
+        )
+    assert np.allclose(T, np.eye(4), atol=1e-12)
+    return np.array(points), np.array(axes)
+
+
+def bennett(pen: Pen = exact) -> Model:
+    """Four bars, one freedom where Kutzbach counts -2."""
+    m = Model("Bennett", dimension=3)
+    points, axes = bennett_joints()
+    bodies = _loop(m, points, axes, pen)
+    _sensors(m, bodies[1], points[1])
+    return m
+
+
+def sarrus(pen: Pen = exact) -> Model:
+    """A plate that two pairs of hinged leaves guide along a straight line: one freedom, none by Kutzbach."""
+    m = Model("Sarrus", dimension=3)
+    s, c = 1.0 * np.sin(0.5), 1.0 * np.cos(0.5)
+    points = np.array([[0.5, 0, 0], [0.5 + s, 0, c], [0.5, 0, 2 * c], [0, 0.5, 2 * c], [0, 0.5 + s, c], [0, 0.5, 0]])
+    axes = np.array([[0, 1.0, 0]] * 3 + [[1.0, 0, 0]] * 3)
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    bodies = _loop(m, points @ turn.T, axes @ turn.T, pen)
+    _sensors(m, bodies[3], (points @ turn.T)[2])
+    return m
+
+
+def bricard(pen: Pen = exact) -> Model:
+    """Bricard's loop of six equal bars with square twists."""
+    m = Model("Bricard", dimension=3)
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    points = np.array(scene.POINTS, dtype=float) @ turn.T
+    bodies = _loop(m, points, np.array(scene.AXES, dtype=float) @ turn.T, pen)
+    _sensors(m, bodies[2], points[2])
+    return m
+
+
+def parallelogram(pen: Pen = exact) -> Model:
+    """A parallelogram of hinges in space: three of its conditions say nothing new."""
+    m = Model("parallelogram", dimension=3)
+    points = np.array([[0, 0, 0], [0.3, 0, 0.4], [1.3, 0, 0.4], [1.0, 0, 0]])
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    bodies = _loop(m, points @ turn.T, np.array([[0, 1.0, 0]] * 4) @ turn.T, pen)
+    _sensors(m, bodies[2], (points @ turn.T)[1])
+    return m
+
+
+def redundant_rod(pen: Pen = exact, bars: int = 3, five: bool = False, rods: bool = False) -> Model:
+    """Planar: parallel cranks carry a plate, one more than needed. With `five` their feet stand on a link that
+    turns about the ground; with `rods` the last crank is a massless rod.
+    """
+    m = Model("redundant rod", dimension=2)
+    arm = np.array([0.3, 0.4])
+    feet = np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.2]])[:bars]
+    if five:
+        base = m.body("base", mass=1.0, com=(1.0, -0.5), inertia=0.2)
+        m.revolute("pivot", m.ground, base, point=pen(np.array([0.7, -1.0])))
+    else:
+        base = m.ground
+    plate = m.body("plate", mass=3.0, com=(1.0, 0.4), inertia=0.8)
+    for k, foot in enumerate(feet):
+        if rods and k == bars - 1:
+            m.distance("rod", (base, pen(foot)), (plate, pen(foot + arm)), length=float(pen(np.array([0.5]))[0]))
+            continue
+        crank = m.body(f"crank {k}", mass=0.5, com=foot + 0.5 * arm, inertia=0.02)
+        m.revolute(f"foot {k}", base, crank, point=pen(foot))
+        m.revolute(f"head {k}", crank, plate, point=pen(foot + arm))
+    _sensors(m, plate, feet[0] + arm)
+    return m
+
+
+def double_parallelogram(pen: Pen = exact) -> Model:
+    """Planar: two storeys of three cranks each."""
+    m = Model("double parallelogram", dimension=2)
+    below, arm = m.ground, np.array([0.3, 0.4])
+    for storey in range(2):
+        plate = m.body(f"plate {storey}", mass=3.0, com=(1.0, 0.4 * (storey + 1)), inertia=0.8)
+        for k, foot in enumerate(np.array([[0.0, 0.0], [1.0, 0.3], [2.0, -0.2]]) + storey * np.array([0.3, 0.4])):
+            crank = m.body(f"crank {storey}{k}", mass=0.5, com=foot + 0.5 * arm, inertia=0.02)
+            m.revolute(f"foot {storey}{k}", below, crank, point=pen(foot))
+            m.revolute(f"head {storey}{k}", crank, plate, point=pen(foot + arm))
+        below, arm = plate, np.array([-0.2, 0.5])
+    _sensors(m, below, np.array([0.3, 0.4]) + arm)
+    return m
+
+
+def _sensors(m: Model, body: Body, point: Array) -> None:
+    for component in "xyz"[: m.dimension]:
+        m.sense_position(component, body, point, component)
+    m.sense_energy("energy")

@@ -1,0 +1,74 @@
+"""The car's declared dependencies hold against its derivatives, also where a wheel stands at a kerb."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+
+HostMaker = Callable[..., Any]
+H, SEED = 0.002, 5
+UNDERIVED = ("step_size", "fidelity")
+
+
+@pytest.fixture(scope="module")
+def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, system = load_scene("prototype_car")
+    return build_fmu(system, name, tmp_path_factory.mktemp("car"), [fmpy.platform])
+
+
+def declared(unknowns: list[Any]) -> dict[str, set[str]]:
+    return {u.variable.name: {v.name for v in u.dependencies} for u in unknowns}
+
+
+def slopes(driven: Any, names: list[str], known: str) -> dict[str, float]:
+    references = [driven.references[n] for n in names]
+    found = driven.slave.getDirectionalDerivative(references, [driven.references[known]], [1.0])
+    return dict(zip(names, found, strict=True))
+
+
+@pytest.mark.parametrize("kerb", [1e6, 0.0])
+def test_initial_derivatives(car: Path, host: HostMaker, kerb: float) -> None:
+    driven = host(car)
+    reach = declared(driven.description.initialUnknowns)
+    outputs = [v.name for v in driven.description.modelVariables if v.causality == "output" and v.type == "Real"]
+    settable = [v.name for v in driven.description.modelVariables if v.causality in ("input", "parameter")]
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
+    for name, value in (("road.kerb_x", kerb), ("initial.speed", 8.0), ("initial.yaw", 0.1), ("throttle", 0.3)):
+        assert driven.set(name, value) == 0
+    seen = set()
+    for known in (n for n in settable if n not in UNDERIVED):
+        moved = {n for n, slope in slopes(driven, outputs, known).items() if slope != 0.0}
+        assert moved <= {n for n in outputs if known in reach[n]}, known
+        seen |= {(known, n) for n in moved}
+    assert len(seen) > 250
+    if kerb == 0.0:
+        assert ("initial.x", "wheel_FR.Fz") in seen
+    full = len(outputs) * (len(settable) - 1)
+    assert sum(len(reach[n]) for n in outputs) < 0.7 * full  # sparse
+
+
+def test_derivatives_of_a_step(car: Path, host: HostMaker) -> None:
+    driven = host(car).start({"initial.speed": 10.0})
+    reach = declared(driven.description.outputs)
+    outputs = [v.name for v in driven.description.modelVariables if v.causality == "output" and v.type == "Real"]
+    rng = random.Random(SEED)
+    for k in range(60):
+        for name, low in (("steering", -1.0), ("throttle", 0.0), ("brake", 0.0)):
+            driven.set(name, rng.uniform(low, 1.0))
+        assert driven.step(k * H, H) == 0
+        for known in ("steering", "throttle", "brake"):
+            moved = {n for n, slope in slopes(driven, outputs, known).items() if slope != 0.0}
+            assert moved <= {n for n in outputs if known in reach[n]}, known
+    assert len(moved) > 80
+    assert reach["used.brake"] == {"brake"}
+    assert np.isfinite(driven.get("solver.energy_balance"))

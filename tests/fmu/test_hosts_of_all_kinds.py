@@ -1,0 +1,190 @@
+"""What one host does and another does not: where resources lie, how time is read, how far a step goes."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi3 import FMU3Slave
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+
+HostMaker = Callable[..., Any]
+OK, WARNING, DISCARD, ERROR = range(4)
+H = 0.01
+SECONDS = 30.0
+
+
+def slave3(fmu: Path) -> tuple[FMU3Slave, dict[str, int]]:
+    description = fmpy.read_model_description(str(fmu))
+    slave = FMU3Slave(
+        guid=description.guid,
+        unzipDirectory=fmpy.extract(str(fmu)),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="test",
+    )
+    slave.instantiate()
+    slave.enterInitializationMode(startTime=0.0)
+    slave.exitInitializationMode()
+    return slave, {v.name: v.valueReference for v in description.modelVariables}
+
+
+def test_time_is_read_with_others_and_twice(build: Callable[..., Path]) -> None:
+    slave, references = slave3(build("crane", "fmi3"))
+    for k in range(3):
+        slave.doStep(k * H, H)
+    t, x, angle = (references[n] for n in ("time", "rod.x", "rod.angle"))
+    x_alone, angle_alone = (slave.getFloat64([r])[0] for r in (x, angle))
+    assert slave.getFloat64([x, t, angle, t, t]) == [x_alone, 3 * H, angle_alone, 3 * H, 3 * H]
+    assert slave.getFloat64([t, t]) == [3 * H, 3 * H]
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        slave.getFloat64([t, t + 1])
+
+
+def test_many_references_in_one_call(build: Callable[..., Path]) -> None:
+    slave, references = slave3(build("crane", "fmi3"))
+    slave.doStep(0.0, H)
+    x = references["rod.x"]
+    assert set(slave.getFloat64([x] * 1000)) == set(slave.getFloat64([x]))
+
+
+@pytest.mark.parametrize("scheme", ["FILE", "File", "file"])
+def test_the_scheme_of_the_resources_in_any_case(crane: Path, host: HostMaker, scheme: str) -> None:
+    driven = host(crane)
+    take = driven.slave.fmi2Instantiate
+    uri = scheme + (driven.folder / "resources").as_uri().removeprefix("file")
+    driven.slave.fmi2Instantiate = lambda *a: take(*a[:3], uri.encode(), *a[4:])
+    driven.slave.instantiate(callbacks=driven._callbacks)
+    assert driven.start().step(0.0, H) == OK
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes of POSIX")
+@pytest.mark.parametrize(
+    ("variant", "name"), [("native", "system_0.ali3"), ("python", "system_0.ali3"), ("python", "guid.txt")]
+)
+def test_a_named_pipe_as_resource_is_refused(
+    build: Callable[..., Path], tmp_path: Path, variant: str, name: str
+) -> None:
+    fmu = build("crane", variant)
+    folder = Path(fmpy.extract(str(fmu), unzipdir=str(tmp_path)))
+    (file,) = (folder / "resources").rglob(name)
+    file.unlink()
+    os.mkfifo(file)
+    code = (
+        "import fmpy\nfrom fmpy.fmi2 import FMU2Slave\n"
+        f"d = fmpy.read_model_description({str(fmu)!r})\n"
+        f"s = FMU2Slave(guid=d.guid, unzipDirectory={str(folder)!r}, "
+        "modelIdentifier=d.coSimulation.modelIdentifier, instanceName='x')\ns.instantiate()\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=SECONDS)
+    assert done.returncode == 1
+    assert "Failed to instantiate" in done.stderr
+
+
+def test_a_start_where_the_clock_stands_is_refused(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start(time=1e16)
+    assert driven.step(1e16, H) == ERROR
+    assert "begin nearer to zero" in driven.messages[-1]
+    assert host(crane).start(time=1.7e9).step(1.7e9, H) == OK
+
+
+def test_a_step_that_would_take_hours_is_refused(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    assert driven.step(0.0, 1.1e6 * H) == ERROR
+    assert "1e+06 inner steps" in driven.messages[-1]
+    assert driven.step(0.0, 10 * H) == OK
+
+
+def test_a_short_communication_step_is_no_warning(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    slave = driven.slave
+    assert slave.dll.fmi2DoStep(slave.component, 0.0, 0.001, 1) == OK
+    assert len(driven.messages) == 1
+
+
+def test_careless_calls_are_refused_by_both_kinds(crane: Path, host: HostMaker) -> None:
+    driven = host(crane)
+    assert driven.call("getReal", [driven.references["rod.x"]]) == ERROR
+    assert "before initialisation" in driven.messages[-1]
+    assert driven.call("setDebugLogging", True, ["logNoSuchThing"]) == ERROR
+    assert "no log category" in driven.messages[-1]
+    assert driven.call("setDebugLogging", True, ["logAll"]) == OK
+    driven.slave.instanceName = ""
+    with pytest.raises(Exception, match="instantiate"):
+        driven.slave.instantiate(callbacks=driven._callbacks)
+    assert "needs a name" in driven.messages[-1]
+
+
+def test_a_step_beyond_the_stop_time_is_an_error(crane: Path, host: HostMaker) -> None:
+    driven = host(crane)
+    driven.slave.setupExperiment(startTime=0.0, stopTime=0.03)
+    driven.slave.enterInitializationMode()
+    driven.slave.exitInitializationMode()
+    driven.run(2, H)
+    assert driven.step(0.02, 2 * H) == ERROR
+    assert "stop time 0.03" in driven.messages[-1]
+    assert driven.step(0.02, H) == OK
+    other = host(crane)
+    assert other.call("setupExperiment", None, 1.0, 0.5) == ERROR
+
+
+def test_an_input_without_limits(build: Callable[..., Path], kind: str, host: HostMaker) -> None:
+    driven = host(build("crank_slider", kind))
+    (torque,) = (v for v in driven.description.modelVariables if v.name == "torque")
+    assert torque.min is torque.max is None
+    driven.start({"torque": -1e6})
+    assert driven.get("torque") == -1e6
+
+
+def test_fmi_3_without_arrays(tmp_path: Path) -> None:
+    name, system = load_scene(f"{Path(__file__).parents[2] / 'mbs' / 'scenes'}/assembly_defect_four_bar.py:build")
+    files = [build_fmu(system, name, tmp_path, [fmpy.platform], kind=kind) for kind in ("fmi3_scalar", "native")]
+    description = fmpy.read_model_description(str(files[0]))
+    assert description.fmiVersion == "3.0"
+    assert not any(v.dimensions for v in description.modelVariables)
+    names = [v.name for v in fmpy.read_model_description(str(files[1])).modelVariables]
+    assert [v.name for v in description.modelVariables] == [*names, "time"]
+    outputs = [v.name for v in description.modelVariables if v.causality == "output"]
+    rows = [fmpy.simulate_fmu(str(f), stop_time=0.2, output=outputs) for f in files]
+    assert all(np.array_equal(rows[0][n], rows[1][n]) for n in outputs)
+
+
+def test_sources_name_the_mathematical_library(build: Callable[..., Path]) -> None:
+    with zipfile.ZipFile(build("crane", "fmi3")) as archive:
+        root = ElementTree.fromstring(archive.read("sources/buildDescription.xml"))
+    assert [e.get("name") for e in root.iter("Library")] == ["m"]
+
+
+@pytest.mark.parametrize("variant", ["native", "fmi3"])
+def test_linux_on_arm_has_a_binary(tmp_path: Path, variant: str) -> None:
+    name, system = load_scene(f"{Path(__file__).parent / 'scenes.py'}:crane")
+    fmu = build_fmu(system, name, tmp_path, ["aarch64-linux"], kind=variant)
+    with zipfile.ZipFile(fmu) as archive:
+        (library,) = (n for n in archive.namelist() if n.startswith("binaries/aarch64-linux/"))
+        data = archive.read(library)
+    assert data[:4] == b"\x7fELF"
+    assert int.from_bytes(data[18:20], "little") == 183  # AArch64
+
+
+def test_the_date_is_that_of_the_environment_or_the_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    name, system = load_scene(f"{Path(__file__).parent / 'scenes.py'}:crane")
+
+    def date() -> str:
+        fmu = build_fmu(system, name, tmp_path, [fmpy.platform], author="A. Author", copyright="(c) A", licence="MIT")
+        description = fmpy.read_model_description(str(fmu))
+        assert (description.author, description.copyright, description.license) == ("A. Author", "(c) A", "MIT")
+        return str(description.generationDateAndTime)
+
+    assert date() > "2026"
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    assert date() == "2023-11-14T22:13:20Z"

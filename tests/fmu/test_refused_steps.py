@@ -1,0 +1,117 @@
+"""A refused step stops a host in place of looping it, and says what helps."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from ctypes import byref, c_bool, c_double
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+from fmpy.fmi3 import FMU3Slave
+
+HostMaker = Callable[..., Any]
+OK, WARNING, DISCARD, ERROR = range(4)
+DO_STEP_STATUS, TERMINATED = 0, 3
+# The mechanism is pulled beyond its reach within LONG, not within H.
+BEGIN, H, LONG, PULL = 0.05, 0.01, 0.2, 5.0
+SECONDS = 60.0
+
+
+def at_the_edge(fmu: Path, host: HostMaker) -> Any:
+    driven = host(fmu).start()
+    driven.run(5, H)
+    assert driven.set("pull", PULL) == OK
+    return driven
+
+
+def wants_end(driven: Any) -> bool:
+    return bool(driven.slave.getBooleanStatus(TERMINATED))
+
+
+def test_asked_again_it_wishes_the_end_and_then_is_an_error(reach: Path, host: HostMaker) -> None:
+    driven = at_the_edge(reach, host)
+    before = driven.outputs()
+    time = BEGIN
+    assert driven.step(time, LONG) == DISCARD
+    assert not wants_end(driven)
+    assert "step_size" in driven.messages[-1]
+    assert driven.set("pull", PULL) == OK  # nothing new
+    assert driven.step(time, LONG) == DISCARD
+    assert wants_end(driven)
+    assert driven.slave.getStatus(DO_STEP_STATUS) == DISCARD
+    assert driven.step(time, LONG) == ERROR
+    assert driven.slave.getStatus(DO_STEP_STATUS) == ERROR
+    assert "step_size" in driven.messages[-1]
+    assert driven.step(time, LONG) == ERROR
+    assert driven.outputs() == before
+
+
+@pytest.mark.parametrize("change", ["shorter step", "input", "state"])
+def test_what_clears_it(reach: Path, host: HostMaker, change: str) -> None:
+    driven = at_the_edge(reach, host)
+    time = BEGIN
+    state = driven.slave.getFMUstate()
+    assert driven.step(time, LONG) == driven.step(time, LONG) == DISCARD
+    assert wants_end(driven)
+    if change == "shorter step":
+        assert driven.step(time, H) == OK
+        time += H
+    elif change == "input":
+        assert driven.set("pull", 0.9 * PULL) == OK
+    else:
+        driven.slave.setFMUstate(state)
+    assert not wants_end(driven)
+    assert driven.step(time, LONG) in (OK, DISCARD)
+    assert driven.slave.getStatus(DO_STEP_STATUS) in (OK, DISCARD)
+
+
+def test_fmi_3_wishes_the_end_and_then_is_an_error(build: Callable[..., Path]) -> None:
+    fmu = build("reach", "fmi3")
+    description = fmpy.read_model_description(str(fmu))
+    references = {v.name: v.valueReference for v in description.modelVariables}
+    messages: list[str] = []
+    slave = FMU3Slave(
+        guid=description.guid,
+        unzipDirectory=fmpy.extract(str(fmu)),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="test",
+    )
+    slave.instantiate(logMessage=lambda *a: messages.append(a[-1].decode()))
+    slave.enterInitializationMode(startTime=0.0)
+    slave.exitInitializationMode()
+
+    def step(time: float, length: float) -> tuple[int, bool, bool, float]:
+        event, end, early, last = c_bool(), c_bool(), c_bool(), c_double()
+        given = (c_double(time), c_double(length), c_bool(True), byref(event), byref(end), byref(early), byref(last))
+        return int(slave.dll.fmi3DoStep(slave.component, *given)), end.value, early.value, last.value
+
+    for k in range(5):
+        assert step(k * H, H)[0] == OK
+    slave.setFloat64([references["pull"]], [PULL])
+    time = BEGIN
+    for expected, end in ((DISCARD, False), (DISCARD, True), (ERROR, True)):
+        status, wish, early, last = step(time, LONG)
+        assert (status, wish, early) == (expected, end, False)
+        assert last == pytest.approx(time, abs=1e-12)
+        assert "step_size" in messages[-1]
+    assert step(time, H)[:2] == (OK, False)
+
+
+@pytest.mark.parametrize("variant", ["native", "fmi3", "python"])
+def test_fmpy_ends_soon_and_says_why(build: Callable[..., Path], variant: str, need: Callable[[str], None]) -> None:
+    fmu = build("reach", variant)
+    code = (
+        "import fmpy, numpy as np\n"
+        f"rows = [(0.0, 0.0), ({BEGIN}, 0.0), ({BEGIN}, {PULL}), (2.0, {PULL})]\n"
+        "pull = np.array(rows, dtype=[('time', float), ('pull', float)])\n"
+        f"fmpy.simulate_fmu({str(fmu)!r}, stop_time=2.0, output_interval={BEGIN}, input=pull)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=SECONDS)
+    said = done.stdout + done.stderr
+    assert "was refused" in said
+    assert "step_size" in said
+    assert len(said) < 10_000

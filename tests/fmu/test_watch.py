@@ -1,0 +1,102 @@
+"""A run whose numbers are not what was asked says so, once; one that is right does not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+import mbs
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from mbs.kernel.binding import BRANCH_CHANGED
+from mbs.scenes import assembly_defect_four_bar
+
+SCENES = Path(__file__).parent / "scenes.py"
+HostMaker = Callable[..., Any]
+OK, WARNING = 0, 1
+TORQUE = 4.0
+EXACT = 758.6  # rad after 2 s, by the reduction to one freedom
+NAMES = ("solver.energy_error", "solver.energy_balance", "crank.angle")
+
+
+@pytest.fixture
+def slider(build: Callable[..., Path], kind: str) -> Path:
+    return build("crank_slider", kind)
+
+
+def run(driven: Any, h: float, end: float = 2.0) -> list[int]:
+    driven.start({"torque": TORQUE, "step_size": h})
+    slave = driven.slave  # called past FMPy, which passes over warnings
+    return [slave.dll.fmi2DoStep(slave.component, k * h, h, 1) for k in range(round(end / h))]
+
+
+def test_a_wrong_run_warns_once_and_shows_its_balance(slider: Path, host: HostMaker) -> None:
+    driven = host(slider)
+    statuses = run(driven, 1e-3)
+    told = [m for m in driven.messages if "step_size" in m]
+    assert len(told) == 1
+    assert "where no force did" in told[0]
+    assert statuses.count(WARNING) == 1
+    assert set(statuses) == {OK, WARNING}
+    error, balance, angle = (driven.get(name) for name in NAMES)
+    assert angle < 0.8 * EXACT
+    with pytest.warns(mbs.AccuracyWarning):
+        trajectory = mbs.simulate(load_scene(f"{SCENES}:crank_slider")[1], 2.0, 1e-3, inputs={"torque": TORQUE})
+    assert error == trajectory.report.energy_error < -300.0
+    assert balance == trajectory.report.energy_balance > 0.1
+    assert driven.get("solver.halvings") == trajectory.report.halvings > 100
+
+
+def test_a_right_run_is_silent(slider: Path, host: HostMaker) -> None:
+    driven = host(slider)
+    assert set(run(driven, 1e-4, 0.4)) == {OK}
+    assert driven.messages == []
+    assert 0.0 < driven.get("solver.energy_balance") < 0.04
+
+
+def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None:
+    driven = host(slider)
+    run(driven, 1e-3, 1.0)
+    assert len(driven.messages) == 1
+    data = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
+    other = host(slider)
+    assert other.restore(data) == OK
+    assert other.step(1.0, 1e-3) == OK
+    assert other.messages == []
+
+
+def test_all_kinds_say_the_same(build: Callable[..., Path], host: HostMaker, need: Callable[[str], None]) -> None:
+    need("python")
+    ends = []
+    for kind in ("native", "python"):
+        driven = host(build("crank_slider", kind))
+        run(driven, 1e-3, 1.0)
+        ends.append((driven.messages, [driven.get(n) for n in (*NAMES, "solver.status", "solver.halvings")]))
+    assert ends[0] == ends[1]
+    assert np.isfinite(ends[0][1]).all()
+
+
+@pytest.mark.parametrize("kind", ["native", "python"])
+def test_a_changed_assembly_mode_is_told_once(
+    tmp_path: Path, host: HostMaker, kind: str, need: Callable[[str], None]
+) -> None:
+    need(kind)
+    system = mbs.compile(assembly_defect_four_bar.build(1))
+    fmu = build_fmu(system, "defect", tmp_path, [fmpy.platform], kind=kind)
+    driven, h = host(fmu), 0.05
+    driven.start({"step_size": h})
+    for k in range(30):
+        driven.step(k * h, h)
+    assert driven.get("solver.status") == OK
+    assert not any("closed loop" in m for m in driven.messages)
+    for k in range(30, 50):
+        driven.step(k * h, h)
+    (told,) = (m for m in driven.messages if "closed loop" in m)
+    assert "1.6 s" in told
+    assert "'B', 'C'" in told
+    assert driven.get("solver.status") == BRANCH_CHANGED

@@ -1,0 +1,67 @@
+"""System files whose header or names were altered under a right checksum: one sentence, never a raw KeyError."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import mbs
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.system import System, SystemFileError
+
+
+def model() -> mbs.Model:
+    m = mbs.Model("swing", dimension=2)
+    bob = m.point_mass("bob", mass=1.0, position=(0.6, 0.8))
+    m.distance("rod", (m.ground, (0.0, 0.0)), bob)
+    push = m.input("push", min=0.0, max=10.0, unit="N")
+    m.force("wind", bob, inputs=(push, None))
+    m.sense_position("bob.x", bob, component="x")
+    return m
+
+
+@pytest.mark.parametrize("at", [28, 29, 30, 31])
+def test_the_end_of_the_header_is_zero(at: int) -> None:
+    data = bytearray(mbs.compile(model()).to_bytes())
+    data[at] ^= 1
+    with pytest.raises(KernelError, match="not zero"):
+        LoadedSystem(bytes(data))
+    with pytest.raises(SystemFileError, match="not zero"):
+        System.from_bytes(bytes(data))
+
+
+META_CHANGES: list[Callable[[dict[str, Any]], object]] = [
+    lambda m: m.pop("experiment"),
+    lambda m: m["experiment"].pop("step_s"),
+    lambda m: m["experiment"].update(step_s=0.0),
+    lambda m: m.pop("report"),
+    lambda m: m["report"].clear(),
+    lambda m: m["sensors"].pop(),
+    lambda m: m["sensors"][0].pop("unit"),
+    lambda m: m["inputs"][0].pop("max"),
+    lambda m: m["inputs"][0].update(min="x"),
+    lambda m: m["parameters"].append({"name": "p"}),
+    lambda m: m["coordinates"].pop(),
+    lambda m: m.update(rows=None),
+    lambda m: m.update(dimension="3"),
+]
+
+
+@pytest.mark.parametrize("change", META_CHANGES)
+def test_altered_names_are_a_sentence(change: Callable[[dict[str, Any]], object]) -> None:
+    system = mbs.compile(model())
+    meta = system.meta
+    change(meta)
+    with pytest.raises(SystemFileError, match="names in the System file"):
+        System.from_bytes(System(system.arrays, meta).to_bytes())
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes of POSIX")
+def test_a_named_pipe_is_no_system_file(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(SystemFileError, match="not a file"):
+        System.load(tmp_path / "pipe")

@@ -1,0 +1,123 @@
+"""High orders show down to round-off at the default tolerances: a tolerance in metres lets accelerations of 2 / h^2
+times itself through."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from benchmarks.baselines.lagrange import Lagrange
+from benchmarks.baselines.mechanism import Mechanism
+from mbs import Settings, compile, simulate
+from mbs.scenes import bricard, double_four_bar, flyball, pendulum, squeezer
+from tests.methods.test_order import fitted
+
+END = {"squeezer": 0.025, "bricard": 2.0, "pendulum": 2.0}
+BUILD = {"squeezer": squeezer, "bricard": bricard, "pendulum": pendulum}
+SENSORS = {
+    "squeezer": ("F.position.x", "F.position.y"),
+    "bricard": tuple(f"P3.position.{c}" for c in "xyz"),
+    "pendulum": ("bob.position.x", "bob.position.y"),
+}
+
+
+def reduced_governor(end):
+    """Angle of the rods, height of the slider and spin of the flyball governor: three variables, its symmetry used."""
+    f = flyball
+    bar, cube = f.DENSITY * f.LENGTH * f.WIDTH**2, f.DENSITY * f.SLIDER_SIDE**3
+    axial, transverse = bar * f.WIDTH**2 / 6.0, bar * (f.LENGTH**2 + f.WIDTH**2) / 12.0
+    mass, L, gravity = bar + f.BALL, f.LENGTH, 9.81
+    d = (0.5 * bar + f.BALL) * L / mass
+    inertia = transverse + bar * (0.5 * L - d) ** 2 + f.BALL * (L - d) ** 2
+
+    def rates(_, x):
+        a, z, spin, ad, zd = x
+        s, c = np.sin(a), np.cos(a)
+        reach = f.OFFSET + d * c
+        J = axial + cube * f.SLIDER_SIDE**2 / 6.0 + 2.0 * (mass * reach**2 + inertia * c * c + axial * s * s)
+        slope = 4.0 * (-mass * reach * d * s + (axial - inertia) * s * c)
+        along = np.array([0.5 * L * c, L - 0.5 * L * s - z])
+        length = np.hypot(*along)
+        by_a, by_z = along @ [-0.5 * L * s, -0.5 * L * c] / length, -along[1] / length
+        tension = f.STIFFNESS * (length - f.REST) + f.DAMPING * (by_a * ad + by_z * zd)
+        turn = 0.5 * slope * spin**2 - 2.0 * tension * by_a + 2.0 * mass * gravity * d * c
+        return [
+            ad,
+            zd,
+            -slope * ad * spin / J,
+            turn / (2.0 * (mass * d * d + inertia)),
+            -2.0 * tension * by_z / cube - gravity,
+        ]
+
+    start = [f.DROP, f.SLIDER_HEIGHT, f.SPIN, 0.0, 0.0]
+    return solve_ivp(rates, (0.0, end), start, method="Radau", rtol=1e-12, atol=1e-14).y[:, -1]
+
+
+def exact(name, system):
+    """Sensors at the end by minimum-norm accelerations under DOP853."""
+    mechanism = Mechanism(system)
+    rates = Lagrange(mechanism, minimum_norm=True).rates
+    found = solve_ivp(
+        lambda t, x: rates(float(t), x), (0.0, END[name]), mechanism.start, method="DOP853", rtol=1e-13, atol=1e-15
+    )
+    return mechanism.positions(found.y[: mechanism.nq, -1:].T, SENSORS[name])[0]
+
+
+def error(system, names, end, h, method, expected):
+    run = simulate(system, end, h, method=method, every=round(end / h))
+    return float(np.linalg.norm([run[n][-1] - e for n, e in zip(names, expected, strict=True)])), run.report
+
+
+def test_the_governor_gets_better_with_every_halving_of_the_step():
+    _, height, spin, *_ = reduced_governor(1.0)
+    system = compile(flyball.build())
+    found = [
+        error(system, ("slider.position.z", "shaft.rate"), 1.0, h, "radau_5", (height, spin))[0]
+        for h in (0.02, 0.01, 0.005, 0.0025, 0.00125)
+    ]
+    assert (np.diff(found) < 0.0).all(), found
+    assert found[2] < 3e-10
+    assert found[4] < 3e-12  # a tolerance in metres alone left 4e-8
+
+
+@pytest.mark.parametrize(
+    ("name", "method", "steps", "least"),
+    [
+        ("squeezer", "radau_5", (1.25e-4, 1e-4, 5e-5, 2.5e-5), 4.7),
+        ("squeezer", "energy_momentum_4", (2.5e-4, 1.25e-4, 5e-5, 2.5e-5), 3.7),
+        ("bricard", "radau_5", (0.1, 0.05, 0.025, 0.0125), 4.7),
+        ("bricard", "energy_momentum_4", (0.025, 0.0125, 0.00625, 0.003125), 3.8),
+        ("pendulum", "energy_momentum_4", (0.025, 0.0125, 0.00625, 0.003125), 3.8),
+    ],
+)
+def test_the_order_of_the_default_tolerances_down_to_small_steps(name, method, steps, least):
+    system = compile(BUILD[name].build())
+    expected = exact(name, system)
+    found = [error(system, SENSORS[name], END[name], h, method, expected)[0] for h in steps]
+    assert fitted(found, steps) > least, found
+    assert found[-1] < found[-2]
+
+
+def test_the_tolerances_stay_upper_bounds():
+    """A tighter one asks for more iterations than the method needs, a looser one for no fewer."""
+    system = compile(squeezer.build())
+    counts = [
+        simulate(
+            system, 0.01, 1e-4, settings=Settings(method="radau_5", tolerance_r=r, tolerance_phi=phi)
+        ).report.iterations
+        for r, phi in ((1e-6, 1e-6), (1e-10, 1e-11), (1e-16, 1e-15))
+    ]
+    assert counts[0] == counts[1] < counts[2]
+
+
+def test_a_singular_position_is_crossed_with_the_order_of_radau():
+    """Where the old tangent stalls short of what the method needs, one more is made."""
+    system = compile(double_four_bar.build())
+    reference = simulate(system, 1.0, 0.0015625, settings=Settings(method="radau_5", tolerance_r=1e-13))
+    found = [
+        abs(simulate(system, 1.0, h, method="radau_5")["B0.position.x"][-1] - reference["B0.position.x"][-1])
+        for h in (0.0125, 0.00625, 0.003125)
+    ]
+    assert found[2] < 2e-11
+    assert found[0] > 20.0 * found[1] > 400.0 * found[2]

@@ -1,0 +1,106 @@
+"""Refusals name the true reason: a step too long for an explicit method, a start too far away; no closed rows."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from benchmarks.cases import system_of
+from benchmarks.honesty_scenes import printed_model
+from mbs import Model, Pose, Settings, Simulation, SimulationError, compile, simulate
+from mbs.kernel.binding import FARTHEST, NOT_CONVERGED, TOO_FAR, TOO_STIFF, open_row
+from mbs.scenes import prototype_car
+
+DAMPING = 5000.0  # 1/s, of 1 kg
+
+
+def sliding(stiffness, damping):
+    """A mass of 1 kg on a spring and a dashpot, with 1 m/s."""
+    m = Model("sliding", dimension=2, gravity=(0.0, 0.0))
+    bar = m.body("bar", mass=1.0, com=(1.0, 0.0), inertia=0.1)
+    m.prismatic("guide", bar, m.ground, axis=(1.0, 0.0), point=(1.0, 0.0))
+    m.initial_velocity(bar, linear=(1.0, 0.0), angular=0.0)
+    m.spring_damper(
+        "pot", (m.ground, (0.0, 0.0)), (bar, (1.0, 0.0)), stiffness=stiffness, damping=damping, free_length=1.0
+    )
+    m.sense_position("x", bar, None, "x")
+    return compile(m)
+
+
+@pytest.mark.parametrize("method", ["runge_kutta_8", "semi_recursive", "semi_recursive_4"])
+def test_a_step_too_long_for_an_explicit_method_is_told_with_the_rate(method):
+    settings = Settings(method=method, max_halvings=0)
+    simulation = Simulation(sliding(1.0, DAMPING), settings=settings)
+    with pytest.raises(SimulationError, match="the step is too long for an explicit method") as refused:
+        simulation.step(0.1, 50)
+    text = str(refused.value)
+    assert refused.value.status == TOO_STIFF
+    if method == "runge_kutta_8":  # the others go on until nothing is left to tell a rate from
+        assert float(re.search(r"Its rate here is (\S+) 1/s", text)[1]) == pytest.approx(DAMPING, rel=0.01)
+        assert "'ali3p'" in text
+    assert "Worst" not in text
+    assert "singular" not in text
+    assert "came or went" not in text
+    assert simulation.report.failures == 1
+
+
+def test_the_rate_of_an_oscillation_is_its_frequency():
+    """A pair of eigenvalues +-i omega: growths swing from round to round, their geometric mean does not."""
+    simulation = Simulation(sliding(1e8, 0.0), settings=Settings(method="runge_kutta_8", max_halvings=0))
+    with pytest.raises(SimulationError, match="Its rate here is") as refused:
+        simulation.step(1e-3)
+    assert float(re.search(r"Its rate here is (\S+) 1/s", str(refused.value))[1]) == pytest.approx(1e4, rel=0.05)
+
+
+def test_the_step_that_is_named_works():
+    step = 1.0 / DAMPING
+    for method in ("runge_kutta_8", "semi_recursive_4"):
+        run = simulate(sliding(1.0, DAMPING), 0.02, step, method=method, estimate_error=False)
+        assert run["x"][-1] == pytest.approx(1.0 + 1.0 / DAMPING, abs=0.1 / DAMPING)
+
+
+def test_a_refused_step_leaves_the_state_where_it_was():
+    simulation = Simulation(system_of("flyball"), settings=Settings(method="runge_kutta_8"))
+    before = simulation.state
+    with pytest.raises(SimulationError):
+        simulation.step(0.2)
+    after = simulation.state
+    assert after.q.tolist() == before.q.tolist()
+    assert after.qdd.tolist() == before.qdd.tolist()
+
+
+@pytest.mark.parametrize("pose", [Pose(x=1e300), Pose(y=-2.0 * FARTHEST), Pose(z=1e20), Pose(speed=1e300)])
+def test_a_start_beyond_the_digits_is_refused_as_that(pose):
+    with pytest.raises(SimulationError, match="too far away or too fast") as refused:
+        Simulation(compile(prototype_car.build()), pose=pose)
+    assert refused.value.status == TOO_FAR
+    assert "wishbone" not in str(refused.value)
+    assert repr(pose) in str(refused.value)
+
+
+def test_a_start_just_within_them_is_not():
+    Simulation(compile(prototype_car.build()), pose=Pose(x=0.9 * FARTHEST))
+
+
+def test_a_closed_row_is_not_the_reason():
+    assert open_row({"worst_row": 0, "violation": 7e-15}, ["lower wishbone"]) == ""
+    assert open_row({"worst_row": 0, "violation": 1e-3}, ["lower wishbone"]) == "'lower wishbone', open by 0.001 m"
+
+
+def test_an_iteration_that_ran_away_is_no_singular_tangent():
+    """The crank-slider at steps that do not follow it: iterates 1e15 m away, whose tangent says nothing."""
+    with pytest.raises(SimulationError, match="did not converge") as refused:
+        simulate(printed_model(), 2.0, 1e-3, {"torque": 4.0}, method="energy_momentum", progress=False)
+    assert refused.value.status == NOT_CONVERGED
+
+
+@pytest.mark.parametrize(("unit", "shown"), [("1", "is 2 at"), ("", "is 2 at"), ("N.m", "is 2 N.m at")])
+def test_a_pure_number_has_no_unit(unit, shown):
+    m = Model("one input", dimension=2)
+    bar = m.body("bar", mass=1.0, com=(1.0, 0.0), inertia=0.1)
+    m.revolute("hinge", m.ground, bar, point=(0.0, 0.0))
+    angle = m.relative_angle("angle", m.ground, bar)
+    m.torque_on("motor", angle, input=m.input("tau", min=-1.0, max=1.0, unit=unit))
+    with pytest.raises(ValueError, match=f"'tau' {shown}"):
+        simulate(compile(m), 1.0, 0.01, {"tau": 2.0})

@@ -1,0 +1,385 @@
+"""Forces of driven distances and of lines that turn, moments of joints: closed forms at rest and in motion, by every
+method, and Newton's and Euler's laws of the body they act on.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from math import cos, sin
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import PPoly
+
+from mbs import Model, ModelError, Settings, Simulation, compile, simulate
+from mbs.settings import METHODS
+from tests.flexible_engine.bodies import bar
+
+G = 9.81
+RISE = PPoly(np.array([[6.0], [-15.0], [10.0], [0.0], [0.0], [0.0]]), np.array([0.0, 1.0]))
+SECOND, HIGH = (
+    ("ali3p", "ali3p_generalised_alpha", "energy_momentum"),
+    ("energy_momentum_4", "runge_kutta_8", "radau_5"),
+)
+NATURAL = [*SECOND, *HIGH]
+TREE = ("semi_recursive", "semi_recursive_4")
+DIGITS = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-13, "max_step": 0.02}
+
+
+def bound(method, scale):
+    """Error at 2 ms: 1e-4 of the size by methods of second order, 1e-7 by others."""
+    return scale * (1e-4 if method in SECOND else 1e-7)
+
+
+def shifted(low, high):
+    """From `low` to `high` along RISE."""
+    c = (high - low) * RISE.c
+    c[-1] += low
+    return PPoly(c, RISE.x)
+
+
+# --- driven distance ---
+@pytest.mark.parametrize("method", NATURAL)
+def test_the_tension_of_a_pendulum_whose_length_is_driven(method):
+    mass, length = 1.5, shifted(1.0, 0.6)
+    m = Model("winch", dimension=2)
+    bob = m.point_mass("bob", mass=mass, position=(1.0, 0.0))
+    m.drive("rope", ((m.ground, (0.0, 0.0)), bob), m.guide_time("length", length, unit="m"))
+    m.sense_joint_force("tension", "rope", "tension")
+    m.sense_joint_force("push", "rope", "drive")
+    run = simulate(compile(m), 0.9, 0.002, method=method, every=50)
+
+    def rates(t, x):
+        return [x[1], -(2.0 * length(t, 1) * x[1] + G * sin(x[0])) / length(t)]
+
+    angle, rate = solve_ivp(rates, (0.0, 0.9), [0.5 * np.pi, 0.0], t_eval=run.t, **DIGITS).y
+    expected = mass * (length(run.t) * rate**2 + G * np.cos(angle) - length(run.t, 2))
+    assert np.abs(run["tension"] - expected).max() < bound(method, np.abs(expected).max())
+    assert (run["push"] == -run["tension"]).all()
+
+
+def test_a_cylinder_that_holds_a_boom():
+    """Statics: the moment of the weight about the hinge over the lever of the cylinder."""
+    m = Model("boom", dimension=2)
+    boom = m.body("boom", mass=200.0, com=(2.0, 1.0), inertia=90.0)
+    m.revolute("hinge", boom, m.ground, point=(0.0, 1.0))
+    foot, head = np.array([0.5, 0.0]), np.array([1.2, 1.0])
+    long = float(np.linalg.norm(head - foot))
+    still = PPoly(np.array([[0.0], [long]]), np.array([0.0, 1.0]))
+    m.drive("cylinder", ((m.ground, foot), (boom, head)), m.guide_time("stroke", still, unit="m"))
+    m.sense_joint_force("cylinder", "cylinder")
+    along = (head - foot) / long
+    lever = (head[0] - 0.0) * along[1] - (head[1] - 1.0) * along[0]
+    assert Simulation(compile(m)).sensors["cylinder"] == pytest.approx(200.0 * G * 2.0 / lever, rel=1e-9)
+
+
+# --- a line that turns ---
+def bead():
+    """A bead on a straight wire that a guide turns."""
+    m = Model("bead", dimension=2)
+    wire = m.body("wire", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    m.revolute("bearing", m.ground, wire, point=(0.0, 0.0))
+    mass = m.point_mass("bead", mass=0.7, position=(0.4, 0.0))
+    m.point_on_line("wire", (mass, None), (wire, (0.0, 0.0)), axis=(1.0, 0.0))
+    m.drive("motor", m.relative_angle("angle", m.ground, wire), m.guide_time("turn", shifted(0.0, 1.5), unit="rad"))
+    for c in "xy":
+        m.sense_joint_force(f"force.{c}", "wire", c)
+    return compile(m)
+
+
+@pytest.mark.parametrize("method", NATURAL)
+def test_the_force_of_a_wire_that_turns(method):
+    turn = shifted(0.0, 1.5)
+    run = simulate(bead(), 0.9, 0.002, method=method, every=50)
+
+    def rates(t, x):
+        return [x[1], x[0] * turn(t, 1) ** 2 - G * sin(turn(t))]
+
+    place, speed = solve_ivp(rates, (0.0, 0.9), [0.4, 0.0], t_eval=run.t, **DIGITS).y
+    a, w, e = (turn(run.t, k) for k in range(3))
+    across = 0.7 * (place * e + 2.0 * speed * w + G * np.cos(a))
+    expected = across * np.array([-np.sin(a), np.cos(a)])
+    found = np.array([run["force.x"], run["force.y"]])
+    assert np.abs(found - expected).max() < bound(method, np.abs(expected).max())
+
+
+def test_the_derivative_of_such_a_force_by_an_input():
+    m = Model("pushed", dimension=2)
+    wire = m.body("wire", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    m.revolute("bearing", m.ground, wire, point=(0.0, 0.0))
+    mass = m.body("bead", mass=0.7, com=(0.4, 0.0), inertia=0.02)
+    m.prismatic("wire", mass, wire, axis=(1.0, 0.0), point=(0.5, 0.1))
+    m.torque("motor", wire, inputs=m.input("torque", unit="N.m"))
+    for c in "xy":
+        m.sense_joint_force(f"force.{c}", "wire", c)
+    m.sense_joint_moment("moment", "wire")
+    m.sense_joint_moment("moment.second", "wire", on="second")
+    system = compile(m)
+    simulation = Simulation(system, settings=Settings(tolerance_r=1e-13, tolerance_phi=1e-12))
+    simulation.set_input("torque", 3.0)
+    simulation.step(0.002, 200)
+    before, ends = simulation.save(), []
+    for sign in (1.0, -1.0, 0.0):
+        simulation.restore(before)
+        simulation.set_input("torque", 3.0 + sign * 1e-3)
+        simulation.step(0.002)
+        ends.append(np.array(list(simulation.sensors.values())))
+    expected = (ends[0] - ends[1]) / 2e-3
+    out, instance = (ctypes.c_double * 4)(), simulation.instance
+    assert instance._library.ali3_input_derivative(instance._handle, (ctypes.c_double * 1)(1.0), out) == 0
+    assert np.abs(expected).min() > 1e-3
+    np.testing.assert_allclose(out[:], expected, rtol=2e-4)
+
+
+# --- moments ---
+@pytest.mark.parametrize("method", [*NATURAL, *TREE])
+def test_the_moment_of_a_bearing_that_carries_an_unbalanced_rotor(method):
+    """A skew rod spins about z: H turns with it, M = w x H - r x m g about the bearing, constant in its own axes."""
+    mass, w, r = 2.0, 7.0, np.array([0.4, 0.0, 0.3])
+    inertia = np.diag([0.02, 0.05, 0.04])
+    inertia[0, 2] = inertia[2, 0] = -0.012
+    about = inertia + mass * (r @ r * np.eye(3) - np.outer(r, r))
+    m = Model("rotor")
+    rotor = m.body("rotor", mass=mass, com=r, inertia=inertia)
+    m.revolute("bearing", rotor, m.ground, point=(0, 0, 0), axis=(0, 0, 1))
+    m.initial_velocity(rotor, angular=(0.0, 0.0, w))
+    for c in "xyz":
+        m.sense_joint_moment(f"body.{c}", "bearing", c, axes=rotor)
+        m.sense_joint_moment(f"earth.{c}", "bearing", c)
+        m.sense_joint_moment(f"second.{c}", "bearing", c, on="second")
+        m.sense_joint_moment(f"centre.{c}", "bearing", c, axes=rotor, point=r)
+    run = simulate(compile(m), 0.4, 0.001, method=method, every=40)
+    spin, weight = np.array([0.0, 0.0, w]), np.array([0.0, 0.0, -mass * G])
+    expected = np.cross(spin, about @ spin) - np.cross(r, weight)
+    for k, c in enumerate("xyz"):
+        assert np.abs(run[f"body.{c}"] - expected[k]).max() < 1e-3 * np.abs(expected).max()
+        assert np.abs(run[f"earth.{c}"] + run[f"second.{c}"]).max() < 1e-9
+    turned = np.array([run["earth.x"], run["earth.y"]])
+    angle = w * run.t
+    rotation = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    assert np.abs(turned - np.einsum("ijk,j->ik", rotation, expected[:2])).max() < 5e-3 * np.abs(expected).max()
+    # about the centre of mass: w x I w
+    centre = np.cross(spin, inertia @ spin)
+    for k, c in enumerate("xyz"):
+        assert np.abs(run[f"centre.{c}"] - centre[k]).max() < 1e-3 * np.abs(expected).max()
+
+
+def test_a_cantilever_hangs_from_its_wall():
+    """Welded parts at rest: the weight of the outer one times its arm, at the wall and at its centre."""
+    m = Model("cantilever")
+    inner = m.body("inner", mass=3.0, com=(0.5, 0.0, 0.0), inertia=(0.1, 0.2, 0.2))
+    outer = m.body("outer", mass=2.0, com=(1.4, 0.3, 0.0), inertia=(0.1, 0.2, 0.2))
+    m.weld("seam", outer, inner)
+    m.weld("wall", inner, m.ground)
+    for c in "xyz":
+        m.sense_joint_moment(f"seam.{c}", "seam", c, point=(1.0, 0.0, 0.0))
+        m.sense_joint_moment(f"wall.{c}", "wall", c, point=(0.0, 0.0, 0.0))
+        m.sense_joint_moment(f"centre.{c}", "seam", c)
+        m.sense_joint_force(f"force.{c}", "wall", c)
+    found = Simulation(compile(m)).sensors
+    seam = -np.cross((0.4, 0.3, 0.0), (0.0, 0.0, -2.0 * G))
+    wall = -np.cross((0.5, 0.0, 0.0), (0.0, 0.0, -3.0 * G)) - np.cross((1.4, 0.3, 0.0), (0.0, 0.0, -2.0 * G))
+    np.testing.assert_allclose([found[f"seam.{c}"] for c in "xyz"], seam, atol=1e-8)
+    np.testing.assert_allclose([found[f"wall.{c}"] for c in "xyz"], wall, atol=1e-8)
+    np.testing.assert_allclose([found[f"centre.{c}"] for c in "xyz"], 0.0, atol=1e-8)
+    np.testing.assert_allclose([found[f"force.{c}"] for c in "xyz"], [0.0, 0.0, 5.0 * G], atol=1e-8)
+
+
+@pytest.mark.parametrize("method", [*NATURAL, *TREE])
+def test_the_bending_moment_of_a_pendulum_of_two_welded_parts(method):
+    """At 0.6 of its length: the outer part turns with the whole."""
+    m = Model("rod", dimension=2)
+    upper = m.body("upper", mass=1.2, com=(0.3, 0.0), inertia=1.2 * 0.36 / 12.0)
+    lower = m.body("lower", mass=0.8, com=(0.8, 0.0), inertia=0.8 * 0.16 / 12.0)
+    m.revolute("pivot", m.ground, upper, point=(0.0, 0.0))
+    m.weld("seam", lower, upper)
+    m.sense_joint_moment("moment", "seam", point=(0.6, 0.0))
+    run = simulate(compile(m), 0.9, 0.002, method=method, every=50)
+    first = 1.2 * 0.3 + 0.8 * 0.8
+    about = 1.2 * (0.36 / 12.0 + 0.09) + 0.8 * (0.16 / 12.0 + 0.64)
+    angle = solve_ivp(
+        lambda _, x: [x[1], -first * G * cos(x[0]) / about], (0.0, 0.9), [0.0, 0.0], t_eval=run.t, **DIGITS
+    ).y[0]
+    turn = -first * G * np.cos(angle) / about
+    # about the seam: I_c e + m d (arm e + g cos), d from the seam to the centre of the lower part
+    expected = 0.8 * 0.16 / 12.0 * turn + 0.8 * 0.2 * (0.8 * turn + G * np.cos(angle))
+    assert np.abs(expected).max() > 0.1
+    assert np.abs(run["moment"] - expected).max() < 10.0 * bound(
+        method if method not in TREE else "radau_5", np.abs(expected).max()
+    )
+
+
+@pytest.mark.parametrize("method", NATURAL)
+def test_the_moments_of_a_slider_on_either_side(method):
+    """A block off its rail falls along a slope: on the block about its own point, on the rail about the rail's."""
+    slope, mass, centre = 0.4, 3.0, np.array([0.1, 0.25])
+    along, across = np.array([cos(slope), -sin(slope)]), np.array([sin(slope), cos(slope)])
+    m = Model("slider", dimension=2)
+    block = m.body("block", mass=mass, com=centre, inertia=0.2)
+    m.prismatic("rail", block, m.ground, axis=along, point=(0.0, 0.0))
+    m.sense_joint_moment("block", "rail")
+    m.sense_joint_moment("rail", "rail", on="second")
+    run = simulate(compile(m), 0.5, 0.005, method=method, every=20)
+    normal = mass * G * across[1]
+    arm = centre @ along  # of the weight's part across the rail about the block's point; along it nothing is held
+    gone = 0.5 * G * sin(slope) * run.t**2
+    assert np.abs(run["block"] - normal * arm).max() < 1e-6
+    assert np.abs(run["rail"] + (arm + gone) * normal).max() < 1e-3
+
+
+JOINTS = {
+    "revolute": {"point": (0.5, 0.1, -0.2), "axis": (1.0, 2.0, 0.5)},
+    "cylindrical": {"point": (0.5, 0.1, -0.2), "axis": (1.0, 2.0, 0.5)},
+    "prismatic": {"point": (0.5, 0.1, -0.2), "axis": (1.0, 2.0, 0.5)},
+    "universal": {"point": (0.5, 0.1, -0.2), "axis_1": (1.0, 0.0, 0.0), "axis_2": (0.0, 1.0, 0.3)},
+    "weld": {},
+}
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+@pytest.mark.parametrize("which", [0, 1])
+def test_euler_s_law_of_either_body_of_two_that_fly(kind, which):
+    """I w' + w x I w is the moment about the centre of mass, with w' from differences; m a is the force."""
+    m = Model("pair", gravity=(0.0, 0.0, 0.0))
+    places, masses = ((0.1, 0.2, 0.3), (0.9, -0.3, 0.6)), (1.0, 2.0)
+    inertias = [np.diag([0.2, 0.3, 0.25]), np.diag([0.1, 0.4, 0.35])]
+    pair = [m.body(n, mass=k, com=p, inertia=i) for n, k, p, i in zip("ab", masses, places, inertias, strict=True)]
+    joint = getattr(m, kind)("joint", *pair, **JOINTS[kind])
+    m.initial_velocity(pair[0], (0.3, -0.2, 0.5), (1.0, 2.0, -1.5))
+    m.initial_velocity(pair[1], (-0.3, 0.4, 0.1), (-2.0, 0.5, 1.0))
+    side = ("first", "second")[which]
+    centre = {} if joint.places is None else {"point": places[which]}
+    for c in "xyz":
+        m.sense_angular_rate(f"w{c}", pair[which], c)
+        m.sense_joint_moment(f"M{c}", joint, c, on=side, axes=pair[which], **centre)
+        m.sense_acceleration(f"a{c}", pair[which], None, c, axes="body")
+    if joint.places is None:  # about the joint's own point on that body
+        for c in "xyz":
+            m.sense_joint_force(f"F{c}", joint, c)
+            m.sense_position(f"r{c}", pair[which], None, c)
+        for c in "wxyz":
+            m.sense_quaternion(f"q{c}", pair[which], c)
+            m.sense_position(f"o{c}", pair[which], (0.5, 0.1, -0.2), c) if c != "w" else None
+    h = 1e-3
+    run = simulate(compile(m), 0.4, h, method="runge_kutta_8")
+    w, moment = (np.array([run[f"{n}{c}"] for c in "xyz"]) for n in "wM")
+    rate = (w[:, :-4] - 8.0 * w[:, 1:-3] + 8.0 * w[:, 3:-1] - w[:, 4:]) / (12.0 * h)
+    w, moment = w[:, 2:-2], moment[:, 2:-2]
+    expected = inertias[which] @ rate + np.cross(w, inertias[which] @ w, axis=0)
+    if joint.places is None:
+        turn = _rotation(np.array([run[f"q{c}"] for c in "wxyz"]))
+        force, r, o = (np.array([run[f"{n}{c}"] for c in "xyz"]) for n in "Fro")
+        sign = 1.0 if which == 0 else -1.0
+        # from the joint's point on this body to its centre of mass
+        arm = np.cross(o - r, sign * force, axis=0)
+        expected = expected - np.einsum("jik,jk->ik", turn, arm)[:, 2:-2]
+    assert np.abs(expected).max() > 0.02
+    assert np.abs(moment - expected).max() < 1e-6 * np.abs(expected).max()
+
+
+def _rotation(q):
+    """Rotation matrices (3, 3, n) of quaternions (4, n)."""
+    w, x, y, z = q
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def test_the_torque_of_a_drive_is_its_moment():
+    m = Model("driven", dimension=2)
+    rod = m.body("rod", mass=2.0, com=(0.5, 0.0), inertia=0.2)
+    m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
+    m.drive("motor", m.relative_angle("angle", m.ground, rod), m.guide_time("turn", RISE, unit="rad"))
+    m.sense_joint_moment("moment", "motor")
+    m.sense_joint_force("force", "motor", "drive")
+    run = simulate(compile(m), 0.8, 0.01)
+    expected = (0.2 + 0.5) * RISE(run.t, 2) + 2.0 * G * 0.5 * np.cos(RISE(run.t))
+    assert np.abs(run["moment"] - expected).max() < 1e-4
+    assert (run["moment"] == run["force"]).all()
+
+
+def multipliers(m, equilibrium=False):
+    """By the name of their rows, as the model writes them, at the start or at rest."""
+    system = compile(m)
+    simulation = Simulation(system)
+    if equilibrium:
+        simulation.static_equilibrium()
+    found = {}
+    for row, scale, lam in zip(system.meta["rows"], system.arrays["row_scale"], simulation.state.lam, strict=True):
+        found.setdefault(row["name"], []).append(scale * lam)
+    return found
+
+
+def test_the_raw_multipliers_have_the_signs_that_the_state_documents():
+    """A weight of 20 N that a drive, a port, a rod and a node of a flexible body carry, force upwards on the body."""
+    weight = 20.0
+    m = Model("lift", dimension=2)
+    box = m.point_mass("box", mass=weight / G, position=(0.0, 0.0))
+    m.drive("lift", box.point(None)[1], m.guide_time("still", PPoly(np.array([[0.0], [0.0]]), [0.0, 1.0]), unit="m"))
+    assert multipliers(m)["lift"] == pytest.approx([-weight])
+    m = Model("rod", dimension=2)
+    m.distance("rod", (m.ground, (0.0, 2.0)), m.point_mass("box", mass=weight / G, position=(0.0, 0.0)))
+    assert 2.0 * multipliers(m)["rod"][0] == pytest.approx(weight)
+    m = Model("port")
+    owner = m.body("box", mass=weight / G, com=(0, 0, 0), inertia=(1, 1, 1))
+    m.spherical("hook", m.ported(owner, {"eye": (0.0, 0.0, 0.5)}), m.ground, point=(0.0, 0.0, 0.5))
+    assert multipliers(m)["box.eye"] == pytest.approx([0.0, 0.0, weight], abs=1e-9)
+    m = Model("node")
+    body = m.flexible_body("bar", bar((0, 0, -1.0), (0, 0, 0)))
+    m.spherical("hook", body, m.ground, point=(0.0, 0.0, 0.0))
+    raw = multipliers(m, equilibrium=True)
+    (name,) = [n for n in raw if n.startswith("bar.")]
+    assert raw[name][2] == pytest.approx(body.mass * G, rel=1e-6)
+
+
+# --- the model and its words ---
+def test_a_moment_sensor_changes_no_motion():
+    ends = []
+    for sensed in (False, True):
+        m = Model("rotor")
+        rotor = m.body("rotor", mass=2.0, com=(0.4, 0.0, 0.3), inertia=(0.02, 0.05, 0.04))
+        m.revolute("bearing", rotor, m.ground, point=(0, 0, 0), axis=(0, 1, 0))
+        if sensed:
+            m.sense_joint_moment("moment", "bearing")
+        m.sense_position("x", rotor, None, "x")
+        system = compile(m)
+        assert system.report["degrees_of_freedom"] == 1
+        ends.append(simulate(system, 1.0, 0.01, method="radau_5")["x"])
+    assert np.abs(ends[0] - ends[1]).max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("act", "sentence"),
+    [
+        (lambda m: m.sense_joint_moment("s", "ball"), "'ball' .spherical. transmits no moment; revolute"),
+        (lambda m: m.sense_joint_moment("s", "hinge", "w"), "it must be 'x', 'y' or 'z'"),
+        (lambda m: m.sense_joint_moment("s", "hinge", on="third"), "on 'third'; it must be 'first' or 'second'"),
+        (lambda m: m.sense_joint_moment("s", "hinge", axes="body"), "must be 'earth' or a body"),
+        (lambda m: m.sense_joint_moment("s", "cardan", point=(0, 0, 0)), "at its own point only"),
+        (lambda m: m.sense_joint_moment("s", "nothing"), "no joint named 'nothing'"),
+        (lambda m: m.sense_joint_force("s", "rope", "y"), "for a driven distance it must be 'tension' or 'drive'"),
+        (
+            lambda m: m.sense_joint_force("s", "turn"),
+            "lines, distances, drives, gears, racks and screws have one",
+        ),
+    ],
+)
+def test_what_cannot_be_read_says_what_can(act, sentence):
+    m = Model("words")
+    a, b, c, d = (m.body(n, mass=1.0, com=(k, 0, 0), inertia=(1, 1, 1)) for k, n in enumerate("abcd"))
+    m.spherical("ball", m.ground, a, point=(0, 0, 0))
+    m.revolute("hinge", a, b, point=(0.5, 0, 0), axis=(0, 0, 1))
+    m.universal("cardan", b, c, point=(1.5, 0, 0), axis_1=(0, 1, 0), axis_2=(0, 0, 1))
+    m.relative_angle("turn", a, b, axis=(0, 0, 1))
+    m.drive("rope", ((c, (2, 0, 0)), (d, (3, 0, 0))), m.guide_time("length", shifted(1.0, 2.0), unit="m"))
+    with pytest.raises(ModelError, match=sentence):
+        act(m)
+
+
+def test_every_method_has_been_tried():
+    assert {*NATURAL, *TREE, "ali3p_no_projection"} == set(METHODS)

@@ -1,0 +1,316 @@
+"""Runs to a tolerance: the error reached against exact motions, the record, choices, and what is said of them."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import mbs
+from benchmarks import references
+from benchmarks.car_manoeuvres import inputs_of, load, start_of
+from benchmarks.car_manoeuvres import system_of as car_of
+from benchmarks.cases import CASES, exact_of, system_of
+from mbs.accuracy import AccuracyWarning
+
+ALLOWED = 10.0
+CRANK_ANGLE = 758.6266  # rad after 2 s under 4 N m: the motion reduced to its one freedom, DOP853
+
+
+def crank_slider() -> mbs.System:
+    """The model that docs/modelling.md prints."""
+    m = mbs.Model("slider-crank", dimension=2)
+    crank = m.body("crank", mass=1.0, com=(0.05, 0.0), inertia=0.001)
+    rod = m.body("rod", mass=0.5, com=(0.25, 0.0), inertia=0.004)
+    piston = m.point_mass("piston", mass=0.8, position=(0.4, 0.0))
+    m.revolute("main bearing", m.ground, crank, point=(0.0, 0.0))
+    m.revolute("big end", crank, rod, point=(0.1, 0.0))
+    m.spherical("small end", rod, piston, point=(0.4, 0.0))
+    m.point_on_line("bore", (piston, None), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
+    angle = m.relative_angle("crank angle", m.ground, crank)
+    m.input("torque", min=-50.0, max=50.0, unit="N.m")
+    m.torque_on("motor", angle, input=m.inputs[0])
+    m.sense_coordinate("crank.angle", angle)
+    m.sense_joint_force("bearing.force", m.joints[0], "y")
+    return mbs.compile(m)
+
+
+def pushed_mass() -> mbs.System:
+    """2 kg under a force."""
+    m = mbs.Model("mass", dimension=2, gravity=(0.0, 0.0), length=1.0)
+    mass = m.point_mass("mass", mass=2.0, position=(0.0, 0.0))
+    force = m.input("force", min=-10.0, max=10.0, unit="N")
+    m.force("push", mass, inputs=(force, None))
+    m.sense_position("x", mass, None, "x")
+    return mbs.compile(m)
+
+
+def error_of(scene: str, run: mbs.Trajectory) -> float:
+    """Largest error of the output point over the run, in parts of the model's length."""
+    assert run.control is not None
+    found = np.column_stack([run[s] for s in CASES[scene].sensors])
+    return float(np.linalg.norm(found - exact_of(scene), axis=1).max()) / run.control.length
+
+
+def run_of(scene: str, tolerance: float, method: str | None = None) -> mbs.Trajectory:
+    case = CASES[scene]
+    times = np.linspace(0.0, case.end, 51)
+    return mbs.simulate(system_of(scene), case.end, tolerance=tolerance, method=method, times=times)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+def test_the_printed_crank_slider_turns_as_far_as_it_should(tolerance: float) -> None:
+    run = mbs.simulate(crank_slider(), 2.0, inputs={"torque": 4.0}, tolerance=tolerance)
+    assert run.control is not None
+    assert abs(run["crank.angle"][-1] - CRANK_ANGLE) < ALLOWED * tolerance  # the length counts per rad
+    assert run.control.method == "runge_kutta_8"
+    assert run.control.steps < 6000  # ALi3-P needs a million for the first of them
+
+
+@pytest.mark.parametrize(
+    ("scene", "method", "tolerance"),
+    [
+        ("double_four_bar", "ali3p", 1e-3),  # ten singular positions
+        ("double_four_bar", "radau_5", 1e-4),
+        ("double_four_bar", "energy_momentum", 1e-3),
+        ("double_four_bar", "energy_momentum_4", 1e-4),
+        ("double_four_bar", "semi_recursive_4", 1e-4),
+        ("double_four_bar", None, 1e-5),
+        ("slider_crank", "ali3p", 1e-3),
+        ("slider_crank", None, 1e-4),
+        ("spatial_slider_crank", "radau_5", 1e-4),
+        ("spatial_slider_crank", None, 1e-6),
+        ("pendulum", "runge_kutta_8", 1e-8),
+        ("pendulum", "ali3p", 1e-4),
+        ("cart_pole", "ali3p", 1e-3),  # spikes of 4429 rad/s
+        ("cart_pole", "radau_5", 1e-5),
+        ("cart_pole", None, 1e-6),
+    ],
+)
+def test_the_error_is_within_ten_tolerances(scene: str, method: str | None, tolerance: float) -> None:
+    run = run_of(scene, tolerance, method)
+    assert run.control is not None
+    assert error_of(scene, run) < ALLOWED * tolerance
+    assert run.control.kept
+
+
+def test_the_stiff_governor_is_not_followed_in_its_fastest_motion() -> None:
+    run = run_of("flyball", 1e-3, "radau_5")
+    assert error_of("flyball", run) < ALLOWED * 1e-3
+    assert run.control is not None
+    assert run.control.steps < 2000  # an explicit rule that follows 27000 1/s needs more than 6000
+
+
+def test_a_light_cart_costs_a_few_thousand_evaluations() -> None:
+    run = run_of("cart_pole", 1e-3, "runge_kutta_8")
+    assert run.report is not None
+    assert run.control is not None
+    assert run.report.iterations < 6000  # a million with equal steps
+    assert run.control.largest > 1e5 * run.control.smallest
+
+
+def test_a_body_that_turns_over_turns_over_in_time() -> None:
+    inertia, start = np.array([1.0, 2.0, 3.0]), np.array([1e-3, 5.0, 0.0])  # Dzhanibekov: about the middle axis
+    m = mbs.Model("Dzhanibekov", gravity=(0.0, 0.0, 0.0), length=1.0)
+    body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=inertia)
+    m.initial_velocity(body, linear=(0.0, 0.0, 0.0), angular=start)
+    for c in "xyz":
+        m.sense_position(f"tip.{c}", body, (0.0, 1.0, 0.0), c)
+    run = mbs.simulate(mbs.compile(m), 10.0, tolerance=1e-5)
+    tip = np.column_stack([run[f"tip.{c}"] for c in "xyz"])
+
+    def rates(_: float, x: np.ndarray) -> np.ndarray:
+        w, R = x[:3], x[3:].reshape(3, 3)
+        skew = np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+        return np.concatenate([-np.cross(w, inertia * w) / inertia, (R @ skew).ravel()])
+
+    exact = solve_ivp(rates, (0.0, 10.0), [*start, *np.eye(3).ravel()], "DOP853", run.t, rtol=1e-12, atol=1e-13).y
+    assert np.ptp(tip[:, 1]) > 1.9  # it does
+    assert np.abs(tip - exact[3:].reshape(3, 3, -1)[:, 1].T).max() < ALLOWED * 1e-5
+
+
+def test_a_kerb_is_run_down_with_the_loads_of_short_steps() -> None:
+    manoeuvre = load("kerb_drop")
+    parameters, pose = start_of(manoeuvre)
+    system, given = car_of("kerb_drop"), (inputs_of(manoeuvre), None, parameters)
+    fine = mbs.simulate(system, 2.5, 5e-4, *given, every=20, pose=pose, progress=False)
+    run = mbs.simulate(system, 2.5, 0.01, *given, pose=pose, progress=False, tolerance=1e-3)
+    assert run.control is not None
+    assert run.control.method == "ali3p"
+    assert 0.02 < run.control.largest < 0.06  # before the kerb: a twentieth of the length at 5 m/s
+    assert np.abs(run["chassis.z"] - fine["chassis.z"]).max() < 1e-3 * run.control.length
+    load_ = "wheel_FL.Fz"
+    assert np.abs(run[load_] - fine[load_]).max() < 5e-3 * np.ptp(fine[load_])
+
+
+@pytest.mark.parametrize(("method", "order"), [("ali3p", 2), ("radau_5", 5), ("runge_kutta_8", 8)])
+def test_the_record_between_steps_keeps_the_order(method: str, order: int) -> None:
+    """Errors between the steps are no larger than at tolerances' pace, also of the force in the rod."""
+    times = np.linspace(0.0, 2.0, 601)
+    exact = references.pendulum(times)
+    tension = 3.0 * 9.81 * -exact[:, 1]
+    errors, forces = [], []
+    tolerances = [1e-3, 1e-5] if order == 2 else [1e-4, 1e-8]
+    for tolerance in tolerances:
+        run = mbs.simulate(system_of("pendulum"), 2.0, tolerance=tolerance, times=times, method=method)
+        assert run.control is not None
+        found = np.column_stack([run["bob.position.x"], run["bob.position.y"]])
+        errors.append(np.linalg.norm(found - exact, axis=1).max())
+        forces.append(np.abs(run["rod.tension"] - tension).max() / (3.0 * 9.81))
+        assert run.control.steps < 601 or order == 2  # so that most of the record lies between steps
+    for tolerance, error, force in zip(tolerances, errors, forces, strict=True):
+        assert error < ALLOWED * tolerance
+        assert force < 3.0 * ALLOWED * tolerance
+
+
+def test_steps_end_at_the_points_of_a_table() -> None:
+    """A force that jumps: exact by pieces, so an order-two record of a step over the jump would show."""
+    table = ([0.0, 0.7123, 0.7123, 2.0], [4.0, 4.0, -2.0, -2.0])
+    run = mbs.simulate(pushed_mass(), 2.0, inputs={"force": table}, tolerance=1e-9, method="runge_kutta_8")
+    t, s = run.t, 0.7123
+    late = np.clip(t - s, 0.0, None)
+    exact = np.where(t < s, t**2, s**2 + 2.0 * s * late - 0.5 * late**2)
+    assert np.abs(run["x"] - exact).max() < 1e-11
+    assert run.control is not None
+    assert run.control.rejected == 0
+
+
+def test_a_smooth_function_is_followed_at_the_order_of_the_method() -> None:
+    run = mbs.simulate(
+        pushed_mass(), 2.0, inputs={"force": lambda t: 2.0 * math.sin(9.0 * t)}, tolerance=1e-8, method="runge_kutta_8"
+    )
+    assert np.abs(run["x"] - (run.t / 9.0 - np.sin(9.0 * run.t) / 81.0)).max() < ALLOWED * 1e-8
+    assert run.control is not None
+    assert run.control.steps < 200
+
+
+def test_refresh_takes_over_an_input_that_jumps() -> None:
+    s = mbs.Simulation(pushed_mass())
+    assert np.abs(s.state.qdd).max() < 1e-12
+    s.set_input("force", 4.0)
+    s.instance.refresh()
+    assert np.abs(s.state.qdd).max() == pytest.approx(2.0)
+    assert np.abs(s.state.qd).max() == 0.0
+
+
+def test_times_of_the_record() -> None:
+    system = system_of("pendulum")
+    run = mbs.simulate(system, 1.0, tolerance=1e-3, times=[0.1, 0.25, 0.9])
+    assert run.t.tolist() == [0.0, 0.1, 0.25, 0.9]
+    assert len(mbs.simulate(system, 1.0, 0.1, tolerance=1e-3).t) == 11
+    assert len(mbs.simulate(system, 1.0, 0.1, tolerance=1e-3, every=2).t) == 6
+    assert len(mbs.simulate(system, 1.0, tolerance=1e-3).t) == 201
+
+
+def test_a_step_is_picked_where_none_is_given() -> None:
+    run = mbs.simulate(system_of("pendulum"), 2.0)
+    control = run.control
+    assert control is not None
+    assert control.h is not None
+    assert len(run.t) == round(2.0 / control.h) + 1
+    exact = references.pendulum(run.t)
+    error = np.linalg.norm(np.column_stack([run["bob.position.x"], run["bob.position.y"]]) - exact, axis=1).max()
+    assert 0.3 < control.error / error < 3.0
+    assert error < 3.0 * control.tolerance
+    assert f"fixed steps of {control.h:.4g} s" in str(run)
+
+
+def test_the_choice_of_the_method_is_told() -> None:
+    run = run_of("spatial_chain", 1e-3)
+    assert run.control is not None
+    assert run.control.method == "semi_recursive"
+    assert "a tree of joints" in run.control.reason
+    assert run.control.runs >= 3
+    assert "semi_recursive (chosen" in str(run)
+    named = run_of("pendulum", 1e-3, "radau_5")
+    assert named.control is not None
+    assert named.control.reason == ""
+    given = mbs.simulate(system_of("pendulum"), 1.0, settings=mbs.Settings(method="radau_5"), tolerance=1e-3)
+    assert given.control is not None
+    assert given.control.method == "radau_5"
+    equal = mbs.simulate(system_of("pendulum"), 1.0, 0.01, method="auto")
+    assert equal.control is not None
+    assert equal.control.h == 0.01
+
+
+def test_the_same_call_gives_the_same_bits() -> None:
+    first, second = (run_of("double_four_bar", 1e-3) for _ in range(2))
+    for name in first:
+        assert first[name].tobytes() == second[name].tobytes()
+
+
+@pytest.mark.parametrize("tolerance", [0, 0.0, -1e-3, math.nan, math.inf, "1e-3", True, 1e-30, 2.0])
+def test_a_tolerance_that_is_none_is_one_sentence(tolerance: object) -> None:
+    with pytest.raises(ValueError, match=r"^The tolerance is .*; .*must be a number between 1e-11 and 0.5") as error:
+        mbs.simulate(system_of("pendulum"), 1.0, tolerance=tolerance)  # type: ignore[arg-type]
+    assert repr(tolerance) in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"times": [0.2, 0.1]}, "ascend"),
+        ({"times": [0.2, 3.0]}, "between 0 and 1 s"),
+        ({"times": [0.1, math.nan]}, "finite"),
+        ({"times": [0.1], "h": 0.1}, "Both times and h"),
+        ({"t_end": -1.0}, "The end t_end"),
+        ({"every": 0}, "every = 0"),
+        ({"method": "fast"}, "fast"),
+    ],
+)
+def test_bad_records_are_refused(given: dict[str, object], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        mbs.simulate(**({"system": system_of("pendulum"), "t_end": 1.0, "tolerance": 1e-3} | given))  # type: ignore[arg-type]
+
+
+def test_times_without_a_tolerance_are_refused() -> None:
+    with pytest.raises(ValueError, match="times need a tolerance"):
+        mbs.simulate(system_of("pendulum"), 1.0, 0.1, times=[0.5])
+
+
+def test_an_error_beyond_ten_tolerances_is_told_with_a_number() -> None:
+    """A double pendulum swung high for 40 s: round-off grows by more than the tolerance leaves."""
+    m = mbs.Model("double pendulum", dimension=2)
+    first = m.point_mass("first", mass=1.0, position=(1.0, 0.1))
+    second = m.point_mass("second", mass=1.0, position=(2.0, 0.1))
+    m.distance("upper", (m.ground, (0.0, 0.0)), first)
+    m.distance("lower", first, second)
+    m.sense_position("x", second, None, "x")
+    with pytest.warns(AccuracyWarning, match=r"is about .* of the model's length, more than 10 times .* 1e-10"):
+        run = mbs.simulate(mbs.compile(m), 60.0, tolerance=1e-10, method="runge_kutta_8")
+    assert run.control is not None
+    assert not run.control.kept
+
+
+def test_a_method_that_does_not_take_the_system_says_so() -> None:
+    with pytest.raises(mbs.SimulationError, match="semi_recursive"):
+        run_of("pendulum", 1e-3, "semi_recursive")
+
+
+def test_the_length_is_stated_or_of_the_drawing() -> None:
+    def system(**given: float) -> mbs.System:
+        m = mbs.Model("pendulum", dimension=2, **given)  # type: ignore[arg-type]
+        bob = m.point_mass("bob", mass=1.0, position=(3.0, 4.0))
+        m.distance("rod", (m.ground, (0.0, 0.0)), bob)
+        return mbs.compile(m)
+
+    assert system().report["length"] == pytest.approx(5.0)
+    assert system(length=2.0).report["length"] == 2.0
+    assert "2   (stated" in str(system(length=2.0))
+    with pytest.raises(mbs.ModelError, match="length of model 'pendulum'"):
+        system(length=0.0)
+    coarse, fine = (mbs.simulate(system(length=L), 5.0, tolerance=1e-3, method="ali3p") for L in (5.0, 0.05))
+    assert coarse.control is not None
+    assert fine.control is not None
+    assert fine.control.steps > 5 * coarse.control.steps  # the same parts of a hundredth: ten times the steps
+
+
+def test_equal_steps_are_as_before() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run = mbs.simulate(system_of("pendulum"), 0.5, 0.001)
+    assert run.control is None
+    assert "\n" not in repr(run)
