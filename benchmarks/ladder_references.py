@@ -1,7 +1,8 @@
 """Writes the references of the ladder: ``python -m benchmarks.ladder_references [NAME ...]``.
 
 They come from this engine with the highest rung (60 static, 6 inertia and 40 dynamic modes) at a step of 0.5 ms. Each
-file says how far runs with twice the step, and with 5 dynamic modes, are from it.
+file says how far runs with twice the step, and with 5 dynamic modes, are from it; a second file holds the peaks of all
+steps.
 """
 
 from __future__ import annotations
@@ -46,7 +47,17 @@ def write(name: str) -> str:
         lines.append(",".join(f"{v:.7g}" for v in row))
     FOLDER.mkdir(parents=True, exist_ok=True)
     (FOLDER / f"{name}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    _write_peaks(name, ladder_runs.peaks(fine, STEP))
     return f"{name}: " + "; ".join(said)
+
+
+def _write_peaks(name: str, peaks: dict[str, float]) -> None:
+    lines = [
+        f"# Largest changes from the start over all steps of {STEP:g} s of {name}.csv, whose samples miss them, N m",
+        "signal,largest change",
+        *(f"{signal},{value:.7g}" for signal, value in peaks.items()),
+    ]
+    (FOLDER / f"{name}_peaks.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

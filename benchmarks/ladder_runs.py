@@ -68,6 +68,23 @@ def read_reference(name: str) -> dict[str, NDArray[np.float64]]:
     return dict(zip(lines[0].split(","), table.T, strict=True))
 
 
+def peaks(found: Trajectory, h: float) -> dict[str, float]:
+    """Largest changes of the moments from the start over all steps, before and after the filter, N m."""
+    changes = {}
+    for s in MOMENTS:
+        x = np.asarray(found[s]) - found[s][0]
+        changes[s] = float(np.abs(x).max())
+        changes[FILTERED + s] = float(np.abs(low_pass(x, h, FREQUENCY)).max())
+    return changes
+
+
+def read_peaks(name: str) -> dict[str, float]:
+    """Stored peaks of a reference: between its samples moments go higher than at them."""
+    lines = (FOLDER / f"{name}_peaks.csv").read_text(encoding="utf-8").splitlines()
+    rows = [line.split(",") for line in lines if not line.startswith("#")][1:]
+    return {signal: float(value) for signal, value in rows}
+
+
 def errors(values: dict[str, NDArray[np.float64]], reference: dict[str, NDArray[np.float64]]) -> dict[str, float]:
     """Errors by `OUTPUTS`."""
 

@@ -1,6 +1,7 @@
 """Writes the loads of the prototype car's frame: ``python -m benchmarks.load_paths``.
 
-The rigid car with ports (rung 1) drives the manoeuvres of the host; the forces at the twenty interfaces are snapshots.
+The rigid car with ports (rung 1) drives the manoeuvres of the host and the guided kerb test; the forces at the twenty
+interfaces are snapshots.
 Their principal combinations in the energy norm of the frame are what can deform it; the second rung of the ladder has
 their deformations as modes.
 """
@@ -14,15 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from benchmarks import car_manoeuvres
+from benchmarks import car_manoeuvres, ladder_runs
 from benchmarks.command import parser_of, watched
-from mbs import Simulation, compile
+from mbs import Simulation
 from mbs.input_signals import InputSignals
-from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car.chassis import LOAD_FILE, QUASI_STATIC, deformation_energy, settled_loads
 from mbs.scenes.prototype_car.frame import INTERFACES
 
-MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "full_lock")
+GUIDED = "kerb_test"
+MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "full_lock", GUIDED)
 H, EVERY = 0.005, 4
 KEEP = 1e-4
 """Combinations with less than this part of the largest deformation, in the energy norm, are left out."""
@@ -30,9 +31,9 @@ KEEP = 1e-4
 
 def port_forces(name: str) -> NDArray[np.float64]:
     """Forces on the chassis at the interfaces in its axes through a manoeuvre, shape (60, samples), N."""
-    manoeuvre = car_manoeuvres.load(name)
+    manoeuvre = ladder_runs.manoeuvre_of(name) if name == GUIDED else car_manoeuvres.load(name)
     parameters, pose = car_manoeuvres.start_of(manoeuvre)
-    system = compile(prototype_car.build(fidelity=QUASI_STATIC))
+    system = ladder_runs.system_of(name, QUASI_STATIC)
     signals = InputSignals(car_manoeuvres.inputs_of(manoeuvre), system.meta["inputs"])
     car = Simulation(system, parameters=parameters, pose=pose)
     names = [row["name"] for row in system.meta["rows"]]
@@ -70,7 +71,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     size = np.sqrt(np.maximum(values[::-1], 0.0))
     keep = size > KEEP * size[0]
     loads = (snapshots @ vectors[:, ::-1][:, keep]) / np.sqrt(snapshots.shape[1])
-    loads *= np.sign(loads[np.abs(loads).argmax(axis=0), np.arange(loads.shape[1])])
+    large = np.abs(loads) > (1.0 - 1e-6) * np.abs(loads).max(axis=0)  # left and right tie: the first of them decides
+    loads *= np.sign(loads[large.argmax(axis=0), np.arange(loads.shape[1])])
     lines = [
         "# Loads of the prototype car's frame, N, most deforming first: principal combinations of interface forces,",
         f"# body axes, in {', '.join(m.replace('_', ' ') for m in MANOEUVRES)} and their mirror images; rms values.",

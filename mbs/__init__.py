@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from mbs.control import Control
     from mbs.errors import SimulationError
     from mbs.kinks import LinearisationWarning
+    from mbs.large_bending import BendingWarning
     from mbs.linear_model import LinearModel, linearise
     from mbs.periodic_motion import FloquetModel, floquet
     from mbs.settings import Settings
@@ -33,6 +34,7 @@ _LAZY = {
     "SimulationError": "mbs.errors",
     "Trajectory": "mbs.trajectory",
     "FloquetModel": "mbs.periodic_motion",
+    "BendingWarning": "mbs.large_bending",
     "LinearModel": "mbs.linear_model",
     "LinearisationWarning": "mbs.kinks",
     "floquet": "mbs.periodic_motion",
@@ -46,6 +48,7 @@ __all__ = [
     "Affine",
     "AffineVector",
     "Control",
+    "BendingWarning",
     "BranchWarning",
     "FloquetModel",
     "LinearModel",

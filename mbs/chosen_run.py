@@ -93,6 +93,9 @@ def to_tolerance(
     _warn(control)
     if run.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=3)
+    for t, q in zip(run.task.times, run.positions, strict=True):
+        run.simulation.bending.look(float(t), np.asarray(q))
+    run.simulation.bending.warn(stacklevel=4)
     values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(grid, times[1:])]])
     return _trajectory(run.simulation, times, values, control, wall, run.settings)
 

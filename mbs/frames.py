@@ -12,6 +12,25 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
+class FlexibleShapes:
+    """How the nodes of a flexible body turn in its floating frame.
+
+    Parameters
+    ----------
+    name : str
+        Of the body.
+    first : int
+        Its first amplitude among the full coordinates; the others follow.
+    turns : array of shape (nodes, 3, modes)
+        Rotation of each node per unit amplitude, rad.
+    """
+
+    name: str
+    first: int
+    turns: Array
+
+
+@dataclass(frozen=True)
 class Frames:
     """Full coordinates ``T q + constant`` of a System: points and axes along the earth axes, angles, amplitudes.
 
@@ -27,6 +46,8 @@ class Frames:
         First full coordinate of each rigid body: centre of mass, then unit axes (spatial a, b, c; planar a).
     scalars : tuple of int
         Full coordinates that a shift or turn of the scene leaves as they are, and that may turn on: angles and spins.
+    flexible : tuple of FlexibleShapes
+        Of each flexible body.
     """
 
     T: sparse.csr_matrix
@@ -36,3 +57,4 @@ class Frames:
     vectors: tuple[int, ...]
     bodies: tuple[int, ...]
     scalars: tuple[int, ...]
+    flexible: tuple[FlexibleShapes, ...] = ()

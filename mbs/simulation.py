@@ -32,6 +32,7 @@ from mbs.kernel.binding import (
     LoadedSystem,
     open_row,
 )
+from mbs.large_bending import BendingWatch
 from mbs.progress import progress_for
 from mbs.report import Report
 from mbs.settings import Settings
@@ -112,6 +113,7 @@ class Simulation:
         t0: float = 0.0,
     ) -> None:
         self.system = system
+        self.bending = BendingWatch(system.frames)
         loaded, self._meta = prepared(system)
         self.settings = settings or Settings()
         self.instance = Instance(loaded)
@@ -235,9 +237,12 @@ class Simulation:
         -----
         AccuracyWarning
             Once, when the energy balance since the start says that the result is wrong.
+        BendingWarning
+            Once, when a flexible body bends more within its floating frame than its modes hold for.
         """
         trajectory = self._march(t_end, h, inputs, every, progress)[0]
         self._warn_once()
+        self.bending.warn(stacklevel=3)
         return trajectory
 
     def march(self, t_end: float, h: float, inputs: Mapping[str, Signal]) -> Trajectory:
@@ -263,7 +268,8 @@ class Simulation:
         signals = InputSignals(inputs or {}, self._meta["inputs"])
         values = np.empty((steps // every + 1, len(self._meta["sensors"])))
         values[0] = self._sensor_values()
-        looks = [int(k) * every for k in accuracy.instants(len(values))] if look else []
+        instants = [int(k) * every for k in accuracy.instants(len(values))]
+        looks = instants if look or self.bending.watches else []
         seen = [self.state.q] if look else []
         done, wall, chunk, before = 0, 0.0, every, self.report
         with progress_for(progress) as bar, self._inputs(signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
@@ -286,7 +292,10 @@ class Simulation:
                 wall += spent
                 done += n
                 if ahead and n == ahead[0]:
-                    seen.append(self.state.q)
+                    q = self.state.q
+                    self.bending.look(self.time, q)
+                    if look:
+                        seen.append(q)
                 bar.update(done / steps)
                 chunk = _next_chunk(chunk, spent, every)
         return self._trajectory(t0, h * every, values, wall, before), seen
@@ -496,6 +505,8 @@ def simulate(
         When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
         lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit; with a
         tolerance, when the error is estimated to be more than ten times that.
+    BendingWarning
+        When a flexible body bends more within its floating frame than its modes hold for.
     BranchWarning
         When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
@@ -585,6 +596,8 @@ def _equal_steps(
     finally:  # of the run that was asked for, also when it failed
         if made and made[0].branch_change:
             warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
+        if made and checked:
+            made[0].bending.warn(stacklevel=5)
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
     return trajectory

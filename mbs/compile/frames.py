@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from mbs.frames import Frames
+from mbs.frames import FlexibleShapes, Frames
+from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 
 
@@ -22,4 +23,9 @@ def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64])
         elif coordinate.kind in ("angle", "spin"):
             scalars.append(i)
     rigid = tuple(b.start for b in model.bodies if not (b.is_point or b.is_flexible))
-    return Frames(T, constant, model.dimension, tuple(points), tuple(vectors), rigid, tuple(scalars))
+    flexible = tuple(
+        FlexibleShapes(b.name, b.start + 12, b.reduced.node_rotations)
+        for b in model.bodies
+        if isinstance(b, FlexibleBody)
+    )
+    return Frames(T, constant, model.dimension, tuple(points), tuple(vectors), rigid, tuple(scalars), flexible)

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import Affine, AffineVector
 from mbs.errors import ModelError
+from mbs.flexible.checks import check_turning_inertia
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals
 from mbs.model.body import Body
@@ -52,6 +53,7 @@ class FlexibleBody(Body):
         self, model: ModelCore, name: str, reduced: ReducedBody, origin: Vector, axes: NDArray[np.float64], start: int
     ) -> None:
         super().__init__(model, name, origin + axes @ reduced.origin, start)
+        check_turning_inertia(name, reduced.mass_positions @ axes.T, reduced.masses)
         self.reduced = reduced
         self.axes = axes
         self.integrals = _turned(shape_integrals(reduced), axes)

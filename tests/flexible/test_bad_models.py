@@ -21,6 +21,7 @@ from mbs.flexible.inertia_relief import inertia_relief
 from mbs.flexible.lumping import lumped_masses
 from mbs.flexible.mass_points import nodal_mass_points
 from mbs.flexible.recovery import section_forces
+from mbs.model import Model
 from tests.flexible.structures import STEEL, TUBE, portal, straight
 
 LINE = [(0.0, 0.0, 0.0), (0.5, 0.0, 0.0), (1.0, 0.0, 0.0)]
@@ -178,3 +179,18 @@ def test_matrices_from_outside_that_cannot_be(tmp_path: Path) -> None:
         inertia_relief(good, "N0", ["N3"], np.ones((1, 48)))
     with pytest.raises(ModelError, match="neither stiffness nor mass"):
         natural_modes(straight(4).finite_element_model("lumped", rotary=False), 8)
+
+
+def test_a_body_whose_mass_lies_on_a_line_is_refused_by_name() -> None:
+    nodes = np.linspace((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), 5)
+    frame = Frame(nodes, [Beam(i, i + 1, TUBE, STEEL) for i in range(4)])
+    ends = [Interface(n, rotations=True) for n in (0, 4)]
+    thin, thick = (
+        craig_bampton(frame.finite_element_model(rotary=rotary), 2, ends, 0, inertia_modes=False)
+        for rotary in (False, True)
+    )
+    with pytest.raises(
+        ModelError, match=r"All mass of the flexible body 'bar' lies on a line along \(1, .*rotary=True"
+    ):
+        Model("thin").flexible_body("bar", thin)
+    Model("thick").flexible_body("bar", thick)

@@ -52,7 +52,6 @@ MANY_MODES = 40
 LOAD_FILE = Path(__file__).parent / "frame" / "loads.csv"
 LOAD_PATH_TOLERANCE = 5e-3
 """Load paths whose deformation has less than this part of the largest, in the energy norm, are left out."""
-GUIDING_FORCE = 2e3  # N, along the car at the origin of the floating frame
 # wishbones hold the distance of their two pivots: no load stretches the frame between them
 STIFF_PAIRS = tuple((f"{a}{s}", f"{b}{s}") for a, b in (("LF", "LR"), ("UF", "UR"), ("AF", "AR")) for s in "LR")
 
@@ -108,13 +107,17 @@ def reduced_chassis(fidelity: int | str) -> ReducedBody:
     body = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=True, damping=DAMPING)
     if fidelity != LOAD_PATHS:
         return body
-    # without the stretch between the pivots of a wishbone the frame could not follow its fixed length
+    # without the stretch between the pivots of a wishbone the frame could not follow its fixed length, and without
+    # all directions at the origin a guide, which pushes a pitched car upwards too, would bend it wrongly
     loads, pairs = recorded_loads(), _relief_with_stretch()[1]
-    sizes = [np.sqrt(np.diag(deformation_energy(f))) for f in (loads, pairs)]
-    every = np.hstack([loads, pairs * (sizes[0].max() / sizes[1]), np.zeros((len(loads), 1))])
+    every = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
     guided = np.zeros((6, every.shape[1]))
-    guided[0, -1] = GUIDING_FORCE
-    return load_path_modes(body, every, LOAD_PATH_TOLERANCE, guided)
+    guided[:3, -3:] = np.eye(3)
+    deformation = load_path_deformations(body, every, guided)
+    size = np.sqrt(np.einsum("ik,ij,jk->k", deformation, body.K, deformation))
+    scale = np.ones(every.shape[1])
+    scale[loads.shape[1] :] = size[: loads.shape[1]].max() / size[loads.shape[1] :]
+    return load_path_modes(body, every * scale, LOAD_PATH_TOLERANCE, guided * scale)
 
 
 def recorded_loads() -> np.ndarray:

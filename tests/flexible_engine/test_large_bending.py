@@ -1,0 +1,42 @@
+"""A flexible body that bends more than its linear modes hold for is told, once, with the number of parts."""
+
+from __future__ import annotations
+
+import warnings
+
+import pytest
+
+from mbs import BendingWarning, Model, Simulation, compile, simulate
+from mbs.flexible.material import Material
+from mbs.flexible.section import round_bar
+from tests.flexible_engine.bodies import chain
+
+
+def soft_pendulum(parts: int):
+    """Error of its end against a geometrically exact beam: 11 mm of 1 m as one body, 4.8 mm as two."""
+    m = Model("pendulum", gravity=(0, -9.81, 0))
+    bar = chain(m, (0, 0, 0), (1, 0, 0), round_bar(0.02), Material(5e8, 0.3, 2000.0), parts=parts, elements=4)
+    m.revolute("pin", m.ground, bar[0].interface(0), point=(0, 0, 0), axis=(0, 0, 1))
+    m.sense_position("x", bar[-1].interface(4), (1, 0, 0), "x")
+    return compile(m)
+
+
+def test_one_soft_body_is_told_with_its_name_and_the_parts_it_needs() -> None:
+    with pytest.warns(BendingWarning, match=r"body 'part 0' bends by 0\.045 rad .* Divide it into 2 or more") as told:
+        simulate(soft_pendulum(1), 2.0, 0.0025, progress=False)
+    assert len(told) == 1
+
+
+def test_two_bodies_are_not_told() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", BendingWarning)
+        simulate(soft_pendulum(2), 2.0, 0.0025, progress=False)
+
+
+def test_a_run_by_hand_tells_once() -> None:
+    simulation = Simulation(soft_pendulum(1))
+    with pytest.warns(BendingWarning):
+        simulation.run(1.8, 0.005, progress=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", BendingWarning)
+        simulation.run(2.0, 0.005, progress=False)
