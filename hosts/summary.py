@@ -73,7 +73,6 @@ def summary(
     if course is not None and "chassis.x" in result and "chassis.y" in result and "chassis.yaw" in result:
         out = course.corners_outside(result["chassis.x"], result["chassis.y"], result["chassis.yaw"], *outline)
         rows.append((course.name, f"passed, {-out:.2f} m to spare" if out <= 0.0 else f"missed by {out:.2f} m"))
-    rows += energy_balance(result)
     if "solver.iterations" in result and len(result.time) > 1:
         n = result["solver.iterations"][1:]
         rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))
@@ -91,7 +90,9 @@ def summary(
 
 
 def energy_balance(result: Result) -> list[tuple[str, str]]:
-    """Change of the energy and what worked on the car, kJ; empty where the FMU lacks one of the outputs.
+    """Rows of the energy balance of a drive, kJ: its change and the works that sum up to it.
+
+    Empty where the FMU lacks one of the outputs.
 
     What is left of the change has no output of its own: the work of steering and other guides, the damping of a
     flexible structure, and what the error of the steps does not name.
@@ -103,11 +104,9 @@ def energy_balance(result: Result) -> list[tuple[str, str]]:
         return float(result[name][-1] - result[name][0])
 
     stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in _WORKS}, change(_ERROR)
-    rows = [("change of the energy", f"{1e-3 * stored:+.4f} kJ, kinetic and potential; of it the work of")]
-    rows += [(f"  {_WORKS[name]}", f"{1e-3 * work:+.4f} kJ") for name, work in works.items()]
-    rows.append(("  rest (steering, structure)", f"{1e-3 * (stored - sum(works.values()) - error):+.4f} kJ"))
-    rows.append(("  error of the steps", f"{1e-3 * error:+.4f} kJ"))
-    return rows
+    parts = {"change of the energy": stored} | {f"- work of {_WORKS[n]}": w for n, w in works.items()}
+    parts |= {"- steering, structure, rest": stored - sum(works.values()) - error, "- error of the steps": error}
+    return [(what, f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ") for what, part in parts.items()]
 
 
 def _signed(value: float) -> str:

@@ -136,12 +136,12 @@ def wheel_outputs(m: Model, chassis: Body, spin: Spin, w: str) -> None:
 
 
 WORKS = {  # what works on the car: first words of the names of its elements, description
-    "drive": (("drive",), "drive, with the drag of the engine"),
-    "brakes": (("brake ",), "brakes"),
-    "tyres": (("tyre ",), "tyres (rolling, slip and damping; on a moving road also what that gives)"),
+    "drive": (("drive",), "the drive on the car"),
+    "brakes": (("brake ",), "the brakes"),
+    "tyres": (("tyre ",), "the tyres, by rolling, slip and damping,"),
     "dampers": (("spring ", "steering stop "), "dampers and stops of springs and steering"),
-    "drag": (("drag",), "air"),
-    "ground": ((GROUND_CONTACT,), "ground on the chassis itself"),
+    "drag": (("drag",), "the air"),
+    "ground": ((GROUND_CONTACT,), "the ground on the chassis itself"),
 }
 
 
@@ -153,7 +153,7 @@ def work_outputs(m: Model) -> None:
             f"energy.{name}",
             elements,
             "nonconservative",
-            description=f"work on the car since the start of the {text}; negative: energy lost; stored energy not counted",
+            description=f"work of {text} since the start, without what is stored; negative: energy lost",
         )
 
 
