@@ -80,6 +80,13 @@ static ali3_status check_products(const ali3_system *s, int32_t i, ali3_message 
   return ALI3_OK;
 }
 
+/* Type 19: a kind, a number of elements, then these. */
+static ali3_status check_work(const ali3_system *s, int32_t i, ali3_message m) {
+  const int32_t *v = s->sen_int + s->sen_int_ptr[i], n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i];
+  if (n < 3 || v[0] < 0 || v[0] > 1 || v[1] != n - 2) return ali3_bad(m, "sensor %d lists %d integers", (int)i, (int)n);
+  return ali3_check_indices(m, "sen_int", v + 2, n - 2, 0, s->size.ne);
+}
+
 static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m) {
   const int32_t type = s->sen_type[i], *v = s->sen_int + s->sen_int_ptr[i];
   const int32_t n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i], n_real = s->sen_real_ptr[i + 1] - s->sen_real_ptr[i];
@@ -101,11 +108,7 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
       return ali3_bad(m, "sensor %d is not a norm", (int)i);
     return ali3_check_indices(m, "sen_int", v + 2, v[1], 0, s->size.nsig);
   }
-  if (type == 19) {
-    if (n < 3 || v[0] < 0 || v[0] > 1 || v[1] != n - 2)
-      return ali3_bad(m, "sensor %d lists %d integers", (int)i, (int)n);
-    return ali3_check_indices(m, "sen_int", v + 2, n - 2, 0, s->size.ne);
-  }
+  if (type == 19) return check_work(s, i, m);
   const char *kind = sensor_integers[type];
   for (int32_t k = 0; k < n || kind[k] != 0; k++) {
     if (k >= n || kind[k] == 0) return ali3_bad(m, "sensor %d of type %d has %d integers", (int)i, (int)type, (int)n);

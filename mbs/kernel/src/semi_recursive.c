@@ -241,10 +241,9 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
     status = begin(in);
   else if (ali3_inputs_jump(in))
     status = after_jump(in);
-  else if (S->n_work > 0)
-    memcpy(in->watched, in->now.watched, (size_t)S->n_work * sizeof(double));
-  if (S->n_work > 0) memset(in->work_sum, 0, (size_t)S->n_work * sizeof(double));
-  ali3_work_stage(in, h * rule->weight[0], in->watched, in->work_sum);
+  else
+    ali3_work_recall(in);
+  ali3_work_first(in, h * rule->weight[0]);
   memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
   for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
@@ -269,11 +268,8 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   books(in, h);
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
   turn_back(S, w);
-  ali3_vectors *v = &in->now;
-  if (!in->quiet) {
-    v = &in->next;
-    ali3_vectors_copy(in, v, &in->now);
-  }
+  ali3_vectors *v = in->quiet ? &in->now : &in->next;
+  if (!in->quiet) ali3_vectors_copy(in, v, &in->now);
   ali3_work_stage(in, 1.0, in->work_sum, v->work);
   ali3_work_keep(in, v);
   if (!in->quiet) {

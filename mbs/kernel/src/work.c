@@ -81,6 +81,14 @@ void ali3_work_stage(const ali3_instance *in, double weight, const double *power
   for (int32_t k = 0; k < in->system->n_work; k++) sum[k] += weight * power[k];
 }
 
+/* The powers at the start of a step that goes on from the last one. */
+void ali3_work_recall(ali3_instance *in) { copy(in->watched, in->now.watched, in->system->n_work); }
+
+/* The first stage, with the powers of the last ali3_forces: in->work_sum begins. */
+void ali3_work_first(ali3_instance *in, double weight) {
+  for (int32_t k = 0; k < in->system->n_work; k++) in->work_sum[k] = weight * in->watched[k];
+}
+
 /* A little, dt, behind a state with these powers: in->next with the work until there. */
 void ali3_work_beside(ali3_instance *in, double dt, const double *power) {
   ali3_vectors *v = &in->next;
