@@ -10,6 +10,7 @@ from mbs.settings import METHODS
 from tests.methods.models import assert_saved_state_continues, driven, swing, triangle
 
 QUIET = {"progress": False, "estimate_error": False}
+NO_WORD = {"progress": False}
 MASS, SPEED, DAMPING = 2.0, 3.0, 1.5
 # Order at which the balance of the swing closes as steps shrink; that of energy-momentum always does.
 ORDERS = {"ali3p_generalised_alpha": 2, "runge_kutta_8": 8, "semi_recursive": 8, "semi_recursive_4": 4, "radau_5": 5}
@@ -184,3 +185,30 @@ def test_sensors_of_work_change_no_bit_of_the_motion():
     plain, sensed = (simulate(compile(m), 0.8, 0.01, **QUIET) for m in (swing(2.0), oscillator()))
     assert np.array_equal(plain["tip.y"], sensed["tip.y"])
     assert np.array_equal(plain["energy"], sensed["energy"])
+
+
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive"])
+def test_records_close_to_the_start_of_a_step_have_its_work(method):
+    times = np.linspace(0.0, 1.0, 5001)
+    run = simulate(motor_model(), 1.0, None, {"torque": 4.0}, tolerance=1e-3, times=times, method=method, **NO_WORD)
+    assert run["work"] == pytest.approx(4.0 * run["angle"], abs=1e-6)
+
+
+@pytest.mark.parametrize("method", ["ali3p", "runge_kutta_8"])
+def test_work_goes_on_where_inputs_jump(method):
+    torque = ([0.0, 0.5, 0.5, 1.0], [4.0, 4.0, -4.0, -4.0])
+    run = simulate(motor_model(), 1.0, None, {"torque": torque}, tolerance=1e-6, method=method, **NO_WORD)
+    assert run["work"].max() == pytest.approx(4.0, rel=1e-3)  # 4 N m over 1 rad
+    assert run["work"][-1] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_the_first_step_of_another_method_starts_from_the_forces_at_its_start():
+    simulation = Simulation(compile(oscillator()), settings=Settings(method="energy_momentum"))
+    simulation.step(0.04, 5)
+    before = {n: simulation.sensors[n] for n in ("energy", "lost")}
+    simulation.change_settings(Settings(method="ali3p"))
+    error = simulation.report.energy_error
+    simulation.step(0.04)
+    change = {n: simulation.sensors[n] - v for n, v in before.items()}
+    error = simulation.report.energy_error - error
+    assert change["energy"] - change["lost"] == pytest.approx(error, abs=0.01 * abs(change["lost"]))

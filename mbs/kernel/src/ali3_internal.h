@@ -455,7 +455,7 @@ void ali3_work_step(ali3_instance *in, double share);
 void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum);
 void ali3_work_recall(ali3_instance *in);
 void ali3_work_first(ali3_instance *in, double weight);
-void ali3_work_beside(ali3_instance *in, double dt, const double *power);
+void ali3_work_beside(ali3_instance *in, double dt);
 double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
 double ali3_work_change(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
 

@@ -80,7 +80,7 @@ static void beside_start(ali3_instance *in, double t, double h, double when) {
   ali3_vectors_copy(in, &in->next, &in->origin);
   interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
   ali3_guides_time(in, &in->next, when);
-  ali3_work_beside(in, when - t, in->origin.watched);
+  ali3_work_beside(in, when - t);
 }
 
 /* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->coarse. */

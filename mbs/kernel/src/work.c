@@ -89,13 +89,13 @@ void ali3_work_first(ali3_instance *in, double weight) {
   for (int32_t k = 0; k < in->system->n_work; k++) in->work_sum[k] = weight * in->watched[k];
 }
 
-/* A little, dt, behind a state with these powers: in->next with the work until there. */
-void ali3_work_beside(ali3_instance *in, double dt, const double *power) {
+/* in->next, a little, dt, behind a state whose work it has: the work until there. */
+void ali3_work_beside(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
   if (in->system->n_work == 0) return;
   const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, in->out_work, v->potential};
   ali3_forces(in, &call);
-  ali3_work_stage(in, dt, power, v->work);
+  ali3_work_stage(in, dt, in->watched, v->work);
 }
 
 /* Sum over the n elements in `element`; kind 1: with the change of their potentials since the start. */
