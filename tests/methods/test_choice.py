@@ -63,9 +63,11 @@ def test_generalised_alpha_damps_a_stiff_oscillation_and_the_trapezoidal_rule_do
     system, h = compile(m), 0.01  # 100 rad of phase a step
     left = {}
     for rho in (0.0, 0.5, 0.9):
-        run = simulate(system, 0.5, h, settings=Settings(method="ali3p_generalised_alpha", rho_infinity=rho))
+        run = simulate(
+            system, 0.5, h, settings=Settings(method="ali3p_generalised_alpha", rho_infinity=rho), estimate_error=False
+        )
         left[rho] = run["energy"][-1] / run["energy"][0]
-    kept = simulate(system, 0.5, h)["energy"]
+    kept = simulate(system, 0.5, h, estimate_error=False)["energy"]
     assert left[0.0] < 1e-6
     assert left[0.0] < left[0.5] < left[0.9] < 0.1
     assert kept[-1] > 0.5 * kept[0]

@@ -19,7 +19,7 @@ def loop():
 
 
 def both(system, t_end, h):
-    runs = [simulate(system, t_end, h, settings=s, progress=False) for s in (Settings(), PAPER)]
+    runs = [simulate(system, t_end, h, settings=s, progress=False, estimate_error=False) for s in (Settings(), PAPER)]
     return [np.column_stack([t[n] for n in t if ".position." in n]) for t in runs], [t.report for t in runs]
 
 
