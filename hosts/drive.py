@@ -66,9 +66,10 @@ def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float
     write_csv(result, table)
     title = f"{path.stem}: {manoeuvre.name.replace('_', ' ')}"
     plot_page(result, picture, title, rows, course)
-    rows += energy_balance(result)
-    width = max(len(what) for what, _ in rows)
-    print("\n".join(f"{what:<{width}}  {value}" for what, value in rows))
+    for table_rows in (rows, energy_balance(result)):
+        width = max((len(what) for what, _ in table_rows), default=0)
+        for what, value in table_rows:
+            print(f"{what:<{width}}  {value}")
     for message in dict.fromkeys(result.messages):
         print(f"FMU: {message}")
     print(f"written: {table}, {picture}")
