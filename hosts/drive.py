@@ -18,7 +18,7 @@ from hosts.fmu import Fmu
 from hosts.manoeuvre import load_manoeuvre, manoeuvre_names
 from hosts.plot_page import plot_page
 from hosts.run import Result, run
-from hosts.summary import summary
+from hosts.summary import energy_balance, summary
 
 DEFAULT_FMU = Path("dist", "PrototypeCar.fmu")
 
@@ -66,8 +66,10 @@ def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float
     write_csv(result, table)
     title = f"{path.stem}: {manoeuvre.name.replace('_', ' ')}"
     plot_page(result, picture, title, rows, course)
-    width = max(len(what) for what, _ in rows)
-    print("\n".join(f"{what:<{width}}  {value}" for what, value in rows))
+    for table_rows in (rows, energy_balance(result)):
+        width = max((len(what) for what, _ in table_rows), default=0)
+        for what, value in table_rows:
+            print(f"{what:<{width}}  {value}")
     for message in dict.fromkeys(result.messages):
         print(f"FMU: {message}")
     print(f"written: {table}, {picture}")

@@ -10,6 +10,17 @@ from hosts.run import Result
 WHEELS = ("FL", "FR", "RL", "RR")
 # A wheel that carries less is in the air, N.
 _LIFT_FORCE = 1.0
+# Outputs that hold energy, and those of the work since the start, with the words of the table.
+_STORED = ("energy.kinetic", "energy.gravity", "energy.elastic")
+_WORKS = {
+    "energy.drive": "drive",
+    "energy.brakes": "brakes",
+    "energy.tyres": "tyres",
+    "energy.dampers": "dampers and stops",
+    "energy.drag": "air",
+    "energy.ground": "ground on the chassis",
+}
+_ERROR = "solver.energy_error"
 
 
 def summary(
@@ -76,6 +87,26 @@ def summary(
         )
     )
     return rows
+
+
+def energy_balance(result: Result) -> list[tuple[str, str]]:
+    """Rows of the energy balance of a drive, kJ: its change and the works that sum up to it.
+
+    Empty where the FMU lacks one of the outputs.
+
+    What is left of the change has no output of its own: the work of steering and other guides, the damping of a
+    flexible structure, and what the error of the steps does not name.
+    """
+    if any(name not in result for name in (*_STORED, *_WORKS, _ERROR)):
+        return []
+
+    def change(name: str) -> float:
+        return float(result[name][-1] - result[name][0])
+
+    stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in _WORKS}, change(_ERROR)
+    parts = {"change of the energy": stored} | {f"- work of {_WORKS[n]}": w for n, w in works.items()}
+    parts |= {"- steering, structure, rest": stored - sum(works.values()) - error, "- error of the steps": error}
+    return [(what, f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ") for what, part in parts.items()]
 
 
 def _signed(value: float) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
+from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
 from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.model.body import Body
@@ -20,6 +21,7 @@ from mbs.model.ports import PortedBody
 from mbs.model.reactions import Term
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
+WORKS = ("work", "nonconservative")
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
 SOLVER = (
     *("iterations", "violation", "residual", "factorizations", "halvings", "status"),
@@ -328,6 +330,52 @@ class SensorVocabulary(ModelCore):
                     f"The sensor '{name}' asks for '{output}' of element '{element_name}', which has: {known}."
                 )
         raise ModelError(f"The sensor '{name}' asks for element '{element_name}', but the model has no such element.")
+
+    def sense_work(
+        self,
+        name: str,
+        elements: ElementRecord | str | Sequence[ElementRecord | str],
+        kind: str = "work",
+        unit: str = "J",
+        description: str = "",
+    ) -> Sensor:
+        """Work of force elements on the mechanism since the start, J; the works of several are added.
+
+        The sums of all elements, of kind "nonconservative", and the work of driven joints are the change of the total
+        energy (`sense_energy`), but for what the steps err by (`sense_solver`, "energy_error"). Each method adds up its
+        own steps: with mean forces times ways by the trapezoidal rule (second order), with the forces of discrete
+        gradients by energy-momentum (exact), with powers of the stages by the others.
+
+        Parameters
+        ----------
+        name : str
+        elements : ElementRecord, str or sequence of them
+            Force elements of this model or their names.
+        kind : str
+            "work": of all forces of the elements; "nonconservative": together with the change of their own potential
+            energy, so that springs have none. Work that is lost, in a damper or a brake, is negative.
+        unit, description : str
+
+        Raises
+        ------
+        ModelError
+            An element that the model does not have or that comes twice, none at all, or another kind.
+        """
+        if kind not in WORKS:
+            raise ModelError(f"The work of sensor '{name}' is {kind!r}; it must be 'work' or 'nonconservative'.")
+        given = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
+        known = {record.name: k for k, record in enumerate(self.elements)}
+        names = [str(getattr(e, "name", e)) for e in given]
+        for element in names:
+            if element not in known:
+                raise ModelError(
+                    f"The sensor '{name}' asks for element '{element}', but the model has no such element; it has: "
+                    f"{', '.join(known) or 'none'}."
+                )
+        if not names or len(set(names)) < len(names):
+            raise ModelError(f"The sensor '{name}' needs at least one element and each once, got {names}.")
+        numbers = [known[element] for element in names]
+        return self._sense(name, unit, description, 19, integers=[WORKS.index(kind), len(numbers), *numbers])
 
     def sense_quasi_static(
         self,

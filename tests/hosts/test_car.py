@@ -48,13 +48,21 @@ def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: floa
 
 
 def test_launch_and_brake(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
-    r, _ = drive(car, "launch_and_brake", tmp_path)
+    r, said = drive(car, "launch_and_brake", tmp_path)
     t, speed = r["time"], r["speed"]
     assert 20.0 < speed.max() < 35.0
     assert np.all(np.diff(speed[(t > 1.5) & (t < 9.0)]) > 0.0)
     assert speed[t > 14.0].max() < 1e-2
     assert np.ptp(r["chassis.x"][t > 14.0]) < 1e-3
     assert np.abs(r["chassis.y"]).max() < 1e-3
+    works = [r[f"energy.{n}"][-1] for n in ("drive", "brakes", "tyres", "dampers", "drag", "ground")]
+    stored = sum(r[f"energy.{n}"][-1] - r[f"energy.{n}"][0] for n in ("kinetic", "gravity", "elastic"))
+    assert works[0] > 2e5  # J
+    assert stored - sum(works) - r["solver.energy_error"][-1] == pytest.approx(0.0, abs=1e-6 * works[0])
+    told = {row.split("  ")[0]: row.split()[-2:] for row in said.splitlines() if " kJ" in row}
+    assert float(told["- work of drive"][0]) == pytest.approx(1e-3 * works[0], abs=1e-4)
+    assert float(told["change of the energy"][0]) == pytest.approx(1e-3 * stored, abs=1e-4)
+    assert abs(float(told["- steering, structure, rest"][0])) < 1e-6 * works[0]
 
 
 def test_kerb_drop(car: tuple[mbs.System, Path], tmp_path: Path) -> None:

@@ -67,6 +67,7 @@ def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path:
     ):
         assert row in done.stdout
     assert "0 of 150" in done.stdout
+    assert "change of the energy" not in done.stdout  # the sledge does not tell its works
     assert "3.00 s simulated in" in done.stdout
     table = read_csv(tmp_path / "out" / "sledge_turn.csv")
     assert table["time"] == pytest.approx(0.02 * np.arange(151))

@@ -51,7 +51,16 @@ def exercise(data: bytes) -> bool:
 
 def test_a_good_file_is_loaded_with_its_sizes() -> None:
     sizes = LoadedSystem(everything().to_bytes()).sizes
-    assert (sizes.nq, sizes.nc, sizes.nu, sizes.ng, sizes.ne, sizes.ns, sizes.np, sizes.nf) == (5, 3, 1, 2, 1, 6, 1, 3)
+    assert (sizes.nq, sizes.nc, sizes.nu, sizes.ng, sizes.ne, sizes.ns, sizes.np, sizes.nf) == (5, 3, 1, 2, 1, 7, 1, 3)
+
+
+@pytest.mark.parametrize("integers", [[], [0, 0], [2, 1, 0], [0, 1, 1], [0, 1, -1], [0, 2, 0], [0, 1, 0, 0]])
+def test_sensors_of_work_name_elements(integers: list[int]) -> None:
+    builder = everything()
+    builder.sensors[-1] = (19, integers, [])
+    assert "sen" in refused(builder.to_bytes())
+    builder.sensors[-1] = (19, [0, 1, 0], [1.0])
+    assert "sensor 6 of type 19 has 1 reals" in refused(builder.to_bytes())
 
 
 def test_every_truncation_is_refused() -> None:

@@ -116,6 +116,10 @@ def test_car_on_its_roof_slides_and_rests(h):
     assert r["chassis.ground_points"][-1] >= 3
     assert r["chassis.z"][-1] > 0.6
     assert all(r[f"wheel_{w}.Fz"][-1] == 0.0 for w in WHEELS)
+    works = {n: r[f"energy.{n}"][-1] for n in ("drive", "brakes", "tyres", "dampers", "drag", "ground")}
+    left = r["energy.total"][-1] - r["energy.total"][0] - sum(works.values())
+    assert works["ground"] < -0.9 * 0.5 * WEIGHT / car_data.GRAVITY * v**2  # friction took what it moved with
+    assert left == pytest.approx(r.report.energy_error, abs=1e-4 * abs(works["ground"]))
     (notice,) = r.notices
     assert repr(r).endswith(notice)
     assert notice.startswith("The chassis touches the ground: 'chassis.ground_force' is not 0 from t = 0.")

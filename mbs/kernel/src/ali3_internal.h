@@ -115,6 +115,8 @@ struct ali3_system {
   int32_t *active_signal;      /* signals that elements use */
   int32_t *flex_square;        /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
   ali3_tree *tree;             /* NULL: the System has none */
+  int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */
+  int32_t *work_of, *work_element, *work_ptr; /* ne: number among them or -1; which; n_work + 1: offsets of signals */
   int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
 };
 
@@ -131,6 +133,9 @@ typedef struct {
   double *memory;            /* whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
   double *own;               /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
+  /* work.c: since the start; potential at the start; power, then forces, at the end of the last step; of the last step
+   * mean forces, ways of their signals */
+  double *work, *stored, *watched, *step_force, *step_way;
 } ali3_vectors;
 
 enum { ALI3_STAGES = 12, ALI3_RADAU = 3 }; /* of runge_kutta.c, radau.c */
@@ -204,6 +209,7 @@ struct ali3_instance {
   double *start_q, *pose_0, *pose_cos, *pose_sin, pose[5];
   int32_t placed;
   bool start_moved; /* not as in the file */
+  double *watched, *work_sum, *stage_power; /* work.c: of the last ali3_forces; of the stages of a step */
 };
 
 enum { ALI3_PLACED_BY_FILE = 0, ALI3_PLACED_BY_POSE, ALI3_PLACED_BY_Q };
@@ -439,6 +445,19 @@ void ali3_sensors_tangent(const ali3_instance *in, double *out);
 /* instance.c */
 ali3_status ali3_parameters_apply(ali3_instance *in);
 bool ali3_settings_valid(const ali3_settings *s);
+
+/* work.c */
+void ali3_work_watch(ali3_instance *in, int32_t e, const double *f, const double *ud, int32_t n);
+void ali3_work_keep(const ali3_instance *in, ali3_vectors *v);
+void ali3_work_start(const ali3_instance *in, ali3_vectors *v);
+void ali3_work_reopen(ali3_instance *in);
+void ali3_work_step(ali3_instance *in, double share);
+void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum);
+void ali3_work_recall(ali3_instance *in);
+void ali3_work_first(ali3_instance *in, double weight);
+void ali3_work_beside(ali3_instance *in, double dt);
+double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
+double ali3_work_change(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
 
 /* vectors.c */
 double *ali3_take(double **pool, size_t n);

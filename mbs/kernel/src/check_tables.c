@@ -59,11 +59,11 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
 }
 
 /* What the integers of a sensor mean, one letter each: s signal, e element, o output of it, u input, g guide, d order,
- * k energy, q quaternion component, h health. Rows (types 9, 17 and 18) and norms (type 14) have their own rule. */
+ * k energy, q quaternion component, h health. Rows (types 9, 17 and 18), norms (type 14) and work (type 19) have their own rule. */
 static const char *const sensor_integers[] = {"s",          "s",          "s",         "dssssss", "ss", "s",  "ssssss",
                                               "qsssssssss", "eo",         "",          "k",       "u",  "gd", "h",
-                                              "",           "dsssssssss", "sssssssss", "",        ""};
-static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0, -1, -1};
+                                              "",           "dsssssssss", "sssssssss", "",        "",   ""};
+static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0};
 enum { SENSOR_TYPES = sizeof sensor_reals / sizeof sensor_reals[0] };
 
 /* Type 18: a number of terms, then a row, three signals and a guide (-1: none) a term. */
@@ -78,6 +78,13 @@ static ali3_status check_products(const ali3_system *s, int32_t i, ali3_message 
     CHECK(ali3_check_indices(m, "sen_int", v + 5 + 5 * k, 1, -1, s->size.ng));
   }
   return ALI3_OK;
+}
+
+/* Type 19: a kind, a number of elements, then these. */
+static ali3_status check_work(const ali3_system *s, int32_t i, ali3_message m) {
+  const int32_t *v = s->sen_int + s->sen_int_ptr[i], n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i];
+  if (n < 3 || v[0] < 0 || v[0] > 1 || v[1] != n - 2) return ali3_bad(m, "sensor %d lists %d integers", (int)i, (int)n);
+  return ali3_check_indices(m, "sen_int", v + 2, n - 2, 0, s->size.ne);
 }
 
 static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m) {
@@ -101,6 +108,7 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
       return ali3_bad(m, "sensor %d is not a norm", (int)i);
     return ali3_check_indices(m, "sen_int", v + 2, v[1], 0, s->size.nsig);
   }
+  if (type == 19) return check_work(s, i, m);
   const char *kind = sensor_integers[type];
   for (int32_t k = 0; k < n || kind[k] != 0; k++) {
     if (k >= n || kind[k] == 0) return ali3_bad(m, "sensor %d of type %d has %d integers", (int)i, (int)type, (int)n);

@@ -80,6 +80,7 @@ static void beside_start(ali3_instance *in, double t, double h, double when) {
   ali3_vectors_copy(in, &in->next, &in->origin);
   interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
   ali3_guides_time(in, &in->next, when);
+  ali3_work_beside(in, when - t);
 }
 
 /* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->coarse. */
@@ -109,7 +110,9 @@ static void look(ali3_instance *in, double *out, double *positions) {
 ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
                               double *out, double *positions) {
   const bool relative = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
-  const bool at_end = when >= t + h - NEAR * h, smooth = ali3_without_memory(in->system);
+  const bool at_end = when >= t + h - NEAR * h;
+  const bool sums = in->system->n_work > 0; /* work is known at the ends of steps */
+  const bool smooth = ali3_without_memory(in->system) && (at_end || !sums);
   if (at_end && !relative) {
     look(in, out, positions);
     return ALI3_OK;

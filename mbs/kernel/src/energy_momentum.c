@@ -269,6 +269,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
     to->own[i] = 2.0 / h * in->D[i] - from->own[i];
     in->d0[i] = 2.0 * (in->D[i] - h * from->own[i]) / (h * h);
   }
+  ali3_work_step(in, 1.0);
   ali3_predict_rates(in, h);
   clean(in, weight, to->lam);
   ali3_history_append(in, h, in->d0);

@@ -73,6 +73,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     (discrete != NULL ? discrete : S->el_kind[e]->evaluate)(&a);
     call->potential[e] = a.potential;
     in->idle[e] = (unsigned char)a.idle;
+    if (S->n_work > 0) ali3_work_watch(in, e, f, ud, a.nsig);
     if (a.idle) continue;
     for (int32_t i = 0; i < a.nsig; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];

@@ -56,12 +56,14 @@ static void difference(double *first, const double *second, int32_t n, double sp
 /* Changes along the tangent: in->r of M qdd + Phi_q' lam - Q at present qdd, in->mu of the rows. */
 static void changes(ali3_instance *in, const linear_step *step, int stage) {
   const ali3_sizes *z = &in->system->size;
+  const int32_t n_watched = in->system->n_work + in->system->n_work_force;
   look(in, step, step->plus, stage);
   keep(in->r, in->x, z->nq);
   keep(in->mu, in->Phi, z->nc);
   if (stage == POSITION) {
     keep(in->tangent.out, in->out_work, z->nout);
     keep(in->tangent.potential, in->potential_work, z->ne);
+    keep(in->tangent.watched, in->watched, n_watched);
   }
   look(in, step, step->minus, stage);
   const double span = step->plus - step->minus;
@@ -70,6 +72,7 @@ static void changes(ali3_instance *in, const linear_step *step, int stage) {
   if (stage != POSITION) return;
   difference(in->tangent.out, in->out_work, z->nout, span);
   difference(in->tangent.potential, in->potential_work, z->ne, span);
+  difference(in->tangent.watched, in->watched, n_watched, span);
 }
 
 /* Filtered guides: ali3_guides_step differentiated with respect to the input at the end of the step. */

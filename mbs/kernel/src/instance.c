@@ -55,12 +55,13 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
                        (stages > 0 ? 2 * (size_t)z->front_size : 0);
   const size_t triads = (size_t)ali3_triad_count(s), loops = (size_t)ali3_loop_count(s);
   const size_t n_modes = 5 * triads + loops + (triads > 0 ? n_vector : 0), n_start = 4 * nq;
+  const size_t n_sensed = (2 + ALI3_RADAU) * (size_t)s->n_work + (size_t)s->n_work_force;
   const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
   const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
                roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
                tree = s->tree != NULL ? (sizeof(ali3_tree_work) + 15u) / 16u * 16u : 0;
   *out = NULL;
-  const size_t numbers = (total + n_flex + n_flex_work + n_modes + n_start) * sizeof(double);
+  const size_t numbers = (total + n_flex + n_flex_work + n_modes + n_start + n_sensed) * sizeof(double);
   char *block = s->memory.allocate(1, head + roads + tree + numbers + ne);
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = (ali3_instance *)block;
@@ -149,6 +150,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->pose_0 = ali3_take(&pool, nq);
   in->pose_cos = ali3_take(&pool, nq);
   in->pose_sin = ali3_take(&pool, nq);
+  in->watched = ali3_take(&pool, (size_t)s->n_work + (size_t)s->n_work_force);
+  in->work_sum = ali3_take(&pool, (size_t)s->n_work);
+  in->stage_power = ali3_take(&pool, ALI3_RADAU * (size_t)s->n_work);
   const ali3_status status = ali3_reset(in);
   if (status != ALI3_OK) {
     s->memory.release(block);
@@ -180,8 +184,10 @@ bool ali3_settings_valid(const ali3_settings *s) {
 
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
   if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
+  const bool other = settings->method != in->settings.method;
   in->settings = *settings;
   if (in->initialised) ali3_books_open(in); /* another method may have kept none */
+  if (in->initialised && other) ali3_work_reopen(in);
   return ALI3_OK;
 }
 

@@ -30,6 +30,7 @@ static const double second[STAGES][STAGES] = {{0.02183503419072274, -0.019857254
 static double *acceleration(const ali3_instance *in, int i) { return in->stage + (int64_t)i * in->system->size.nq; }
 static double *residual(const ali3_instance *in, int i) { return acceleration(in, STAGES + i); }
 static double *of_rows(const ali3_instance *in, double *v, int i) { return v + (int64_t)i * in->system->size.nc; }
+static double *power_of(const ali3_instance *in, int i) { return in->stage_power + (int64_t)i * in->system->n_work; }
 static double *of_entries(const ali3_instance *in, double *v, int i) { return v + i * in->system->size.nnz_rows; }
 
 /* Position, velocity, guides and inputs of stage i. */
@@ -63,6 +64,7 @@ static bool evaluate(ali3_instance *in, double t, double h) {
     place(in, t, h, i);
     ali3_constraints(in, in->next.q, in->next.s, Phi, J);
     forces(in, 0.0, 0.0);
+    if (S->n_work > 0) memcpy(power_of(in, i), in->watched, (size_t)S->n_work * sizeof(double));
     ali3_mass_times(in, acceleration(in, i), r);
     ali3_rows_transposed(S, J, of_rows(in, in->stage_lam, i), in->x);
     for (int32_t k = 0; k < S->size.nq; k++) {
@@ -305,6 +307,8 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->qdd, acceleration(in, LAST), nq * sizeof(double));
   memcpy(to->lam, of_rows(in, in->stage_lam, LAST), (size_t)S->size.nc * sizeof(double));
+  for (int i = 0; i < STAGES; i++) ali3_work_stage(in, h * first[LAST][i], power_of(in, i), to->work);
+  ali3_work_keep(in, to);
   clean(in, h, alpha);
   remember(in, h);
   status = project(in, h, alpha);

@@ -72,7 +72,10 @@ static ali3_status close(ali3_instance *in) {
 static ali3_status after_jump(ali3_instance *in) {
   if (!ali3_inputs_jump(in)) return ALI3_OK;
   const ali3_status status = ali3_inputs_at(in, 0.0);
-  return status == ALI3_OK ? ali3_index_one(in, &in->next) : status;
+  if (status != ALI3_OK) return status;
+  const ali3_status solved = ali3_index_one(in, &in->next);
+  ali3_work_keep(in, &in->next);
+  return solved;
 }
 
 /* From in->now to in->next, a copy of it; in->now changes only when the step is good. t is the time at its end. */
@@ -88,12 +91,14 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   const bool watched = S->n_flexible == 0; /* else M changes, and in->Q has inertia forces */
   const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->r) : 0.0;
   double work = watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->stage, in->r) : 0.0;
+  ali3_work_stage(in, h * ali3_order_8.weight[0], to->watched, to->work);
   for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
     combine(in, h, ali3_order_8.node[stage], ali3_order_8.stage_weight[stage], stage);
     ali3_guides_time(in, to, t - (1.0 - ali3_order_8.node[stage]) * h);
     status = ali3_inputs_at(in, ali3_order_8.node[stage]);
     if (status != ALI3_OK) break;
     status = ali3_index_one(in, to);
+    ali3_work_stage(in, h * ali3_order_8.weight[stage], in->watched, to->work);
     if (watched) work += h * ali3_order_8.weight[stage] * power(in, to);
     memcpy(in->stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
   }
@@ -104,6 +109,7 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
     status = close(in);
   }
   if (status == ALI3_OK) status = ali3_index_one(in, to);
+  ali3_work_keep(in, to);
   if (status == ALI3_OK && watched) {
     const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->r) - kinetic;
     status = ali3_energy_watch(in, h, gained - work, kinetic + fmax(gained, 0.0), kinetic + gained, 0.0);

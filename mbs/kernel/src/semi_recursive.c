@@ -241,6 +241,9 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
     status = begin(in);
   else if (ali3_inputs_jump(in))
     status = after_jump(in);
+  else
+    ali3_work_recall(in);
+  ali3_work_first(in, h * rule->weight[0]);
   memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
   memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
   for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
@@ -251,6 +254,7 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
     position(in);
     memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));
     status = accelerations(in, w->sum + n, w->stage[stage] + n);
+    ali3_work_stage(in, h * rule->weight[stage], in->watched, in->work_sum);
   }
   in->force_input = in->input;
   if (status == ALI3_OK) {
@@ -264,10 +268,11 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
   books(in, h);
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
   turn_back(S, w);
-  ali3_vectors *v = &in->now;
+  ali3_vectors *v = in->quiet ? &in->now : &in->next;
+  if (!in->quiet) ali3_vectors_copy(in, v, &in->now);
+  ali3_work_stage(in, 1.0, in->work_sum, v->work);
+  ali3_work_keep(in, v);
   if (!in->quiet) {
-    v = &in->next;
-    ali3_vectors_copy(in, v, &in->now);
     status = show(in, v);
     if (status != ALI3_OK) return status;
   }

@@ -218,8 +218,10 @@ static double change(const ali3_instance *in, int32_t type, const int32_t *v, co
     return angle_about(in, v);
   case 17:
     return quasi_static(in, v, real);
-  default:
+  case 18:
     return products(in, v, real);
+  default:
+    return ali3_work_change(in, v[0], v[1], v + 2);
   }
 }
 

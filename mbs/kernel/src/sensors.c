@@ -186,8 +186,10 @@ static double value(const ali3_instance *in, int32_t type, const int32_t *v, con
     return angle_about(in, v);
   case 17:
     return quasi_static(in, v, real);
-  default:
+  case 18:
     return products(in, v, real);
+  default:
+    return ali3_work_sum(in, v[0], v[1], v + 2);
   }
 }
 

@@ -142,5 +142,6 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   } else {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0);
   }
+  ali3_work_step(in, 0.5);
   return ali3_accept(in);
 }

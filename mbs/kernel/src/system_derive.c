@@ -42,6 +42,9 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->diagonal_pos = take(p, nq, sizeof(int32_t));
   s->el_kind = take(p, ne, sizeof *s->el_kind);
   s->el_S_off = take(p, ne + 1, sizeof(int32_t));
+  s->work_of = take(p, ne, sizeof(int32_t));
+  s->work_element = take(p, ne, sizeof(int32_t));
+  s->work_ptr = take(p, ne + 1, sizeof(int32_t));
   s->el_entry_ptr = take(p, ne + 1, sizeof(int32_t));
   s->el_entry_signal = take(p, n_entry, sizeof(int32_t));
   s->el_entry_local = take(p, n_entry, sizeof(int32_t));
@@ -231,6 +234,24 @@ static void derive_elements(ali3_system *s) {
     if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
 }
 
+/* Elements that sensors of work name, in their own order. */
+static void derive_work(ali3_system *s) {
+  for (int32_t e = 0; e < s->size.ne; e++) s->work_of[e] = -1;
+  for (int32_t i = 0; i < s->size.ns; i++) {
+    const int32_t *v = s->sen_int + s->sen_int_ptr[i];
+    if (s->sen_type[i] != 19) continue;
+    for (int32_t k = 0; k < v[1]; k++) s->work_of[v[2 + k]] = 0;
+  }
+  s->work_ptr[0] = 0;
+  for (int32_t e = 0; e < s->size.ne; e++) {
+    if (s->work_of[e] < 0) continue;
+    s->work_of[e] = s->n_work;
+    s->work_element[s->n_work++] = e;
+    s->n_work_force += s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
+    s->work_ptr[s->n_work] = s->n_work_force;
+  }
+}
+
 static int32_t first_nonzero(const double *v, int32_t n) {
   for (int32_t i = 0; i < n; i++)
     if (v[i] != 0.0) return i;
@@ -255,6 +276,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_mass(s);
   derive_elements(s);
   derive_flexible(s);
+  derive_work(s);
   if (s->tree != NULL) ali3_tree_derive(s, s->tree);
   for (int32_t i = 0; i < s->size.ns; i++)
     s->senses_rows =

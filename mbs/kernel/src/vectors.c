@@ -14,7 +14,7 @@ size_t ali3_vector_count(const ali3_system *s) {
   const size_t of_coordinates = 4 + ALI3_PAST + (s->n_flexible > 0 ? 2 : 0);
   return of_coordinates * (size_t)z->nq + (1 + ALI3_PAST) * (size_t)z->nc + 2 * (size_t)z->ny + 3 * (size_t)z->ng +
          (size_t)z->nout + (size_t)z->ne + (size_t)z->nu + (size_t)z->n_switch + (z->n_switch > 0 ? (size_t)z->nc : 0) +
-         ALI3_MEMORY + 1;
+         ALI3_MEMORY + 1 + 3 * (size_t)s->n_work + 3 * (size_t)s->n_work_force;
 }
 
 void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool) {
@@ -41,6 +41,11 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool) {
   v->past_lam = ali3_take(pool, ALI3_PAST * (size_t)z->nc);
   v->mean = ali3_take(pool, n_mean);
   v->mean_before = ali3_take(pool, n_mean);
+  v->work = ali3_take(pool, (size_t)s->n_work);
+  v->stored = ali3_take(pool, (size_t)s->n_work);
+  v->watched = ali3_take(pool, (size_t)s->n_work + (size_t)s->n_work_force);
+  v->step_force = ali3_take(pool, (size_t)s->n_work_force);
+  v->step_way = ali3_take(pool, (size_t)s->n_work_force);
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {

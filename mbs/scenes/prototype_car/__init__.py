@@ -17,7 +17,13 @@ from mbs.scenes.prototype_car.chassis import chassis as chassis_of
 from mbs.scenes.prototype_car.chassis import stress_outputs
 from mbs.scenes.prototype_car.front_suspension import front_suspension
 from mbs.scenes.prototype_car.ground_contact import ground_contact
-from mbs.scenes.prototype_car.outputs import chassis_outputs, control_outputs, health_outputs, wheel_outputs
+from mbs.scenes.prototype_car.outputs import (
+    chassis_outputs,
+    control_outputs,
+    health_outputs,
+    wheel_outputs,
+    work_outputs,
+)
 from mbs.scenes.prototype_car.rear_suspension import rear_suspension
 from mbs.scenes.prototype_car.side import FRONT_SIDES, REAR_SIDES
 from mbs.scenes.prototype_car.tyre_data import FRICTION, NOMINAL_LOAD
@@ -91,6 +97,7 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
     health_outputs(m)
     stress_outputs(m, parts, fidelity)
     ground_contact(m, parts, ground)
+    work_outputs(m)
     if guide is not None:
         m.drive("guided way", chassis.point(parts.origin)[0], guide(m))
     return m

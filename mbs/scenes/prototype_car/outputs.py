@@ -13,6 +13,7 @@ from mbs.model.guides import Guide
 from mbs.model.inputs import Input
 from mbs.model.spin import Spin
 from mbs.scenes.prototype_car.car_data import ACCELEROMETERS, RACK_PER_TURN, REFERENCE_POINT
+from mbs.scenes.prototype_car.ground_contact import NAME as GROUND_CONTACT
 
 FORWARD, LEFT, UP = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -132,6 +133,28 @@ def wheel_outputs(m: Model, chassis: Body, spin: Spin, w: str) -> None:
     m.sense_element(f"wheel_{w}.brake_torque", f"brake {w}", "torque")
     m.sense_element(f"spring_{w}.length", f"spring {w}", "length")
     m.sense_element(f"spring_{w}.force", f"spring {w}", "force")
+
+
+WORKS = {  # what works on the car: first words of the names of its elements, description
+    "drive": (("drive",), "the drive on the car"),
+    "brakes": (("brake ",), "the brakes"),
+    "tyres": (("tyre ",), "the tyres, by rolling, slip and damping,"),
+    "dampers": (("spring ", "steering stop "), "dampers and stops of springs and steering"),
+    "drag": (("drag",), "the air"),
+    "ground": ((GROUND_CONTACT,), "the ground on the chassis itself"),
+}
+
+
+def work_outputs(m: Model) -> None:
+    """Work since the start of all that may give or take energy, without what it stores."""
+    for name, (starts, text) in WORKS.items():
+        elements = [e for e in m.elements if e.name.startswith(starts)]
+        m.sense_work(
+            f"energy.{name}",
+            elements,
+            "nonconservative",
+            description=f"work of {text} since the start, without what is stored; negative: energy lost",
+        )
 
 
 def health_outputs(m: Model) -> None:
