@@ -314,3 +314,31 @@ def test_equal_steps_are_as_before() -> None:
         run = mbs.simulate(system_of("pendulum"), 0.5, 0.001)
     assert run.control is None
     assert "\n" not in repr(run)
+
+
+@pytest.mark.parametrize("tolerance", [0.5, 0.1, 0.05, 0.03])
+@pytest.mark.parametrize("method", [None, "ali3p"])
+def test_a_loose_tolerance_still_has_two_runs_to_compare(tolerance: float, method: str | None) -> None:
+    """The first run is never as fine as the second, however much error is allowed."""
+    run = mbs.simulate(crank_slider(), 0.5, inputs={"torque": 4.0}, tolerance=tolerance, method=method)
+    true = 47.2426  # rad; the motion reduced to its one freedom
+    assert run.control is not None
+    assert run.control.tolerance == tolerance
+    assert run.control.error <= tolerance
+    assert abs(run["crank.angle"][-1] - true) <= ALLOWED * tolerance
+
+
+def test_a_refused_run_names_the_tolerance_that_was_asked_for() -> None:
+    with pytest.raises(mbs.SimulationError, match=r"0\.02 \(in a run on the way to 0\.001\)"):
+        mbs.simulate(crank_slider(), 0.5, inputs={"torque": 4.0}, tolerance=1e-3, method="ali3p_no_projection")
+
+
+def test_what_every_step_gives_right_needs_no_small_one() -> None:
+    """Free fall is exact under the trapezoidal rule: differences of runs are round-off and show no order."""
+    m = mbs.Model("stone", dimension=3)
+    stone = m.point_mass("stone", mass=1.0, position=(0.0, 0.0, 1.0))
+    m.sense_position("z", stone, None, "z")
+    run = mbs.simulate(mbs.compile(m), 1.0)
+    assert run.control is not None
+    assert run.control.steps <= 200
+    assert run["z"][-1] == pytest.approx(1.0 - 0.5 * 9.81, abs=1e-9)
