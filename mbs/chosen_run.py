@@ -25,6 +25,8 @@ from mbs.step_choice import StepChoice, choose_step
 from mbs.trajectory import Trajectory
 
 Array = NDArray[np.float64]
+SHORTER = 0.5
+"""Longest steps of a third run where both others made only these."""
 COARSE, COARSEST = 20.0, 0.05
 """Tolerance of the first run in those of the last, and at most."""
 FINER = 4.0
@@ -70,9 +72,9 @@ def to_tolerance(
     if before is None:
         before = _whole(ControlledRun(start(), task, settings, coarse), tolerance, bar, 0.0, times, first)
         runs, wall = runs + 1, wall + before.wall
-    error, run = math.inf, None
+    error, run, longest = math.inf, None, 1.0
     for number in range(1, MOST_RUNS):
-        made = ControlledRun(start(), task, settings, aim)
+        made = ControlledRun(start(), task, settings, aim, longest)
         try:
             made = _whole(made, tolerance, bar, min(0.5, 0.3 * number), times, first)
         except (StalledError, SimulationError):
@@ -82,7 +84,12 @@ def to_tolerance(
             break  # a finer run than the last is beyond round-off
         run = made
         runs, wall = runs + 1, wall + run.wall
-        error = run.distance(before) / (before.tolerance / run.tolerance - 1.0)
+        finer = before.tolerance / run.tolerance - 1.0
+        error = run.distance(before) / (finer if finer > 0.0 else 1.0)
+        if error == 0.0 and longest == 1.0:
+            # the longest steps were fine enough both times, so the runs are the same and tell no error
+            before, longest = run, SHORTER
+            continue
         if error <= tolerance or aim <= LEAST:
             break
         before = run

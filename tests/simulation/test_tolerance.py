@@ -342,3 +342,26 @@ def test_what_every_step_gives_right_needs_no_small_one() -> None:
     assert run.control is not None
     assert run.control.steps <= 200
     assert run["z"][-1] == pytest.approx(1.0 - 0.5 * 9.81, abs=1e-9)
+
+
+@pytest.mark.parametrize("method", ["radau_5", "semi_recursive_4"])
+def test_runs_of_the_longest_steps_only_still_tell_an_error(method: str) -> None:
+    """The tolerance is so loose that steps are bounded by the length of the run: two such runs are the same."""
+    m = mbs.Model("pendulum", dimension=2)
+    rod = m.body("rod", mass=1.3, com=(0.7, 0.0), inertia=0.05)
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+    m.sense_position("y", rod, (0.7, 0.0), "y")
+    rate = 1.3 * 9.81 * 0.7 / (0.05 + 1.3 * 0.7**2)
+    true = solve_ivp(lambda t, y: [y[1], -rate * math.cos(y[0])], (0, 0.5), [0, 0], method="DOP853", rtol=1e-12)
+    run = mbs.simulate(mbs.compile(m), 0.5, tolerance=0.1, method=method)
+    assert run.control is not None
+    error = abs(run["y"][-1] - 0.7 * math.sin(true.y[0, -1])) / run.control.length
+    assert 0.0 < error <= 10.0 * run.control.error
+
+
+def test_what_stands_still_has_no_error_to_tell() -> None:
+    m = mbs.Model("rest", dimension=2, gravity=(0.0, 0.0))
+    m.sense_position("x", m.body("block", mass=1.0, com=(0.0, 0.0), inertia=0.1), (0.0, 0.0), "x")
+    run = mbs.simulate(mbs.compile(m), 1.0, tolerance=1e-3)
+    assert run.control is not None
+    assert run.control.error < 1e-12
