@@ -42,6 +42,8 @@ smallest of a wrong run in the survey. Not of runge_kutta_8, which is right far 
 BLIND_MISS, BLIND = 0.6, 0.01
 """The first of these is enough where the energy is better than the angle of a step lets expect, by the second: a free
 body that tumbles keeps its energy to third order, and turns over at times that hang on its phase."""
+LONG_MISS, LONG = 0.05, 30.0
+"""The same of motions that have turned by more radians than the second: unstable ones double an error every few."""
 BOOKS_DECIDE = ("ali3p", "ali3p_generalised_alpha")  # the quadrature of runge_kutta_8 errs where it is stiff
 COORDINATES = "1"
 POSITION, FIRST_RATE, COMPONENT, AXIAL_RATE, OUTPUT, NORM = 0, 1, 3, 6, 8, 14  # types of sensors: system_file.md
@@ -138,7 +140,9 @@ def is_suspect(report: Report, steps: int, halvings: int, method: str) -> bool:
     turned = report.velocity_path / speed
     blind = method in BOOKS_DECIDE and turned > 0.0 and report.energy_balance < BLIND * (2.0 * miss / turned) ** 2
     most = SUSPECT_MISS.get(method, math.inf)
-    return miss > (BLIND_MISS if blind else most) or drift(report) > SUSPECT_DRIFT
+    if blind:
+        most = LONG_MISS if turned > LONG else BLIND_MISS
+    return miss > most or drift(report) > SUSPECT_DRIFT
 
 
 def drift(report: Report) -> float:
@@ -280,7 +284,7 @@ def _rounded_down(x: float) -> float:
 
 
 def _percent(share: float) -> str:
-    return f"{100.0 * share:.2g} %" if share < 0.995 else f"{100.0 * share:.0f} %"
+    return f"{100.0 * share:.2g} %" if not 0.995 <= share < 100.0 else f"{100.0 * share:.0f} %"
 
 
 def _of(unit: str) -> str:

@@ -25,8 +25,12 @@ from mbs.step_choice import StepChoice, choose_step
 from mbs.trajectory import Trajectory
 
 Array = NDArray[np.float64]
+SHORTER = 0.5
+"""Longest steps of a third run where both others made only these."""
 COARSE, COARSEST = 20.0, 0.05
 """Tolerance of the first run in those of the last, and at most."""
+FINER = 4.0
+"""How much finer the second run is at least: two of the same tolerance tell no error."""
 AGAIN, MOST_AT_ONCE = 0.5, 1e-3
 """What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
 MOST_RUNS, LEAST = 4, 1e-13
@@ -58,20 +62,21 @@ def to_tolerance(
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, inputs)
-    coarse = min(COARSE * tolerance, max(COARSEST, tolerance))
+    coarse = min(COARSE * tolerance, COARSEST)
+    aim = min(tolerance, coarse / FINER)
     reason, wall, runs, before = "", 0.0, 0, None
     if method == "auto":
-        choice = choose(start, task, settings, tolerance, coarse)
+        choice = choose(start, task, settings, aim, coarse)
         method, reason, before, wall, runs = choice.method, choice.reason, choice.run, choice.wall, choice.runs
     settings = replace(settings, method=method)
     if before is None:
-        before = _whole(ControlledRun(start(), task, settings, coarse), bar, 0.0, times, first)
+        before = _whole(ControlledRun(start(), task, settings, coarse), tolerance, bar, 0.0, times, first)
         runs, wall = runs + 1, wall + before.wall
-    aim, error, run = tolerance, math.inf, None
+    error, run, longest = math.inf, None, 1.0
     for number in range(1, MOST_RUNS):
-        made = ControlledRun(start(), task, settings, aim)
+        made = ControlledRun(start(), task, settings, aim, longest)
         try:
-            made = _whole(made, bar, min(0.5, 0.3 * number), times, first)
+            made = _whole(made, tolerance, bar, min(0.5, 0.3 * number), times, first)
         except (StalledError, SimulationError):
             wall += made.wall
             if run is None:
@@ -79,7 +84,12 @@ def to_tolerance(
             break  # a finer run than the last is beyond round-off
         run = made
         runs, wall = runs + 1, wall + run.wall
-        error = run.distance(before) / (before.tolerance / run.tolerance - 1.0)
+        finer = before.tolerance / run.tolerance - 1.0
+        error = run.distance(before) / (finer if finer > 0.0 else 1.0)
+        if error == 0.0 and longest == 1.0:
+            # the longest steps were fine enough both times, so the runs are the same and tell no error
+            before, longest = run, SHORTER
+            continue
         if error <= tolerance or aim <= LEAST:
             break
         before = run
@@ -166,13 +176,15 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
     return np.concatenate([[t0], wanted[wanted > t0]])
 
 
-def _whole(run: ControlledRun, bar: Progress, from_share: float, times: Array, first: Simulation) -> ControlledRun:
+def _whole(
+    run: ControlledRun, wanted: float, bar: Progress, from_share: float, times: Array, first: Simulation
+) -> ControlledRun:
     try:
         run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
     except KernelError as error:
-        raise _refused(run, times, first, error) from error
+        raise _refused(run, wanted, times, first, error) from error
     except StalledError:
-        raise _stalled(run, times, first) from None
+        raise _stalled(run, wanted, times, first) from None
     return run
 
 
@@ -183,10 +195,15 @@ def _so_far(run: ControlledRun, times: Array, first: Simulation) -> Trajectory:
     return _trajectory(run.simulation, times[: len(good) + 1], values, None, run.wall, run.settings)
 
 
-def _stalled(run: ControlledRun, times: Array, first: Simulation) -> SimulationError:
+def _run_at(run: ControlledRun, wanted: float) -> str:
+    """The tolerance of a run beside the one that was asked for."""
+    return f"{wanted:g}" if run.tolerance == wanted else f"{run.tolerance:g} (in a run on the way to {wanted:g})"
+
+
+def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation) -> SimulationError:
     time = run.simulation.time
     return SimulationError(
-        f"A tolerance of {run.tolerance:g} cannot be held by {run.settings.method!r}: until t = {time:g} s "
+        f"A tolerance of {_run_at(run, wanted)} cannot be held by {run.settings.method!r}: until t = {time:g} s "
         f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share, as short "
         f"as {run.fields.smallest:.1e} s; a larger tolerance or another method will do.",
         time,
@@ -195,11 +212,11 @@ def _stalled(run: ControlledRun, times: Array, first: Simulation) -> SimulationE
     )
 
 
-def _refused(run: ControlledRun, times: Array, first: Simulation, error: KernelError) -> SimulationError:
+def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation, error: KernelError) -> SimulationError:
     """The failure with what was recorded until then."""
     simulation = run.simulation
     what = (
-        f"With a tolerance of {run.tolerance:g} no step from t = {simulation.time:g} s succeeded, "
+        f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "
         f"{run.fields.h:.2g} s long in the end"
     )
     return simulation.failure(what, error, _so_far(run, times, first))

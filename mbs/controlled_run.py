@@ -71,9 +71,13 @@ class ControlledRun:
         Of the method; the tolerances of its Newton loop are tightened as the run needs.
     tolerance : float
         Of the run, in parts of the length.
+    longest : float
+        Longest steps in parts of the usual ones.
     """
 
-    def __init__(self, simulation: Simulation, task: Task, settings: Settings, tolerance: float) -> None:
+    def __init__(
+        self, simulation: Simulation, task: Task, settings: Settings, tolerance: float, longest: float = 1.0
+    ) -> None:
         meta = prepared(simulation.system)[1]
         self.simulation, self.task = simulation, task
         self.length = length_of(simulation.system)
@@ -88,7 +92,7 @@ class ControlledRun:
             length=self.length,
             span=task.span,
             rate=max(math.sqrt(meta.get("gravity", 0.0) / self.length), 1.0 / task.span),
-            longest=(LONGEST_WITH_FUNCTIONS if functions else LONGEST) * task.span,
+            longest=longest * (LONGEST_WITH_FUNCTIONS if functions else LONGEST) * task.span,
         )
         n = len(task.times)
         self.values = np.empty((n, len(meta["sensors"])))

@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 CHECKED = 50  # instants at which runs are compared, and steps of the first run
 MOST_STEPS = 3_000_000  # of a run
 LEAST_ORDER = 0.5  # measured: below, differences do not yet tell the error
+EXACT = 1e-3  # of the tolerance: below it, twice, differences are round-off of what every step gives right
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,8 @@ def choose_step(
             order = _order(differences, ORDERS[method])
             error = differences[-1] / (2.0**order - 1.0)
             last = error, order
-            if error <= tolerance and order > LEAST_ORDER:
+            exact = max(differences[-2:]) <= EXACT * tolerance
+            if error <= tolerance and (order > LEAST_ORDER or exact):
                 return StepChoice(h, error, order, len(runs))
         if (t_end - simulation.time) / h > MOST_STEPS / 2:
             break

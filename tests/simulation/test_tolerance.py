@@ -314,3 +314,54 @@ def test_equal_steps_are_as_before() -> None:
         run = mbs.simulate(system_of("pendulum"), 0.5, 0.001)
     assert run.control is None
     assert "\n" not in repr(run)
+
+
+@pytest.mark.parametrize("tolerance", [0.5, 0.1, 0.05, 0.03])
+@pytest.mark.parametrize("method", [None, "ali3p"])
+def test_a_loose_tolerance_still_has_two_runs_to_compare(tolerance: float, method: str | None) -> None:
+    """The first run is never as fine as the second, however much error is allowed."""
+    run = mbs.simulate(crank_slider(), 0.5, inputs={"torque": 4.0}, tolerance=tolerance, method=method)
+    true = 47.2426  # rad; the motion reduced to its one freedom
+    assert run.control is not None
+    assert run.control.tolerance == tolerance
+    assert run.control.error <= tolerance
+    assert abs(run["crank.angle"][-1] - true) <= ALLOWED * tolerance
+
+
+def test_a_refused_run_names_the_tolerance_that_was_asked_for() -> None:
+    with pytest.raises(mbs.SimulationError, match=r"0\.02 \(in a run on the way to 0\.001\)"):
+        mbs.simulate(crank_slider(), 0.5, inputs={"torque": 4.0}, tolerance=1e-3, method="ali3p_no_projection")
+
+
+def test_what_every_step_gives_right_needs_no_small_one() -> None:
+    """Free fall is exact under the trapezoidal rule: differences of runs are round-off and show no order."""
+    m = mbs.Model("stone", dimension=3)
+    stone = m.point_mass("stone", mass=1.0, position=(0.0, 0.0, 1.0))
+    m.sense_position("z", stone, None, "z")
+    run = mbs.simulate(mbs.compile(m), 1.0)
+    assert run.control is not None
+    assert run.control.steps <= 200
+    assert run["z"][-1] == pytest.approx(1.0 - 0.5 * 9.81, abs=1e-9)
+
+
+@pytest.mark.parametrize("method", ["radau_5", "semi_recursive_4"])
+def test_runs_of_the_longest_steps_only_still_tell_an_error(method: str) -> None:
+    """The tolerance is so loose that steps are bounded by the length of the run: two such runs are the same."""
+    m = mbs.Model("pendulum", dimension=2)
+    rod = m.body("rod", mass=1.3, com=(0.7, 0.0), inertia=0.05)
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+    m.sense_position("y", rod, (0.7, 0.0), "y")
+    rate = 1.3 * 9.81 * 0.7 / (0.05 + 1.3 * 0.7**2)
+    true = solve_ivp(lambda t, y: [y[1], -rate * math.cos(y[0])], (0, 0.5), [0, 0], method="DOP853", rtol=1e-12)
+    run = mbs.simulate(mbs.compile(m), 0.5, tolerance=0.1, method=method)
+    assert run.control is not None
+    error = abs(run["y"][-1] - 0.7 * math.sin(true.y[0, -1])) / run.control.length
+    assert 0.0 < error <= 10.0 * run.control.error
+
+
+def test_what_stands_still_has_no_error_to_tell() -> None:
+    m = mbs.Model("rest", dimension=2, gravity=(0.0, 0.0))
+    m.sense_position("x", m.body("block", mass=1.0, com=(0.0, 0.0), inertia=0.1), (0.0, 0.0), "x")
+    run = mbs.simulate(mbs.compile(m), 1.0, tolerance=1e-3)
+    assert run.control is not None
+    assert run.control.error < 1e-12
