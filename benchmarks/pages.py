@@ -15,6 +15,7 @@ from typing import Any
 
 import mbs
 from benchmarks.cases import CASES
+from benchmarks.error_control import CHOSEN, MOST_ERROR, MOST_TIME
 from benchmarks.honesty import FACTOR, HOLDS, SUMMARY, VERDICTS, summary
 from benchmarks.kernel_methods import TITLES
 from benchmarks.stability import OUTCOMES
@@ -147,6 +148,34 @@ def dissipative_blocks(data: Row) -> dict[str, str]:
     return {"dissipative": table(lines, dict.fromkeys(lines[0], ""))}
 
 
+def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """What the choice of method took at each tolerance, beside the best method by name."""
+    lines = []
+    for r in rows:
+        if not r["method"].startswith(CHOSEN):
+            continue
+        others = [
+            x
+            for x in rows
+            if (x["scene"], x["tolerance"]) == (r["scene"], r["tolerance"])
+            and not x["method"].startswith(CHOSEN)
+            and x["cpu_ms"]
+            and x["error_over_tolerance"] <= MOST_ERROR
+        ]
+        best = min(others, key=lambda x: x["cpu_ms"], default=None)
+        miss = [
+            what for what, there in (("dear", (r["ratio"] or 0.0) > MOST_TIME), ("refused", not r["cpu_ms"])) if there
+        ]
+        if (r["error_over_tolerance"] or 0.0) > MOST_ERROR:
+            miss.append("wrong" + (", said" if r["warned"] else ""))
+        lines.append(
+            {**r, "chosen": r["method"].removeprefix(f"{CHOSEN}: "), "best": best and best["method"]}
+            | {"best_ms": best and best["cpu_ms"], "miss": ", ".join(miss)}
+        )
+    columns = {"scene": "", "tolerance": ".0e", "chosen": "", "error_over_tolerance": ".2g", "cpu_ms": ".3g"}
+    return {"control": table(lines, columns | {"best": "", "best_ms": ".3g", "ratio": ".2f", "miss": ""})}
+
+
 def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Wrong runs caught and right ones disturbed, and by name those that went against the rule."""
     said = []
@@ -259,12 +288,12 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty"):
+    for name in ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty", "control"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
-    files = (o.work, o.stability, o.growth, o.four_bar, o.puma, o.dissipative, o.honesty)
-    work, stability, growth, four_bar, puma, dissipative, honesty = (_read(f) for f in files)
+    files = (o.work, o.stability, o.growth, o.four_bar, o.puma, o.dissipative, o.honesty, o.control)
+    work, stability, growth, four_bar, puma, dissipative, honesty, control = (_read(f) for f in files)
     blocks: dict[str, str] = {}
     if work:
         blocks |= work_blocks([r for f in work for r in f["rows"]]) | {"machine work": machine(work[0]["meta"])}
@@ -278,6 +307,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= puma_blocks(puma[0])
     if dissipative:
         blocks |= dissipative_blocks({"rows": [r for f in dissipative for r in f["rows"]]})
+    if control:
+        blocks |= control_blocks([r for f in control for r in f["rows"]])
+        blocks |= {"machine control": machine(control[0]["meta"])}
     if honesty:
         blocks |= honesty_blocks([r for f in honesty for r in f["rows"]])
         blocks |= {"machine honesty": machine(honesty[0]["meta"])}
