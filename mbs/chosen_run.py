@@ -16,7 +16,7 @@ from mbs.control import ALLOWED, Control
 from mbs.controlled_run import ControlledRun, StalledError, Task, length_of
 from mbs.errors import SimulationError
 from mbs.input_signals import Signal
-from mbs.kernel.binding import NOT_CONVERGED, KernelError
+from mbs.kernel.binding import NO_TREE, NOT_CONVERGED, WRONG_METHOD, KernelError
 from mbs.method_choice import choose
 from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
@@ -215,6 +215,8 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation)
 def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation, error: KernelError) -> SimulationError:
     """The failure with what was recorded until then."""
     simulation = run.simulation
+    if error.status in (NO_TREE, WRONG_METHOD):
+        return simulation.failure("The run was refused", error, _so_far(run, times, first))
     what = (
         f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "
         f"{run.fields.h:.2g} s long in the end"

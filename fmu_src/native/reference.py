@@ -33,12 +33,27 @@ class ReferenceRun:
 
 
 def reference_run(system: mbs.System) -> ReferenceRun:
-    """Run the default experiment; about a hundred rows."""
+    """Run the default experiment; about a hundred rows.
+
+    Raises
+    ------
+    SimulationError
+        When it does not run; the sentence names what of the scene sets it.
+    """
     experiment = system.meta["experiment"]
     step = float(experiment["step_s"])
     steps = max(1, round(float(experiment["stop_time_s"]) / step))
     every = max(1, steps // _ROWS)
-    run = mbs.simulate(system, steps * step, step, every=every, progress=False)
+    try:
+        run = mbs.simulate(system, steps * step, step, every=every, progress=False)
+    except mbs.SimulationError as error:
+        raise mbs.SimulationError(
+            f"The default experiment, {steps * step:g} s in steps of {step:g} s as `m.stop_time` and `m.step` of the "
+            f"scene say, does not run: {error}",
+            error.time,
+            error.status,
+            error.trajectory,
+        ) from None
     return ReferenceRun(np.asarray(run.t), {name: np.asarray(run[name]) for name in run})
 
 

@@ -14,8 +14,11 @@ import numpy as np
 import pytest
 from lxml import etree
 
+import mbs
 from fmu_src.description import declared_types
+from fmu_src.native.reference import reference_run
 from fmu_src.variables import Variable
+from mbs.scenes import cart_pole
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
 LS_REF = "extra/org.fmi-standard.fmi-ls-ref"
@@ -107,3 +110,10 @@ def test_sources_are_listed_and_there(build: Callable[..., Path]) -> None:
     assert {f"sources/{name}" for name in listed} <= names(fmu)
     assert "table.c" in listed
     assert not any("fmi3" in name for name in listed)
+
+
+def test_a_scene_whose_default_experiment_does_not_run_is_told_what_sets_it() -> None:
+    with pytest.raises(
+        mbs.SimulationError, match=r"10 s in steps of 0\.01 s as `m\.stop_time` and `m\.step` .* step from"
+    ):
+        reference_run(mbs.compile(cart_pole.build()))

@@ -365,3 +365,12 @@ def test_what_stands_still_has_no_error_to_tell() -> None:
     run = mbs.simulate(mbs.compile(m), 1.0, tolerance=1e-3)
     assert run.control is not None
     assert run.control.error < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("method", "reason"), [("radau_5", "no element states"), ("semi_recursive", "needs a System of")]
+)
+def test_a_method_that_does_not_take_the_system_is_not_blamed_on_the_tolerance(method: str, reason: str) -> None:
+    with pytest.raises(mbs.SimulationError, match=reason) as caught:
+        mbs.simulate(car_of("slalom"), 1.0, tolerance=1e-2, method=method)
+    assert "tolerance" not in str(caught.value)
