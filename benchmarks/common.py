@@ -7,13 +7,16 @@ import os
 import platform
 import statistics
 import time
-from collections.abc import Callable, Mapping, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+import mbs
 from mbs.settings import Settings
 
 PACKAGES = ("ali3", "numpy", "scipy", "fmpy", "pythonfmu", "ziglang", "exudyn", "mujoco")
@@ -132,3 +135,12 @@ def _processor() -> str:
             if line.startswith("model name"):
                 return line.partition(":")[2].strip()
     return platform.processor() or platform.machine()
+
+
+@contextmanager
+def wrong_on_purpose() -> Iterator[None]:
+    """Runs whose steps or models are too coarse on purpose, held against a reference: what they say is known."""
+    with warnings.catch_warnings():
+        for category in (mbs.AccuracyWarning, mbs.BendingWarning, mbs.BranchWarning):
+            warnings.simplefilter("ignore", category)
+        yield

@@ -21,7 +21,7 @@ from benchmarks.baselines.run import LANGUAGE, run
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.cases import CASES, SAMPLES, SHARED, exact_of, size_of, system_of
 from benchmarks.command import parser_of, save_rows, watched
-from benchmarks.common import describe, print_table
+from benchmarks.common import describe, print_table, wrong_on_purpose
 from benchmarks.kernel_methods import TITLES, all_settings, controlled, suits
 from benchmarks.work_precision_chart import draw
 from mbs.controlled_run import ControlledRun, StalledError, Task
@@ -61,7 +61,10 @@ def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
 
     def act() -> tuple[float, dict[str, Any]]:
         try:
-            t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False)
+            with wrong_on_purpose():
+                t = mbs.simulate(
+                    system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False
+                )
         except mbs.SimulationError as error:
             return 0.0, {"ended": f"refused at {error.time:.4g} s"}
         energy = t["energy.total"]

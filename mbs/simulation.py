@@ -481,8 +481,7 @@ def simulate(
     estimate_error : bool, optional
         Whether to repeat the run with half the step, from which `Trajectory.accuracy` has the error of the sensors.
         None repeats what the books of energy, halvings or predictors make suspect; the others cost nothing more. False
-        checks nothing, and issues no warning of branches or bending either. Functions among `inputs` are called anew
-        in a repeat, so they must depend on time alone.
+        checks nothing. Functions among `inputs` are called anew in a repeat, so they must depend on time alone.
     tolerance : float, optional
         Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
         the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
@@ -595,9 +594,9 @@ def _equal_steps(
             error.trajectory = error.trajectory.thinned(every // often)
         raise
     finally:  # of the run that was asked for, also when it failed
-        if made and checked:
-            if made[0].branch_change:
-                warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
+        if made and made[0].branch_change:
+            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
+        if made:
             made[0].bending.warn(stacklevel=5)
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
