@@ -19,7 +19,7 @@ import numpy as np
 import mbs
 from benchmarks import assembly_defect, ladder_runs
 from benchmarks.command import parser_of, save_rows, watched
-from benchmarks.common import describe, print_table
+from benchmarks.common import describe, print_table, wrong_on_purpose
 from benchmarks.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TITLES, TREE_ONLY
 from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
 from mbs.scenes.prototype_car.car_data import GRAVITY, TOTAL_MASS
@@ -151,6 +151,7 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
     }
 
 
+@wrong_on_purpose()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = parser_of("dissipative", __doc__)

@@ -19,7 +19,7 @@ from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.baselines.run import run
 from benchmarks.cases import CASES, exact_of, size_of, system_of
 from benchmarks.command import parser_of, save_rows, watched
-from benchmarks.common import describe, print_table
+from benchmarks.common import describe, print_table, wrong_on_purpose
 from benchmarks.kernel_methods import TITLES, TREE_ONLY, suits
 from benchmarks.stability_chart import draw
 from benchmarks.stability_margins import SQUEEZED, margins
@@ -212,6 +212,7 @@ def explain(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return lines
 
 
+@wrong_on_purpose()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = parser_of("stability", __doc__)

@@ -61,10 +61,7 @@ def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
 
     def act() -> tuple[float, dict[str, Any]]:
         try:
-            with wrong_on_purpose():
-                t = mbs.simulate(
-                    system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False
-                )
+            t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False)
         except mbs.SimulationError as error:
             return 0.0, {"ended": f"refused at {error.time:.4g} s"}
         energy = t["energy.total"]
@@ -248,6 +245,7 @@ def compare(rows: Sequence[dict[str, Any]], scene: str) -> list[dict[str, Any]]:
     return lines
 
 
+@wrong_on_purpose()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = parser_of("work_precision", __doc__)
