@@ -14,28 +14,10 @@ from benchmarks import references
 from benchmarks.car_manoeuvres import inputs_of, load, start_of
 from benchmarks.car_manoeuvres import system_of as car_of
 from benchmarks.cases import CASES, exact_of, system_of
+from benchmarks.honesty_scenes import CRANK_ANGLE, printed_model
 from mbs.accuracy import AccuracyWarning
 
 ALLOWED = 10.0
-CRANK_ANGLE = 758.6266  # rad after 2 s under 4 N m: the motion reduced to its one freedom, DOP853
-
-
-def crank_slider() -> mbs.System:
-    """The model that docs/modelling.md prints."""
-    m = mbs.Model("slider-crank", dimension=2)
-    crank = m.body("crank", mass=1.0, com=(0.05, 0.0), inertia=0.001)
-    rod = m.body("rod", mass=0.5, com=(0.25, 0.0), inertia=0.004)
-    piston = m.point_mass("piston", mass=0.8, position=(0.4, 0.0))
-    m.revolute("main bearing", m.ground, crank, point=(0.0, 0.0))
-    m.revolute("big end", crank, rod, point=(0.1, 0.0))
-    m.spherical("small end", rod, piston, point=(0.4, 0.0))
-    m.point_on_line("bore", (piston, None), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
-    angle = m.relative_angle("crank angle", m.ground, crank)
-    m.input("torque", min=-50.0, max=50.0, unit="N.m")
-    m.torque_on("motor", angle, input=m.inputs[0])
-    m.sense_coordinate("crank.angle", angle)
-    m.sense_joint_force("bearing.force", m.joints[0], "y")
-    return mbs.compile(m)
 
 
 def pushed_mass() -> mbs.System:
@@ -63,7 +45,7 @@ def run_of(scene: str, tolerance: float, method: str | None = None) -> mbs.Traje
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
 def test_the_printed_crank_slider_turns_as_far_as_it_should(tolerance: float) -> None:
-    run = mbs.simulate(crank_slider(), 2.0, inputs={"torque": 4.0}, tolerance=tolerance)
+    run = mbs.simulate(printed_model(), 2.0, inputs={"torque": 4.0}, tolerance=tolerance)
     assert run.control is not None
     assert abs(run["crank.angle"][-1] - CRANK_ANGLE) < ALLOWED * tolerance  # the length counts per rad
     assert run.control.method == "runge_kutta_8"
@@ -320,7 +302,7 @@ def test_equal_steps_are_as_before() -> None:
 @pytest.mark.parametrize("method", [None, "ali3p"])
 def test_a_loose_tolerance_still_has_two_runs_to_compare(tolerance: float, method: str | None) -> None:
     """The first run is never as fine as the second, however much error is allowed."""
-    run = mbs.simulate(crank_slider(), 0.5, inputs={"torque": 4.0}, tolerance=tolerance, method=method)
+    run = mbs.simulate(printed_model(), 0.5, inputs={"torque": 4.0}, tolerance=tolerance, method=method)
     true = 47.2426  # rad; the motion reduced to its one freedom
     assert run.control is not None
     assert run.control.tolerance == tolerance
@@ -330,7 +312,7 @@ def test_a_loose_tolerance_still_has_two_runs_to_compare(tolerance: float, metho
 
 def test_a_refused_run_names_the_tolerance_that_was_asked_for() -> None:
     with pytest.raises(mbs.SimulationError, match=r"0\.02 \(in a run on the way to 0\.001\)"):
-        mbs.simulate(crank_slider(), 0.5, inputs={"torque": 4.0}, tolerance=1e-3, method="ali3p_no_projection")
+        mbs.simulate(printed_model(), 0.5, inputs={"torque": 4.0}, tolerance=1e-3, method="ali3p_no_projection")
 
 
 def test_what_every_step_gives_right_needs_no_small_one() -> None:
