@@ -31,12 +31,15 @@ class Evaluator:
         self.arrays = simulation.system.arrays
         self.time = simulation.time
         self.state = simulation.state
+        self._bends = len(self.arrays["flex_mode"]) > 0
+        self._mass = self._mass_at(self.state.q)
         self.slots = [k for k in range(len(self.state.y)) if self._remembers(k)]
 
     def mass(self, q: Array | None = None) -> Array:
         """Mass matrix (nq, nq) at `q`, by default at the state."""
-        at = self.state.q if q is None else q
-        return np.reshape(self.instance.mass_matrix(at.tolist()), (len(at),) * 2)
+        if q is None or not self._bends:
+            return self._mass
+        return self._mass_at(q)
 
     def jacobian(self, q: Array) -> Array:
         """Phi_q (nc, nq) of the stored rows at `q` (nq,)."""
@@ -52,7 +55,7 @@ class Evaluator:
         """Forces Q - M(q) qdd (nq,) and rates g of the states among the slots, in one vector."""
         settled = self._settled(q, qd, y)
         force = np.array(self._evaluate(q, qd, settled)["force"])
-        if len(self.arrays["flex_mode"]):
+        if self._bends:
             force -= self.mass(q) @ self.state.qdd
         return np.concatenate([force, self._slot_rates(q, qd, settled)])
 
@@ -81,6 +84,9 @@ class Evaluator:
             q = q - np.linalg.lstsq(jacobian, phi, rcond=RANK_TOLERANCE)[0]
         _, jacobian, rate = self.constraints(q, qd)
         return q, qd - np.linalg.lstsq(jacobian, rate, rcond=RANK_TOLERANCE)[0]
+
+    def _mass_at(self, q: Array) -> Array:
+        return np.reshape(self.instance.mass_matrix(q.tolist()), (len(q),) * 2)
 
     def _settled(self, q: Array, qd: Array, y: Array) -> Array:
         settled = self._element_step(q, qd, y, SHORT_STEP)

@@ -146,8 +146,11 @@ def _pulled_back(kind: str, L: Array, b: Array, frames: Frames) -> _Candidate:
 
 @dataclass(frozen=True)
 class _Scales:
-    """Sizes of a motion; `each` (nq,) brings coordinates to those of points (m) and unit axes."""
+    """A state with its motion (accelerations and slot rates) and its sizes; `each` (nq,) brings coordinates to those of
+    points (m) and unit axes.
+    """
 
+    motion: Array
     each: Array
     length: float
     speed: float
@@ -162,12 +165,13 @@ def _scales(evaluator: Evaluator, frames: Frames, q: Array, qd: Array) -> _Scale
     spread = float(np.ptp(places, axis=0).max()) if len(places) else 0.0
     length = max(spread, 1.0 if frames.vectors else 0.0) or 1.0
     speed = float(np.abs(each * qd).max())
-    here = evaluator.motion(q, qd)[: len(each)]
+    motion = evaluator.motion(q, qd)
+    here = motion[: len(each)]
     acceleration = max(float(np.abs(each * here).max()), speed**2 / length)
     random = np.random.default_rng(1)
     rounded = [q * (1.0 + ROUND_OFF * random.choice([-1.0, 1.0], len(each))) for _ in range(2)]
     changes = [np.abs(each * (evaluator.motion(near, qd)[: len(each)] - here)) for near in rounded]
-    return _Scales(each, length, speed, acceleration, np.max(changes, axis=0) / STEP)
+    return _Scales(motion, each, length, speed, acceleration, np.max(changes, axis=0) / STEP)
 
 
 def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidate], V: Array, scales: _Scales) -> Array:
@@ -183,7 +187,8 @@ def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidat
             dqd *= NEAR * scales.speed / np.abs(each * dqd).max()
             q, qd = evaluator.admissible(q + dq, qd + dqd)
         here = _scales(evaluator, frames, q, qd)  # stiff parts accelerate by far more where they are displaced
-        parts.append(np.array([_defect(evaluator, c, q, qd, here) for c in candidates]).T)
+        rows = evaluator.constraints(q, qd)
+        parts.append(np.array([_defect(evaluator, c, q, qd, here, rows) for c in candidates]).T)
     defects = np.vstack(parts)
     _, values, right = scipy.linalg.svd(defects, full_matrices=True)
     rank = int(np.sum(values > SAME * np.sqrt(len(defects))))
@@ -191,18 +196,20 @@ def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidat
     return basis
 
 
-def _defect(evaluator: Evaluator, c: _Candidate, q: Array, qd: Array, scales: _Scales) -> Array:
+def _defect(
+    evaluator: Evaluator, c: _Candidate, q: Array, qd: Array, scales: _Scales, rows: tuple[Array, Array, Array]
+) -> Array:
     """What a candidate changes at a state, in shares of the length, speed and acceleration of the motion."""
     dq, dqd = c.G @ q + c.b, c.G @ qd
     dt, stencil = (1.0, FORWARD) if c.kind == "time" else (0.0, CENTRAL)
     places = [(q + s * dq, qd + s * dqd, evaluator.time + s * dt) for s in STEP * stencil[0]]
     n = len(q)
-    _, jacobian, rate = evaluator.constraints(q, qd)
+    _, jacobian, rate = rows
     measure = evaluator.arrays["row_measure"]
     holding = np.delete(measure * (jacobian @ dq + dt * (rate - jacobian @ qd)), evaluator.arrays["velocity_row"])
     rates = measure * (stencil[1] @ np.array([evaluator.constraints(*p)[2] for p in places])) / STEP
     motion = stencil[1] @ np.array([evaluator.motion(*p) for p in places]) / STEP
-    here = evaluator.motion(q, qd)
+    here = scales.motion
     accelerations = scales.each * (motion[:n] - c.G @ here[:n]) / (scales.acceleration + scales.round_off / SAME)
     slots = motion[n:] / np.maximum(np.abs(here[n:]), scales.speed)
     left = c.left[0] @ q + c.left[1]

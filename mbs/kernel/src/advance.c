@@ -2,16 +2,11 @@
  * among it, it finds in in->next. */
 #include "ali3_internal.h"
 
-static bool relative(const ali3_instance *in) {
-  const int32_t method = in->settings.method;
-  return method == ALI3_METHOD_SEMI_RECURSIVE || method == ALI3_METHOD_SEMI_RECURSIVE_4;
-}
-
 static ali3_status by_method(ali3_instance *in, double t, double h) {
   const int32_t method = in->settings.method;
   const ali3_status inputs = ali3_inputs_begin(in, t, h);
   if (inputs != ALI3_OK) return inputs;
-  if (relative(in)) return ali3_semi_recursive(in, t, h); /* fills in->next only when somebody looks */
+  if (ali3_relative(in)) return ali3_semi_recursive(in, t, h); /* fills in->next only when somebody looks */
   if (method == ALI3_METHOD_ENERGY_MOMENTUM) ali3_energy_momentum_restart(in, h);
   if (method == ALI3_METHOD_ENERGY_MOMENTUM_4) ali3_energy_momentum_restart(in, ali3_composed(h));
   ali3_vectors_copy(in, &in->next, &in->now);
@@ -34,7 +29,7 @@ ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   in->halves_left = depth > 0 && depth < in->settings.max_halvings;
   const ali3_status status = by_method(in, t, h);
   if (status == ALI3_OK) in->t_now = t;
-  if (status == ALI3_OK && !relative(in)) ali3_books_step(in, h);
+  if (status == ALI3_OK && !ali3_relative(in)) ali3_books_step(in, h);
   if (status == ALI3_OK || status == ALI3_BAD_ARGUMENT || depth <= 0) return status;
   in->report.halvings++;
   ali3_keep(in);

@@ -406,6 +406,7 @@ double ali3_composed(double h);
 /* check_method.c */
 bool ali3_without_memory(const ali3_system *S);
 ali3_status ali3_check_method(ali3_instance *in);
+bool ali3_relative(const ali3_instance *in);
 
 /* initialise.c */
 ali3_status ali3_solve_initial(ali3_instance *in, double t);

@@ -17,10 +17,6 @@ enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
 
 static bool watches(const ali3_instance *in) { return ali3_triad_count(in->system) > 0; }
 
-static bool relative(const ali3_instance *in) {
-  return in->settings.method == ALI3_METHOD_SEMI_RECURSIVE || in->settings.method == ALI3_METHOD_SEMI_RECURSIVE_4;
-}
-
 /* Whether triad k and all others of its ring, at least one, are nearly in line. */
 static bool in_line(const ali3_instance *in, const double *sine, int32_t k, int32_t first, int32_t end) {
   const int32_t *ring = in->system->mode_triad + RING;
@@ -56,7 +52,7 @@ void ali3_branch_before(ali3_instance *in) {
   if (!in->mode_known) look(in);
   in->mode_known = true;
   for (int64_t k = 0; k < ali3_triad_count(S); k++) in->sine_before[k] = in->mode_sine[k];
-  if (relative(in)) return; /* its state is not always that of the last step */
+  if (ali3_relative(in)) return; /* its state is not always that of the last step */
   for (int64_t loop = 0; loop < ali3_loop_count(S) && !in->branch_kept; loop++) {
     const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
     for (int32_t k = first; k < end && !in->branch_kept; k++)
@@ -147,7 +143,7 @@ ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);
   if (!watches(in)) return ALI3_OK;
-  if (relative(in) && in->quiet) {
+  if (ali3_relative(in) && in->quiet) {
     in->mode_known = false;
     return ALI3_OK;
   }

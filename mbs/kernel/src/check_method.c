@@ -35,11 +35,17 @@ bool ali3_without_memory(const ali3_system *S) {
   return true;
 }
 
+/* Whether the method of the settings steps relative coordinates. */
+bool ali3_relative(const ali3_instance *in) {
+  const int32_t method = in->settings.method;
+  return method == ALI3_METHOD_SEMI_RECURSIVE || method == ALI3_METHOD_SEMI_RECURSIVE_4;
+}
+
 /* ALI3_WRONG_METHOD where the method of the settings cannot take what the System has. */
 ali3_status ali3_check_method(ali3_instance *in) {
   const ali3_system *S = in->system;
   const int32_t method = in->settings.method;
-  const bool relative = method == ALI3_METHOD_SEMI_RECURSIVE || method == ALI3_METHOD_SEMI_RECURSIVE_4;
+  const bool relative = ali3_relative(in);
   if (relative && S->tree == NULL) return ALI3_NO_TREE;
   if (!relative && method != ALI3_METHOD_ENERGY_MOMENTUM_4 && method != ALI3_METHOD_RUNGE_KUTTA_8 &&
       method != ALI3_METHOD_RADAU_5)

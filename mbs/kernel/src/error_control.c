@@ -91,8 +91,7 @@ static double factor(double part, double last, int32_t order) {
 
 static double shortest(const ali3_instance *in, const ali3_measure *measure, double t, const double share[3]) {
   const int32_t method = in->settings.method;
-  const bool index_one = method == ALI3_METHOD_RUNGE_KUTTA_8 || method == ALI3_METHOD_SEMI_RECURSIVE ||
-                         method == ALI3_METHOD_SEMI_RECURSIVE_4;
+  const bool index_one = method == ALI3_METHOD_RUNGE_KUTTA_8 || ali3_relative(in);
   const int kind = index_one ? 2 : method == ALI3_METHOD_RADAU_5;
   return fmax(share[kind] * fmin(measure->control->span, 1.0 / ali3_rate(in, measure)), ROUND_OFF * fabs(t));
 }
