@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from mbs.affine import Affine, AffineVector
 from mbs.branch_warning import BranchWarning
-from mbs.compile import compile
+from mbs.compiler import compile
 from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.input_signals import unit_text
-from mbs.report import Report
+from mbs.run_report import Report
 from mbs.system import System
 
 Array = NDArray[np.float64]

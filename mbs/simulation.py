@@ -34,7 +34,7 @@ from mbs.kernel.binding import (
 )
 from mbs.large_bending import BendingWatch
 from mbs.progress import progress_for
-from mbs.report import Report
+from mbs.run_report import Report
 from mbs.settings import Settings
 from mbs.system import System
 from mbs.trajectory import Trajectory

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.compile.report import report_text
 from mbs.frames import Frames
 from mbs.meta_check import problem_of
+from mbs.system_text import system_text
 
 MAGIC = b"ALI3SYS\n"
 VERSION = 1
@@ -110,7 +110,7 @@ class System:
 
     def __str__(self) -> str:
         meta = self.meta
-        return report_text(meta["name"], meta["dimension"], meta["report"])
+        return system_text(meta["name"], meta["dimension"], meta["report"])
 
     def to_bytes(self) -> bytes:
         """The System file; equal Systems give equal bytes."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mbs.accuracy import Accuracy
 from mbs.control import Control
-from mbs.report import Report
+from mbs.run_report import Report
 from mbs.settings import Settings
 
 if TYPE_CHECKING:

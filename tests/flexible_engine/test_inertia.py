@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from mbs.compile import compile
+from mbs.compiler import compile
 from mbs.model import Model
 from mbs.simulation import Simulation
 from tests.flexible_engine.bodies import cloud

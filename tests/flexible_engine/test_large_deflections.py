@@ -12,7 +12,7 @@ import pytest
 from scipy.interpolate import PPoly
 
 from mbs import linearise, simulate
-from mbs.compile import compile
+from mbs.compiler import compile
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.material import Material
 from mbs.flexible.section import round_bar

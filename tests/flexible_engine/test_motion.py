@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs import Settings, linearise, simulate
-from mbs.compile import compile
+from mbs.compiler import compile
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import round_bar
 from mbs.model import Model

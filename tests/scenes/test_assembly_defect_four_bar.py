@@ -7,7 +7,7 @@ import pytest
 
 from benchmarks.assembly_defect import COMPONENTS, reference
 from mbs import simulate
-from mbs.compile import compile
+from mbs.compiler import compile
 from mbs.errors import ModelError
 from mbs.model import Model
 from mbs.scenes import assembly_defect_four_bar as scene

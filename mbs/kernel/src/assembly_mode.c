@@ -1,6 +1,6 @@
 /* Assembly modes of closed loops. At each joint between two moving bodies of a loop the arms to the joints before and
  * after it make an angle, seen along an axis n; its sine is zero where the two bodies lie in line. A mode is a
- * combination of signs of sines and cosines that compile found to belong together (mbs/compile/assembly_modes.py). */
+ * combination of signs of sines and cosines that compile found to belong together (mbs/compiler/assembly_modes.py). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

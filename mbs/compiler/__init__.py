@@ -1,0 +1,5 @@
+"""compile(): from a model to a System."""
+
+from mbs.compiler.model_to_system import compile
+
+__all__ = ["compile"]

@@ -1,0 +1,146 @@
+"""Removal of rows that are linear combinations of others, coefficient by coefficient.
+
+Rows dependent as polynomials (a shared axis has unit length in both bodies) say nothing new anywhere and go. Rows
+dependent only at some positions stay: the method handles them.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from scipy.linalg import qr
+
+from mbs.compiler.polynomial import Monomial, RowTerms
+from mbs.errors import ModelError
+
+DEPENDENT = 1e-7
+"""Relative size of the remainder of a dependent row. A drawing with rounded numbers that is next to a special one
+leaves remainders that are no conditions of their own.
+"""
+CONTRADICTION = 1e-9
+"""Relative size of the constant that dependent rows may leave."""
+OWNED = 1e-3
+"""A row owns a monomial if nobody else has it and its coefficient is this part of the row's largest."""
+CONSTANT: Monomial = (-1, -1)
+
+
+def independent_rows(rows: list[RowTerms], joints: Mapping[str, Sequence[str]]) -> tuple[list[RowTerms], int]:
+    """The rows without those that follow from others, in the same order, and the number removed.
+
+    `joints` are the names of the joints at each body, for the message where rows contradict each other.
+    """
+    keep: set[int] = set()
+    normal: dict[int, dict[Monomial, float]] = {}
+    for i, row in enumerate(rows):
+        if not row.plain:
+            keep.add(i)  # angle and guide rows bring a variable of their own, switched rows come and go
+            continue
+        size = max((abs(v) for m, v in row.main.items() if m != CONSTANT), default=0.0)
+        if size == 0.0:
+            _must_vanish([row], row.main.get(CONSTANT, 0.0), joints)
+            continue
+        normal[i] = {m: v / size for m, v in row.main.items()}
+    remaining = _peel(normal, keep)
+    for group in _groups(remaining, normal):
+        keep.update(_independent(group, normal, rows, joints))
+    return [row for i, row in enumerate(rows) if i in keep], len(rows) - len(keep)
+
+
+def _must_vanish(
+    rows: list[RowTerms], constant: float, joints: Mapping[str, Sequence[str]], least: float = CONTRADICTION
+) -> None:
+    if abs(constant) <= least:
+        return
+    bodies = sorted({r.name for r in rows if r.joint < 0})
+    names = sorted({r.name for r in rows if r.joint >= 0} | {j for body in bodies for j in joints.get(body, ())})
+    shape = f" and the shape of {', '.join(map(repr, bodies))}" if bodies else ""
+    raise ModelError(
+        f"The joints {', '.join(map(repr, names))}{shape} contradict each other by {abs(constant):.3g}; "
+        "no position can satisfy them."
+    )
+
+
+def _peel(normal: dict[int, dict[Monomial, float]], keep: set[int]) -> set[int]:
+    """Move rows that own a monomial to `keep` until none is left that does; return the rest."""
+    users: dict[Monomial, set[int]] = defaultdict(set)
+    for i, row in normal.items():
+        for m in row:
+            if m != CONSTANT:
+                users[m].add(i)
+    remaining = set(normal)
+    ready = [m for m, rows in users.items() if len(rows) == 1]
+    while ready:
+        m = ready.pop()
+        if len(users[m]) != 1:
+            continue
+        (i,) = users[m]
+        if abs(normal[i][m]) < OWNED:
+            continue
+        remaining.discard(i)
+        keep.add(i)
+        for other in normal[i]:
+            if other != CONSTANT:
+                users[other].discard(i)
+                if len(users[other]) == 1:
+                    ready.append(other)
+    return remaining
+
+
+def _groups(remaining: set[int], normal: dict[int, dict[Monomial, float]]) -> list[list[int]]:
+    """Rows connected by shared monomials."""
+    users: dict[Monomial, list[int]] = defaultdict(list)
+    for i in remaining:
+        for m in normal[i]:
+            if m != CONSTANT:
+                users[m].append(i)
+    groups, seen = [], set()
+    for start in sorted(remaining):
+        if start in seen:
+            continue
+        seen.add(start)
+        group, stack = [], [start]
+        while stack:
+            i = stack.pop()
+            group.append(i)
+            for m in normal[i]:
+                if m != CONSTANT:
+                    for k in users[m]:
+                        if k not in seen:
+                            seen.add(k)
+                            stack.append(k)
+        groups.append(sorted(group))
+    return groups
+
+
+def _independent(
+    group: list[int],
+    normal: dict[int, dict[Monomial, float]],
+    rows: list[RowTerms],
+    joints: Mapping[str, Sequence[str]],
+) -> list[int]:
+    """Independent rows of a connected group by a rank-revealing factorization; scaling prefers shorter rows."""
+    monomials = sorted({m for i in group for m in normal[i] if m != CONSTANT})
+    column = {m: k for k, m in enumerate(monomials)}
+    A = np.zeros((len(group), len(monomials)))
+    for r, i in enumerate(group):
+        for m, v in normal[i].items():
+            if m != CONSTANT:
+                A[r, column[m]] = v
+    A /= np.linalg.norm(A, axis=1, keepdims=True)
+    constants = np.array([normal[i].get(CONSTANT, 0.0) for i in group]) / np.array(
+        [np.sqrt(sum(v * v for m, v in normal[i].items() if m != CONSTANT)) for i in group]
+    )
+    preference = np.array([1.0 / (1.0 + 0.01 * len(normal[i])) for i in group])
+    _, R, order = qr((A * preference[:, None]).T, mode="economic", pivoting=True)
+    diagonal = np.abs(np.diag(R))
+    rank = int(np.sum(diagonal > DEPENDENT * diagonal[0]))
+    chosen = sorted(int(k) for k in order[:rank])
+    for k in order[rank:]:
+        weights, *_ = np.linalg.lstsq(A[chosen].T, A[k], rcond=None)
+        parts = [rows[group[c]] for c, w in zip(chosen, weights, strict=True) if abs(w) > 1e-6]
+        remainder = float(np.linalg.norm(A[k] - weights @ A[chosen]))
+        constant = float(constants[k] - weights @ constants[chosen])
+        _must_vanish([rows[group[k]], *parts], constant, joints, CONTRADICTION + 10.0 * remainder)
+    return [group[k] for k in chosen]

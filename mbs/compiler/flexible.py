@@ -1,0 +1,96 @@
+"""Flexible bodies as the `flex_` arrays of the System."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from mbs.affine import Affine
+from mbs.compiler.front_arrays import Locate
+from mbs.model.flexible import FlexibleBody
+from mbs.model.model import Model
+
+Array = NDArray[np.float64]
+PAIRS = ((1, 2), (2, 0), (0, 1))
+"""yz, zx, xy."""
+TIME = 0.1
+"""What moves within this time, s, should deform bodies as little as possible when the start is made consistent."""
+
+
+def flexible_bodies(model: Model) -> list[FlexibleBody]:
+    """Those of a model."""
+    return [b for b in model.bodies if isinstance(b, FlexibleBody)]
+
+
+def flexible_coordinates(model: Model) -> set[int]:
+    """Full coordinates that are never eliminated: frames and amplitudes."""
+    return {i for b in flexible_bodies(model) for i in range(b.start, b.start + b.size)}
+
+
+def flexible_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+    """Coordinates of z (before ordering) that each body couples in the tangent."""
+    return [_places(b, full) for b in flexible_bodies(model)]
+
+
+def deformation_metric(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
+    """Stiffness of the flexible bodies times TIME^2, kg, in elimination order, shape (nq, nq)."""
+    rows, columns, values = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros(0)]
+    for body in flexible_bodies(model):
+        places = new[_places(body, full)][12:]
+        rows.append(np.repeat(places, len(places)))
+        columns.append(np.tile(places, len(places)))
+        values.append(TIME**2 * body.reduced.K.ravel())
+    places_of = (np.concatenate(rows), np.concatenate(columns))
+    return sparse.coo_matrix((np.concatenate(values), places_of), shape=(len(new), len(new))).tocsr()
+
+
+def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate) -> dict[str, Any]:
+    """The `flex_` arrays; amplitudes in the order of their coordinates."""
+    counts, frames, modes, fronts, locs = [0], [], [], [], []
+    data: dict[str, list[Array]] = {name: [] for name in ("gravity", "P", "c", "T", "K", "C")}
+    for body in flexible_bodies(model):
+        places = new[_places(body, full)]
+        order = np.argsort(places[12:])
+        frame, mode = places[:12], places[12:][order]
+        front, loc = front_of([*frame.tolist(), *mode.tolist()])
+        counts.append(len(mode))
+        frames.append(frame)
+        modes.append(mode)
+        fronts.append(front)
+        locs += loc
+        s, pick = body.integrals, np.ix_(order, order)
+        data["gravity"].append(model.gravity)
+        data["P"].append(s.P[:, order])
+        data["c"].append(s.c[:, order].transpose(0, 2, 1))
+        data["T"].append(_products(s.T[pick]))
+        data["K"].append(body.reduced.K[pick])
+        data["C"].append(body.reduced.C[pick])
+    return {
+        "flex_mode_ptr": np.cumsum(counts),
+        "flex_frame": np.concatenate([np.zeros(0, int), *frames]),
+        "flex_mode": np.concatenate([np.zeros(0, int), *modes]),
+        "flex_front": np.array(fronts, dtype=np.int64),
+        "flex_loc": np.array(locs, dtype=np.int64),
+        **{f"flex_{name}": np.concatenate([np.zeros(0), *(x.ravel() for x in v)]) for name, v in data.items()},
+    }
+
+
+def _places(body: FlexibleBody, full: Sequence[Affine]) -> list[int]:
+    """Coordinates of z: a frame and amplitudes are never eliminated."""
+    return [next(iter(full[i].terms)) for i in range(body.start, body.start + body.size)]
+
+
+def _products(T: Array) -> Array:
+    """From T[j, l] = sum m phi_l phi_j' the nine matrices of the System file by columns, shape (9, n, n).
+
+    With G_ik = sum m phi_i,j phi_k,l: G_xx, G_yy, G_zz, the symmetric parts of G_yz, G_zx, G_xy, and their
+    antisymmetric parts.
+    """
+    G = T.transpose(3, 2, 0, 1)  # [i, k, j, l] from [j, l, k, i]
+    even = [G[i, i] for i in range(3)] + [(G[i, k] + G[k, i]) / 2 for i, k in PAIRS]
+    odd = [(G[i, k] - G[k, i]) / 2 for i, k in PAIRS]
+    return np.array([(m + m.T) / 2 for m in even] + [(m.T - m) / 2 for m in odd])

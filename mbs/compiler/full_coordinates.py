@@ -1,0 +1,113 @@
+"""From full coordinates to z: the transformation q_full = T z + z0, mass and gravity."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from mbs.affine import Affine
+from mbs.compiler.eliminate import eliminate
+from mbs.compiler.natural import NaturalCoordinates
+from mbs.compiler.polynomial import RowTerms, cleaned, substitute
+from mbs.model.equation import Equation
+from mbs.model.model import Model
+
+Array = NDArray[np.float64]
+
+
+def reduce_coordinates(
+    natural: NaturalCoordinates, linear: Sequence[Equation], grounded: bool, stay: set[int]
+) -> tuple[list[int], list[Affine], list[Affine], int, list[RowTerms]]:
+    """Eliminate the linear equations.
+
+    Parameters
+    ----------
+    grounded : bool
+        Whether a joint ties the scene to the ground.
+    stay : set of int
+        Coordinates of flexible bodies, which are never eliminated.
+
+    Returns
+    -------
+    kept : list of int
+        Natural coordinates that are z.
+    full : list of Affine
+        Each coordinate of the model (centre of mass, unit axes) as an expression of z.
+    all : list of Affine
+        Each natural coordinate as an expression of z.
+    redundant : int
+        Linear equations that said nothing new.
+    left : list of RowTerms
+        Linear equations between coordinates that stay.
+    """
+    equations = [(e.name, substitute(e.linear_form(), natural.expressions)) for e in linear]
+    locked = {i for i, info in enumerate(natural.info) if info.kind in ("angle", "spin")}
+    points = {i for i, info in enumerate(natural.info) if info.kind == "point"}
+    # a scene without ties to the ground may go far: its rows must not hold differences of positions
+    result = eliminate(len(natural.info), equations, locked, points, first_only=not grounded, stay=frozenset(stay))
+    full = [substitute(e, result.expressions) for e in natural.expressions]
+    left = []
+    for i, over in result.left:
+        terms = {(j, -1): v for j, v in over.terms.items()} | {(-1, -1): over.constant}
+        left.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
+    return result.kept, full, result.expressions, result.redundant, left
+
+
+def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, Array]:
+    """T, shape (n_full, nz), and z0, shape (n_full,), of q_full = T z + z0."""
+    pointer = np.concatenate([[0], np.cumsum([len(e.terms) for e in full])])
+    columns = np.fromiter((j for e in full for j in e.terms), dtype=np.int64, count=int(pointer[-1]))
+    values = np.fromiter((v for e in full for v in e.terms.values()), dtype=float, count=int(pointer[-1]))
+    return sparse.csr_matrix((values, columns, pointer), shape=(len(full), nz)), np.array([e.constant for e in full])
+
+
+def full_mass(model: Model, weights: Mapping[int, Array] | None = None) -> sparse.csr_matrix:
+    """Mass matrix of the full coordinates, or one of the blocks in `weights` by the number of their body."""
+    rows, columns, values = [], [], []
+    for k, body in enumerate(model.bodies):
+        if weights is not None and k not in weights:
+            continue
+        block = body.mass_block() if weights is None else weights[k]
+        i, j = np.nonzero(block)
+        rows.append(i + body.start)
+        columns.append(j + body.start)
+        values.append(block[i, j])
+    if weights is None:
+        own = np.array(list(model.inertias), dtype=np.int64)
+        rows.append(own)
+        columns.append(own)
+        values.append(np.array(list(model.inertias.values()), dtype=float))
+    n = len(model.coordinates)
+    empty = np.zeros(0)
+    i, j, v = (np.concatenate([empty, *part]) for part in (rows, columns, values))
+    return sparse.coo_matrix((v, (i.astype(np.int64), j.astype(np.int64))), shape=(n, n)).tocsr()
+
+
+def full_gravity(model: Model) -> Array:
+    """Generalised gravity of the full coordinates: m g on r, first moments times g on the axes."""
+    force = np.zeros(len(model.coordinates))
+    d = model.dimension
+    for body in model.bodies:
+        force[body.start : body.start + d] = body.mass * model.gravity
+        if not body.is_point:
+            s, g = body.first_moment, model.gravity
+            if d == 2:
+                # centre of mass r + s_x a + s_y perp(a)
+                force[body.start + 2 : body.start + 4] = [s[0] * g[0] + s[1] * g[1], s[0] * g[1] - s[1] * g[0]]
+            else:
+                force[body.start + 3 : body.start + 12] = np.outer(s, g).ravel()
+    return force
+
+
+def symmetric(matrix: sparse.csr_matrix) -> sparse.csr_matrix:
+    """Exactly symmetric, without round-off entries."""
+    m = (0.5 * (matrix + matrix.T)).tocoo()
+    diagonal = np.abs(m.tocsr().diagonal())
+    # a direction without mass, such as the axle of a thin disc, has exactly none
+    diagonal[diagonal < 1e-14 * np.max(diagonal, initial=0.0)] = 0.0
+    big = np.sqrt(np.maximum(diagonal[m.row] * diagonal[m.col], 0.0))
+    stay = (np.abs(m.data) > 1e-14 * big) & (big > 0.0)
+    return sparse.coo_matrix((m.data[stay], (m.row[stay], m.col[stay])), shape=m.shape).tocsr()

@@ -1,0 +1,327 @@
+"""Conditions of the joints of closed loops over the places of rigid bodies, and over the constants of the drawing.
+
+A body has a place x = (shift of its centre of mass, m; turn, rad, earth axes), a joint two ends: a point and an axis
+on each of its bodies. The constants of an end are a shift of its point and a turn of its axis, in the axes of the
+body; a distance has its length. All lengths are divided by the size of the loops, so that rows, unknowns and constants
+are of one kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from mbs.compiler.spanning_tree import frame_along, in_space
+from mbs.model.body import Body, Ground
+from mbs.model.joints.joint import Drawing, Joint
+from mbs.model.model import Model
+
+Array = NDArray[np.float64]
+
+Welded = dict[int, Body]
+"""The body that stands for a welded one, by the identity of that."""
+SAME_POINT = 1e-9
+"""Points of a body that are no farther apart, parts of the size, move together."""
+
+
+@dataclass
+class End:
+    """One end of a joint: number of its body (-1 the one at rest), point from the centre of mass (m) and frame
+    (columns; the axis is the third) in the axes of the body, first of its constants.
+    """
+
+    body: int
+    point: Array
+    frame: Array
+    shift: int
+    turn: int
+
+
+@dataclass
+class Condition:
+    """A joint of the loops."""
+
+    joint: Joint
+    ends: tuple[End, End]
+    conditions: tuple[str, ...]
+    length: float
+    constant: int
+    cosine: float
+
+
+@dataclass
+class Places:
+    """Centres of mass, shape (n, 3), and axes, shape (n, 3, 3), of the bodies."""
+
+    centres: Array
+    axes: Array
+
+    def moved(self, x: Array, size: float) -> Places:
+        """After shifts and turns, shape (n, 6)."""
+        turns = Rotation.from_rotvec(x[:, 3:]).as_matrix()
+        return Places(self.centres + size * x[:, :3], turns @ self.axes)
+
+
+class Loops:
+    """Rigid bodies that closed loops connect, but for one that is at rest: the ground or, where the loops are carried,
+    the body with most joints.
+
+    Attributes
+    ----------
+    size : float
+        Largest extent of the joint points, m.
+    rows, constants : int
+        Numbers of conditions and of constants of the drawing.
+    """
+
+    def __init__(self, model: Model, joints: list[Joint], welded: Welded) -> None:
+        self.planar = model.dimension == 2
+        self.bodies = _bodies(joints, welded)
+        self._welded = welded
+        number = {id(body): k for k, body in enumerate(self.bodies)}
+        drawn = [in_space(p) for joint in joints for p in _drawing(joint).points]
+        extent = np.ptp(np.array(drawn), axis=0) if drawn else np.zeros(3)
+        self.size = float(np.linalg.norm(extent)) or 1.0
+        self.constants = 0
+        self.conditions: list[Condition] = []
+        for joint in joints:
+            self.conditions.append(self._condition(joint, number))
+        self.rows = sum(len(self._rows(c, self.drawn(), None)[0]) for c in self.conditions)
+        columns = [0, 1, 5] if self.planar else range(6)
+        self.columns = np.array([6 * k + c for k in range(len(self.bodies)) for c in columns], dtype=np.int64)
+
+    def drawn(self) -> Places:
+        """Where the bodies are drawn."""
+        return Places(np.array([in_space(b.com) for b in self.bodies]), np.array([np.eye(3) for _ in self.bodies]))
+
+    def names(self) -> list[str]:
+        """The joint of each condition."""
+        return [c.joint.name for c in self.conditions for _ in self._rows(c, self.drawn(), None)[0]]
+
+    def move(self, places: Places, dx: Array) -> Places:
+        """After the change `dx` of the unknowns."""
+        x = np.zeros(6 * len(self.bodies))
+        x[self.columns] = dx
+        return places.moved(x.reshape(-1, 6), self.size)
+
+    def evaluate(self, places: Places, g: Array | None = None, constants: bool = False) -> tuple[Array, Array, Array]:
+        """Conditions (m,), their derivatives by the unknowns (m, n) and, where asked for, by the constants (m, k)."""
+        r, Jx = np.zeros(self.rows), np.zeros((self.rows, 6 * len(self.bodies)))
+        Jg = np.zeros((self.rows, self.constants if constants else 0))
+        row = 0
+        frames = self._turned(g)
+        for c in self.conditions:
+            values, G, arms = self._rows(c, places, g, frames)
+            part = slice(row, row + len(values))
+            r[part] = values
+            for side, end in enumerate(c.ends):
+                by_point, by_turn = G[:, 6 * side : 6 * side + 3], G[:, 6 * side + 3 : 6 * side + 6]
+                if end.body >= 0:
+                    Jx[part, 6 * end.body : 6 * end.body + 3] += by_point
+                    Jx[part, 6 * end.body + 3 : 6 * end.body + 6] += by_turn + _cross(arms[side], by_point)
+                if constants:
+                    R = places.axes[end.body] if end.body >= 0 else np.eye(3)
+                    Jg[part, end.shift : end.shift + 3] += by_point @ R
+                    Jg[part, end.turn : end.turn + 3] += by_turn @ R
+            if constants and c.constant >= 0:
+                Jg[part, c.constant] -= 1.0
+            row += len(values)
+        return r, Jx[:, self.columns], Jg
+
+    def ends_in_space(
+        self, c: Condition, places: Places, g: Array | None, frames: dict[int, Array] | None = None
+    ) -> list[tuple[Array, Array]]:
+        """Point (m) and frame of both ends of a joint in earth axes."""
+        found = []
+        frames = self._turned(g) if frames is None else frames
+        for end in c.ends:
+            p, E = end.point, frames[id(end)]
+            if g is not None:
+                p = p + self.size * g[end.shift : end.shift + 3]
+            if end.body >= 0:
+                R = places.axes[end.body]
+                p, E = places.centres[end.body] + R @ p, R @ E
+            found.append((p, E))
+        return found
+
+    def _turned(self, g: Array | None) -> dict[int, Array]:
+        """Frames of all ends with the constants g, by the identity of the end."""
+        ends = [end for c in self.conditions for end in c.ends]
+        if g is None:
+            return {id(end): end.frame for end in ends}
+        turns = Rotation.from_rotvec(np.array([g[end.turn : end.turn + 3] for end in ends])).as_matrix()
+        return {id(end): turn @ end.frame for end, turn in zip(ends, turns, strict=True)}
+
+    def _condition(self, joint: Joint, number: dict[int, int]) -> Condition:
+        given = _drawing(joint)
+        ends = []
+        for side in (0, 1):
+            body = _whole(given.bodies[side], self._welded)
+            axis = None if given.axes is None else given.axes[side]
+            frame = np.eye(3) if axis is None else frame_along(axis)
+            if self.planar and axis is not None:
+                frame = np.roll(frame_along(axis), 1, axis=1)  # the axis first, its normal second
+                frame[:, 1], frame[:, 2] = np.cross([0.0, 0.0, 1.0], frame[:, 0]), [0.0, 0.0, 1.0]
+            k = number.get(id(body), -1)
+            point = in_space(given.points[side]) - (in_space(body.com) if k >= 0 else 0.0)
+            ends.append(End(k, point, frame, self._shift(k, point), -1))
+            ends[-1].turn = self._new(3)
+        length = self._new(1) if "distance" in given.conditions else -1
+        cosine = float(ends[0].frame[:, 2] @ ends[1].frame[:, 2])
+        return Condition(joint, (ends[0], ends[1]), given.conditions, given.length, length, cosine)
+
+    def _shift(self, body: int, point: Array) -> int:
+        """First constant of the shift of a point; joints at one point of a body share it."""
+        for c in self.conditions:
+            for end in c.ends:
+                if end.body == body and np.linalg.norm(end.point - point) <= SAME_POINT * self.size:
+                    return end.shift
+        return self._new(3)
+
+    def _new(self, n: int) -> int:
+        self.constants += n
+        return self.constants - n
+
+    def _rows(
+        self, c: Condition, places: Places, g: Array | None, frames: dict[int, Array] | None = None
+    ) -> tuple[Array, Array, list[Array]]:
+        """Values, derivatives by (point, turn) of the first and the second end (m, 12), arms of the points (2, 3); all
+        lengths in parts of the size.
+        """
+        (p, E), (q, F) = self.ends_in_space(c, places, g, frames)
+        d = (q - p) / self.size
+        arms = [
+            (s - places.centres[end.body]) / self.size if end.body >= 0 else np.zeros(3)
+            for s, end in ((p, c.ends[0]), (q, c.ends[1]))
+        ]
+        values: list[float] = []
+        G: list[Array] = []
+        zero = np.zeros(3)
+
+        def turned(i: int, j: int, aim: float = 0.0) -> None:
+            cross = _cross(E[:, i], F[:, j])
+            values.append(float(E[:, i] @ F[:, j]) - aim)
+            G.append(np.concatenate([zero, cross, zero, -cross]))
+
+        for condition in c.conditions:
+            if condition == "point":
+                for k in range(2 if self.planar else 3):
+                    e = np.eye(3)[k]
+                    values.append(float(d[k]))
+                    G.append(np.concatenate([-e, zero, e, zero]))
+            elif condition == "axis":
+                turned(0, 2)
+                turned(1, 2)
+            elif condition == "angle":
+                turned(2, 2, c.cosine)
+            elif condition == "orientation":
+                for i, j in ((0, 1),) if self.planar else ((0, 1), (1, 2), (2, 0)):
+                    turned(i, j)
+            elif condition == "line":
+                for k in (1,) if self.planar else (0, 1):
+                    n = F[:, k]
+                    values.append(float(d @ n))
+                    G.append(np.concatenate([-n, zero, n, _cross(n, d)]))
+            elif condition == "distance":
+                long = float(np.linalg.norm(d))
+                n = d / long
+                values.append(long - c.length / self.size - (0.0 if g is None else float(g[c.constant])))
+                G.append(np.concatenate([-n, zero, n, zero]))
+        return np.array(values), np.array(G).reshape(-1, 12), arms
+
+
+def loops_of(model: Model, most_bodies: int) -> list[Loops]:
+    """The parts of a model in which every two joints between rigid bodies are in one closed loop, if they have
+    no more than so many bodies.
+    """
+    welded: Welded = {}
+    for joint in model.joints:
+        if joint.type == "weld" and joint.places is not None and _is_rigid(joint.places.bodies):
+            first, second = sorted(_sides(joint.places.bodies, welded), key=lambda b: not b.is_ground)
+            for body in (b for b in model.bodies if _whole(b, welded) is second):
+                welded[id(body)] = first
+    joints = [j for j in model.joints if j.drawing is not None and j.switch is None and _is_rigid(j.drawing.bodies)]
+    joints = [j for j in joints if len({id(b) for b in _sides(_drawing(j).bodies, welded)}) == 2]
+    blocks = _blocks(joints, welded)
+    return [Loops(model, block, welded) for block in blocks if len(_bodies(block, welded)) <= most_bodies]
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """The vector product over the last axis; numpy's own takes ten times as long for one vector."""
+    x, y, z = a[..., 0], a[..., 1], a[..., 2]
+    u, v, w = b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
+
+
+def _drawing(joint: Joint) -> Drawing:
+    assert joint.drawing is not None
+    return joint.drawing
+
+
+def _is_rigid(bodies: Iterable[Body]) -> bool:
+    return all(type(body) in (Body, Ground) for body in bodies)
+
+
+def _whole(body: Body, welded: Welded) -> Body:
+    return welded.get(id(body), body)
+
+
+def _sides(bodies: Iterable[Body], welded: Welded) -> list[Body]:
+    return [_whole(body, welded) for body in bodies]
+
+
+def _bodies(joints: Iterable[Joint], welded: Welded) -> list[Body]:
+    """The bodies of a block without the one at rest."""
+    found: dict[int, Body] = {}
+    count: dict[int, int] = {}
+    for joint in joints:
+        for body in _sides(_drawing(joint).bodies, welded):
+            found[id(body)] = body
+            count[id(body)] = count.get(id(body), 0) + 1
+    rest = next((b for b in found.values() if b.is_ground), None) or max(found.values(), key=lambda b: count[id(b)])
+    return [body for body in found.values() if body is not rest]
+
+
+def _blocks(joints: list[Joint], welded: Welded) -> list[list[Joint]]:
+    """Joints of each block (biconnected component) of the graph of bodies and joints, those of one joint left out
+    (J. Hopcroft, R. Tarjan, Communications of the ACM 16, 1973, algorithm 447; without recursion).
+    """
+    at: dict[int, list[tuple[int, int]]] = {}
+    for n, joint in enumerate(joints):
+        a, b = (id(body) for body in _sides(_drawing(joint).bodies, welded))
+        at.setdefault(a, []).append((n, b))
+        at.setdefault(b, []).append((n, a))
+    order: dict[int, int] = {}
+    lowest: dict[int, int] = {}
+    used: set[int] = set()
+    found: list[list[Joint]] = []
+    for root in at:
+        if root in order:
+            continue
+        order[root] = lowest[root] = len(order)
+        path, edges = [(root, iter(at[root]), 0)], list[int]()
+        while path:
+            body, around, mark = path[-1]
+            n, other = next(around, (-1, -1))
+            if n < 0:
+                path.pop()
+                if not path:
+                    break
+                parent = path[-1][0]
+                lowest[parent] = min(lowest[parent], lowest[body])
+                if lowest[body] >= order[parent]:
+                    found.append([joints[k] for k in sorted(edges[mark:])])
+                    del edges[mark:]
+            elif n not in used:
+                used.add(n)
+                edges.append(n)
+                if other in order:
+                    lowest[body] = min(lowest[body], order[other])
+                else:
+                    order[other] = lowest[other] = len(order)
+                    path.append((other, iter(at[other]), len(edges) - 1))
+    return [block for block in found if len(block) > 1]

@@ -1,0 +1,62 @@
+"""Names and units of the System: its `meta`."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from mbs.compiler.polynomial import RowTerms
+from mbs.model.model import Model
+
+
+def metadata(
+    model: Model,
+    coordinates: list[str],
+    rows: list[RowTerms],
+    report: dict[str, Any],
+    lengths: list[float],
+) -> dict[str, Any]:
+    """What Python reads of a System and the kernel does not."""
+    return {
+        "name": model.name,
+        "dimension": model.dimension,
+        "coordinates": coordinates,
+        "rows": [{"name": r.name, "kind": r.kind} for r in rows],
+        "inputs": [
+            {
+                "name": i.name,
+                "unit": i.unit,
+                "description": i.description,
+                "start": i.start,
+                "min": i.min if math.isfinite(i.min) else None,
+                "max": i.max if math.isfinite(i.max) else None,
+            }
+            for i in model.inputs
+        ],
+        "sensors": [
+            {"name": s.name, "unit": s.unit, "description": s.description}
+            | ({"whole": True} if s.whole else {})
+            | ({"display_unit": s.display_unit} if s.display_unit else {})
+            | ({"notice": s.notice} if s.notice else {})
+            for s in model.sensors
+        ],
+        "parameters": [
+            {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
+            for p in model.parameters
+        ],
+        "elements": [
+            {
+                "name": e.name,
+                "type": e.type.name,
+                "outputs": [{"name": o.name, "unit": o.unit, "description": o.description} for o in e.outputs],
+            }
+            for e in model.elements
+        ],
+        "switches": [{"name": s.name} for s in model.switches],
+        "guides": [g.name for g in model.guides],
+        "report": report,
+        "experiment": {"stop_time_s": model.stop_time, "step_s": model.step},
+        "floating": model.floating,
+        "gravity": math.hypot(*model.gravity),
+        "coordinate_lengths": lengths,
+    }

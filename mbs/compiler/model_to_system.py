@@ -1,0 +1,199 @@
+"""compile(): from a Model to a System, one chain of steps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from mbs.affine import Affine
+from mbs.compiler.assembly_modes import mode_arrays
+from mbs.compiler.consistent import close_position
+from mbs.compiler.dependent_rows import independent_rows
+from mbs.compiler.equilibrium import equilibrium, start_arrays
+from mbs.compiler.extent import coordinate_lengths, model_length, unit_vectors
+from mbs.compiler.flexible import (
+    deformation_metric,
+    flexible_arrays,
+    flexible_cliques,
+    flexible_coordinates,
+)
+from mbs.compiler.frames import frames_of
+from mbs.compiler.front_arrays import front_arrays, locator, mass_positions, row_fronts
+from mbs.compiler.fronts import Fronts, build_fronts
+from mbs.compiler.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
+from mbs.compiler.locked import check_motion
+from mbs.compiler.metadata import metadata
+from mbs.compiler.natural import natural_coordinates
+from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
+from mbs.compiler.ordering import clique_pattern, fill_reducing_order
+from mbs.compiler.overconstrained import MOST_TOLERANCE, TOLERANCE, corrected_joints, redrawn
+from mbs.compiler.polynomial import RowTerms, row_terms
+from mbs.compiler.pose import pose_arrays, pose_partners
+from mbs.compiler.row_arrays import RowArrays
+from mbs.compiler.row_scale import row_scale
+from mbs.compiler.rows import rigid_rows
+from mbs.compiler.start import guide_start, reference_position, velocity
+from mbs.compiler.structure import rank_at, structure_report
+from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
+from mbs.compiler.tree import tree_arrays
+from mbs.errors import ModelError
+from mbs.model.equation import Equation
+from mbs.model.model import Model
+from mbs.system import System
+
+
+def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
+    """Compile a model.
+
+    Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
+    computed, and the start position and velocity solved. Overconstrained loops are closed by least squares before:
+    points and axes of their joints are moved, by as little as possible, to where the loop moves; the System's report
+    says by how much, joint by joint (`closed`: distance in m, angle in rad).
+
+    Parameters
+    ----------
+    model : Model
+    tolerance : float
+        Largest correction of an overconstrained loop, parts of the size of its drawing (m/m) and rad; 0 takes every
+        drawing as it is.
+
+    Raises
+    ------
+    ModelError
+        If the assembly cannot be closed or the model is not possible; the message names the joints.
+    """
+    if not model.bodies:
+        raise ModelError(f"The model '{model.name}' has no bodies.")
+    if isinstance(tolerance, bool) or not isinstance(tolerance, (int, float)) or not 0.0 <= tolerance <= MOST_TOLERANCE:
+        raise ModelError(
+            f"The tolerance of compile is {tolerance!r}; it must be a number from 0 to {MOST_TOLERANCE:g}."
+        )
+    joints = corrected_joints(model, float(tolerance))
+    with redrawn(joints):
+        closed = {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
+        return _compile(model, closed)
+
+
+def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
+    """The System of a model whose loops are closed; `closed` is for its report."""
+    linear, others = _equations(model)
+    natural = natural_coordinates(model)
+    kept, full, of_z, redundant, left = reduce_coordinates(natural, linear, model.grounded, flexible_coordinates(model))
+    candidates = [row_terms(e, j, k, full) for j, k, e in others]
+    for row in candidates:
+        switch = model.joints[row.joint].switch
+        row.switch = -1 if switch is None else switch.index
+    candidates += left
+    candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
+    rows, dependent = independent_rows(candidates, joints_of_bodies(model))
+    if not kept:
+        raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
+
+    T, z0 = transformation(full, len(kept))
+    M_full = full_mass(model)
+    mass = symmetric(T.T @ M_full @ T)
+    fronts, tangent_nonzeros = _symbolic(model, rows, full, mass)
+    order = fronts.order
+    new = np.argsort(order)
+    mass = mass[order][:, order].tocsr()
+    mass.sort_indices()
+    arrays = RowArrays(rows, new)
+
+    guides, guide_rates = guide_start(model)
+    holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
+    start = arrays if len(holding) == len(rows) else RowArrays(holding, new)
+    placing = [row for row in holding if not row.rates]
+    shape = start if len(placing) == len(holding) else RowArrays(placing, new)
+    stiffness = deformation_metric(model, full, new)
+    drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
+    q = close_position(placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
+    qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
+    _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
+    check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
+    rank = rank_at(Phiq, mass.diagonal())
+    _, Phiq, _ = arrays.evaluate(q, guides)
+    scale, measure = row_scale(rows, Phiq, mass.diagonal())
+    arrays.scale(scale)
+
+    gravity = full_gravity(model)
+    signals = Signals(full, new)
+    locate = locator(fronts)
+    row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
+    tree, no_tree = tree_arrays(model, signals, kept, new)
+    modes = mode_arrays(model, holding, full, q[new], guides, signals)
+    tables: dict[str, Any] = {
+        "q0": q,
+        "qd0": qd,
+        "mass_ptr": mass.indptr,
+        "mass_col": mass.indices,
+        "mass_val": mass.data,
+        "mass_pos": mass_positions(mass, fronts),
+        "gravity_force": (T.T @ gravity)[order],
+        "gravity_const": [-gravity @ z0],
+        **arrays.arrays,
+        "row_scale": scale,
+        "row_measure": measure,
+        "row_switch": [row.switch for row in rows],
+        "switch_start": [int(s.on) for s in model.switches],
+        **row_fronts(arrays, locate),
+        **front_arrays(fronts),
+        **element_arrays(model, signals, locate),
+        **sensor_arrays(model, signals, row_of),
+        **channel_arrays(model),
+        **flexible_arrays(model, full, new, locate),
+        **pose_arrays(model, natural, kept, of_z, q[new], order),
+        **tree,
+        **modes,
+        **start_arrays(None, {}),
+        "pose_partner": pose_partners(model, natural, kept, of_z, signals, order),
+        **signals.arrays(),
+    }
+    report = {
+        **structure_report(model, fronts, rank, len(rows)),
+        "linear_equations": len(linear),
+        "redundant_equations": redundant,
+        "dependent_rows": dependent,
+        "tangent_nonzeros": tangent_nonzeros,
+        "no_tree": no_tree,
+        "closed": closed,
+    }
+    frames = frames_of(model, T[:, order], z0)
+    info = [natural.info[kept[k]] for k in order]
+    length = model_length(model)
+    lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [kept[k] for k in order]), length)
+    report["length"], report["length_stated"] = length, model.length is not None
+    system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths), frames)
+    if not model.start_in_equilibrium:
+        return system
+    q = equilibrium(system, model.equilibrium_parameters)
+    tables.update(start_arrays(system, model.equilibrium_parameters))
+    tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, kept, of_z, q[new], order))
+    return System(tables, system.meta, frames)
+
+
+def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
+    """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
+    linear, others = [], []
+    for j, joint in enumerate(model.joints):
+        kept = {*(joint.force_equations if joint.keep else []), *joint.turning_equations}
+        replaced = set(joint.replaced_equations)
+        for k, equation in enumerate(joint.equations):
+            if k in replaced:
+                continue
+            if equation.is_linear and k not in kept:
+                linear.append(equation)
+            else:
+                others.append((j, k, equation))
+    return linear, others
+
+
+def _symbolic(model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix) -> tuple[Fronts, int]:
+    """Elimination order and fronts of the tangent, and the non-zeros of its lower triangle."""
+    entries = mass.tocoo()
+    cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
+    cliques += [row.columns() for row in rows]
+    cliques += element_cliques(model, full) + flexible_cliques(model, full)
+    pattern = clique_pattern(mass.shape[0], cliques)
+    return build_fronts(pattern, fill_reducing_order(pattern)), (pattern.nnz + mass.shape[0]) // 2

@@ -1,0 +1,118 @@
+"""Natural coordinates of each body: which of its points and vectors are its full coordinates.
+
+A rigid body is affine in one point and three independent vectors of it (planar: one vector), and its mass matrix is
+constant in all of them. A joint point, differences of joint points and joint axes make short equations. Only one
+point, because distances then come from vectors alone: no row loses digits far from the origin. A body with many joints
+keeps its centre of mass and its axes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.affine import Affine
+from mbs.compiler.local_vectors import body_length, distinct
+from mbs.model.body import Body
+from mbs.model.model import Model
+
+Array = NDArray[np.float64]
+
+MANY = 6
+"""Bodies with more joint points and axes than this keep centre of mass and axes."""
+INDEPENDENT = 0.2
+"""Smallest singular value of the chosen points and vectors, scaled to the size of the body."""
+DROP = 1e-13
+
+
+@dataclass(frozen=True)
+class NaturalCoordinate:
+    """A full coordinate: component of a point or vector of a body, an angle or a spin; lengths in m."""
+
+    name: str
+    kind: str
+    component: int
+    reference: float
+
+
+@dataclass(frozen=True)
+class NaturalCoordinates:
+    """Full coordinates of a model.
+
+    Attributes
+    ----------
+    info : list of NaturalCoordinate
+    expressions : list of Affine
+        The coordinates of the model (centre of mass and unit axes) as expressions of these.
+    """
+
+    info: list[NaturalCoordinate]
+    expressions: list[Affine]
+
+
+def natural_coordinates(model: Model) -> NaturalCoordinates:
+    """Choose the points and vectors of every body."""
+    info = [NaturalCoordinate(c.name, c.kind, c.component, c.reference) for c in model.coordinates]
+    expressions = [Affine({i: 1.0}) for i in range(len(info))]
+    for body in model.bodies:
+        if not (body.is_point or body.is_flexible):
+            _describe(body, info, expressions)
+    return NaturalCoordinates(info, expressions)
+
+
+Choice = tuple[str, float, Array]
+"""Name, 1 for a point or 0 for a vector, and its local components, m."""
+
+
+def _describe(body: Body, info: list[NaturalCoordinate], expressions: list[Affine]) -> None:
+    chosen = choose(body)
+    d = body.dimension
+    if d == 3:
+        G = np.array([[o, *w] for _, o, w in chosen]).T
+        blocks = np.einsum("im,kl->mkil", np.linalg.inv(G), np.eye(3))
+    else:
+        H = np.array([[o, complex(*w)] for _, o, w in chosen]).T
+        c = np.linalg.inv(H).T  # c[m, i]: share of item i in r (m = 0) and a (m = 1), as turn and stretch
+        turn = np.array([[c.real, -c.imag], [c.imag, c.real]])
+        blocks = np.transpose(turn, (2, 0, 3, 1))
+    matrix = blocks.reshape(body.size, body.size)
+    least = DROP * np.max(np.abs(matrix))
+    for i, row in enumerate(matrix):
+        expressions[body.start + i] = Affine({body.start + j: float(v) for j, v in enumerate(row) if abs(v) > least})
+    for n, (name, o, w) in enumerate(chosen):
+        for k in range(d):
+            kind = "point" if o else "vector"
+            reference = float(o * body.com[k] + w[k])
+            info[body.start + d * n + k] = NaturalCoordinate(f"{body.name}.{name}{'xyz'[k]}", kind, k, reference)
+
+
+def choose(body: Body) -> list[Choice]:
+    """Independent points and vectors: joints first, then the frame of the body."""
+    size, d = body_length(body), body.dimension
+    frame: list[Choice] = [("r", 1.0, np.zeros(d))]
+    frame += [(f"{'abc'[k]}", 0.0, size * e) for k, e in enumerate(np.eye(d)[: 1 if d == 2 else 3])]
+    points = distinct(body.joint_points)
+    axes = distinct([size * u for u in body.joint_axes], opposites=True)
+    if not points or len(points) + len(axes) > MANY:
+        return frame
+    items = [*(w - points[0] for w in points[1:]), *axes]
+    chosen: list[Choice] = [("p", 1.0, points[0])]
+    for item in [*((f"v{n}", 0.0, w) for n, w in enumerate(items)), *frame[1:]]:
+        trial = [*chosen, item]
+        if _least_singular_value(trial, size) > INDEPENDENT:
+            chosen = trial
+        if len(chosen) == len(frame):
+            return chosen
+    return frame
+
+
+def _least_singular_value(items: list[Choice], size: float) -> float:
+    """Of the items as columns of unit length in homogeneous components."""
+    if len(items[0][2]) == 2:
+        columns = np.array([[o, complex(*w) / size] for _, o, w in items])
+    else:
+        columns = np.array([[o, *(w / size)] for _, o, w in items])
+    columns = columns / np.linalg.norm(columns, axis=1, keepdims=True)
+    return float(np.linalg.svd(columns, compute_uv=False)[-1])

@@ -1,0 +1,373 @@
+"""Overconstrained loops as they are drawn: the constants of the drawing are moved, by as little as possible, to where
+the loops move.
+
+A loop with more conditions than Kutzbach's count allows moves only if its lengths and angles are exactly right, and no
+drawing with rounded numbers is. Closing it at the drawn position would not do: the misfit comes back as soon as it
+moves. So points and axes of the joints, g, are corrected until the loops close at all positions of a motion at once.
+At each position Gauss-Newton leaves the misfit U' r (`mbs.compiler.mobility`), whose derivative by the constants is
+U' Phi_g; the rows of all positions together,
+
+    U_k' Phi_g dg = -U_k' r_k,     k = 1, 2, ...
+
+are as many as one likes and of the rank of the loop's hidden conditions, so dg is their shortest solution, in
+no more directions than it takes to explain the misfit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.compiler.loop_conditions import Condition, Loops, Places, loops_of
+from mbs.compiler.mobility import Closed, close, motion
+from mbs.errors import ModelError
+from mbs.model.joints.joint import Joint
+from mbs.model.model import Model
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 1e-4
+"""Largest correction of a drawing, parts of its size and rad."""
+MOST_TOLERANCE = 0.01
+"""Beyond, a drawing is not one of the loop that moves but of another one."""
+NEAR = 0.03
+"""A singular value below this part of the largest may be that of a redundant condition drawn badly."""
+EXACT = 1e-13
+"""Misfit of a drawing that is as exact as its numbers, parts of its size."""
+TIGHT = 1e-9
+"""A singular value below this part of the largest is none."""
+MOST_BODIES = 40
+"""Loops of more bodies are taken as drawn."""
+ITERATIONS = 25
+REMAINDER = 0.02
+"""Part of the misfit that one iteration may leave."""
+MOVES, NEARLY = 10, 2e-3
+"""Positions of a motion that is one; the largest misfit along it, parts of the size, of a loop that nearly moves."""
+REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
+"""Attributes of a joint that its drawing makes."""
+PART_OF_LINK = 0.1
+"""A correction is less than this part of the distance of two joints of a body."""
+
+
+@dataclass(frozen=True)
+class Correction:
+    """How far compile moved the ends of a joint: distance of its points (m) and turn of its axes (rad), the larger of
+    both bodies.
+    """
+
+    distance: float
+    angle: float
+
+
+@dataclass
+class Corrected:
+    """A joint with the ends it should have been drawn with, and the correction."""
+
+    joint: Joint
+    points: tuple[Array, Array]
+    axes: tuple[Array, Array] | None
+    length: float
+    correction: Correction
+
+
+def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Corrected]:
+    """The joints of overconstrained loops that move only if their drawing is corrected, with what they should be.
+
+    Parameters
+    ----------
+    tolerance : float
+        Largest correction, parts of the size of a loop's drawing (m/m) and rad; 0 takes every drawing as it is.
+
+    Raises
+    ------
+    ModelError
+        A loop stands still as drawn and moves with a larger correction.
+    """
+    if tolerance == 0.0:
+        return []
+    return [joint for loops in loops_of(model, MOST_BODIES) for joint in _correct(loops, tolerance)]
+
+
+@contextmanager
+def redrawn(joints: list[Corrected]) -> Iterator[None]:
+    """The model of these joints with their corrected ends, while the context lasts."""
+    bodies = {id(b): b for j in joints if j.joint.drawing for b in j.joint.drawing.bodies}.values()
+    drawn = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
+    old = [(j.joint, {name: getattr(j.joint, name) for name in REDRAWN}) for j in joints]
+    try:
+        for given in joints:
+            _redraw(given)
+        yield
+    finally:
+        for joint, attributes in old:
+            for name, value in attributes.items():
+                setattr(joint, name, value)
+        for body, points, axes in drawn:
+            body.joint_points, body.joint_axes = points, axes
+
+
+@dataclass
+class Found:
+    """Constants with which loops move, and the places next to the drawn ones."""
+
+    g: Array
+    start: Closed
+
+
+def _correct(loops: Loops, tolerance: float) -> list[Corrected]:
+    _, J, _ = loops.evaluate(loops.drawn())
+    values = np.linalg.svd(J, compute_uv=False)
+    if J.shape[1] > loops.rows and values[-1] > 3.0 * tolerance * values[0]:
+        return []  # it moves as drawn, and no condition is redundant
+    larger: list[Corrected] | None = None
+    nearly: list[Closed] = []
+    for share in sorted({min(20.0 * tolerance, NEAR), max(20.0 * tolerance, NEAR)}):
+        if np.sum(values > share * values[0]) == loops.rows:
+            continue  # no condition is redundant, not even nearly
+        positions = _loose_motion(loops, share)
+        if not positions:
+            continue
+        if max(c.open for c in positions) <= EXACT or _moves_freely(loops, positions, tolerance):
+            return []
+        # axes next to parallel first made so: there the conditions of a plane loop and of a Bennett loop cross
+        g = _parallel(loops, positions[0], max(4.0 * tolerance, 0.2 * share))
+        found = _constants(loops, positions, share, g)
+        if found is None and np.any(g):
+            found = _constants(loops, positions, share, np.zeros(loops.constants))
+        if found is None:
+            nearly = nearly or positions
+            continue
+        joints = _joints(loops, found, tolerance)
+        if _largest(loops, joints) <= tolerance:
+            return joints
+        larger = larger or joints
+    if (larger or nearly) and _stands_still(loops):
+        _refuse(loops, larger, nearly, tolerance)
+    return []
+
+
+def _loose_motion(loops: Loops, share: float) -> list[Closed]:
+    """Positions along the motion that is left without the conditions that are next to redundant; none if there is no
+    motion or nothing redundant in it.
+    """
+    start = close(loops, loops.drawn(), share)
+    if not start.good or start.right.shape[1] == 0:
+        return []
+    positions = motion(loops, start, share)
+    return positions if len(positions) > 1 and positions[0].rank < loops.rows else []
+
+
+def _moves_freely(loops: Loops, positions: list[Closed], tolerance: float) -> bool:
+    """Whether the loops move as drawn without a redundant condition: what looks redundant then is a short link."""
+    exact = close(loops, positions[1].places, TIGHT)
+    small = max(c.values[c.rank] if c.rank < len(c.values) else 0.0 for c in positions)
+    return bool(exact.good and exact.rank == loops.rows and exact.right.shape[1] > 0 and small > 3.0 * tolerance)
+
+
+def _stands_still(loops: Loops) -> bool:
+    return int(close(loops, loops.drawn(), TIGHT).right.shape[1]) == 0
+
+
+def _parallel(loops: Loops, at: Closed, angle: float) -> Array:
+    """Constants that make axes parallel that are so but for an angle, at a position."""
+    g = np.zeros(loops.constants)
+    ends = [
+        (end, E[:, 0 if loops.planar else 2])
+        for c in loops.conditions
+        if c.joint.drawing is not None and c.joint.drawing.axes is not None
+        for end, (_, E) in zip(c.ends, loops.ends_in_space(c, at.places, None), strict=True)
+    ]
+    while ends:
+        first = ends[0][1]
+        group = [(end, u) for end, u in ends if np.linalg.norm(np.cross(first, u)) <= angle]
+        ends = [(end, u) for end, u in ends if np.linalg.norm(np.cross(first, u)) > angle]
+        mean = np.sum([np.sign(first @ u) * u for _, u in group], axis=0)
+        mean /= np.linalg.norm(mean)
+        for end, u in group:
+            turn = np.cross(u, np.sign(mean @ u) * mean)
+            g[end.turn : end.turn + 3] = turn if end.body < 0 else at.places.axes[end.body].T @ turn
+    return g
+
+
+def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) -> Found | None:
+    """The constants next to `g` with which the loops close at all positions, also at others than these; None where the
+    iteration finds none.
+    """
+    positions = [close(loops, c.places, share, g) for c in positions]
+    positions = [c for c in positions if c.good and c.rank == positions[0].rank]
+    for seed in (1, 2, 3):
+        closed = _close_all(loops, positions, g, share)
+        if closed is None:
+            return None
+        g, positions = closed
+        start = close(loops, loops.drawn(), share, g)
+        start = close(loops, start.places, TIGHT, g)
+        if not start.good or start.open > EXACT:
+            return None
+        more = motion(loops, close(loops, start.places, share, g), share, g, seed)
+        if max(c.open for c in more) <= EXACT:
+            return Found(g, start)
+        positions = positions + more
+    return None
+
+
+def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) -> tuple[Array, list[Closed]] | None:
+    if not positions:
+        return None
+    rank, best, waited = positions[0].rank, np.inf, 0
+    for _ in range(ITERATIONS):
+        worst = max(c.open for c in positions)
+        waited = 0 if worst < 0.5 * best else waited + 1
+        best = min(best, worst)
+        if worst <= 0.02 * EXACT or (waited == 3 and worst <= 0.5 * EXACT):
+            return g, positions
+        if waited > 6:
+            return None
+        C = np.vstack([c.left.T @ loops.evaluate(c.places, g, True)[2] for c in positions])
+        e = np.concatenate([c.misfit for c in positions])
+        U, s, Vt = np.linalg.svd(C, full_matrices=False)
+        k = _explaining(U.T @ e, float(np.linalg.norm(e)), s)
+        g = g - Vt[:k].T @ ((U[:, :k].T @ e) / s[:k])
+        if np.max(np.abs(g)) > 3.0 * NEAR:
+            return None
+        again = [close(loops, c.places, share, g) for c in positions]
+        positions = [c for c in again if c.good and c.rank == rank]
+        if 2 * len(positions) < len(again):
+            return None
+    return None
+
+
+def _explaining(parts: Array, size: float, s: Array) -> int:
+    """How many directions, the most sensitive first, explain the misfit but for a remainder: others would fit noise."""
+    rest = np.sqrt(np.maximum(0.0, size**2 - np.cumsum(parts**2)))
+    enough = int(np.argmax(rest <= max(REMAINDER * size, 3e-16 * np.sqrt(len(parts))))) + 1
+    return max(1, min(enough, int(np.sum(s > 1e-11 * s[0]))))
+
+
+def _joints(loops: Loops, found: Found, tolerance: float) -> list[Corrected]:
+    """The corrected joints; drawn where they meet if that is next to where the bodies are drawn, else on each body."""
+    places, drawn = found.start.places, loops.drawn()
+    moved = np.max(np.abs(places.centres - drawn.centres)) / loops.size + np.max(np.abs(places.axes - drawn.axes))
+    meets = moved <= 30.0 * max(tolerance, float(np.max(np.abs(found.g))))
+    points: list[Array] = []
+    axes: list[Array] = []
+    return [_joint(loops, c, found.g, places if meets else drawn, meets, points, axes) for c in loops.conditions]
+
+
+def _joint(
+    loops: Loops, c: Condition, g: Array, places: Places, meets: bool, points: list[Array], axes: list[Array]
+) -> Corrected:
+    """One joint; `points` and `axes` are those that have been drawn, which the same ones take over in all digits."""
+    ends = c.joint.drawing
+    assert ends is not None
+    now = loops.ends_in_space(c, places, g)
+    before = loops.ends_in_space(c, loops.drawn(), None)
+    shift = max(float(np.linalg.norm(p - q)) for (p, _), (q, _) in zip(now, before, strict=True))
+    which = 0 if loops.planar else 2
+    p, u = [p for p, _ in now], [E[:, which] for _, E in now]
+    sines = [float(np.linalg.norm(np.cross(a, E[:, which]))) for a, (_, E) in zip(u, before, strict=True)]
+    turn = math.asin(min(1.0, max(sines)))
+    if meets and "point" in c.conditions:
+        p = [0.5 * (p[0] + p[1])] * 2
+    if meets and {"axis", "orientation"} & set(c.conditions):
+        u = [0.5 * (u[0] + u[1])] * 2
+    d = 2 if loops.planar else 3
+    p = [_known(x, points, 1e-12 * loops.size)[:d] for x in p]
+    u = [_known(a / np.linalg.norm(a), axes, 1e-11)[:d] for a in u]
+    length = c.length + (loops.size * float(g[c.constant]) if c.constant >= 0 else 0.0)
+    if c.constant >= 0:
+        shift = max(shift, abs(length - c.length))
+    pair = None if ends.axes is None else (u[0], u[1])
+    return Corrected(c.joint, (p[0], p[1]), pair, length, Correction(shift, turn if pair else 0.0))
+
+
+def _known(v: Array, known: list[Array], near: float) -> Array:
+    """The vector of `known` that this one is (up to its sign if that is opposite), or it is one more."""
+    for w in known:
+        for sign in (1.0, -1.0):
+            if np.max(np.abs(v - sign * w)) <= near:
+                return sign * w
+    known.append(np.where(np.abs(v) < 1e-14, 0.0, v))
+    return known[-1]
+
+
+def _largest(loops: Loops, joints: list[Corrected]) -> float:
+    """The largest correction, parts of the size or rad; infinite if it is a good part of a link."""
+    largest = max(max(j.correction.distance / loops.size, j.correction.angle) for j in joints)
+    points: dict[int, list[tuple[Array, float]]] = {}
+    for c, j in zip(loops.conditions, joints, strict=True):
+        for end in c.ends:
+            points.setdefault(end.body, []).append((end.point, j.correction.distance))
+    for ends in points.values():
+        for k, (p, shift) in enumerate(ends):
+            for q, other in ends[:k]:
+                gap = float(np.linalg.norm(p - q))
+                if 1e-9 * loops.size < gap < (shift + other) / PART_OF_LINK:
+                    return np.inf
+    return largest
+
+
+def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], tolerance: float) -> None:
+    names = ", ".join(f"'{c.joint.name}'" for c in loops.conditions)
+    start = (
+        f"The loop of the joints {names} has more conditions than its motion allows and stands still as drawn, "
+        "although "
+    )
+    allowed = f"{tolerance * loops.size:.3g} m and {tolerance:.3g} rad are allowed. Draw it more exactly"
+    needed = _largest(loops, larger) if larger else np.inf
+    if larger and needed <= MOST_TOLERANCE:
+        worst = max(larger, key=lambda j: max(j.correction.distance / loops.size, j.correction.angle))
+        raise ModelError(
+            f"{start}it would move if its joints closed, '{worst.joint.name}' by {worst.correction.distance:.3g} m and "
+            f"{worst.correction.angle:.3g} rad, where {allowed}, or allow compile more: "
+            f"tolerance={_round_up(needed):g}."
+        )
+    if len(nearly) >= MOVES and max(c.open for c in nearly) <= NEARLY:
+        at = max(nearly, key=lambda c: c.open)
+        open_there = np.abs(loops.evaluate(at.places)[0])
+        name, value = max(zip(loops.names(), open_there.tolist(), strict=True), key=lambda item: item[1])
+        raise ModelError(
+            f"{start}it nearly moves: along that motion its joints stay open, '{name}' by {value * loops.size:.3g} m, "
+            f"where {allowed}."
+        )
+
+
+def _round_up(x: float) -> float:
+    """One digit, not smaller."""
+    power = 10.0 ** math.floor(math.log10(x))
+    return min(MOST_TOLERANCE, math.ceil(1.01 * x / power) * power)
+
+
+def _redraw(given: Corrected) -> None:
+    """Give a joint its new ends, and the bodies their new joint points and axes in place of the old ones."""
+    joint, ends = given.joint, given.joint.drawing
+    assert ends is not None
+    bodies = ends.bodies
+    lists = [(b, b.joint_points, b.joint_axes) for b in bodies]
+
+    made = []
+    for places in ((ends.points, ends.axes, ends.length), (given.points, given.axes, given.length)):
+        for body in bodies:
+            body.joint_points, body.joint_axes = [], []
+        made.append((ends.remake(*places), [(b.joint_points, b.joint_axes) for b in bodies]))
+    (_, before), (new, after) = made
+    if joint.turning is not None:  # a moment of it is read
+        new.hold_turning()
+    for (body, points, axes), (old_points, old_axes), (new_points, new_axes) in zip(lists, before, after, strict=True):
+        body.joint_points = _replaced(points, old_points, new_points)
+        body.joint_axes = _replaced(axes, old_axes, new_axes)
+    for name in REDRAWN:
+        setattr(joint, name, getattr(new, name))
+
+
+def _replaced(items: list[Array], old: list[Array], new: list[Array]) -> list[Array]:
+    found = []
+    for item in items:
+        at = next((k for k, v in enumerate(old) if np.array_equal(v, item)), -1)
+        found.append(item if at < 0 else new[at])
+    return found

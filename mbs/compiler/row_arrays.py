@@ -1,0 +1,204 @@
+"""Rows as the flat arrays of the System, and their values at a position."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from mbs.compiler.polynomial import Polynomial, RowTerms
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+class RowArrays:
+    """The row arrays of the System file by name in `arrays`, with coefficients as written by the joints until `scale`.
+
+    Parameters
+    ----------
+    rows : sequence of RowTerms
+        Over z before the elimination order.
+    new : ndarray
+        New number of each coordinate of z.
+    """
+
+    def __init__(self, rows: Sequence[RowTerms], new: Index) -> None:
+        self.nq = len(new)
+        self.nc = len(rows)
+        pointer, columns, linear, constant = [0], [], [], []
+        quad: list[tuple[int, int, int, float]] = []
+        angles: list[tuple[int, int]] = []
+        angle_terms: list[tuple[int, int, int, float, float]] = []
+        gterms: list[tuple[int, int, int, int, int, float]] = []
+        velocities: list[tuple[int, int, int, float]] = []
+        velocity_rows: list[int] = []
+        for r, row in enumerate(rows):
+            pattern = sorted(int(new[c]) for c in row.columns())
+            place = {c: k for k, c in enumerate(pattern)}
+            place[-1] = -1
+
+            def terms(p: Polynomial, place: dict[int, int] = place) -> list[tuple[int, int, float]]:
+                """(a, b, coefficient) with a >= b, positions within the pattern."""
+                found = []
+                for (i, j), v in p.items():
+                    a, b = place[int(new[i]) if i >= 0 else -1], place[int(new[j]) if j >= 0 else -1]
+                    found.append((max(a, b), min(a, b), v))
+                return sorted(found)
+
+            lin = [0.0] * len(pattern)
+            const = 0.0
+            for a, b, v in terms(row.main):
+                if b >= 0:
+                    quad.append((r, a, b, v))
+                elif a >= 0:
+                    lin[a] += v
+                else:
+                    const += v
+            if row.theta >= 0:
+                n = len(angles)
+                angles.append((r, place[int(new[row.theta])]))
+                both: dict[tuple[int, int], list[float]] = {}
+                for k, p in enumerate((row.cosine, row.sine)):
+                    for a, b, v in terms(p):
+                        both.setdefault((a, b), [0.0, 0.0])[k] = v
+                angle_terms += [(n, a, b, c, s) for (a, b), (c, s) in sorted(both.items())]
+            for guide, power, p in row.guides:
+                gterms += [(r, guide, power, a, b, v) for a, b, v in terms(p)]
+            if row.rates:
+                entries = [
+                    (place[int(new[i]) if i >= 0 else -1], place[int(new[j])], v) for (i, j), v in row.rates.items()
+                ]
+                for a, b, v in sorted(entries):
+                    if a >= 0:
+                        velocities.append((len(velocity_rows), a, b, v))
+                    else:
+                        lin[b] += v
+                velocity_rows.append(r)
+            columns += pattern
+            linear += lin
+            constant.append(const)
+            pointer.append(len(columns))
+        tables = ((quad, 4), (angle_terms, 5), (gterms, 6), (velocities, 4))
+        q, t, g, w = (np.array(x, dtype=float).reshape(-1, k) for x, k in tables)
+        ang = np.array(angles, dtype=np.int64).reshape(-1, 2)
+        self.arrays: dict[str, NDArray[Any]] = {
+            "row_ptr": np.array(pointer, dtype=np.int64),
+            "row_col": np.array(columns, dtype=np.int64),
+            "row_lin": np.array(linear, dtype=float),
+            "row_const": np.array(constant, dtype=float),
+            "quad_ptr": _pointer(q[:, 0], self.nc),
+            "quad_a": q[:, 1].astype(np.int64),
+            "quad_b": q[:, 2].astype(np.int64),
+            "quad_h": q[:, 3].copy(),
+            "angle_row": ang[:, 0].copy(),
+            "angle_theta": ang[:, 1].copy(),
+            "angle_ptr": _pointer(t[:, 0], len(ang)),
+            "angle_a": t[:, 1].astype(np.int64),
+            "angle_b": t[:, 2].astype(np.int64),
+            "angle_hc": t[:, 3].copy(),
+            "angle_hs": t[:, 4].copy(),
+            "gterm_row": g[:, 0].astype(np.int64),
+            "gterm_guide": g[:, 1].astype(np.int64),
+            "gterm_power": g[:, 2].astype(np.int64),
+            "gterm_a": g[:, 3].astype(np.int64),
+            "gterm_b": g[:, 4].astype(np.int64),
+            "gterm_h": g[:, 5].copy(),
+            "velocity_row": np.array(velocity_rows, dtype=np.int64),
+            "velocity_ptr": _pointer(w[:, 0], len(velocity_rows)),
+            "velocity_a": w[:, 1].astype(np.int64),
+            "velocity_b": w[:, 2].astype(np.int64),
+            "velocity_h": w[:, 3].copy(),
+        }
+        self._row_of_entry = np.repeat(np.arange(self.nc), np.diff(self.arrays["row_ptr"]))
+        self._quad_row = q[:, 0].astype(np.int64)
+        self._angle_of_term = t[:, 0].astype(np.int64)
+        self._row_of_velocity = self.arrays["velocity_row"][w[:, 0].astype(np.int64)]
+
+    def scale(self, factor: Array) -> None:
+        """Multiply every row by its factor, shape (nc,)."""
+        a = self.arrays
+        a["row_lin"] = a["row_lin"] * factor[self._row_of_entry]
+        a["row_const"] = a["row_const"] * factor
+        a["quad_h"] = a["quad_h"] * factor[self._quad_row]
+        of_term = factor[a["angle_row"]][self._angle_of_term] if len(self._angle_of_term) else np.zeros(0)
+        a["angle_hc"], a["angle_hs"] = a["angle_hc"] * of_term, a["angle_hs"] * of_term
+        a["gterm_h"] = a["gterm_h"] * factor[a["gterm_row"]]
+        a["velocity_h"] = a["velocity_h"] * factor[self._row_of_velocity]
+
+    def cliques(self) -> list[Index]:
+        """Coordinates of each row, in the new order."""
+        return np.split(self.arrays["row_col"].astype(np.int64), self.arrays["row_ptr"][1:-1]) if self.nc else []
+
+    def evaluate(
+        self, q: Array, guides: Array, guide_rates: Array | None = None
+    ) -> tuple[Array, sparse.csr_matrix, Array]:
+        """Phi, Phi_q and Phi_t at position `q` with guide values and rates (default: at rest).
+
+        A condition on velocities has the matrix A of its A qd in place of Phi_q, and no Phi.
+        """
+        a = self.arrays
+        start, col = a["row_ptr"], a["row_col"]
+        padded = np.append(q, 1.0)  # position -1 is the constant 1
+        jac = np.array(a["row_lin"], dtype=float)
+        phi: Array = a["row_const"] + np.bincount(self._row_of_entry, jac * q[col], minlength=self.nc)[: self.nc]
+        phi_t = np.zeros(self.nc)
+
+        def entry(row: Index, place: Index) -> tuple[Index, Array]:
+            """Index into the row pattern (-1: none) and the value there."""
+            at = np.where(place >= 0, start[row] + place, -1)
+            return at, padded[np.where(at >= 0, col[at], self.nq)] if len(col) else padded[np.full(len(at), self.nq)]
+
+        def add(row: Index, place_a: Index, place_b: Index, h: Array) -> Array:
+            """Add the gradient of h q_a q_b and return the values."""
+            at_a, u = entry(row, place_a)
+            at_b, v = entry(row, place_b)
+            for at, slope in ((at_a, h * v), (at_b, h * u)):
+                np.add.at(jac, at[at >= 0], slope[at >= 0])
+            return h * u * v
+
+        phi += np.bincount(
+            self._quad_row, add(self._quad_row, a["quad_a"], a["quad_b"], a["quad_h"]), minlength=self.nc
+        )[: self.nc]
+        if len(a["angle_row"]):
+            n = len(a["angle_row"])
+            theta_at, theta = entry(a["angle_row"], a["angle_theta"])
+            t = self._angle_of_term
+            cos, sin = np.cos(theta), np.sin(theta)
+            row = a["angle_row"][t]
+            values = {}
+            for name, factor in (("angle_hs", cos), ("angle_hc", -sin)):
+                values[name] = np.bincount(t, add(row, a["angle_a"], a["angle_b"], a[name] * factor[t]), minlength=n)
+            np.add.at(phi, a["angle_row"], values["angle_hs"] + values["angle_hc"])
+            # derivative with respect to theta: -sin S - cos C
+            _, u = entry(row, a["angle_a"])
+            _, v = entry(row, a["angle_b"])
+            C = np.bincount(t, a["angle_hc"] * u * v, minlength=n)
+            S = np.bincount(t, a["angle_hs"] * u * v, minlength=n)
+            np.add.at(jac, theta_at, -sin * S - cos * C)
+        if len(a["gterm_row"]):
+            g, power = a["gterm_guide"], a["gterm_power"]
+            terms = add(a["gterm_row"], a["gterm_a"], a["gterm_b"], a["gterm_h"] * guides[g] ** power)
+            np.add.at(phi, a["gterm_row"], terms)
+            if guide_rates is not None:
+                _, u = entry(a["gterm_row"], a["gterm_a"])
+                _, v = entry(a["gterm_row"], a["gterm_b"])
+                np.add.at(
+                    phi_t, a["gterm_row"], a["gterm_h"] * power * guides[g] ** (power - 1) * guide_rates[g] * u * v
+                )
+        if len(a["velocity_row"]):
+            row = self._row_of_velocity
+            np.add.at(jac, start[row] + a["velocity_b"], a["velocity_h"] * q[col[start[row] + a["velocity_a"]]])
+            phi[a["velocity_row"]] = 0.0
+        matrix = sparse.csr_matrix((jac, col, start), shape=(self.nc, self.nq))
+        return phi, matrix, phi_t
+
+
+def _pointer(owner: Array, n: int) -> Index:
+    """Start of each owner's items; `owner` is ascending."""
+    return np.concatenate([[0], np.cumsum(np.bincount(owner.astype(np.int64), minlength=n)[:n] if n else [])]).astype(
+        np.int64
+    )

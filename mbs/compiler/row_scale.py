@@ -1,0 +1,33 @@
+"""Scaling of the rows by the mass, so that one penalty suits all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from mbs.compiler.polynomial import RowTerms
+from mbs.errors import ModelError
+
+Array = NDArray[np.float64]
+
+
+def row_scale(rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, diagonal: Array) -> tuple[Array, Array]:
+    """`row_scale` and `row_measure` of the System file."""
+    inverse = np.where(diagonal > 0.0, 1.0 / np.where(diagonal > 0.0, diagonal, 1.0), 0.0)
+    squared = Phiq.multiply(Phiq).tocsr()
+    by_mass = np.asarray(squared @ inverse).ravel()
+    length = np.sqrt(np.asarray(squared.sum(axis=1)).ravel())
+    flat = [rows[i] for i in np.flatnonzero(length == 0.0).tolist()]
+    if flat:
+        names = ", ".join(f"'{r.name}' ({r.kind})" for r in flat)
+        raise ModelError(
+            f"The condition of {names} does not move with any coordinate at the start; change the drawing there."
+        )
+    # a row over coordinates without mass is scaled as if they had the mean mass
+    mean = float(np.mean(diagonal[diagonal > 0.0]))
+    by_mass = np.where(by_mass > 0.0, by_mass, length**2 / mean)
+    scale = 1.0 / np.sqrt(by_mass)
+    return scale, 1.0 / (length * scale)

@@ -1,0 +1,89 @@
+"""Position and velocity of z that the drawing and the given velocities ask for."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
+
+from mbs.affine import Affine
+from mbs.compiler.consistent import start_velocity
+from mbs.compiler.full_coordinates import full_mass, symmetric
+from mbs.compiler.natural import NaturalCoordinates
+from mbs.compiler.pose import full_values
+from mbs.compiler.row_arrays import RowArrays
+from mbs.model.guides import TIME
+from mbs.model.model import Model
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+def reference_position(
+    model: Model,
+    natural: NaturalCoordinates,
+    kept: list[int],
+    T: sparse.csr_matrix,
+    z0: Array,
+    M_full: sparse.csr_matrix,
+) -> Array:
+    """z of the reference configuration; where the drawing does not close, the nearest one in the metric of the mass."""
+    reference = np.array([c.reference for c in model.coordinates])
+    z = np.array([natural.info[i].reference for i in kept])
+    if np.max(np.abs(T @ z + z0 - reference)) > 1e-9:
+        M = M_full + sparse.diags(np.where(M_full.diagonal() > 0.0, 0.0, 1.0))
+        z = spsolve((T.T @ M @ T).tocsc(), T.T @ (M @ (reference - z0)))
+    return np.atleast_1d(z)
+
+
+def guide_start(model: Model) -> tuple[Array, Array]:
+    """Value and rate of the guides at time zero."""
+    values = np.array([g.start for g in model.guides], dtype=float)
+    rates = np.zeros(len(model.guides))
+    for g in model.guides:
+        if g.type == TIME:
+            n = int(g.reals[0])
+            breaks, c = np.array(g.reals[1 : n + 2]), np.array(g.reals[n + 2 :]).reshape(n, 6)
+            if breaks[0] <= 0.0 < breaks[-1]:
+                k = int(np.searchsorted(breaks, 0.0, side="right")) - 1
+                t = -breaks[k]
+                rates[g.index] = sum(p * c[k, p] * t ** (p - 1) for p in range(1, 6))
+    return values, rates
+
+
+def velocity(
+    model: Model,
+    full: list[Affine],
+    T: sparse.csr_matrix,
+    z: Array,
+    mass: sparse.csr_matrix,
+    stiffness: sparse.csr_matrix,
+    order: Index,
+    arrays: RowArrays,
+    guides: Array,
+    guide_rates: Array,
+) -> Array:
+    """Start velocity in elimination order, from the velocities of bodies and coordinates."""
+    position = full_values(full, z)
+    rates = np.zeros(len(full))
+    weights, partly = {}, False
+    for k, (linear, angular) in model.body_velocities.items():
+        body = model.bodies[k]
+        part = slice(body.start, body.start + body.size)
+        none = np.zeros(model.dimension), np.zeros(1 if model.dimension == 2 else 3)
+        v, w = (at_rest if given is None else given for given, at_rest in zip((linear, angular), none, strict=True))
+        rates[part] = body.velocity(v, w, position[part])
+        weights[k] = body.velocity_weight(linear is not None, angular is not None or body.is_point)
+        partly = partly or (linear is None) != (angular is None)
+    M_given = full_mass(model, weights)
+    mean = float(np.mean(mass.diagonal()))
+    own = np.zeros(len(full))
+    for i, rate in model.coordinate_rates.items():
+        own[i] = max(mean, model.inertias.get(i, 0.0))
+        rates[i] = rate
+    M_given = M_given + sparse.diags(own)
+    given = symmetric(T.T @ M_given @ T)[order][:, order].tocsr()
+    aim = (T.T @ (M_given @ rates))[order]
+    near = (T.T @ (full_mass(model) @ rates))[order] if partly else None
+    return start_velocity(arrays, mass, stiffness, given, aim, z[order], guides, guide_rates, near)

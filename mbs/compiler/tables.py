@@ -1,0 +1,169 @@
+"""Tables of the System beside mass and rows: signals, elements, sensors, inputs, guides, roads, parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.affine import Affine
+from mbs.compiler.front_arrays import Locate
+from mbs.compiler.polynomial import substitute
+from mbs.elements.types import ElementType
+from mbs.errors import ModelError
+from mbs.model.joints.joint import Joint
+from mbs.model.model import Model
+from mbs.model.reactions import MOST_FACTORS
+from mbs.model.sensors import Sensor
+
+Arrays = dict[str, NDArray[Any]]
+
+NO_TANGENT = {ElementType.INPUT_FORCE}
+"""Element types that add nothing to the tangent, so that their coordinates need not share a front."""
+
+
+class Signals:
+    """Affine signals over z in elimination order, each stored once."""
+
+    def __init__(self, full: Sequence[Affine], new: NDArray[np.int64]) -> None:
+        self._full = full
+        self._new = new
+        self._known: dict[tuple[Any, ...], int] = {}
+        self.rows: list[tuple[list[int], list[float], float]] = []
+
+    def number(self, expression: Affine) -> int:
+        """Number of the signal of an expression of full coordinates."""
+        return self.number_of_z(substitute(expression, self._full))
+
+    def number_of_z(self, z: Affine) -> int:
+        """Number of the signal of an expression of z."""
+        pairs = sorted((int(self._new[j]), v) for j, v in z.terms.items())
+        key = (*pairs, z.constant)
+        if key not in self._known:
+            self._known[key] = len(self.rows)
+            self.rows.append(([c for c, _ in pairs], [v for _, v in pairs], z.constant))
+        return self._known[key]
+
+    def arrays(self) -> Arrays:
+        """The `sig_` arrays."""
+        return {
+            "sig_ptr": pointer([len(r[0]) for r in self.rows]),
+            "sig_col": np.array([c for r in self.rows for c in r[0]], dtype=np.int64),
+            "sig_val": np.array([v for r in self.rows for v in r[1]], dtype=float),
+            "sig_const": np.array([r[2] for r in self.rows], dtype=float),
+        }
+
+
+def pointer(counts: Sequence[int]) -> NDArray[np.int64]:
+    """Starts of consecutive groups."""
+    return np.concatenate([[0], np.cumsum(np.asarray(counts, dtype=np.int64))]).astype(np.int64)
+
+
+def ragged(name: str, groups: Sequence[Sequence[float]], dtype: type, stem: str | None = None) -> Arrays:
+    """``name_ptr`` and ``name`` of a list of lists."""
+    flat = [v for g in groups for v in g]
+    return {f"{stem or name}_ptr": pointer([len(g) for g in groups]), name: np.array(flat, dtype=dtype)}
+
+
+def element_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+    """Coordinates (before ordering) that each element couples in the tangent."""
+    found = []
+    for element in model.elements:
+        if element.type in NO_TANGENT:
+            continue
+        found.append(sorted({j for s in element.signals for j in substitute(s, full).terms}))
+    return found
+
+
+def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
+    """The `el_` arrays and `y0`; `front_of(columns)` returns the front and the local indices of columns."""
+    numbers, fronts, locals_ = [], [], []
+    for element in model.elements:
+        mine = [signals.number(s) for s in element.signals]
+        numbers.append(mine)
+        entries = [c for n in mine for c in signals.rows[n][0]]
+        if element.type in NO_TANGENT or not entries:
+            fronts.append(-1)
+            locals_.append([0] * len(entries))
+        else:
+            front, local = front_of(entries)
+            fronts.append(front)
+            locals_.append(local)
+    e = model.elements
+    return {
+        "el_type": np.array([int(x.type) for x in e], dtype=np.int64),
+        **ragged("el_sig", numbers, np.int64),
+        **ragged("el_real", [x.real for x in e], float),
+        **ragged("el_int", [x.integer for x in e], np.int64),
+        "el_state_ptr": pointer([len(x.states) for x in e]),
+        "el_out_ptr": pointer([len(x.outputs) for x in e]),
+        "el_front": np.array(fronts, dtype=np.int64),
+        **ragged("el_loc", locals_, np.int64),
+        "y0": np.array([v for x in e for v in x.states], dtype=float),
+    }
+
+
+def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], int]) -> Arrays:
+    """The `sen_` arrays; `row_of` maps (joint, equation) to its row."""
+    joints = {id(j): k for k, j in enumerate(model.joints)}
+    ints = []
+    reals: list[Sequence[float]] = []
+
+    def row(sensor: Sensor, joint: Joint, equation: int) -> int:
+        found = row_of.get((joints[id(joint)], equation))
+        if found is None:
+            raise ModelError(
+                f"The sensor '{sensor.name}' has no value: an equation of joint '{joint.name}' follows from the others "
+                "and was left out, so how the load is shared is not determined. Let a body bend, or loosen a joint."
+            )
+        return found
+
+    for sensor in model.sensors:
+        reals.append(sensor.reals)
+        if sensor.joint is not None and not sensor.integers:
+            ints.append([len(sensor.terms)])
+            reals[-1] = [t.weight for t in sensor.terms]
+            for t in sensor.terms:
+                factors = [signals.number(f) for f in t.factors]
+                none = [-1] * (MOST_FACTORS - len(factors))
+                ints[-1] += [row(sensor, sensor.joint, t.equation), *factors, *none, t.guide]
+        elif sensor.joint is not None:
+            rows = [row(sensor, sensor.joint, k) for k in sensor.integers]
+            ints.append([len(rows), *rows])
+        else:
+            rows = [row(sensor, j, k) for j in sensor.joints for k in j.force_equations]
+            ints.append([*sensor.integers, *(signals.number(s) for s in sensor.signals), *rows])
+    return {
+        "sen_type": np.array([s.type for s in model.sensors], dtype=np.int64),
+        **ragged("sen_int", ints, np.int64),
+        **ragged("sen_real", reals, float),
+    }
+
+
+def channel_arrays(model: Model) -> Arrays:
+    """Inputs, guides, roads and parameters."""
+    element_start = pointer([len(e.real) for e in model.elements])
+    guide_start = pointer([len(g.reals) for g in model.guides])
+    road_start = pointer([len(r.real) for r in model.roads])
+    starts = (element_start, guide_start, road_start)
+    targets = [[(t, int(starts[t][k]) + i, s) for t, k, i, s in p.targets] for p in model.parameters]
+    flat = [t for group in targets for t in group]
+    return {
+        "input_start": np.array([i.start for i in model.inputs], dtype=float),
+        "input_min": np.array([i.min for i in model.inputs], dtype=float),
+        "input_max": np.array([i.max for i in model.inputs], dtype=float),
+        "guide_type": np.array([g.type for g in model.guides], dtype=np.int64),
+        "guide_input": np.array([g.input for g in model.guides], dtype=np.int64),
+        **ragged("guide_real", [g.reals for g in model.guides], float),
+        "road_type": np.array([int(r.type) for r in model.roads], dtype=np.int64),
+        **ragged("road_real", [r.real for r in model.roads], float),
+        "par_value": np.array([p.value for p in model.parameters], dtype=float),
+        "par_min": np.array([p.min for p in model.parameters], dtype=float),
+        "par_max": np.array([p.max for p in model.parameters], dtype=float),
+        "par_ptr": pointer([len(g) for g in targets]),
+        "par_target": np.array([t[0] for t in flat], dtype=np.int64),
+        "par_index": np.array([t[1] for t in flat], dtype=np.int64),
+        "par_scale": np.array([t[2] for t in flat], dtype=float),
+    }

@@ -1,0 +1,192 @@
+"""Relative coordinates as the `tree_` arrays of the System.
+
+J. García de Jalón, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, Springer 1994, chapters 5 and 8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.affine import Affine, AffineVector
+from mbs.compiler.natural import choose
+from mbs.compiler.spanning_tree import (
+    MOST_JOINTS,
+    Cut,
+    Group,
+    NoTreeError,
+    frame_along,
+    in_space,
+    rows_of,
+    spanning_tree,
+    turning,
+)
+from mbs.compiler.tables import Signals
+from mbs.model.body import Body
+from mbs.model.model import Model
+
+Array = NDArray[np.float64]
+
+EQUAL_MOMENTS = 1e-12
+"""Relative difference of two principal moments of inertia that are one."""
+CARRIED = 5
+"""Numbers per coordinate that the kernel's state has for what a method carries."""
+NAMES = (
+    *("parent", "slides", "base", "mass", "centre", "inertia", "gravity", "frame"),
+    *("out_body", "out_local", "out_col", "cut_body", "cut_rows", "cut_place"),
+    *("angle_col", "angle_ptr", "angle_joint", "angle_sign", "angle_inertia"),
+)
+
+
+def tree_arrays(
+    model: Model, signals: Signals, kept: Sequence[int], new: NDArray[np.int64]
+) -> tuple[dict[str, Any], str]:
+    """The `tree_` arrays; all empty, with the reason in words, where the model has no tree.
+
+    Parameters
+    ----------
+    signals : Signals
+        Takes the frames of the bodies.
+    kept : sequence of int
+        Natural coordinates that are z.
+    new : ndarray of int
+        Place of each z in elimination order.
+    """
+    try:
+        groups, cuts = spanning_tree(model)
+        moving = groups[1:]
+        rows = sum(sum(rows_of(model, cut)) for cut in cuts)
+        angles = _angles(model, groups, kept, new)
+        if 4 * len(moving) + 1 + rows + len(angles["angle_col"]) > CARRIED * len(kept):
+            raise NoTreeError(f"{len(moving)} joints and {rows} rows of loops are many for {len(kept)} coordinates")
+        arrays = {
+            "parent": [g.parent.number for g in moving if g.parent is not None],
+            "slides": [int(g.slides) for g in moving],
+            "base": _joined([g.base for g in moving]),
+            **_masses(moving),
+            "gravity": in_space(model.gravity),
+            **_coordinates(model, groups, kept, new),
+            **_cut_arrays(model, cuts),
+            **angles,
+            "frame": [number for g in moving for number in _frame_signals(g, signals)],
+        }
+        return {f"tree_{name}": values for name, values in arrays.items()}, ""
+    except NoTreeError as reason:
+        return {f"tree_{name}": [] for name in NAMES}, str(reason)
+
+
+def _joined(parts: Sequence[Array]) -> Array:
+    return np.concatenate([np.zeros(0), *parts])
+
+
+def _masses(moving: Sequence[Group]) -> dict[str, Any]:
+    """Mass, centre of mass and inertia about it in the frame."""
+    masses, centres, inertias = [], [], []
+    for group in moving:
+        mass, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
+        for body in group.bodies:
+            com, s = in_space(body.com), body.first_moment
+            mass += body.mass
+            first = first + body.mass * com + s
+            second = second + body.second_moment + body.mass * np.outer(com, com) + np.outer(com, s) + np.outer(s, com)
+        centre = first / mass
+        moments = group.axes.T @ (second - mass * np.outer(centre, centre)) @ group.axes
+        masses.append(mass)
+        centres.append(group.local(centre))
+        inertias.append(_principal(np.trace(moments) * np.eye(3) - moments))
+    return {"mass": masses, "centre": _joined(centres), "inertia": _joined(inertias)}
+
+
+def _principal(J: Array) -> Array:
+    """j, k1, e1, k2, e2 of J = j 1 + k1 e1 e1' + k2 e2 e2'; k2 = 0 where two principal moments are equal."""
+    values, vectors = np.linalg.eigh(0.5 * (J + J.T))
+    # the moment with the nearest neighbour is the isotropic part
+    alike, near, far = (0, 1, 2) if values[1] - values[0] <= values[2] - values[1] else (2, 1, 0)
+    k2 = values[near] - values[alike]
+    if abs(k2) <= EQUAL_MOMENTS * values[2]:
+        k2 = 0.0
+    k1 = values[far] - values[alike]
+    return np.array([values[alike], k1, *vectors[:, far], k2, *vectors[:, near]])
+
+
+def _frame_signals(group: Group, signals: Signals) -> list[int]:
+    """Signals of the origin, then of the columns of the frame."""
+    body = group.bodies[0]
+    parts = [_components(body, group.origin, True), *(_components(body, axis, False) for axis in group.axes.T)]
+    return [signals.number(component) for part in parts for component in part.components]
+
+
+def _components(body: Body, drawn: Array, is_point: bool) -> AffineVector:
+    """Three components of a drawn point or vector of a body."""
+    v = drawn[: body.dimension]
+    part = body.point(v) if is_point else body.vector(v)
+    return AffineVector((*part.components, *(Affine({}, float(x)) for x in drawn[body.dimension :])))
+
+
+def _coordinates(model: Model, groups: Sequence[Group], kept: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
+    """The points (1) and vectors (0) whose components are coordinates of the System: body, local components, places."""
+    owner = {id(body): group for group in groups for body in group.bodies}
+    place = {i: int(new[z]) for z, i in enumerate(kept)}
+    bodies, locals_, columns = [], [], []
+    for body in model.bodies:
+        group, d = owner[id(body)], body.dimension
+        for n, (_, o, w) in enumerate(choose(body)):
+            mine = [place.get(body.start + d * n + k, -1) for k in range(d)]
+            if max(mine) < 0:
+                continue
+            if group.number == 0:
+                raise NoTreeError(f"body '{body.name}' is welded to the ground")
+            drawn = in_space(o * body.com + w)
+            bodies.append(group.number)
+            locals_.append(np.array([o, *(group.local(drawn) if o else group.axes.T @ drawn)]))
+            columns += mine + [-1] * (3 - d)
+    return {"out_body": bodies, "out_local": _joined(locals_), "out_col": columns}
+
+
+def _angles(model: Model, groups: Sequence[Group], kept: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
+    """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
+    place = {i: int(new[z]) for z, i in enumerate(kept)}
+    arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
+    for joint in model.joints:
+        if joint.turn is None:
+            continue
+        parts = turning(model, list(groups), joint)
+        inertia = model.inertias.get(joint.turn.coordinate, 0.0)
+        if inertia > 0.0 and not _one_path(groups, [number for number, _ in parts]):
+            raise NoTreeError(f"the armature of relative angle '{joint.name}' couples two branches of the tree")
+        arrays["col"].append(place[joint.turn.coordinate])
+        arrays["joint"] += [number for number, _ in parts]
+        arrays["sign"] += [sign for _, sign in parts]
+        arrays["ptr"].append(len(arrays["joint"]))
+        arrays["inertia"].append(inertia)
+    if len(arrays["col"]) > MOST_JOINTS:
+        raise NoTreeError(f"{len(arrays['col'])} relative angles are there, at most {MOST_JOINTS} may be")
+    return {f"angle_{name}": values for name, values in arrays.items()}
+
+
+def _one_path(groups: Sequence[Group], numbers: Sequence[int]) -> bool:
+    """Whether bodies are all on the way from one of them to the ground."""
+    path, group = set(), groups[max(numbers, default=0)]
+    while group.parent is not None:
+        path.add(group.number)
+        group = group.parent
+    return path.issuperset(numbers)
+
+
+def _cut_arrays(model: Model, cuts: Sequence[Cut]) -> dict[str, Any]:
+    """Bodies, numbers of rows, point and normals of the axis on the first body, point and axis on the second."""
+    bodies: list[int] = []
+    rows: list[int] = []
+    places: list[Array] = []
+    for cut in cuts:
+        first, second = cut.groups
+        points = [g.local(in_space(p)) for g, p in zip(cut.groups, cut.places.points, strict=True)]
+        frames = [frame_along(axis) for axis in cut.places.axes or (None, None)]
+        bodies += [first.number, second.number]
+        rows += rows_of(model, cut)
+        normals = (first.axes.T @ frames[0])[:, :2]
+        places += [points[0], normals.T.ravel(), points[1], second.axes.T @ frames[1][:, 2]]
+    return {"cut_body": bodies, "cut_rows": rows, "cut_place": _joined(places)}

@@ -1,0 +1,96 @@
+"""Angles at the joints of closed loops: what tells one assembly mode from another.
+
+A joint J of a ring with the joints P and Q before and after it makes the triad P, J, Q. Seen along an axis n the angle
+from JP to JQ is 0 or pi where the two bodies lie in line: at a dead centre, where the motion may leave in another
+assembly mode. The axis is that of J, else that of a hinge at P or Q (a wishbone), else the line to a third joint of a
+body (a track rod on an upright).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbs.affine import Affine, AffineVector
+from mbs.compiler.loops import Block, Edge, Vertex, rings
+
+
+@dataclass(frozen=True)
+class Triad:
+    """Axis n, arms a and b from the joint, number of the ring; `turned` where b is a slide's axis, to which the body is
+    perpendicular.
+    """
+
+    name: str
+    n: AffineVector
+    a: AffineVector
+    b: AffineVector
+    turned: bool
+    ring: int
+
+    @property
+    def components(self) -> list[Affine]:
+        """The nine components of n, a, b."""
+        return [c for v in (self.n, self.a, self.b) for c in v.components]
+
+
+def triads(block: Block) -> list[Triad]:
+    """One triad at each joint between two moving vertices of each ring.
+
+    The length of a rod says nothing about two bodies that a ring without it ties.
+    """
+    found = {}
+    tied: set[int] = set()
+    for number, ring in enumerate(rings(block)):
+        has_rod = any(v.is_rod for v in ring)
+        for k, v in enumerate(ring):
+            w = ring[(k + 1) % len(ring)]
+            edge = v.edges[w]
+            if block.held in (v, w) or edge.slides:
+                continue
+            if not has_rod:
+                tied.add(id(edge))
+            elif id(edge) in tied:
+                continue
+            before = v.edges[ring[k - 1]]
+            after = w.edges[ring[(k + 2) % len(ring)]]
+            new = _triad(edge, (v, before), (w, after), block, number)
+            if new is not None:
+                found[(id(edge), id(before), id(after))] = new
+    return list(found.values())
+
+
+def _triad(
+    edge: Edge, first: tuple[Vertex, Edge], second: tuple[Vertex, Edge], block: Block, ring: int
+) -> Triad | None:
+    (a, turned_a), (b, turned_b) = _arm(edge, *first), _arm(edge, *second)
+    n = _axis(edge, first, second, block)
+    if n is None or (turned_a and turned_b):
+        return None
+    if turned_a:
+        a, b = b, a
+    return Triad(edge.joints[0].name, _in_space(n), _in_space(a), _in_space(b), turned_a or turned_b, ring)
+
+
+def _arm(edge: Edge, vertex: Vertex, end: Edge) -> tuple[AffineVector, bool]:
+    """From the joint along the body of `vertex`; of one that slides on a line of its neighbour, that line."""
+    if end.slides and end.line_of is not vertex and end.axis is not None:
+        return end.axis, True
+    return end.point - edge.point, False
+
+
+def _axis(edge: Edge, first: tuple[Vertex, Edge], second: tuple[Vertex, Edge], block: Block) -> AffineVector | None:
+    if len(edge.point) == 2:
+        return AffineVector.constant((0.0, 0.0, 1.0))
+    for candidate in (edge, first[1], second[1]):
+        if candidate.axis is not None and not candidate.slides:
+            return candidate.axis
+    mine = {id(e) for e in block.edges}
+    for vertex, end in (first, second):
+        for third in vertex.edges.values():
+            if id(third) in mine and third is not edge and third is not end:
+                return third.point - end.point
+    return None
+
+
+def _in_space(v: AffineVector) -> AffineVector:
+    return v if len(v) == 3 else AffineVector((*v.components, Affine()))

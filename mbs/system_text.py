@@ -1,0 +1,46 @@
+"""What `print(system)` says: counts, rank and degrees of freedom, non-zeros."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+
+def _length(report: dict[str, Any]) -> list[str]:
+    """What tolerances are relative to; older Systems do not tell it."""
+    if "length" not in report:
+        return []
+    source = "stated" if report["length_stated"] else "extent of the drawing"
+    return [f"  length, m             {report['length']:>8.4g}   ({source}; tolerances are relative to it)"]
+
+
+def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
+    """The report as lines of text."""
+    rank, dofs = report["rank"], report["degrees_of_freedom"]
+    space = "planar" if dimension == 2 else "spatial"
+    r = report
+    lines = [
+        f"System '{name}' ({space})",
+        f"  bodies                {r['bodies']:>8}",
+        f"  full coordinates      {r['full_coordinates']:>8}",
+        f"  linear equations      {r['linear_equations']:>8}   ({r['redundant_equations']} of them redundant)",
+        f"  coordinates           {r['coordinates']:>8}",
+        f"  rows                  {r['rows']:>8}   ({r['dependent_rows']} dependent ones removed)",
+        f"  rank at reference     {'not computed' if rank is None else rank:>8}",
+        f"  degrees of freedom    {'not computed' if dofs is None else dofs:>8}",
+        f"  non-zeros of tangent  {r['tangent_nonzeros']:>8}   (lower triangle)",
+        f"  non-zeros of factor   {r['factor_nonzeros']:>8}   ({r['fronts']} fronts, largest {r['largest_front']})",
+        f"  force elements        {r['elements']:>8}",
+        *_length(r),
+        f"  inputs, sensors       {r['inputs']:>8}, {r['sensors']}",
+    ]
+    if r.get("closed"):
+        lines.append(f"  closed by least squares        {_correction_text(r['closed'])}")
+    return "\n".join(lines)
+
+
+def _correction_text(corrections: Mapping[str, tuple[float, float]]) -> str:
+    """The largest correction and the number of joints, as one line."""
+    name = max(corrections, key=lambda n: max(corrections[n]))
+    distance, angle = corrections[name]
+    return f"joint '{name}' closes by {distance:.2g} m, {angle:.2g} rad, the largest of {len(corrections)} corrections"

@@ -1,0 +1,52 @@
+"""q_full = T z + z0 satisfies every linear joint equation, whatever the numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import ModelError
+from mbs.affine import Affine
+from mbs.compiler.eliminate import eliminate
+
+ROUND_OFF = 1e-10
+
+
+def random_equations(rng, n, count):
+    equations = []
+    for k in range(count):
+        columns = rng.choice(n, size=rng.integers(2, 5), replace=False)
+        equations.append((f"joint {k}", Affine({int(c): float(rng.normal()) for c in columns}, float(rng.normal()))))
+    return equations
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_every_solution_of_z_solves_the_equations(seed):
+    rng = np.random.default_rng(seed)
+    n, count = 40, 25
+    equations = random_equations(rng, n, count)
+    result = eliminate(n, equations, set(), set())
+    dense = np.array([[e.terms.get(i, 0.0) for i in range(n)] for _, e in equations])
+    assert len(result.kept) == n - np.linalg.matrix_rank(dense)
+    for _ in range(3):
+        z = rng.normal(size=len(result.kept))
+        q = np.array([e.value(z) for e in result.expressions])
+        size = 1.0 + np.abs(q).max()
+        assert max(abs(e.value(q)) for _, e in equations) < ROUND_OFF * size
+        np.testing.assert_array_equal(q[result.kept], z)
+
+
+def test_dependent_equations_are_counted_and_contradictions_refused():
+    a, b = Affine({0: 1.0, 1: -1.0}, 0.5), Affine({1: 2.0, 2: 1.0}, -1.0)
+    total = a * 3.0 + b
+    assert eliminate(3, [("a", a), ("b", b), ("sum", total)], set(), set()).redundant == 1
+    with pytest.raises(ModelError, match="cannot close") as error:
+        eliminate(3, [("a", a), ("b", b), ("sum", total + 1e-3)], set(), set())
+    assert "0.001 m" in str(error.value) or "0.000333 m" in str(error.value)
+
+
+def test_locked_coordinates_stay():
+    result = eliminate(3, [("a", Affine({0: 1.0, 1: -1.0, 2: 5.0}))], {2}, set())
+    assert 2 in result.kept
+    with pytest.raises(ModelError, match="guide"):
+        eliminate(3, [("a", Affine({2: 1.0}, -0.3))], {2}, set())

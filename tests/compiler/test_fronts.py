@@ -1,0 +1,62 @@
+"""Symbolic factorization: the fronts hold every entry of the factor, and the tree is a tree."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import compile
+from mbs.compiler.fronts import build_fronts
+from mbs.compiler.ordering import clique_pattern, fill_reducing_order
+from tests.compiler.mechanisms import MODELS
+
+
+def covered(fronts, n):
+    """Entries (lower triangle) of the factor that the fronts have a place for."""
+    place = np.zeros((n, n), dtype=bool)
+    for s, index in enumerate(fronts.index):
+        for k in range(fronts.col[s + 1] - fronts.col[s]):
+            place[index[k:], index[k]] = True
+    return place
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("n", [5, 60, 150])
+def test_the_numeric_factor_fits_into_the_fronts(seed, n):
+    rng = np.random.default_rng(seed)
+    cliques = [rng.choice(n, size=rng.integers(2, 5), replace=False) for _ in range(n)]
+    pattern = clique_pattern(n, cliques)
+    fronts = build_fronts(pattern, fill_reducing_order(pattern))
+    assert sorted(fronts.order) == list(range(n))
+    A = pattern.toarray() * rng.uniform(0.1, 1.0, size=(n, n))
+    A = A + A.T + 2 * n * np.eye(n)
+    A = A[np.ix_(fronts.order, fronts.order)]
+    L = np.linalg.cholesky(A)
+    assert not np.any((L != 0.0) & (np.abs(L) > 1e-14) & ~covered(fronts, n))
+    for s, parent in enumerate(fronts.parent):
+        rest = fronts.index[s][fronts.col[s + 1] - fronts.col[s] :]
+        assert (parent == -1) == (len(rest) == 0)
+        if len(rest):
+            assert parent > s
+            assert set(rest) <= set(fronts.index[parent])
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_rows_and_mass_point_into_their_fronts(name):
+    a = compile(MODELS[name]()).arrays
+    for r, s in enumerate(a["row_front"]):
+        part = slice(a["row_ptr"][r], a["row_ptr"][r + 1])
+        index = a["front_idx"][a["front_ptr"][s] : a["front_ptr"][s + 1]]
+        np.testing.assert_array_equal(index[a["row_loc"][part]], a["row_col"][part])
+    mass_row = np.repeat(np.arange(len(a["q0"])), np.diff(a["mass_ptr"]))
+    for k, at in enumerate(a["mass_pos"]):
+        i, j = mass_row[k], a["mass_col"][k]
+        if i < j:
+            assert at == -1
+            continue
+        s = np.searchsorted(a["front_off"], at, side="right") - 1
+        m = a["front_ptr"][s + 1] - a["front_ptr"][s]
+        column, row = divmod(at - a["front_off"][s], m)
+        index = a["front_idx"][a["front_ptr"][s] :]
+        assert (index[row], index[column]) == (i, j)
+        assert a["front_col"][s] <= j < a["front_col"][s + 1]
