@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import mbs
-from benchmarks.cases import CASES, system_of
-from benchmarks.honesty_scenes import printed_model
+from benchmarks.methods.honesty_scenes import printed_model
+from benchmarks.references.cases import CASES, system_of
 from mbs import Model, Settings, Simulation, SimulationError, accuracy, compile, simulate
 from mbs.kernel import binding
 from mbs.scenes import cart_pole
