@@ -15,9 +15,9 @@ from benchmarks.baselines.run import run
 from benchmarks.methods.kernel_methods import TITLES, all_settings, controlled, suits
 from benchmarks.references.cases import CASES, SAMPLES, SHARED, exact_of, system_of
 from benchmarks.shared.command import watched
-from mbs.controlled_run import ControlledRun, StalledError, Task
 from mbs.kernel.binding import KernelError
-from mbs.method_choice import ORDERS
+from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
+from mbs.simulation.method_choice import ORDERS
 
 ROUNDS, FEW_ROUNDS = 7, 2
 LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few rounds, or the first run, must do
