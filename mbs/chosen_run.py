@@ -16,7 +16,7 @@ from mbs.control import ALLOWED, Control
 from mbs.controlled_run import ControlledRun, StalledError, Task, length_of
 from mbs.errors import SimulationError
 from mbs.input_signals import Signal
-from mbs.kernel.binding import NO_TREE, NOT_CONVERGED, WRONG_METHOD, KernelError
+from mbs.kernel.binding import KernelError, Status
 from mbs.method_choice import choose
 from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
@@ -207,7 +207,7 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation)
         f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share, as short "
         f"as {run.fields.smallest:.1e} s; a larger tolerance or another method will do.",
         time,
-        NOT_CONVERGED,
+        Status.NOT_CONVERGED,
         _so_far(run, times, first),
     )
 
@@ -215,7 +215,7 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation)
 def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation, error: KernelError) -> SimulationError:
     """The failure with what was recorded until then."""
     simulation = run.simulation
-    if error.status in (NO_TREE, WRONG_METHOD):
+    if error.status in (Status.NO_TREE, Status.WRONG_METHOD):
         return simulation.failure("The run was refused", error, _so_far(run, times, first))
     what = (
         f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "

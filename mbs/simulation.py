@@ -20,18 +20,7 @@ from mbs.branch_warning import BranchWarning
 from mbs.control import checked_tolerance
 from mbs.errors import SimulationError
 from mbs.input_signals import InputSignals, Signal, unit_text
-from mbs.kernel.binding import (
-    BELOW_ROAD,
-    NO_TREE,
-    TOO_FAR,
-    TOO_STIFF,
-    UNRESOLVED,
-    WRONG_METHOD,
-    Instance,
-    KernelError,
-    LoadedSystem,
-    open_row,
-)
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status, open_row
 from mbs.large_bending import BendingWatch
 from mbs.progress import progress_for
 from mbs.run_report import Report
@@ -390,24 +379,24 @@ class Simulation:
     def _error(self, what: str, error: KernelError, trajectory: Trajectory | None = None) -> SimulationError:
         report = self.instance.report()
         message = f"{what}: {error.message}"
-        if error.status in (WRONG_METHOD, NO_TREE):
-            if error.status == NO_TREE:
+        if error.status in (Status.WRONG_METHOD, Status.NO_TREE):
+            if error.status == Status.NO_TREE:
                 message += f" Here {self._meta['report']['no_tree']}."
             message += f" The method is {self.settings.method!r}; 'ali3p' takes every System."
             return SimulationError(message, self.time, error.status, trajectory)
-        if error.status == BELOW_ROAD:
+        if error.status == Status.BELOW_ROAD:
             message += f" {self.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
             return SimulationError(message, self.time, error.status, trajectory)
-        if error.status == TOO_STIFF:
+        if error.status == Status.TOO_STIFF:
             rate = report["fastest_rate"]
-        if error.status == TOO_STIFF and rate > 0.0:
+        if error.status == Status.TOO_STIFF and rate > 0.0:
             times = f"{rate:.3g} 1/s, which times the step of {self._tried:g} s is {rate * self._tried:.3g}"
             message += (
                 f" Its rate here is {times}; that should be below about {STIFF_STEP:g}. Implicit methods "
                 "('ali3p', 'radau_5') need not follow it."
             )
         # neither row nor balance is at fault where nothing was solved yet, or all was but did work
-        if not report["factorizations"] or error.status in (UNRESOLVED, TOO_STIFF, TOO_FAR):
+        if not report["factorizations"] or error.status in (Status.UNRESOLVED, Status.TOO_STIFF, Status.TOO_FAR):
             return SimulationError(message, self.time, error.status, trajectory)
         worst = open_row(report, [row["name"] for row in self._meta["rows"]])
         if worst:

@@ -1,4 +1,4 @@
-"""Numbers and structures of the kernel's C headers. Written by `python -m mbs.kernel.read_headers`."""
+"""Numbers and structures of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
 
 from ctypes import POINTER, Structure, c_double, c_int32, c_int64
 from enum import IntEnum
@@ -217,3 +217,15 @@ class InputTables(Structure):
         ("n", c_int32),
         ("table", POINTER(InputTable)),
     )
+
+
+STRUCTURES = {
+    "ali3_settings": SettingsFields,
+    "ali3_report": ReportFields,
+    "ali3_sizes": Sizes,
+    "ali3_control": ControlFields,
+    "ali3_record": RecordFields,
+    "ali3_input_table": InputTable,
+    "ali3_input_tables": InputTables,
+}
+"""By their names in C."""

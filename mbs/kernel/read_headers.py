@@ -2,7 +2,7 @@
 
 The headers are the source. After a change of theirs:
 
-    python -m mbs.kernel.read_headers
+    python mbs/kernel/read_headers.py
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ def structure(name: str) -> list[tuple[str, str]]:
 def header() -> str:
     """Text of `header.py`."""
     parts = [
-        '"""Numbers and structures of the kernel\'s C headers. Written by `python -m mbs.kernel.read_headers`."""',
+        '"""Numbers and structures of the kernel\'s C headers. Written by `python mbs/kernel/read_headers.py`."""',
         "from ctypes import POINTER, Structure, c_double, c_int32, c_int64\nfrom enum import IntEnum",
     ]
     public, limits = text_of(PUBLIC), []
@@ -130,6 +130,8 @@ def header() -> str:
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")
         parts.append(_class(name, "Structure", f"`ali3_{c_name}`.", body))
+    names = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
+    parts.append(f'\nSTRUCTURES = {{\n{names}\n}}\n"""By their names in C."""')
     return "\n\n".join(parts) + "\n"
 
 
