@@ -13,15 +13,19 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.accuracy import AccuracyWarning
 from mbs.branch_warning import BranchWarning
 from mbs.control import ALLOWED, Control
-from mbs.controlled_run import ControlledRun, StalledError, Task, length_of
 from mbs.errors import SimulationError
 from mbs.input_signals import Signal
 from mbs.kernel.binding import KernelError, Status
-from mbs.method_choice import choose
 from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
-from mbs.simulation import Simulation, check_end, notices_of, prepared
-from mbs.step_choice import StepChoice, choose_step
+from mbs.simulation.arguments import check_end
+from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
+from mbs.simulation.march import notices_of
+from mbs.simulation.method_choice import choose
+from mbs.simulation.prepared_system import length_of, prepared
+from mbs.simulation.refusal import refusal
+from mbs.simulation.step_choice import StepChoice, choose_step
+from mbs.simulation.stepping import Simulation
 from mbs.trajectory import Trajectory
 
 Array = NDArray[np.float64]
@@ -216,12 +220,12 @@ def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation,
     """The failure with what was recorded until then."""
     simulation = run.simulation
     if error.status in (Status.NO_TREE, Status.WRONG_METHOD):
-        return simulation.failure("The run was refused", error, _so_far(run, times, first))
+        return refusal(simulation, "The run was refused", error, _so_far(run, times, first))
     what = (
         f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "
         f"{run.fields.h:.2g} s long in the end"
     )
-    return simulation.failure(what, error, _so_far(run, times, first))
+    return refusal(simulation, what, error, _so_far(run, times, first))
 
 
 def _warn(control: Control) -> None:

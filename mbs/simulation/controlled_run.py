@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from mbs.input_signals import InputSignals, Signal
 from mbs.kernel.binding import ControlFields, KernelError
 from mbs.settings import Settings
-from mbs.simulation import Simulation, prepared
-from mbs.system import System
+from mbs.simulation.prepared_system import length_of, prepared
+from mbs.simulation.stepping import Simulation
 
 Array = NDArray[np.float64]
 CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
@@ -168,11 +168,6 @@ class ControlledRun:
     def distance(self, other: ControlledRun) -> float:
         """Largest distance of the positions of two runs, in parts of the length."""
         return float(np.max(np.abs(self.positions - other.positions) * self.scale, initial=0.0)) / self.length
-
-
-def length_of(system: System) -> float:
-    """The model's length, m; 1 m in the Systems of before."""
-    return float(prepared(system)[1]["report"].get("length", 1.0))
 
 
 def tightened(settings: Settings, error: float, q: Array) -> Settings:

@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbs.controlled_run import ControlledRun, StalledError, Task
 from mbs.errors import SimulationError
 from mbs.kernel.binding import KernelError, Status
 from mbs.settings import Settings
-from mbs.simulation import Simulation, prepared
+from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
+from mbs.simulation.prepared_system import prepared
+from mbs.simulation.stepping import Simulation
 from mbs.system import System
 
 ORDERS = {

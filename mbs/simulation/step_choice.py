@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.controlled_run import length_of
 from mbs.errors import SimulationError
 from mbs.input_signals import Signal
-from mbs.method_choice import ORDERS
 from mbs.progress import Progress
-from mbs.simulation import Simulation, prepared
+from mbs.simulation.method_choice import ORDERS
+from mbs.simulation.prepared_system import length_of, prepared
+from mbs.simulation.stepping import Simulation
 from mbs.system import System
 
 Array = NDArray[np.float64]
