@@ -39,8 +39,6 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
   return begin(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
 }
 
-double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
-
 static ali3_status step(ali3_instance *in, double h) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
@@ -119,8 +117,3 @@ ali3_status ali3_sensors(ali3_instance *in, double *out) {
   return ALI3_OK;
 }
 
-ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
-  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
-  *out = in->report;
-  return ALI3_OK;
-}

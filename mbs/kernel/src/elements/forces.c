@@ -51,6 +51,19 @@ static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, d
   a->idle = 0;
 }
 
+/* Power and forces of element e on its n signals, where a sensor asks for its work. */
+static void record(ali3_instance *in, int32_t e, const double *f, const double *ud, int32_t n) {
+  const ali3_system *S = in->system;
+  const int32_t k = S->work_of[e];
+  if (k < 0) return;
+  double *force = in->watched + S->n_work + S->work_ptr[k], power = 0.0;
+  for (int32_t i = 0; i < n; i++) {
+    force[i] = f[i];
+    power += f[i] * ud[i];
+  }
+  in->watched[k] = power;
+}
+
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_LOCAL], ud[ALI3_LOCAL], f[ALI3_LOCAL];
@@ -73,7 +86,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     (discrete != NULL ? discrete : S->el_kind[e]->evaluate)(&a);
     call->potential[e] = a.potential;
     in->idle[e] = (unsigned char)a.idle;
-    if (S->n_work > 0) ali3_work_watch(in, e, f, ud, a.nsig);
+    if (S->n_work > 0) record(in, e, f, ud, a.nsig);
     if (a.idle) continue;
     for (int32_t i = 0; i < a.nsig; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];

@@ -156,8 +156,3 @@ ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
   return status;
 }
 
-ali3_status ali3_run_status(const ali3_report *report) {
-  if (report == NULL) return ALI3_BAD_ARGUMENT;
-  const ali3_status last = (ali3_status)report->last_status;
-  return last == ALI3_OK && report->branch_changes > 0 ? ALI3_BRANCH_CHANGED : last;
-}

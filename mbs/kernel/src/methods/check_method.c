@@ -27,14 +27,6 @@ static bool conservative(const ali3_instance *in, int32_t e) {
   }
 }
 
-/* No element states and no filtered guides: what a stage inside a step needs is then known from q, qd and the time. */
-bool ali3_without_memory(const ali3_system *S) {
-  if (S->size.ny > 0) return false;
-  for (int32_t g = 0; g < S->size.ng; g++)
-    if (S->guide_type[g] == 1) return false;
-  return true;
-}
-
 /* Whether the method of the settings steps relative coordinates. */
 bool ali3_relative(const ali3_instance *in) {
   const int32_t method = in->settings.method;

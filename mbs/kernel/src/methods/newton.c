@@ -1,37 +1,10 @@
-/* What all methods share: M x, the penalty, and how far a vector or the rows are from good. */
+/* What Newton's iterations of all methods share: the penalty, and how far an iterate is from balance. */
 #include <math.h>
 
 #include "../ali3_internal.h"
 
 static const double LOST = 1.0; /* m or so: rows this far open belong to an iteration that ran away */
 static const double MOST_STIFF = 100.0; /* a higher penalty would only bring round-off */
-
-bool ali3_finite(const double *v, int64_t n) {
-  double sum = 0.0; /* x - x is 0 for finite x, NaN else */
-  for (int64_t i = 0; i < n; i++) sum += v[i] - v[i];
-  return sum == 0.0;
-}
-
-void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out) {
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    double sum = 0.0;
-    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += S->mass_val[k] * x[S->mass_col[k]];
-    out[i] = sum;
-  }
-}
-
-void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
-  ali3_constant_mass_times(in->system, x, out);
-  if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
-}
-
-/* a' M b, M of the last q prepared; M b stays in `work` (nq). */
-double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work) {
-  double sum = 0.0;
-  ali3_mass_times(in, b, work);
-  for (int32_t i = 0; i < in->system->size.nq; i++) sum += work[i] * a[i];
-  return sum;
-}
 
 /* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
  * resist a row rather by their stiffness, K h^2/4 against M, the multipliers need a higher penalty to converge as
@@ -40,34 +13,6 @@ double ali3_penalty(const ali3_instance *in, double h) {
   const ali3_settings *s = &in->settings;
   const double stiff = 0.25 * h * h * in->system->flex_rate;
   return s->alpha > 0.0 ? s->alpha : (1.0 + (stiff < MOST_STIFF ? stiff : MOST_STIFF)) / (s->eps_rel * h * h);
-}
-
-double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
-  double largest = 0.0;
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    const double v = fabs(Phi[k]) * S->row_measure[k];
-    if (!(v <= largest) && largest == largest) { /* a NaN stays */
-      largest = v;
-      *worst = k;
-    }
-  }
-  return largest;
-}
-
-/* By how much the worst row is open beyond its round-off, m; of finite rows. */
-double ali3_opening(const ali3_system *S, const double *Phi) {
-  double largest = 0.0;
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    const double v = fabs(Phi[k]) * S->row_measure[k] - S->row_round[k];
-    if (v > largest) largest = v;
-  }
-  return largest;
-}
-
-bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance) {
-  for (int32_t k = 0; k < S->size.nc; k++)
-    if (!(fabs(Phi[k]) * S->row_measure[k] <= tolerance + S->row_round[k])) return false;
-  return true;
 }
 
 /* The balance r (nq) and the rows in in->Phi go into the report. Returns false when something is not finite. */
