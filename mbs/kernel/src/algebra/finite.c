@@ -1,5 +1,5 @@
 /* Whether numbers are finite. */
-#include "../ali3_internal.h"
+#include "finite.h"
 
 bool ali3_finite(const double *v, int64_t n) {
   double sum = 0.0; /* x - x is 0 for finite x, NaN else */

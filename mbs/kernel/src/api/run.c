@@ -1,7 +1,18 @@
 /* The calls of ali3.h around the algorithms: start, step, run; the clock; what a refused call leaves behind. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../instance.h"
+#include "../methods/branch_watch.h"
+#include "../methods/check_method.h"
+#include "../methods/energy_momentum.h"
+#include "../methods/semi_recursive.h"
+#include "../methods/steps.h"
+#include "../methods/stiffness.h"
+#include "../sensors/sensors.h"
+#include "../start/initialise.h"
+#include "../state/books.h"
+#include "../state/vectors.h"
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
 static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
@@ -116,4 +127,3 @@ ali3_status ali3_sensors(ali3_instance *in, double *out) {
   ali3_sensors_evaluate(in, out);
   return ALI3_OK;
 }
-

@@ -3,7 +3,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../start/initialise.h"
+#include "../state/books.h"
+#include "../state/vectors.h"
 
 static double kinetic_energy(ali3_instance *in) {
   ali3_flexible_prepare(in, in->now.q);

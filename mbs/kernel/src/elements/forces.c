@@ -1,7 +1,11 @@
 /* Signals to elements, element forces and tangents back to coordinates. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../flexible/flexible_body.h"
+#include "../instance.h"
+#include "discrete_gradient.h"
+#include "element.h"
+#include "forces.h"
 
 static void active_signals(ali3_instance *in, const double *q, const double *qd) {
   const ali3_system *S = in->system;
@@ -66,7 +70,7 @@ static void record(ali3_instance *in, int32_t e, const double *f, const double *
 
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double u[ALI3_LOCAL], ud[ALI3_LOCAL], f[ALI3_LOCAL];
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
   active_signals(in, call->q, call->qd);
   memcpy(call->Q, S->gravity_force, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
@@ -135,7 +139,7 @@ void ali3_forces_tangent(ali3_instance *in, double *F) {
 
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double u[ALI3_LOCAL], ud[ALI3_LOCAL], f[ALI3_LOCAL];
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_kind[e]->accept == NULL) continue;
     ali3_element_args a;

@@ -1,5 +1,7 @@
 /* M x: the constant mass matrix and what flexible bodies add to it. */
-#include "../ali3_internal.h"
+#include "mass.h"
+#include "../instance.h"
+#include "flexible_body.h"
 
 void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out) {
   for (int32_t i = 0; i < S->size.nq; i++) {

@@ -7,7 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../rows/assembly_mode.h"
+#include "../state/vectors.h"
+#include "branch_watch.h"
+#include "check_method.h"
+#include "steps.h"
 
 static const double IN_LINE = 0.25; /* square of the largest sine of a ring whose branches may be near */
 static const double APART = 0.5; /* of the change in the step: the parts come out elsewhere; of that: they agree */
@@ -155,4 +160,3 @@ ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
   memcpy(in->mode_sine, in->sine_after, all);
   return status;
 }
-

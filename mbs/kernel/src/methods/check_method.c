@@ -1,6 +1,8 @@
 /* Which method takes which System. */
-#include "../ali3_internal.h"
+#include "check_method.h"
 #include "../elements/spring_damper.h"
+#include "../instance.h"
+#include "../system/without_memory.h"
 
 /* Whether the stops of a spring-damper take energy. */
 static bool lossy_stops(const ali3_instance *in, int32_t e) {

@@ -1,7 +1,9 @@
 /* What Newton's iterations of all methods share: the penalty, and how far an iterate is from balance. */
 #include <math.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../rows/violation.h"
+#include "newton.h"
 
 static const double LOST = 1.0; /* m or so: rows this far open belong to an iteration that ran away */
 static const double MOST_STIFF = 100.0; /* a higher penalty would only bring round-off */

@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "assembly_mode.h"
 
 static const double DEFINITE = 0.15 * 0.15; /* square of a sine or cosine from which on a sign counts: as compile's */
 static const double NOTHING = 1e-24; /* of the squares of the lengths: arms without an angle, along the axis */

@@ -1,5 +1,6 @@
 /* Rows that are switched on or off: one that is off is a row of zeros, one that is on holds its anchor. */
-#include "../ali3_internal.h"
+#include "switch_rows.h"
+#include "../instance.h"
 
 /* Phi less the anchors; rows that are off vanish. */
 void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J) {

@@ -1,7 +1,8 @@
 /* How far rows are open, in metres. */
 #include <math.h>
 
-#include "../ali3_internal.h"
+#include "../system.h"
+#include "violation.h"
 
 double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst) {
   double largest = 0.0;

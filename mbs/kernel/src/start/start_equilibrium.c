@@ -4,7 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../state/parameters.h"
+#include "../state/vectors.h"
+#include "initialise.h"
 
 static const double TOLERANCE = 1e-8; /* N, N m */
 static const double SAME = 1e-9; /* m: an equilibrium that close to the file's is the file's */

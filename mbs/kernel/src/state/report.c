@@ -2,7 +2,7 @@
  * read. */
 #include <float.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
 
 double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
 

@@ -1,7 +1,8 @@
 /* The start of a System as its file has it. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "parameters.h"
 
 void ali3_start_of_file(ali3_instance *in) {
   const ali3_system *S = in->system;

@@ -5,7 +5,9 @@
  * f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../elements/forces.h"
+#include "../instance.h"
+#include "work.h"
 
 static void copy(double *to, const double *from, int32_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));

@@ -1,5 +1,9 @@
 /* Assembly modes of a System: triads and modes of its loops. */
+#include "../rows/assembly_mode.h"
+#include "../system.h"
 #include "check.h"
+#include "loading.h"
+#include "message.h"
 
 enum { SIGNALS = 9, KIND = 9, RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
 

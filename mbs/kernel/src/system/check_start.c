@@ -1,5 +1,8 @@
 /* What the start of a System says: values for the search of the equilibrium, partners of its pose. */
+#include "../system.h"
 #include "check.h"
+#include "loading.h"
+#include "message.h"
 
 ali3_status ali3_check_start(const ali3_system *s, ali3_message m) {
   if (s->n_static_start != 0) CHECK(ali3_check_length(m, "static_start", s->n_static_start, 1));

@@ -1,5 +1,6 @@
 /* Whether a System has a memory beside q and qd. */
-#include "../ali3_internal.h"
+#include "without_memory.h"
+#include "../system.h"
 
 /* No element states and no filtered guides: what a stage inside a step needs is then known from q, qd and the time. */
 bool ali3_without_memory(const ali3_system *S) {
