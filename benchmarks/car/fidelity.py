@@ -88,7 +88,7 @@ def left_out(rung: int) -> str:
     return texts[rung]
 
 
-def cheapest_rung(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> Choice:
+def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> Choice:
     """The rung and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
 
     Parameters
@@ -178,7 +178,7 @@ def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
     for output, tolerance in (("motion", 0.02), ("moment", 0.1), ("moment", 0.03), ("moment", 0.01)):
         unit = " m" if output == "motion" else ""
         try:
-            c = cheapest_rung(rows, output, tolerance)
+            c = cheapest(rows, output, tolerance)
         except ValueError as error:
             lines.append(str(error))
             continue

@@ -26,18 +26,18 @@ ROWS = [
 
 
 def test_the_cheapest_that_is_good_enough() -> None:
-    assert fidelity.cheapest_rung(ROWS, "motion", 0.01).rung == 0
-    stress = fidelity.cheapest_rung(ROWS, "moment", 0.1)
+    assert fidelity.cheapest(ROWS, "motion", 0.01).rung == 0
+    stress = fidelity.cheapest(ROWS, "moment", 0.1)
     assert (stress.rung, stress.h, stress.error) == (1, 0.01, 0.08)
     assert stress.ms_per_second == pytest.approx(6.0)
-    fine = fidelity.cheapest_rung(ROWS, "moment", 0.05)
+    fine = fidelity.cheapest(ROWS, "moment", 0.05)
     assert fine.rung == 3
     assert "above the fifth" in fine.left_out
 
 
 def test_it_must_be_good_in_every_manoeuvre() -> None:
     other = [row("1", 0.01, 60.0, 0.3, 0.01, "drop"), row("3", 0.01, 250.0, 0.04, 0.01, "drop")]
-    assert fidelity.cheapest_rung([*ROWS, *other], "moment", 0.1).rung == 3
+    assert fidelity.cheapest([*ROWS, *other], "moment", 0.1).rung == 3
 
 
 @pytest.mark.parametrize(
@@ -50,7 +50,7 @@ def test_it_must_be_good_in_every_manoeuvre() -> None:
 )
 def test_what_cannot_be_chosen(output: str, tolerance: float, said: str) -> None:
     with pytest.raises(ValueError, match=said):
-        fidelity.cheapest_rung(ROWS, output, tolerance)
+        fidelity.cheapest(ROWS, output, tolerance)
 
 
 def test_measured_rows_and_chart(tmp_path: Path) -> None:
