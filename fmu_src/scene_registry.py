@@ -72,7 +72,7 @@ def load_scene(scene: str) -> tuple[str, mbs.System]:
 def load_variants(scene: str) -> tuple[str, list[mbs.System], int]:
     """Build and compile a scene in all the fidelities it offers.
 
-    A scene offers them by a function `variants` beside its `build`: it returns functions that make a model by number,
+    A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
     0 and on. The one of `build` is the default of its argument `fidelity`.
 
     Returns
@@ -84,12 +84,16 @@ def load_variants(scene: str) -> tuple[str, list[mbs.System], int]:
         The fidelity of `build`.
     """
     name, build = _from_file(scene) if _is_path(scene) else _from_package(scene)
-    variants = getattr(sys.modules[build.__module__], "variants", None)
+    module = sys.modules[build.__module__]
+    variants = getattr(module, "fidelities", None) or getattr(module, "variants", None)
     if not callable(variants) or build.__name__ != "build":
         return name, [load_scene(scene)[1]], 0
     makers = variants()
     if sorted(makers) != list(range(len(makers))):
-        raise SceneError(f"The variants of scene '{scene}' are numbered {sorted(makers)}; they must be 0, 1, 2 and on.")
+        raise SceneError(
+            f"The fidelities of scene '{scene}' are numbered {[int(k) for k in sorted(makers)]}; they must be 0, 1, 2 "
+            "and on."
+        )
     default = inspect.signature(build).parameters["fidelity"].default
     return name, [mbs.compile(makers[k]()) for k in range(len(makers))], int(default)
 
