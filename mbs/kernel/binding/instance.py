@@ -1,330 +1,20 @@
-"""The kernel through ctypes. This file needs nothing but the standard library, so that an FMU can carry it.
-
-A library is loaded once per path; a `LoadedSystem` may be shared by threads, an `Instance` belongs to one at a time.
-Names and units: `include/ali3.h`.
-"""
+"""A State of a System and the work space to step it."""
 
 from __future__ import annotations
 
 import ctypes
 import math
-import os
-import sys
 from collections.abc import Callable, Mapping, Sequence
-from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
-from pathlib import Path
+from ctypes import POINTER, byref, c_double, c_int32, c_int64, c_void_p
 from typing import Any
 
-(
-    BAD_ARGUMENT,
-    BAD_FILE,
-    BAD_STATE,
-    NO_MEMORY,
-    NOT_INITIALISED,
-    NOT_ASSEMBLED,
-    NOT_CONVERGED,
-    SINGULAR,
-    NOT_FINITE,
-    WRONG_METHOD,
-    BELOW_ROAD,
-    UNRESOLVED,
-    NO_TREE,
-    TOO_STIFF,
-    TOO_FAR,
-    NO_EQUILIBRIUM,
-    BRANCH_CHANGED,
-) = range(1, 18)
-"""Codes of `ali3_status` beside 0."""
-OPEN = 1e-9
-"""A row that is open by less, m, is not why something failed: ALI3_OPEN."""
-FARTHEST, FASTEST = 1e8, 1e6
-"""Largest distance, m, and speed, m/s, of a start: ALI3_FARTHEST, ALI3_FASTEST."""
-
-NO_DOUBT, DOUBT_HALVINGS, DOUBT_BALANCE = range(3)
-"""Codes of `ali3_doubt`."""
-
-
-class KernelError(RuntimeError):
-    """A call that the kernel refused.
-
-    Attributes
-    ----------
-    status : int
-        Code of `ali3_status`.
-    message : str
-        One sentence.
-    """
-
-    def __init__(self, status: int, message: str) -> None:
-        super().__init__(message)
-        self.status = status
-        self.message = message
-
-
-def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
-    """Name and gap of the row farthest from closed; empty where it is closed or there is no finite figure of it."""
-    row, violation = int(report["worst_row"]), report["violation"]
-    if not (0 <= row < len(names) and OPEN < violation < math.inf):
-        return ""
-    return f"'{names[row]}', open by {violation:.3g} m"
-
-
-class SettingsFields(Structure):
-    """`ali3_settings`."""
-
-    _fields_ = (
-        ("alpha", c_double),
-        ("eps_rel", c_double),
-        ("tolerance_r", c_double),
-        ("tolerance_phi", c_double),
-        ("rho_infinity", c_double),
-        ("max_iterations", c_int32),
-        ("max_halvings", c_int32),
-        ("project", c_int32),
-        ("update", c_int32),
-        ("geometric", c_int32),
-        ("method", c_int32),
-        ("predictor", c_int32),
-    )
-
-
-class ReportFields(Structure):
-    """`ali3_report`."""
-
-    _fields_ = (
-        ("steps", c_int64),
-        ("iterations", c_int64),
-        ("factorizations", c_int64),
-        ("solves", c_int64),
-        ("halvings", c_int64),
-        ("failures", c_int64),
-        ("last_iterations", c_int32),
-        ("max_iterations", c_int32),
-        ("last_status", c_int32),
-        ("negative_pivots", c_int32),
-        ("residual", c_double),
-        ("violation", c_double),
-        ("velocity_violation", c_double),
-        ("worst_row", c_int32),
-        ("worst_coordinate", c_int32),
-        ("energy_jump", c_double),
-        ("energy_error", c_double),
-        ("energy", c_double),
-        ("work", c_double),
-        ("kinetic_peak", c_double),
-        ("speed_peak", c_double),
-        ("velocity_path", c_double),
-        ("predictor_path", c_double),
-        ("fastest_rate", c_double),
-        ("open_power", c_double),
-        ("branch_changes", c_int64),
-        ("branch_time", c_double),
-        ("branch_kind", c_int32),
-        ("branch_loop", c_int32),
-        ("branch_triad", c_int32),
-    )
-
-
-class ControlFields(Structure):
-    """`ali3_control`: what a controlled run is told, and what it counts."""
-
-    _fields_ = (
-        *((name, c_double) for name in ("tolerance", "length", "span", "rate", "longest", "h", "last")),
-        *((name, c_double) for name in ("usual", "smallest", "largest", "error_sum", "forced_error")),
-        *((name, c_int64) for name in ("accepted", "rejected", "failed", "forced", "kept", "side_steps")),
-    )
-
-
-class RecordFields(Structure):
-    """`ali3_record`."""
-
-    _fields_ = (
-        ("n", c_int64),
-        ("time", POINTER(c_double)),
-        ("sensors", POINTER(c_double)),
-        ("positions", POINTER(c_double)),
-    )
-
-
-class Sizes(Structure):
-    """`ali3_sizes`: what a System has how many of."""
-
-    _fields_ = tuple(
-        (name, c_int32)
-        for name in (
-            *("nq", "nc", "nu", "ng", "ne", "ny", "ns", "np", "nout", "nf", "front_size", "nnz_mass", "nnz_rows"),
-            *("nsig", "has_pose", "n_switch"),
-        )
-    )
-
+from ..header import OPEN, ControlFields, Doubt, InputTable, InputTables, RecordFields, ReportFields, SettingsFields
+from .buffers import buffer, numbers
+from .errors import KernelError, status_text
+from .loaded_system import LoadedSystem
 
 _DOUBLES = POINTER(c_double)
 _INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLES)
-
-
-class InputTable(Structure):
-    """`ali3_input_table`: an input over time, straight lines between its points."""
-
-    _fields_ = (("input", c_int32), ("n", c_int64), ("time", _DOUBLES), ("value", _DOUBLES))
-
-
-class InputTables(Structure):
-    """`ali3_input_tables`."""
-
-    _fields_ = (("tolerance", c_double), ("n", c_int32), ("table", POINTER(InputTable)))
-
-
-_SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
-    "ali3_status_text": (c_char_p, [c_int32]),
-    "ali3_version": (c_uint32, []),
-    "ali3_system_load": (c_int32, [c_char_p, c_size_t, POINTER(c_void_p), c_char_p, c_size_t]),
-    "ali3_system_free": (None, [c_void_p]),
-    "ali3_system_sizes": (Sizes, [c_void_p]),
-    "ali3_instance_new": (c_int32, [c_void_p, POINTER(c_void_p)]),
-    "ali3_instance_free": (None, [c_void_p]),
-    "ali3_reset": (c_int32, [c_void_p]),
-    "ali3_default_settings": (SettingsFields, []),
-    "ali3_set_settings": (c_int32, [c_void_p, POINTER(SettingsFields)]),
-    "ali3_get_settings": (c_int32, [c_void_p, POINTER(SettingsFields)]),
-    "ali3_set_input": (c_int32, [c_void_p, c_int32, c_double]),
-    "ali3_get_input": (c_int32, [c_void_p, c_int32, _DOUBLES]),
-    "ali3_set_input_function": (c_int32, [c_void_p, c_void_p, c_void_p]),
-    "ali3_set_parameter": (c_int32, [c_void_p, c_int32, c_double]),
-    "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),
-    "ali3_set_pose": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double]),
-    "ali3_set_q": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
-    "ali3_set_switch": (c_int32, [c_void_p, c_int32, c_int32]),
-    "ali3_get_switch": (c_int32, [c_void_p, c_int32, POINTER(c_int32)]),
-    "ali3_initialise": (c_int32, [c_void_p, c_double]),
-    "ali3_start_lift": (c_double, [c_void_p]),
-    "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
-    "ali3_step": (c_int32, [c_void_p, c_double]),
-    "ali3_run": (c_int32, [c_void_p, c_double, c_int64, _DOUBLES, c_int64, _DOUBLES, POINTER(c_int64)]),
-    "ali3_control_run": (
-        c_int32,
-        [
-            c_void_p,
-            POINTER(ControlFields),
-            _DOUBLES,
-            c_double,
-            c_int64,
-            POINTER(RecordFields),
-            POINTER(c_int64),
-        ],
-    ),
-    "ali3_refresh": (c_int32, [c_void_p]),
-    "ali3_sensors": (c_int32, [c_void_p, _DOUBLES]),
-    "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
-    "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
-    "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
-    "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
-    "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
-    "ali3_time": (c_double, [c_void_p]),
-    "ali3_solver_value": (c_double, [c_void_p, c_int32]),
-    "ali3_run_doubt": (c_int32, [POINTER(ReportFields)]),
-    "ali3_state_size": (c_size_t, [c_void_p]),
-    "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
-    "ali3_state_restore": (c_int32, [c_void_p, c_char_p, c_size_t]),
-    "ali3_get_state": (c_int32, [c_void_p] + [_DOUBLES] * 5),
-    "ali3_evaluate": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 6),
-    "ali3_mass_matrix": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
-    "ali3_tangent": (c_int32, [c_void_p, c_double, _DOUBLES, _DOUBLES]),
-    "ali3_element_step": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 2),
-}
-
-_libraries: dict[str, ctypes.CDLL] = {}
-
-
-def library_path() -> Path:
-    """The library beside this file, or what the environment variable ALI3_KERNEL_LIBRARY names."""
-    override = os.environ.get("ALI3_KERNEL_LIBRARY")
-    if override:
-        return Path(override)
-    name = {"win32": "ali3.dll", "darwin": "libali3.dylib"}.get(sys.platform, "libali3.so")
-    return Path(__file__).resolve().parent / "lib" / name
-
-
-def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
-    """Load the kernel.
-
-    Parameters
-    ----------
-    path : path, optional
-        The library; by default `library_path()`.
-
-    Returns
-    -------
-    ctypes.CDLL
-        With argument and result types set.
-
-    Raises
-    ------
-    OSError
-        If the library is not there or not for this platform.
-    """
-    key = str(Path(path) if path is not None else library_path())
-    if key in _libraries:
-        return _libraries[key]
-    library = ctypes.CDLL(key)
-    for name, (result, arguments) in _SIGNATURES.items():
-        function = getattr(library, name)
-        function.restype = result
-        function.argtypes = arguments
-    _libraries[key] = library
-    return library
-
-
-def _numbers(values: Any, count: int, what: str) -> Any:
-    """A C array of `count` doubles from a sequence or buffer; None stays None (null pointer)."""
-    if values is None:
-        return None
-    if hasattr(values, "tolist"):
-        values = values.tolist()
-    flat = list(values)
-    if len(flat) != count:
-        raise ValueError(f"{what} has {len(flat)} values; this System needs {count}.")
-    return (c_double * count)(*flat)
-
-
-class LoadedSystem:
-    """A System in the kernel's memory, immutable and shared by its instances.
-
-    Parameters
-    ----------
-    data : bytes
-        A System file.
-    library : path, optional
-        The kernel library; by default `library_path()`.
-
-    Attributes
-    ----------
-    sizes : Sizes
-        Numbers of coordinates, rows, inputs, sensors and so on.
-    """
-
-    def __init__(self, data: bytes, library: str | os.PathLike[str] | None = None) -> None:
-        self._handle: c_void_p | None = None
-        self._library = load_library(library)
-        handle = c_void_p()
-        message = ctypes.create_string_buffer(256)
-        status = self._library.ali3_system_load(bytes(data), len(data), byref(handle), message, len(message))
-        if status:
-            text = (
-                f"{message.value.decode(errors='replace')}." if message.value else _status_text(self._library, status)
-            )
-            raise KernelError(status, f"the System file was refused: {text}")
-        self._handle = handle
-        self.sizes: Sizes = self._library.ali3_system_sizes(handle)
-        self.state_size: int = self._library.ali3_state_size(handle)
-
-    def __del__(self) -> None:
-        if self._handle is not None:
-            self._library.ali3_system_free(self._handle)
-            self._handle = None
-
-
-def _status_text(library: ctypes.CDLL, status: int) -> str:
-    return f"{library.ali3_status_text(status).decode()}."
 
 
 class Instance:
@@ -359,7 +49,7 @@ class Instance:
             error, self._input_error = self._input_error, None
             if error is not None:
                 raise error
-            raise KernelError(status, _status_text(self._library, status))
+            raise KernelError(status, status_text(self._library, status))
 
     def reset(self) -> None:
         """Back to the values of the System file; settings, inputs and parameters too."""
@@ -428,7 +118,7 @@ class Instance:
         kept, rows = [], []
         for index, (times, values) in tables.items():
             n = memoryview(times).nbytes // 8
-            arrays = [_buffer(part, n, "a table", writable=False) for part in (times, values)]
+            arrays = [buffer(part, n, "a table", writable=False) for part in (times, values)]
             kept.append(arrays)
             rows.append(InputTable(index, n, *(ctypes.cast(a, _DOUBLES) for a in arrays)))
         table = (InputTable * len(rows))(*rows)
@@ -454,7 +144,7 @@ class Instance:
     def set_q(self, q: Sequence[float] | None, qd: Sequence[float] | None = None) -> None:
         """Coordinates (nq,) and rates (nq,) to start from; before `initialise`."""
         nq = self.system.sizes.nq
-        self._check(self._library.ali3_set_q(self._handle, _numbers(q, nq, "q"), _numbers(qd, nq, "qd")))
+        self._check(self._library.ali3_set_q(self._handle, numbers(q, nq, "q"), numbers(qd, nq, "qd")))
 
     def set_switch(self, index: int, on: bool) -> None:
         """Rows of a switch on or off; those that go on hold the values they have now."""
@@ -482,7 +172,7 @@ class Instance:
         if not status:
             return
         report = self.report()
-        text = _status_text(self._library, status)
+        text = status_text(self._library, status)
         if OPEN < report["violation"] < math.inf:
             text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
         raise KernelError(status, text)
@@ -515,8 +205,8 @@ class Instance:
             Steps done; less than `n` never without a `KernelError`.
         """
         sizes = self.system.sizes
-        given = _buffer(inputs, n * sizes.nu, "inputs", writable=False)
-        taken = _buffer(out, n // every * sizes.ns if every > 0 else 0, "out", writable=True)
+        given = buffer(inputs, n * sizes.nu, "inputs", writable=False)
+        taken = buffer(out, n // every * sizes.ns if every > 0 else 0, "out", writable=True)
         done = c_int64()
         self._check(self._library.ali3_run(self._handle, h, n, given, every, taken, byref(done)))
         return done.value
@@ -558,13 +248,13 @@ class Instance:
         """
         sizes, n = self.system.sizes, memoryview(times).nbytes // 8
         rows = (
-            _buffer(times, n, "times", writable=False),
-            _buffer(sensors, n * sizes.ns, "sensors", writable=True),
-            _buffer(positions, n * sizes.nq, "positions", writable=True),
+            buffer(times, n, "times", writable=False),
+            buffer(sensors, n * sizes.ns, "sensors", writable=True),
+            buffer(positions, n * sizes.nq, "positions", writable=True),
         )
         record = RecordFields(n, *(None if r is None else ctypes.cast(r, POINTER(c_double)) for r in rows))
         written = c_int64(done)
-        lengths = _buffer(scale, sizes.nq, "scale", writable=False)
+        lengths = buffer(scale, sizes.nq, "scale", writable=False)
         status = self._library.ali3_control_run(
             self._handle, byref(control), lengths, t_end, most_steps, byref(record), byref(written)
         )
@@ -590,14 +280,14 @@ class Instance:
         return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
 
     def solver_value(self, kind: int) -> float:
-        """What the solver says about itself: number `kind` of ALI3_SOLVER_* in `ali3.h`."""
+        """What the solver says about itself: one of `SolverValue`."""
         return float(self._library.ali3_solver_value(self._handle, kind))
 
-    def doubt(self) -> int:
-        """Whether the run says that it is wrong: one of NO_DOUBT, DOUBT_HALVINGS and DOUBT_BALANCE."""
+    def doubt(self) -> Doubt:
+        """Whether the run says that it is wrong."""
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
-        return int(self._library.ali3_run_doubt(byref(fields)))
+        return Doubt(self._library.ali3_run_doubt(byref(fields)))
 
     def energy_balance(self) -> float:
         """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""
@@ -646,7 +336,7 @@ class Instance:
         s = self.system.sizes
         counts = {"phi": s.nc, "jacobian": s.nnz_rows, "phi_t": s.nc, "gamma": s.nc, "force": s.nq, "outputs": s.nout}
         values = {name: (c_double * n)() for name, n in counts.items()}
-        given = (_numbers(q, s.nq, "q"), _numbers(qd, s.nq, "qd"), _numbers(y, s.ny, "y"))
+        given = (numbers(q, s.nq, "q"), numbers(qd, s.nq, "qd"), numbers(y, s.ny, "y"))
         time = self.time if t is None else t
         self._check(self._library.ali3_evaluate(self._handle, *given, time, *values.values()))
         return values
@@ -655,14 +345,14 @@ class Instance:
         """The tangent (23) at the present state for step `h`: C array of nq * nq, symmetric."""
         sizes = self.system.sizes
         dense = (c_double * (sizes.nq * sizes.nq))()
-        self._check(self._library.ali3_tangent(self._handle, h, _numbers(lam, sizes.nc, "lam"), dense))
+        self._check(self._library.ali3_tangent(self._handle, h, numbers(lam, sizes.nc, "lam"), dense))
         return dense
 
     def mass_matrix(self, q: Sequence[float]) -> Any:
         """M(q): C array of nq * nq, symmetric; it depends on q only where bodies are flexible."""
         nq = self.system.sizes.nq
         dense = (c_double * (nq * nq))()
-        self._check(self._library.ali3_mass_matrix(self._handle, _numbers(q, nq, "q"), dense))
+        self._check(self._library.ali3_mass_matrix(self._handle, numbers(q, nq, "q"), dense))
         return dense
 
     def element_step(
@@ -671,21 +361,6 @@ class Instance:
         """Element states (ny,) after `h` seconds at held q, qd, and the generalised force (nq,) with them."""
         s = self.system.sizes
         y_new, force = (c_double * s.ny)(), (c_double * s.nq)()
-        given = (_numbers(q, s.nq, "q"), _numbers(qd, s.nq, "qd"), _numbers(y_old, s.ny, "y_old"))
+        given = (numbers(q, s.nq, "q"), numbers(qd, s.nq, "qd"), numbers(y_old, s.ny, "y_old"))
         self._check(self._library.ali3_element_step(self._handle, *given, h, y_new, force))
         return y_new, force
-
-
-def _buffer(values: Any, count: int, what: str, *, writable: bool) -> Any:
-    """The memory of a contiguous float64 buffer as a C array, copied only where it is read-only."""
-    if values is None:
-        return None
-    view = memoryview(values)
-    if view.nbytes != 8 * count or (view.format or "").lstrip("<=@") != "d" or not view.c_contiguous:
-        raise ValueError(f"{what} must be a contiguous buffer of {count} float64 values.")
-    if view.readonly and writable:
-        raise ValueError(f"{what} must be writable.")
-    if count == 0:
-        return (c_double * 0)()
-    kind = c_double * count
-    return kind.from_buffer_copy(view) if view.readonly else kind.from_buffer(view)
