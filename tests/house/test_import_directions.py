@@ -137,7 +137,7 @@ def test_python_packages_import_in_one_direction():
 
 @pytest.mark.parametrize(("above", "below"), [("simulation", "scenes"), ("model", "compiler")])
 def test_a_python_direction_turned_round_is_seen(tmp_path, above, below):
-    text = (DIRECTIONS).read_text(encoding="utf-8")
+    text = DIRECTIONS.read_text(encoding="utf-8")
     turned = re.sub(rf"\b({above}|{below})$", lambda m: below if m[1] == above else above, text, flags=re.MULTILINE)
     assert turned != text
     configuration = tmp_path / "turned.ini"
