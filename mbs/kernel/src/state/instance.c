@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../system/guide_types.h"
 #include "../tree/tree.h"
 
 const char *ali3_status_text(ali3_status s) {
@@ -238,7 +239,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->guide_real, S->guide_real, S->n_guide_real);
   copy(in->road_real, S->road_real, S->n_road_real);
   for (int32_t g = 0; g < S->size.ng; g++)
-    if (S->guide_type[g] == 1) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
+    if (S->guide_type[g] == ALI3_GUIDE_OF_INPUT) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {
     const ali3_road road = {S->road_type[r], S->road_real_ptr[r + 1] - S->road_real_ptr[r],
                             in->road_real + S->road_real_ptr[r]};
