@@ -153,6 +153,28 @@ def test_a_refused_step_keeps_the_last_good_state() -> None:
     assert [bytes(part) for part in instance.get_state()] == [bytes(part) for part in other.get_state()]
 
 
+def test_a_half_that_was_good_leaves_no_energy_in_the_books() -> None:
+    """Of a step whose first half is good and whose second is refused nothing stays, also not of its energy."""
+    books = ("energy_error", "open_power", "energy", "work", "kinetic_peak", "speed_peak", "velocity_path")
+    instance = start(four_bar(), max_iterations=1, max_halvings=1, tolerance_r=1e-5, tolerance_phi=1e-5)
+    good_halves = 0
+    for _ in range(100):
+        before, state = instance.report(), [bytes(part) for part in instance.get_state()]
+        try:
+            instance.step(0.1)
+        except KernelError:
+            after = instance.report()
+            good_halves += int(after["iterations"] - before["iterations"] > 2)
+            assert {name: after[name] for name in (*books, "predictor_path")} == {
+                name: before[name] for name in (*books, "predictor_path")
+            }
+            assert [bytes(part) for part in instance.get_state()] == state
+            instance.set_settings(max_iterations=20)
+            instance.step(0.1)
+            instance.set_settings(max_iterations=1)
+    assert good_halves > 0
+
+
 def test_numbers_that_overflow_are_refused_before_they_reach_the_state() -> None:
     b = pendulum()
     b.qd0 = np.array([0.0, 1e120])
