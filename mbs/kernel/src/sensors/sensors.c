@@ -1,8 +1,13 @@
 /* Sensor values of the present state: a function for each type of sensor_types.h, of its integers and reals. */
 #include <math.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/elementary.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../state/work.h"
 #include "../system/sensor_types.h"
+#include "sensors.h"
 
 /* Signal i (order 0) or its first or second rate. */
 static double signal(const ali3_instance *in, int32_t i, int32_t order) {

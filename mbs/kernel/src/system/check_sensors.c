@@ -1,7 +1,10 @@
 /* Sensors of a System, by the list of their types. */
 #include <string.h>
 
+#include "../system.h"
 #include "check.h"
+#include "loading.h"
+#include "message.h"
 #include "sensor_types.h"
 
 const ali3_sensor_type ali3_sensor_types[ALI3_SENSOR_TYPE_COUNT] = {
