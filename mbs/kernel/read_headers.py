@@ -25,7 +25,7 @@ ENUMERATIONS = {
     "Predictor": (PUBLIC, "ALI3_PREDICTOR_PARABOLA", "ALI3_PREDICTOR_", "`ali3_settings.predictor`."),
     "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
     "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "What the solver says about itself."),
-    "GuideType": ("src/system/guide_types.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
+    "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
     "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
     "SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "What the value of a sensor comes from."),
     "Doubt": (PUBLIC, "ALI3_DOUBT_NONE", "ALI3_DOUBT_", "`ali3_doubt`: what a run says against itself."),

@@ -13,7 +13,6 @@
 #include "../state/books.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
-#include "../system/guide_types.h"
 #include "branch_watch.h"
 #include "check_method.h"
 #include "error_control.h"

@@ -7,7 +7,7 @@
 #include "../elements/road.h"
 #include "../instance.h"
 #include "../rows/assembly_mode.h"
-#include "../system/guide_types.h"
+#include "../rows/guides.h"
 #include "../system/loading.h"
 #include "../system/without_memory.h"
 #include "../tree/tree.h"
