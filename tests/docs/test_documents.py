@@ -11,7 +11,7 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from benchmarks.cases import CASES
+from benchmarks.references.cases import CASES
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
 from fmu_src.variables import variable_table
