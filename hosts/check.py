@@ -10,11 +10,11 @@ import zipfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from hosts.check_details import DETAIL_CHECKS
-from hosts.check_run import RUNNING_CHECKS
-from hosts.check_text import TEXT_CHECKS
-from hosts.checking import Finding, Subject, open_subject
 from hosts.errors import HostError
+from hosts.fmu_checks.behaviour import BEHAVIOUR_CHECKS
+from hosts.fmu_checks.documents import DOCUMENT_CHECKS
+from hosts.fmu_checks.instance import Finding, Subject, open_subject
+from hosts.fmu_checks.portability import PORTABILITY_CHECKS
 
 _MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
 _WIDTH = 22
@@ -75,7 +75,7 @@ def check(fmu: Path, steps: int = 50, say: Callable[[Finding], None] = lambda fi
     findings: list[Finding] = []
     with tempfile.TemporaryDirectory(prefix="fmu_", ignore_cleanup_errors=True) as folder:
         subject = open_subject(fmu, Path(folder), steps)
-        for name, function in (*TEXT_CHECKS, *RUNNING_CHECKS, *DETAIL_CHECKS):
+        for name, function in (*DOCUMENT_CHECKS, *BEHAVIOUR_CHECKS, *PORTABILITY_CHECKS):
             findings.append(_one(name, function, subject))
             say(findings[-1])
     return findings

@@ -12,13 +12,13 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from hosts.co_simulation import Result, run
 from hosts.driver import make_driver
 from hosts.errors import HostError
 from hosts.fmu import Fmu
 from hosts.manoeuvre import load_manoeuvre, manoeuvre_names
-from hosts.plot_page import plot_page
-from hosts.run import Result, run
-from hosts.summary import energy_balance, summary
+from hosts.result_plots import plot_page
+from hosts.run_summary import energy_balance, summary
 
 DEFAULT_FMU = Path("dist", "PrototypeCar.fmu")
 

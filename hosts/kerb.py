@@ -17,13 +17,13 @@ import numpy as np
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
+from hosts.co_simulation import Result, run
 from hosts.drive import make_folder, write_csv
 from hosts.errors import HostError
 from hosts.fmu import Fmu
 from hosts.low_pass import low_pass
 from hosts.manoeuvre import Manoeuvre
-from hosts.plot_page import BLACK, BLUE, RED
-from hosts.run import Result, run
+from hosts.result_plots import BLACK, BLUE, RED
 
 DEFAULT_FMU = Path("dist", "KerbTest.fmu")
 DURATION = 15.0  # s

@@ -15,9 +15,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from hosts.co_simulation import Result
 from hosts.course import Course
-from hosts.run import Result
-from hosts.summary import WHEELS
+from hosts.run_summary import WHEELS
 
 # Okabe and Ito's palette: distinguishable with any colour vision.
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK = (

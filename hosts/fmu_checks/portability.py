@@ -7,7 +7,7 @@ from collections import Counter
 from ctypes import byref, c_bool, c_double, c_int, c_void_p
 from xml.etree import ElementTree
 
-from hosts.checking import Finding, Instance, Subject
+from hosts.fmu_checks.instance import Finding, Instance, Subject
 
 # Names whose last part says that the value is a whole number.
 _COUNTS = ("iterations", "factorizations", "halvings", "status", "gear", "fidelity")
@@ -251,7 +251,7 @@ def _step_status(instance: Instance, time: float, step: float) -> int:
     return int(slave.dll.fmi3DoStep(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
 
 
-DETAIL_CHECKS = (
+PORTABILITY_CHECKS = (
     ("unit names", one_spelling),
     ("whole numbers", whole_numbers),
     ("about the file", about_the_file),
