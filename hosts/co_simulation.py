@@ -14,6 +14,9 @@ from hosts.errors import HostError
 from hosts.fmu import Fmu, StepRefusedError
 from hosts.manoeuvre import Manoeuvre
 
+# Bytes a run may record: more would fill the memory before the disk.
+_LARGEST_RECORD = 4e9
+
 
 @dataclass(frozen=True)
 class Result:
@@ -53,6 +56,49 @@ class Result:
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         return np.asarray(self.values[:, self.names.index(name)])
+
+
+def communication_step(fmu: Fmu, manoeuvre: Manoeuvre, step: float | None) -> float:
+    """The step of a run: the one that was asked for, else that of the FMU.
+
+    Parameters
+    ----------
+    fmu : Fmu
+    manoeuvre : Manoeuvre
+    step : float, optional
+        s.
+
+    Raises
+    ------
+    HostError
+        If it is not positive, longer than the manoeuvre, or so short that the record would not fit into the memory.
+    """
+    experiment = fmu.description.defaultExperiment
+    if step is None:
+        step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+    stop = manoeuvre.stop_time
+    if not 0.0 < step <= stop:
+        raise HostError(f"The step is {step:g} s; it must be positive and not longer than {stop:g} s.")
+    columns = len(fmu.names("input")) + len(fmu.names("output")) + 1
+    record = 8.0 * columns * (stop / step + 1.0)
+    if record > _LARGEST_RECORD:
+        shortest = stop * 8.0 * columns / (_LARGEST_RECORD - 8.0 * columns)
+        raise HostError(
+            f"{stop:g} s in steps of {step:g} s are {stop / step:.3g} rows of {columns} values: {1e-9 * record:.3g} GB "
+            f"where at most {1e-9 * _LARGEST_RECORD:g} GB can be recorded; take a step of at least {shortest:.2g} s, "
+            "or a shorter time."
+        )
+    return step
+
+
+def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | None = None) -> Result:
+    """`run` with a progress bar on the terminal."""
+    from tqdm import tqdm
+
+    with tqdm(
+        total=max(1, round(manoeuvre.stop_time / step)), desc=f"{fmu.path.stem}, {manoeuvre.name}", unit="step"
+    ) as bar:
+        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
 
 
 def run(
@@ -135,7 +181,7 @@ def run(
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
-        step * np.arange(done + 1),
+        step * np.arange(done + 1, dtype=np.float64),
         values[: done + 1],
         wall,
         done * step,

@@ -246,8 +246,7 @@ def _step_status(instance: Instance, time: float, step: float) -> int:
     slave, begin, length = instance.slave, c_double(time), c_double(step)
     if not instance.three:
         return int(slave.dll.fmi2DoStep(c_void_p(slave.component), begin, length, c_int(1)))
-    flags, last = [c_bool() for _ in range(3)], c_double()
-    pointers = [byref(x) for x in (*flags, last)]
+    pointers = [*(byref(c_bool()) for _ in range(3)), byref(c_double())]
     return int(slave.dll.fmi3DoStep(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
 
 
