@@ -4,9 +4,9 @@
 #include <stdbool.h>
 
 #include "../include/ali3.h"
-#include "element.h"
-#include "elementary.h"
-#include "road.h"
+#include "algebra/elementary.h"
+#include "elements/element.h"
+#include "elements/road.h"
 
 /* The arrays of a System file: C type, item type number, name. */
 /* clang-format off */

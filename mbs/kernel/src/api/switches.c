@@ -1,0 +1,80 @@
+/* Rows that are switched on and off at run time: a joint that closes or opens without a new System. A row that is off
+ * is a row of zeros; one that is switched on holds the value it has at that moment (its anchor). */
+#include <math.h>
+#include <string.h>
+
+#include "../ali3_internal.h"
+
+/* Phi less the anchors; rows that are off vanish. */
+void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J) {
+  const ali3_system *S = in->system;
+  if (S->size.n_switch == 0) return;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    if (S->row_switch[k] < 0) continue;
+    if (in->now.on[S->row_switch[k]] != 0.0) {
+      Phi[k] -= in->now.anchor[k];
+    } else {
+      Phi[k] = 0.0;
+      for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) J[i] = 0.0;
+    }
+  }
+}
+
+/* One number per row, zero where the row is off. */
+void ali3_switch_values(const ali3_instance *in, double *v) {
+  const ali3_system *S = in->system;
+  if (S->size.n_switch == 0) return;
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (S->row_switch[k] >= 0 && in->now.on[S->row_switch[k]] == 0.0) v[k] = 0.0;
+}
+
+static double kinetic_energy(ali3_instance *in) {
+  ali3_flexible_prepare(in, in->now.q);
+  return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
+}
+
+static void set(ali3_instance *in, int32_t number, bool on) {
+  const ali3_system *S = in->system;
+  in->now.on[number] = 1.0;
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (S->row_switch[k] == number) in->now.anchor[k] = 0.0;
+  if (!on) {
+    in->now.on[number] = 0.0;
+    return;
+  }
+  if (!in->initialised) return; /* at the start rows hold what the drawing says */
+  ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (S->row_switch[k] == number) in->now.anchor[k] = in->Phi[k];
+}
+
+/* Velocities go to the nearest ones in the metric of the mass (an impact without rebound), accelerations and
+ * multipliers are solved anew; what the impact takes is in report.energy_jump. */
+ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
+  if (in == NULL || number < 0 || number >= in->system->size.n_switch || (on != 0 && on != 1)) return ALI3_BAD_ARGUMENT;
+  if ((in->now.on[number] != 0.0) == (on == 1)) return ALI3_OK;
+  if (!in->initialised) {
+    set(in, number, on == 1);
+    return ALI3_OK;
+  }
+  ali3_vectors_copy(in, &in->start, &in->now);
+  const double before = kinetic_energy(in);
+  set(in, number, on == 1);
+  const ali3_status status = ali3_solve_rates(in, false);
+  in->report.last_status = (int32_t)status;
+  if (status != ALI3_OK) {
+    ali3_vectors_copy(in, &in->now, &in->start);
+    in->report.failures++;
+    return status;
+  }
+  in->report.energy_jump = kinetic_energy(in) - before;
+  memset(in->now.memory, 0, ALI3_MEMORY * sizeof(double));
+  ali3_books_open(in);
+  return ALI3_OK;
+}
+
+ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on) {
+  if (in == NULL || on == NULL || number < 0 || number >= in->system->size.n_switch) return ALI3_BAD_ARGUMENT;
+  *on = in->now.on[number] != 0.0;
+  return ALI3_OK;
+}
