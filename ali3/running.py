@@ -74,9 +74,10 @@ def missing_package(package: str) -> str:
 
 def command_name(name: str) -> str:
     """How the user of this program types another command, such as ``ali3 build``."""
-    if _prefix is None:
-        return "python build_fmu.py" if name == "build" and Path("build_fmu.py").is_file() else f"python -m ali3 {name}"
-    return f"{_prefix} {name}"
+    if _prefix is not None:
+        return f"{_prefix} {name}"
+    in_clone = Path(__file__).resolve().parents[1].joinpath("build_fmu.py").is_file()
+    return "python build_fmu.py" if in_clone and name == "build" else f"python -m ali3 {name}"
 
 
 def typed_as(prefix: str) -> None:

@@ -139,6 +139,14 @@ class FmuBuilder:
         )
         self._libraries: dict[tuple[str, str], bytes] = {}
 
+    def pieces(self, kind: str, platforms: Sequence[str]) -> int:
+        """How many pieces of work `told` is going to be asked for by `build`."""
+        if kind == "python":
+            return len(platforms) + 1
+        made = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
+        folders = [folder for platform in platforms for folder in _FACES[kind].binaries[platform]]
+        return 2 + len([folder for folder in folders if folder not in made])
+
     def build(self, kind: str, platforms: Sequence[str], file: Path) -> Path:
         """Build the FMU of a kind.
 

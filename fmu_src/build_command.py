@@ -76,9 +76,9 @@ def _build(options: argparse.Namespace) -> int:
         del able[kind]
     # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
     first = {kind: [here] for kind in able if here in able[kind] and len(able[kind]) > 1}
-    meta, count = systems[fidelity].meta, sum(map(len, able.values()))
-    line.total = len(able) + count + len(first)
+    meta = systems[fidelity].meta
     for chosen in (first, able):
+        line.expect(sum(builder.pieces(kind, places) for kind, places in chosen.items()))
         for kind, places in chosen.items():
             file = builder.build(kind, places, files[kind])
             print(

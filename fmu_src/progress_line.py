@@ -24,18 +24,16 @@ class ProgressLine:
     ----------
     stream : text stream, optional
         The standard error stream by default.
-
-    Attributes
-    ----------
-    total : int
-        Pieces of work there will be; 0: not known.
     """
 
     def __init__(self, stream: TextIO | None = None) -> None:
         self._stream = sys.stderr if stream is None else stream
         self._drawn = self._stream.isatty()
-        self._done = 0
-        self.total = 0
+        self._done, self._total = 0, 0
+
+    def expect(self, total: int) -> None:
+        """Count from here on: so many pieces of work will come."""
+        self._done, self._total = 0, total
 
     @contextmanager
     def told(self, what: str, note: str = "") -> Iterator[None]:
@@ -63,7 +61,7 @@ class ProgressLine:
             self._say(f"\r\033[K{line}" if self._drawn else line + "\n")
 
     def _count(self, more: int = 0) -> str:
-        return f"[{min(self._done + more, self.total)}/{self.total}] " if self.total else ""
+        return f"[{self._done + more}/{self._total}] " if self._total else ""
 
     def _say(self, text: str) -> None:
         self._stream.write(text)

@@ -7,10 +7,11 @@ import importlib.util
 import inspect
 import pkgutil
 import sys
-import sysconfig
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -127,21 +128,33 @@ def _scene(scene: str) -> Iterator[tuple[str, Callable[..., Any]]]:
             raise _own_words(error, path) from error
 
 
+class _Neighbours(MetaPathFinder):
+    """Finds the files beside a scene before installed packages, but not in place of the standard library.
+
+    What is imported already, this package and the engine with all they need among them, is not looked for again: a
+    file that is called numpy.py by chance stands in nobody's way.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = str(folder)
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        if path is not None or fullname in sys.stdlib_module_names:
+            return None
+        return PathFinder.find_spec(fullname, [self._folder], target)
+
+
 @contextmanager
 def _neighbours(folder: Path) -> Iterator[None]:
-    """Let a scene import the files beside it.
-
-    They are found after the standard library and before installed packages. What is imported already, this package and
-    the engine among them, is not looked for again: a file that is called numpy.py by chance stands in nobody's way.
-    """
-    library = {sysconfig.get_path("stdlib"), sysconfig.get_path("platstdlib")}
-    last = max((k for k, place in enumerate(sys.path) if place in library or "lib-dynload" in place), default=-1)
-    sys.path.insert(last + 1, str(folder))
+    """Let a scene import the files beside it."""
+    finder = _Neighbours(folder)
+    sys.meta_path.insert(0, finder)
     try:
         yield
     finally:
-        if str(folder) in sys.path:
-            sys.path.remove(str(folder))
+        sys.meta_path.remove(finder)
 
 
 def _own_words(error: Exception, path: Path) -> Exception:

@@ -95,9 +95,8 @@ def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | N
     """`run` with a progress bar on the terminal."""
     from tqdm import tqdm
 
-    with tqdm(
-        total=max(1, round(manoeuvre.stop_time / step)), desc=f"{fmu.path.stem}, {manoeuvre.name}", unit="step"
-    ) as bar:
+    steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
+    with tqdm(total=steps, desc=what, unit="step", delay=2.0) as bar:
         return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import sys
 import tempfile
@@ -126,7 +127,7 @@ class Fmu:
         real = {n: float(x) for n, x in values.items() if self.variables[n].type != "Integer"}
         whole = {n: x for n, x in values.items() if n not in real}
         for name, value in whole.items():
-            if value != int(value):
+            if not math.isfinite(value) or value != int(value):
                 raise HostError(f"'{name}' was set to {value:g}; it must be a whole number.")
         if real:
             self._slave.setReal(self.references(real), list(real.values()))

@@ -31,9 +31,9 @@ def parse_number(text: str) -> float:
 
 
 def number(text: str) -> float:
-    """A number of the command line."""
+    """A number of the command line; whether it may be infinite or none at all is told by what it is for."""
     try:
-        return parse_number(text)
+        return float(text) if _NOT_FINITE.fullmatch(text.strip()) else parse_number(text)
     except ValueError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
 
