@@ -1,6 +1,8 @@
 /* Multifrontal L D L' of the tangent: dense column-major fronts, no pivoting, Schur complements added into the parent.
  * In the columns of its pivots a factorised front holds L below the diagonal and 1/D on it. */
 #include "fronts.h"
+#include "../instance.h"
+#include "front_block.h"
 
 static void subtract(double *restrict target, const double *restrict column, double factor, int32_t from, int32_t n) {
   for (int32_t i = from; i < n; i++) target[i] -= factor * column[i];

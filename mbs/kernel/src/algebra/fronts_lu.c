@@ -2,6 +2,8 @@
  * whole blocks instead of lower triangles, no pivoting. A factorised front holds L below the diagonal (ones on it are
  * not stored) and U above, with the inverse of its diagonal. A coordinate may stand for several unknowns (`width`), one
  * beside the other in vectors and fronts. */
+#include "../instance.h"
+#include "front_block.h"
 #include "fronts.h"
 
 #define ALI3_INLINED __attribute__((always_inline)) /* compiled apart for each width */

@@ -5,7 +5,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/elementary.h"
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../methods/newton.h"
+#include "../rows/constraints.h"
+#include "../rows/velocity_rows.h"
+#include "../sensors/sensors.h"
 
 enum { POSITION, VELOCITY, ACCELERATION, MOST_CORRECTIONS = 60, SWEEPS = 2 };
 static const double PART = 1e-5; /* of an input's range: the difference taken */

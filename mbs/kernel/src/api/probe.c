@@ -2,7 +2,13 @@
  * as it is. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../instance.h"
+#include "../methods/newton.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
 
 static void copy(double *to, const double *from, int64_t n) {
   if (to != NULL && n > 0) memcpy(to, from, (size_t)n * sizeof(double));

@@ -1,7 +1,18 @@
 /* The calls of ali3.h around the algorithms: start, step, run; the clock; what a refused call leaves behind. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../instance.h"
+#include "../methods/branch_watch.h"
+#include "../methods/check_method.h"
+#include "../methods/energy_momentum.h"
+#include "../methods/semi_recursive.h"
+#include "../methods/steps.h"
+#include "../methods/stiffness.h"
+#include "../sensors/sensors.h"
+#include "../start/initialise.h"
+#include "../state/books.h"
+#include "../state/vectors.h"
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
 static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
@@ -38,8 +49,6 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
   ali3_vectors_copy(in, &in->start, &in->now);
   return begin(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
 }
-
-double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
 
 static ali3_status step(ali3_instance *in, double h) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
@@ -116,11 +125,5 @@ ali3_status ali3_sensors(ali3_instance *in, double *out) {
   if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   ali3_sensors_evaluate(in, out);
-  return ALI3_OK;
-}
-
-ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
-  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
-  *out = in->report;
   return ALI3_OK;
 }

@@ -3,30 +3,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
-
-/* Phi less the anchors; rows that are off vanish. */
-void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J) {
-  const ali3_system *S = in->system;
-  if (S->size.n_switch == 0) return;
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    if (S->row_switch[k] < 0) continue;
-    if (in->now.on[S->row_switch[k]] != 0.0) {
-      Phi[k] -= in->now.anchor[k];
-    } else {
-      Phi[k] = 0.0;
-      for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) J[i] = 0.0;
-    }
-  }
-}
-
-/* One number per row, zero where the row is off. */
-void ali3_switch_values(const ali3_instance *in, double *v) {
-  const ali3_system *S = in->system;
-  if (S->size.n_switch == 0) return;
-  for (int32_t k = 0; k < S->size.nc; k++)
-    if (S->row_switch[k] >= 0 && in->now.on[S->row_switch[k]] == 0.0) v[k] = 0.0;
-}
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../start/initialise.h"
+#include "../state/books.h"
+#include "../state/vectors.h"
 
 static double kinetic_energy(ali3_instance *in) {
   ali3_flexible_prepare(in, in->now.q);

@@ -4,8 +4,10 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "../ali3_internal.h"
+#include "contact_law.h"
 #include "contact_points.h"
+#include "discrete_gradient.h"
+#include "element.h"
 #include "element_math.h"
 #include "spring_damper.h"
 

@@ -4,6 +4,7 @@
  * slots of its state at the end of the step. */
 #ifndef ALI3_ELEMENT_H
 #define ALI3_ELEMENT_H
+#include <stddef.h>
 #include <stdint.h>
 
 enum { /* element types; the numbers are part of the file format and equal mbs/elements/types.py */
@@ -48,7 +49,7 @@ typedef void ali3_element_function(ali3_element_args *a);
 typedef void ali3_element_accept_function(
     ali3_element_args *a); /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
 
-typedef struct {
+typedef struct ali3_element_type {
   ali3_element_function *evaluate;
   ali3_element_accept_function *accept;  /* may be NULL */
   /* sizes that the loader checks; -1: any; nstate = -k, k > 1: k for each of the items that the last integer counts.

@@ -1,7 +1,11 @@
 /* Signals to elements, element forces and tangents back to coordinates. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../flexible/flexible_body.h"
+#include "../instance.h"
+#include "discrete_gradient.h"
+#include "element.h"
+#include "forces.h"
 
 static void active_signals(ali3_instance *in, const double *q, const double *qd) {
   const ali3_system *S = in->system;
@@ -51,9 +55,22 @@ static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, d
   a->idle = 0;
 }
 
+/* Power and forces of element e on its n signals, where a sensor asks for its work. */
+static void record(ali3_instance *in, int32_t e, const double *f, const double *ud, int32_t n) {
+  const ali3_system *S = in->system;
+  const int32_t k = S->work_of[e];
+  if (k < 0) return;
+  double *force = in->watched + S->n_work + S->work_ptr[k], power = 0.0;
+  for (int32_t i = 0; i < n; i++) {
+    force[i] = f[i];
+    power += f[i] * ud[i];
+  }
+  in->watched[k] = power;
+}
+
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double u[ALI3_LOCAL], ud[ALI3_LOCAL], f[ALI3_LOCAL];
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
   active_signals(in, call->q, call->qd);
   memcpy(call->Q, S->gravity_force, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
@@ -73,7 +90,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     (discrete != NULL ? discrete : S->el_kind[e]->evaluate)(&a);
     call->potential[e] = a.potential;
     in->idle[e] = (unsigned char)a.idle;
-    if (S->n_work > 0) ali3_work_watch(in, e, f, ud, a.nsig);
+    if (S->n_work > 0) record(in, e, f, ud, a.nsig);
     if (a.idle) continue;
     for (int32_t i = 0; i < a.nsig; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
@@ -122,7 +139,7 @@ void ali3_forces_tangent(ali3_instance *in, double *F) {
 
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double u[ALI3_LOCAL], ud[ALI3_LOCAL], f[ALI3_LOCAL];
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_kind[e]->accept == NULL) continue;
     ali3_element_args a;

@@ -4,7 +4,10 @@
  * where g, the derivative of v0' M(q) v1 / 2 = T(q, v) - T(q, w) with respect to q in the middle, is exact. */
 #include <string.h>
 
-#include "flexible.h"
+#include "../instance.h"
+#include "body_arrays.h"
+#include "discrete_inertia.h"
+#include "flexible_body.h"
 
 /* r += weight d T(q, v) / dq at the q that was prepared; constant parts of M have none. With D_il[j] of flexible_body.c
  *   T = .. + r' . a_i' P_i . eta + a_i' . a_l' J_il / 2 + r' . a_l P_l . eta' + a_i' . a_l D_il . eta'. */

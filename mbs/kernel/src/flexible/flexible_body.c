@@ -5,7 +5,9 @@
  * Sums over modes run along columns, so that their order does not depend on the width of vectors. */
 #include <string.h>
 
-#include "flexible.h"
+#include "../instance.h"
+#include "body_arrays.h"
+#include "flexible_body.h"
 
 static void prepare_body(const ali3_instance *in, const ali3_flexible *f, const double *q) {
   const int32_t n = f->n;

@@ -2,7 +2,8 @@
  * unsymmetric part (friction depends on the load), which costs a factor per iteration and mostly along one
  * direction. The last two corrections show that direction. Where Newton converges quadratically the corrections
  * shrink faster than SLOW and nothing is mixed. */
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "newton.h"
 
 static const double SLOW = 0.05; /* ratio of two corrections from which on convergence counts as linear */
 static const double LEAST = -100.0, MOST = 0.5; /* bounds of a mixing factor; -6 is a factor of 6/7 per iteration */

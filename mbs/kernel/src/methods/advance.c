@@ -1,6 +1,12 @@
 /* A step by the method of the settings, in halves where it does not converge. What a method leaves as it is, switches
  * among it, it finds in in->next. */
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../state/books.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "check_method.h"
+#include "energy_momentum.h"
+#include "steps.h"
 
 static ali3_status by_method(ali3_instance *in, double t, double h) {
   const int32_t method = in->settings.method;

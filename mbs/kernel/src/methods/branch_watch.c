@@ -7,7 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../rows/assembly_mode.h"
+#include "../state/vectors.h"
+#include "branch_watch.h"
+#include "check_method.h"
+#include "steps.h"
 
 static const double IN_LINE = 0.25; /* square of the largest sine of a ring whose branches may be near */
 static const double APART = 0.5; /* of the change in the step: the parts come out elsewhere; of that: they agree */
@@ -154,10 +159,4 @@ ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
   for (int64_t loop = 0; loop < ali3_loop_count(S) && status == ALI3_OK; loop++) status = judge(in, t, h, loop);
   memcpy(in->mode_sine, in->sine_after, all);
   return status;
-}
-
-ali3_status ali3_run_status(const ali3_report *report) {
-  if (report == NULL) return ALI3_BAD_ARGUMENT;
-  const ali3_status last = (ali3_status)report->last_status;
-  return last == ALI3_OK && report->branch_changes > 0 ? ALI3_BRANCH_CHANGED : last;
 }

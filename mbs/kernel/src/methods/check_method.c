@@ -1,6 +1,8 @@
 /* Which method takes which System. */
-#include "../ali3_internal.h"
+#include "check_method.h"
 #include "../elements/spring_damper.h"
+#include "../instance.h"
+#include "../system/without_memory.h"
 
 /* Whether the stops of a spring-damper take energy. */
 static bool lossy_stops(const ali3_instance *in, int32_t e) {
@@ -25,14 +27,6 @@ static bool conservative(const ali3_instance *in, int32_t e) {
   default:
     return false;
   }
-}
-
-/* No element states and no filtered guides: what a stage inside a step needs is then known from q, qd and the time. */
-bool ali3_without_memory(const ali3_system *S) {
-  if (S->size.ny > 0) return false;
-  for (int32_t g = 0; g < S->size.ng; g++)
-    if (S->guide_type[g] == 1) return false;
-  return true;
 }
 
 /* Whether the method of the settings steps relative coordinates. */

@@ -1,6 +1,9 @@
 /* Order four by symmetric composition (Suzuki 1990) of energy-momentum steps: a h, a h, (1 - 4 a) h, a h, a h with
  * a = 1 / (4 - 4^(1/3)). The third goes backwards in time, so nothing may dissipate. */
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../state/vectors.h"
+#include "energy_momentum.h"
+#include "steps.h"
 
 enum { STAGES = 5 };
 static const double OUTER = 0.41449077179437573714;

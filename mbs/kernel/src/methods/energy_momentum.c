@@ -7,7 +7,25 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/discrete_inertia.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/discrete_rows.h"
+#include "../rows/guides.h"
+#include "../rows/velocity_rows.h"
+#include "../rows/violation.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "energy_momentum.h"
+#include "history.h"
+#include "newton.h"
+#include "predict.h"
+#include "steps.h"
 
 enum { REFINEMENTS = 2, REFINEMENTS_COMPOSED = 4, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
 static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */

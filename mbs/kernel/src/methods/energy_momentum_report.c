@@ -3,7 +3,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../start/index_one.h"
+#include "../state/vectors.h"
+#include "energy_momentum.h"
+#include "projection.h"
 
 enum { MAX_SWEEPS = 3 };
 static const double VELOCITY_TOLERANCE = 1e-11, ROUND_OFF = 1e-11;

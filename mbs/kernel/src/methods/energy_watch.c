@@ -5,7 +5,11 @@
  * -(Phi_q1 D + h Phi_t)'(lam1 - lam0)/2: rows do work where they turn and their forces change within the step. */
 #include <math.h>
 
-#include "../ali3_internal.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../state/books.h"
+#include "energy_watch.h"
 
 /* Shares of the kinetic energy: of a step as asked for, and of a part of one that was halved. A part that cannot be
  * halved again may have what it might have if it had been asked for: else ten short steps pass where a long one does

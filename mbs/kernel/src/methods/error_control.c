@@ -6,7 +6,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "../algebra/elementary.h"
+#include "../instance.h"
+#include "../rows/guides.h"
+#include "../start/initialise.h"
+#include "../state/books.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "branch_watch.h"
+#include "check_method.h"
 #include "error_control.h"
+#include "semi_recursive.h"
 
 static const double LEAST_SHARE = 1e-3; /* of the tolerance */
 static const double AIM = 0.4; /* of what a step may err */

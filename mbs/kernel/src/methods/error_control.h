@@ -1,7 +1,7 @@
 /* What the files of the error control share. */
 #ifndef ALI3_ERROR_CONTROL_H
 #define ALI3_ERROR_CONTROL_H
-#include "../ali3_internal.h"
+#include "../instance.h"
 
 /* What a controlled run is told; scale is the size of a unit of each coordinate, m (nq), or NULL: 1 m each. */
 typedef struct {

@@ -1,7 +1,9 @@
 /* Rule of generalised-alpha, and the quiet start of flexible systems, which is its most damped form. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "generalised_alpha.h"
+#include "history.h"
 
 enum { QUIET_STEPS = 6 };
 static const double UNRESOLVED = 2.0; /* step times frequency of a mode, rad */

@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../state/vectors.h"
+#include "history.h"
 
 static const double WELL = 1e-4;   /* squared relative error of a good guess */
 static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */

@@ -5,7 +5,9 @@
  * of the last two steps go on. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "history.h"
+#include "predict.h"
 
 enum { PARABOLA = 3 };
 /* Share of the change of the multipliers that is taken: no step corrects what they have along dependent rows or has

@@ -1,7 +1,10 @@
 /* Projections (24), (25) of velocities and accelerations with the factorised tangent. */
 #include <math.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/fronts.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "projection.h"
 
 /* Whether Phi_q v + b, which stays in in->mu, is below the tolerance times the largest of v; its size in *violation. */
 bool ali3_rates_closed(ali3_instance *in, const double *b, const double *v, double tolerance, double *violation) {

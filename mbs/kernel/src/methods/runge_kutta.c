@@ -6,6 +6,21 @@
 #include <math.h>
 #include <string.h>
 
+#include "../algebra/fronts.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
+#include "../rows/violation.h"
+#include "../start/index_one.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "energy_watch.h"
+#include "newton.h"
+#include "predict.h"
+#include "projection.h"
+#include "steps.h"
 #include "tableau.h"
 
 enum { STAGES = ALI3_STAGES, SWEEPS = 3 };

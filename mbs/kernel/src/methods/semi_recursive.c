@@ -6,7 +6,20 @@
 #include <math.h>
 #include <string.h>
 
+#include "../algebra/finite.h"
+#include "../elements/forces.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/violation.h"
+#include "../start/index_one.h"
+#include "../state/books.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
 #include "../tree/tree.h"
+#include "newton.h"
+#include "semi_recursive.h"
+#include "steps.h"
 #include "tableau.h"
 
 static const double TURNS = 1e4, TWO_PI = 6.283185307179586; /* rad: beyond, whole turns are taken off */

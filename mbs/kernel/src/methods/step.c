@@ -3,7 +3,23 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
+#include "../rows/velocity_rows.h"
+#include "../rows/violation.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "energy_watch.h"
+#include "generalised_alpha.h"
+#include "newton.h"
+#include "predict.h"
+#include "projection.h"
+#include "steps.h"
 
 enum { MAX_SWEEPS = 3 };
 /* Relative violations at which projections end: velocities at round-off; accelerations only steer the next

@@ -3,7 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "../instance.h"
+#include "../state/books.h"
+#include "../state/vectors.h"
 #include "error_control.h"
+#include "steps.h"
 
 int32_t ali3_order(int32_t method) {
   static const int32_t order[ALI3_METHOD_COUNT] = {2, 1, 2, 3, 8, 8, 4, 5}; /* of steps that change */

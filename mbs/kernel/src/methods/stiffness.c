@@ -2,7 +2,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../start/index_one.h"
+#include "../state/vectors.h"
+#include "stiffness.h"
 
 enum { ROUNDS = 24, COUNTED = 8 }; /* the eighth root is three square roots */
 static const double SHIFT = 1e-7; /* of the size of the state, at least 1 */

@@ -1,5 +1,6 @@
 /* Explicit Runge-Kutta rules. */
 #include "tableau.h"
+#include "../instance.h"
 
 enum { STAGES = ALI3_STAGES };
 

@@ -1,7 +1,7 @@
 /* Explicit Runge-Kutta rules as tables of coefficients. */
 #ifndef ALI3_TABLEAU_H
 #define ALI3_TABLEAU_H
-#include "../ali3_internal.h"
+#include "../instance.h"
 
 typedef struct {
   int32_t stages;

@@ -2,7 +2,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/elementary.h"
+#include "../instance.h"
+#include "constraints.h"
+#include "switch_rows.h"
+#include "velocity_rows.h"
 
 /* A scene that is not tied to the ground does not feel a translation, but its squares of coordinates do lose digits
  * far from the origin: there the rows are evaluated at a shifted copy. */

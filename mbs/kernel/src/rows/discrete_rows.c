@@ -3,7 +3,9 @@
  * which the mean of the derivatives differs from the derivative of the means by products of two increments. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/elementary.h"
+#include "../instance.h"
+#include "discrete_rows.h"
 
 static void correct_guided(const ali3_instance *in, const double *D, const double *s0, const double *s1) {
   const ali3_system *S = in->system;

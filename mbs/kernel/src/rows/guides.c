@@ -2,7 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/elementary.h"
+#include "../instance.h"
+#include "guides.h"
 
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {
   if (type == 1) {

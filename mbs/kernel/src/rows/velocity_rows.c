@@ -2,7 +2,8 @@
  * h q_a. They bring no Phi; A stands in their place of Phi_q, so that projections, accelerations and forces A' lam need
  * nothing of their own. Where a step solves for positions, the value of such a row is A qd over the rate of its rule,
  * whose derivative with respect to the increment is A and a term of the size of the step. */
-#include "../ali3_internal.h"
+#include "velocity_rows.h"
+#include "../instance.h"
 
 static bool is_off(const ali3_instance *in, int32_t k) {
   const int32_t number = in->system->row_switch[k];

@@ -3,7 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../state/work.h"
+#include "sensors.h"
 
 typedef struct {
   double v[3], d[3]; /* value and change */

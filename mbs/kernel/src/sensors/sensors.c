@@ -1,7 +1,12 @@
 /* Sensor values of the present state. Type numbers and integers: docs/system_file.md. */
 #include <math.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/elementary.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../state/work.h"
+#include "sensors.h"
 
 /* Signal i (order 0) or its first or second rate. */
 static double signal(const ali3_instance *in, int32_t i, int32_t order) {

@@ -3,7 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "index_one.h"
 
 enum { SOLVES = 2, ITERATIONS = 60 };
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;

@@ -4,7 +4,19 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
+#include "../rows/velocity_rows.h"
+#include "../rows/violation.h"
+#include "../state/work.h"
+#include "index_one.h"
+#include "initialise.h"
 
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 static const double CLOSED = 1e-12; /* violation that needs no work, m */

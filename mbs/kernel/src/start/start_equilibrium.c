@@ -4,26 +4,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "../system/check.h"
+#include "../instance.h"
+#include "../state/parameters.h"
+#include "../state/vectors.h"
+#include "initialise.h"
 
 static const double TOLERANCE = 1e-8; /* N, N m */
 static const double SAME = 1e-9; /* m: an equilibrium that close to the file's is the file's */
 enum { ITERATIONS = 400, ROAD = 2 };
-
-ali3_status ali3_check_start(const ali3_system *s, ali3_message m) {
-  if (s->n_static_start != 0) CHECK(ali3_check_length(m, "static_start", s->n_static_start, 1));
-  CHECK(ali3_check_indices(m, "static_start", s->static_start, s->n_static_start, 1, 2));
-  CHECK(ali3_check_length(m, "static_value", s->n_static_value, s->n_static_par));
-  CHECK(ali3_check_indices(m, "static_par", s->static_par, s->n_static_par, 0, s->size.np));
-  for (int64_t i = 0; i < s->n_static_par; i++)
-    if (!(s->static_value[i] >= s->par_min[s->static_par[i]] && s->static_value[i] <= s->par_max[s->static_par[i]]))
-      return ali3_bad(m, "the search for the equilibrium sets parameter %d to %g, outside its range",
-                      (int)s->static_par[i], s->static_value[i]);
-  if (s->n_static_start > 0 || s->n_pose_partner > 0)
-    CHECK(ali3_check_length(m, "pose_partner", s->n_pose_partner, s->n_pose_0));
-  return ali3_check_indices(m, "pose_partner", s->pose_partner, s->n_pose_partner, -(int64_t)s->size.nsig,
-                            (int64_t)s->size.nsig + 1);
-}
 
 static double signal(const ali3_system *S, const double *q, int32_t i) {
   double sum = S->sig_const[i];
@@ -43,18 +31,6 @@ static void set_start(ali3_instance *in, const double *q) {
       in->pose_cos[i] = q[i];
       in->pose_sin[i] = partner < 0 ? -signal(S, q, -partner - 1) : signal(S, q, partner - 1);
     }
-  }
-}
-
-/* Start as in the file. */
-void ali3_start_of_file(ali3_instance *in) {
-  const ali3_system *S = in->system;
-  const size_t n = S->size.has_pose ? (size_t)S->size.nq * sizeof(double) : 0;
-  memcpy(in->start_q, S->q0, (size_t)S->size.nq * sizeof(double));
-  if (n > 0) {
-    memcpy(in->pose_0, S->pose_0, n);
-    memcpy(in->pose_cos, S->pose_cos, n);
-    memcpy(in->pose_sin, S->pose_sin, n);
   }
 }
 

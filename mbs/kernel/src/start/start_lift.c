@@ -1,9 +1,9 @@
 /* A start with a tyre deeper in the road than its radius, its wheel's centre below the surface: no spring of a tyre
  * means that, and it would shoot the scene up. How much higher the scene must begin. */
-#include "../ali3_internal.h"
 #include "../elements/element.h"
 #include "../elements/element_math.h"
 #include "../elements/road.h"
+#include "../instance.h"
 
 static const double CLEAR = 1e-6; /* m: a depth that counts as none */
 enum { RADIUS = 0, MOST_LIFTS = 100 }; /* the first real of a tyre; walls are climbed a depth at a time */

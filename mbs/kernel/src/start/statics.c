@@ -5,7 +5,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/violation.h"
+#include "../state/vectors.h"
+#include "initialise.h"
 
 static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
 static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 */

@@ -2,7 +2,10 @@
  * how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
 #include <math.h>
 
-#include "../ali3_internal.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "books.h"
 
 static const double REST = 1e-6; /* m/s: slower than that nothing moves, and round-off is no error of the energy */
 

@@ -1,7 +1,8 @@
 /* Inputs from tables over time, piecewise linear with jumps. */
 #include <math.h>
+#include <stdbool.h>
 
-#include "../ali3_internal.h"
+#include "../../include/ali3.h"
 
 /* Number of times below `t`, or not above it. */
 static int64_t count(const ali3_input_table *x, double t, bool or_at) {

@@ -4,7 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../instance.h"
+#include "inputs.h"
 
 static const double ROUND_OFF = 1e-13; /* of a table's value at one of its times, from either side */
 

@@ -2,7 +2,18 @@
 #include <math.h>
 #include <string.h>
 
+#include "../algebra/elementary.h"
+#include "../algebra/finite.h"
+#include "../elements/road.h"
+#include "../instance.h"
+#include "../rows/assembly_mode.h"
+#include "../system/loading.h"
+#include "../system/without_memory.h"
 #include "../tree/tree.h"
+#include "books.h"
+#include "parameters.h"
+#include "vectors.h"
+#include "work.h"
 
 const char *ali3_status_text(ali3_status s) {
   static const char *const text[ALI3_STATUS_COUNT] = {

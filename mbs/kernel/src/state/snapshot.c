@@ -2,7 +2,9 @@
  * it was taken of, so it needs no header, checksum or checks of ali3_state_restore. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "parameters.h"
+#include "vectors.h"
 
 typedef struct {
   ali3_report report;

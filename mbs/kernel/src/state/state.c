@@ -2,7 +2,11 @@
  * for bit. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+#include "../rows/assembly_mode.h"
+#include "../system/crc32.h"
+#include "parameters.h"
+#include "vectors.h"
 
 typedef struct { /* 40 bytes without holes */
   char magic[8];

@@ -1,7 +1,9 @@
 /* The vectors of a state: their places in one block, and copies of the whole block. */
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../algebra/finite.h"
+#include "../instance.h"
+#include "vectors.h"
 
 double *ali3_take(double **pool, size_t n) {
   double *piece = *pool;

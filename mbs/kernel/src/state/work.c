@@ -5,20 +5,9 @@
  * f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages. */
 #include <string.h>
 
-#include "../ali3_internal.h"
-
-/* Power and forces of element e, those of the last ali3_forces: what it did on its n signals. */
-void ali3_work_watch(ali3_instance *in, int32_t e, const double *f, const double *ud, int32_t n) {
-  const ali3_system *S = in->system;
-  const int32_t k = S->work_of[e];
-  if (k < 0) return;
-  double *force = in->watched + S->n_work + S->work_ptr[k], power = 0.0;
-  for (int32_t i = 0; i < n; i++) {
-    force[i] = f[i];
-    power += f[i] * ud[i];
-  }
-  in->watched[k] = power;
-}
+#include "../elements/forces.h"
+#include "../instance.h"
+#include "work.h"
 
 static void copy(double *to, const double *from, int32_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));

@@ -1,7 +1,10 @@
 /* Flexible bodies of a System: lengths, places in the fronts, symmetry. */
 #include <math.h>
 
+#include "../system.h"
 #include "check.h"
+#include "loading.h"
+#include "message.h"
 
 enum { MAX_SQUARE = 1 << 24 };
 static const double SYMMETRY = 1e-9;

@@ -1,5 +1,8 @@
 /* Fronts and rows of a System: every local index must name the coordinate it stands for. */
+#include "../system.h"
 #include "check.h"
+#include "loading.h"
+#include "message.h"
 
 enum { MAX_FRONT = 4096, MAX_FRONT_STORAGE = 1 << 26 };
 

@@ -1,5 +1,9 @@
 /* Force elements and sensors of a System. */
+#include "../elements/element.h"
+#include "../system.h"
 #include "check.h"
+#include "loading.h"
+#include "message.h"
 
 static bool fits(int32_t expected, int32_t n) { return expected == -1 || expected == n; }
 

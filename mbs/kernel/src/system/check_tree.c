@@ -1,6 +1,9 @@
 /* Tree of a System: lengths, parents before children, places, and that nothing else moves the bodies. */
+#include "../instance.h"
 #include "../tree/tree.h"
 #include "check.h"
+#include "loading.h"
+#include "message.h"
 
 static ali3_status check_cuts(const ali3_system *s, int64_t n, ali3_message m) {
   const int64_t cuts = s->n_tree_cut_body / 2;

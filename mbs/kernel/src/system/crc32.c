@@ -1,5 +1,5 @@
 /* CRC-32 of zlib (polynomial 0x04c11db7, reflected), a byte at a time: table[n] is the remainder of byte n. */
-#include "../ali3_internal.h"
+#include "crc32.h"
 
 /* clang-format off */
 static const uint32_t table[256] = {

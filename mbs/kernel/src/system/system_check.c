@@ -2,7 +2,13 @@
  * is checked. */
 #include <math.h>
 
+#include "../elements/element.h"
+#include "../elements/road.h"
+#include "../rows/guides.h"
+#include "../system.h"
 #include "check.h"
+#include "loading.h"
+#include "message.h"
 
 enum { MAX_COORDINATES = 1 << 20, MAX_OUTPUTS = 1 << 20 };
 

@@ -5,7 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../elements/element.h"
+#include "../system.h"
 #include "../tree/tree.h"
+#include "loading.h"
+#include "message.h"
 
 enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
 

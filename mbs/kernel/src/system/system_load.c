@@ -4,7 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../ali3_internal.h"
+#include "../system.h"
+#include "crc32.h"
+#include "loading.h"
+#include "message.h"
 
 enum { HEADER_SIZE = 32, ENTRY_SIZE = 64, NAME_SIZE = 40 };
 

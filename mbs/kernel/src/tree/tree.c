@@ -1,5 +1,6 @@
 /* Motion of the bodies of a tree from its relative coordinates: frames, velocities, accelerations. */
 #include "tree.h"
+#include "../algebra/elementary.h"
 
 void ali3_tree_place(const ali3_tree *T, ali3_tree_work *w) {
   ali3_sine_cosine(T->lanes, w->q, w->sine, w->cosine);

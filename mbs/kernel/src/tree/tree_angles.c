@@ -1,5 +1,6 @@
 /* Relative angles of a tree: an angle is where it is when its joints are at zero, plus the sum of their coordinates, each
  * with its sign, because all of them turn about the axis of the angle. Nothing has to be wrapped or unwrapped. */
+#include "../system.h"
 #include "tree.h"
 
 static double sum(const ali3_system *S, int32_t a, const double *x) {

@@ -1,6 +1,7 @@
 /* The tree of a System as lanes, and its work space. */
 #include <string.h>
 
+#include "../system.h"
 #include "tree.h"
 
 /* s->tree from the arrays; zeroed memory is given. */

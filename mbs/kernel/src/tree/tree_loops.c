@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "../elements/element_math.h"
+#include "../system.h"
 #include "tree.h"
 
 static const double RANK = 1e-7; /* a pivot below this part of the largest is of a redundant row */

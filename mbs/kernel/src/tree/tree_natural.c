@@ -1,5 +1,7 @@
 /* Between the relative coordinates of a tree and the natural coordinates of its System. */
+#include "../algebra/elementary.h"
 #include "../elements/element_math.h"
+#include "../instance.h"
 #include "tree.h"
 
 static double signal(const ali3_system *S, int32_t i, const double *x, bool rate) {

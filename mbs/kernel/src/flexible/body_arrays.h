@@ -1,7 +1,7 @@
 /* A flexible body in the arrays of a System, and the loops that its files share. */
-#ifndef ALI3_FLEXIBLE_H
-#define ALI3_FLEXIBLE_H
-#include "../ali3_internal.h"
+#ifndef ALI3_BODY_ARRAYS_H
+#define ALI3_BODY_ARRAYS_H
+#include "../instance.h"
 
 enum {
   ALI3_FLEX_AXES = 0,

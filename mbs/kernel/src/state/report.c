@@ -1,7 +1,22 @@
-/* What the solver says about itself, by number: sensors of type 13 and the FMU read the same. */
+/* What the solver says about itself: its clock, its report, and numbers of it that sensors of type 13 and the FMU
+ * read. */
 #include <float.h>
 
-#include "../ali3_internal.h"
+#include "../instance.h"
+
+double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
+
+ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
+  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
+  *out = in->report;
+  return ALI3_OK;
+}
+
+ali3_status ali3_run_status(const ali3_report *report) {
+  if (report == NULL) return ALI3_BAD_ARGUMENT;
+  const ali3_status last = (ali3_status)report->last_status;
+  return last == ALI3_OK && report->branch_changes > 0 ? ALI3_BRANCH_CHANGED : last;
+}
 
 /* A refused step may leave a residual beyond all numbers. */
 static double told(double value) { return value - value == 0.0 ? value : DBL_MAX; }
