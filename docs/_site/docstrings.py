@@ -7,15 +7,15 @@ import re
 from sphinx.application import Sphinx
 
 ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
+MARKUP = re.compile(r"[|*]|(?<=\w)_(?!\w)")
 CODE = re.compile(r"(``.+?``|`[^`]+`)")
 
 
 def escaped(line: str) -> str:
     """`line` with the characters escaped that reStructuredText would take for markup, outside of code."""
     parts = CODE.split(line)
-    return "".join(
-        p if i % 2 else re.sub(r"([|*])|(?<=\w)_(?!\w)", lambda m: "\\" + m[0], p) for i, p in enumerate(parts)
-    )
+    parts[::2] = [MARKUP.sub(r"\\\g<0>", part) for part in parts[::2]]
+    return "".join(parts)
 
 
 def plain(app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]) -> None:
