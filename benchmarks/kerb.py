@@ -3,9 +3,8 @@
 Size of the model, Newton iterations and time beside those of the paper (293 variables, 239 constraints, 65 modes; 2
 iterations on average and 3 at most; 48 s for the 15 s). Peaks are the largest changes of the bending moments from rest
 before and after a low-pass of 10 Hz, front (SG1) and rear (SG3), with their errors against those of all steps of the
-reference. The
-last two columns: what is left of the moments at the end, as a part of the peak, while the tyres hold the car sideways,
-and after their grip is let go.
+reference. The last two columns: what is left of the moments at the end, as a part of the peak, while the tyres hold the
+car sideways, and after their friction is set to zero.
 """
 
 from __future__ import annotations

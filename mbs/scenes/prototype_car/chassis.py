@@ -87,10 +87,13 @@ def _finite_elements() -> tuple[FiniteElementModel, tuple[StrainGauge, ...], np.
     return frame.finite_element_model(), gauges, np.vstack(gauge_rows(frame, gauges))
 
 
-@cache
 def reduced_chassis(fidelity: Fidelity | int | str) -> ReducedBody:
     """The frame with the modes of a flexible fidelity."""
-    fidelity = Fidelity.of(fidelity)
+    return _reduced_chassis(Fidelity.of(fidelity))
+
+
+@cache
+def _reduced_chassis(fidelity: Fidelity) -> ReducedBody:
     model, _, _ = _finite_elements()
     if fidelity is Fidelity.PAPER:
         return craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES, damping=DAMPING)

@@ -59,7 +59,7 @@ class Subject:
     @property
     def three(self) -> bool:
         """Whether it is FMI 3.0."""
-        return self.description.fmiVersion.startswith("3")
+        return str(self.description.fmiVersion).startswith("3")
 
     @property
     def outputs(self) -> list[ScalarVariable]:

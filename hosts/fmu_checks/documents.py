@@ -5,7 +5,7 @@ from __future__ import annotations
 from fmpy import platform, supported_platforms
 from fmpy.validation import validate_fmu
 
-from hosts.checking import Finding, Subject
+from hosts.fmu_checks.instance import Finding, Subject
 
 
 def description(subject: Subject) -> Finding:
@@ -64,7 +64,7 @@ def folders(subject: Subject) -> Finding:
     return Finding("documentation, sources", "good", "documentation, sources and licence are inside")
 
 
-TEXT_CHECKS = (
+DOCUMENT_CHECKS = (
     ("model description", description),
     ("binaries", binaries),
     ("stands alone", execution_tool),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hosts.co_simulation import Result
 from hosts.course import Course
-from hosts.run import Result
 
 WHEELS = ("FL", "FR", "RL", "RR")
 # A wheel that carries less is in the air, N.

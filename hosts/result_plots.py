@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -15,9 +16,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from ali3.files import whole_file
+from hosts.co_simulation import Result
 from hosts.course import Course
-from hosts.run import Result
-from hosts.summary import WHEELS
+from hosts.run_summary import WHEELS
 
 # Okabe and Ito's palette: distinguishable with any colour vision.
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK = (
@@ -30,7 +32,7 @@ BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK = (
     "#222222",
 )
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
-_STYLE = {
+_STYLE: dict[Any, Any] = {
     "font.size": 10,
     "font.family": "DejaVu Sans",
     "axes.spines.top": False,
@@ -71,8 +73,14 @@ def plot_page(
         is_car = all(n in result for n in ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz"))
         figure = _car_page(result, rows, course) if is_car else _plain_page(result, rows)
         figure.suptitle(title, x=0.012, y=0.988, ha="left", va="top", fontsize=15, fontweight="bold")
-        figure.savefig(file, dpi=110)
-        plt.close(figure)
+        save_picture(figure, file)
+
+
+def save_picture(figure: Figure, file: Path) -> None:
+    """Write a figure as PNG and close it."""
+    with whole_file(file) as made:
+        figure.savefig(made, dpi=110)
+    plt.close(figure)
 
 
 @dataclass(frozen=True)
@@ -126,8 +134,8 @@ def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | 
     lines = -(-len(panels) // 3)
     height = 4.0 + 2.6 * lines
     figure = plt.figure(figsize=(16, height), layout="constrained")
-    engine = figure.get_layout_engine()
-    engine.set(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)  # type: ignore[union-attr]
+    engine: Any = figure.get_layout_engine()
+    engine.set(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
     grid = figure.add_gridspec(lines + 1, 3, height_ratios=(1.2, *[1.0] * lines))
     _path(figure.add_subplot(grid[0, :2]), result, course)
     _table(figure.add_subplot(grid[0, 2]), rows)
@@ -170,7 +178,8 @@ def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
     lines = -(-(len(panels) + 1) // columns)
     figure = plt.figure(figsize=(16, 1.2 + 3.3 * lines), layout="constrained")
     rect = (0.005, 0.005, 0.99, 1.0 - 0.6 / (1.2 + 3.3 * lines) - 0.005)
-    figure.get_layout_engine().set(rect=rect, w_pad=0.1, h_pad=0.1)  # type: ignore[union-attr]
+    engine: Any = figure.get_layout_engine()
+    engine.set(rect=rect, w_pad=0.1, h_pad=0.1)
     grid = figure.add_gridspec(lines, columns)
     first: Axes | None = None
     for k, (unit, names) in enumerate(panels):

@@ -7,7 +7,7 @@ from collections import Counter
 from ctypes import byref, c_bool, c_double, c_int, c_void_p
 from xml.etree import ElementTree
 
-from hosts.checking import Finding, Instance, Subject
+from hosts.fmu_checks.instance import Finding, Instance, Subject
 
 # Names whose last part says that the value is a whole number.
 _COUNTS = ("iterations", "factorizations", "halvings", "status", "gear", "fidelity")
@@ -246,12 +246,11 @@ def _step_status(instance: Instance, time: float, step: float) -> int:
     slave, begin, length = instance.slave, c_double(time), c_double(step)
     if not instance.three:
         return int(slave.dll.fmi2DoStep(c_void_p(slave.component), begin, length, c_int(1)))
-    flags, last = [c_bool() for _ in range(3)], c_double()
-    pointers = [byref(x) for x in (*flags, last)]
+    pointers = [*(byref(c_bool()) for _ in range(3)), byref(c_double())]
     return int(slave.dll.fmi3DoStep(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
 
 
-DETAIL_CHECKS = (
+PORTABILITY_CHECKS = (
     ("unit names", one_spelling),
     ("whole numbers", whole_numbers),
     ("about the file", about_the_file),

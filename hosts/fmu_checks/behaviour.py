@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from hosts.checking import Finding, Instance, Subject
+from hosts.fmu_checks.instance import Finding, Instance, Subject
 
 # Two ways of dividing time differ by the error of the method.
 _SUBSTEP_SHARE = 0.05
@@ -129,7 +129,7 @@ def many(subject: Subject) -> Finding:
     return Finding("many instances", "good" if same else "bad", "30 at once" + ("" if same else ", they differ"))
 
 
-RUNNING_CHECKS = (
+BEHAVIOUR_CHECKS = (
     ("runs", runs),
     ("repeats", repeats),
     ("reset", resets),
