@@ -15,6 +15,7 @@ from pathlib import Path
 KERNEL = Path(__file__).resolve().parent
 HEADER = KERNEL / "header.py"
 PUBLIC = "include/ali3.h"
+ELEMENTS = "src/elements/element_types.h"
 
 ENUMERATIONS = {
     "Status": (PUBLIC, "ALI3_OK", "ALI3_", "Codes of `ali3_status`: how a call of the kernel ended."),
@@ -95,6 +96,20 @@ def table(file: str, name: str) -> list[list[str]]:
     return entries
 
 
+def element_types() -> dict[str, int]:
+    """The types of force elements and their numbers.
+
+    Raises
+    ------
+    ValueError
+        If two have one number.
+    """
+    types = {name.upper(): int(number) for number, name in table(ELEMENTS, "ALI3_ELEMENT_TYPES")}
+    if len(set(types.values())) != len(types):
+        raise ValueError(f"two types of ALI3_ELEMENT_TYPES in {ELEMENTS} have one number.")
+    return types
+
+
 def structure(name: str) -> list[tuple[str, str]]:
     """Fields of ``ali3_name`` and their ctypes."""
     found = re.search(rf"typedef struct \{{([^{{}}]*)\}} ali3_{name};", text_of(PUBLIC))
@@ -126,6 +141,8 @@ def header() -> str:
     for name, (file, first, prefix, text) in ENUMERATIONS.items():
         items = enumeration(file, first, prefix).items()
         parts.append(_class(name, "IntEnum", text, (f"{item} = {value}" for item, value in items)))
+    elements = (f"{name} = {number}" for name, number in element_types().items())
+    parts.append(_class("ElementType", "IntEnum", "Types of force elements.", elements))
     for c_name, name in STRUCTURES.items():
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")

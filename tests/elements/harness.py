@@ -20,24 +20,8 @@ from mbs.elements import ElementRecord, PlaneRoad, Road
 
 Array = NDArray[np.float64]
 KERNEL = Path(__file__).parents[2] / "mbs" / "kernel" / "src"
-SOURCES = (
-    "elements/spring_damper",
-    "elements/scalar_spring_damper",
-    "elements/input_force",
-    "elements/body_force",
-    "elements/body_torque",
-    "elements/gyroscopic_spin",
-    "elements/drag",
-    "elements/tyre",
-    "elements/tmeasy",
-    "elements/brake",
-    "elements/contact_law",
-    "elements/contact_points",
-    "elements/automatic_drive",
-    "elements/spin_torque",
-    "elements/road",
-    "algebra/elementary",
-)
+SOURCES = [f for f in sorted((KERNEL / "elements").glob("*.c")) if f.name != "forces.c"]  # that needs a System
+SOURCES.append(KERNEL / "algebra" / "elementary.c")
 
 
 @cache
@@ -46,7 +30,7 @@ def library() -> ctypes.CDLL:
     folder = Path(tempfile.mkdtemp(prefix="ali3_elements_"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     target = folder / ("elements.dll" if sys.platform == "win32" else "elements.so")
-    files = [str(KERNEL / f"{name}.c") for name in SOURCES]
+    files = [str(file) for file in SOURCES]
     flags = ["-std=c11", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{KERNEL}"]
     command = [sys.executable, "-m", "ziglang", "cc", *flags, str(Path(__file__).with_name("harness.c")), *files]
     subprocess.run([*command, "-lm", "-o", str(target)], check=True, capture_output=True, text=True)
