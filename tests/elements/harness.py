@@ -97,6 +97,24 @@ class Element:
         text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(e.integer), n, n_roads)
         return None if text is None else text.decode()
 
+    @property
+    def conservative(self) -> bool:
+        """Whether the kernel says that forces of this element take no energy."""
+        e = self.element
+        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real)))
+
+    @property
+    def has_discrete(self) -> bool:
+        """Whether it has forces by a discrete gradient of their own."""
+        return bool(library().harness_has_discrete(int(self.element.type)))
+
+    def start(self, u: ArrayLike, raised: float = 0.0) -> tuple[float, float] | None:
+        """Excess and rise of the element's verdict on a start; None: it has none."""
+        e, out, road = self.element, (ctypes.c_double * 2)(), self.road.real
+        numbers = (_doubles(u), ctypes.c_double(raised), _doubles(e.real), _ints(e.integer))
+        has = library().harness_start(int(e.type), self.sizes, *numbers, self.road.type, len(road), _doubles(road), out)
+        return (out[0], out[1]) if has else None
+
     def __call__(
         self,
         u: ArrayLike,
@@ -107,6 +125,7 @@ class Element:
         wK: float = 0.0,
         inputs: ArrayLike = (),
         accept: bool = False,
+        discrete: bool = False,
     ) -> Result:
         e = self.element
         n = len(e.signals)
@@ -118,6 +137,7 @@ class Element:
         potential = library().harness_evaluate(
             int(e.type),
             int(accept),
+            int(discrete),
             self.sizes,
             _doubles(u),
             _doubles(ud),
