@@ -59,7 +59,7 @@ def pack(contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[
     files |= {
         f"resources/{main}.py": script.encode(),
         f"resources/{package}/fmu.json": json.dumps(
-            {"identity": identity, "variables": records, "rows": contents.rows}, indent=1
+            {"identity": identity, "variables": records, "rows": contents.names["row"]}, indent=1
         ).encode(),
         "resources/slavemodule.txt": main.encode(),
         "resources/guid.txt": guid.encode(),

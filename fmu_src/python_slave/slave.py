@@ -389,18 +389,18 @@ class Slave(Fmi2Slave):
     def _start_hint(self, error: Exception) -> str:
         """What is wrong with a start, in numbers."""
         if not isinstance(error, binding.KernelError) or error.status not in (
-            binding.Status.BELOW_ROAD,
+            binding.Status.START_REFUSED,
             binding.Status.TOO_FAR,
         ):
             return self._worst()
         if error.status == binding.Status.TOO_FAR:
             return self._farthest()
-        lift = self._kernel.start_lift()
+        lift, _, words = self._kernel.start_excess()
         heights = [k for k, v in enumerate(self._table) if v["source"] == "pose" and v["index"] == _POSE_HEIGHT]
         if not heights:
-            return f" {lift:.3g} m higher it would be clear of it."
+            return f" It {words}. {lift:.3g} m higher nothing would be in its way."
         name, z = self._table[heights[0]]["name"], self._values[heights[0]]
-        return f" '{name}' is {z:g} m; from {z + lift:.3g} m on the tyres are clear of it."
+        return f" It {words}. '{name}' is {z:g} m; from {z + lift:.3g} m on nothing is in its way."
 
     def _farthest(self) -> str:
         """The start value that lies beyond the digits of a number."""
