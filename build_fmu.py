@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     from fmu_src.build import KINDS, build_fmu
     from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
-    from fmu_src.scene_registry import load_variants
+    from fmu_src.scene_registry import load_fidelities
 
     kinds = options.kind.split(",")
     platforms = options.platforms.split(",") if options.platforms else None
@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if "python" in kinds:
             _need_pythonfmu()
         print(f"scene {options.scene} ...", flush=True)
-        name, systems, fidelity = load_variants(options.scene)
+        name, systems, fidelity = load_fidelities(options.scene)
         meta = systems[fidelity].meta
         for kind in kinds:
             able = [p for p in PYTHON_PLATFORMS if p in platforms] if platforms and kind == "python" else platforms

@@ -8,8 +8,9 @@ import re
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from enum import Enum
 from pathlib import Path
 
 import mbs
@@ -17,7 +18,7 @@ from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.probe import probe, with_nominal
-from fmu_src.variables import check_variants, variable_table
+from fmu_src.variables import check_fidelities, variable_table
 from mbs.kernel import build
 
 Say = Callable[[str], None]
@@ -45,7 +46,7 @@ def fmu_name(scene: str, kind: str = "native") -> str:
 
 
 def build_fmu(
-    system: mbs.System | Sequence[mbs.System],
+    system: mbs.System | Sequence[mbs.System] | Mapping[int, mbs.System],
     name: str,
     out: Path,
     platforms: Sequence[str] | None = None,
@@ -60,8 +61,9 @@ def build_fmu(
 
     Parameters
     ----------
-    system : mbs.System or sequence of them
-        Several are the rungs of the parameter `fidelity`: with the same inputs, parameters and sensors.
+    system : mbs.System, sequence of them or mapping of int to mbs.System
+        Several are the choices of the parameter `fidelity`, by number from 0 on or by members of an enumeration, with
+        the same inputs, parameters and sensors.
     name : str
         Of the scene, such as ``prototype_car``.
     out : Path
@@ -89,14 +91,16 @@ def build_fmu(
     unknown = sorted(set(chosen) - set(able))
     if unknown or not chosen:
         raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
-    systems = (system,) if isinstance(system, mbs.System) else tuple(system)
-    check_variants([s.meta for s in systems])
+    given = (system,) if isinstance(system, mbs.System) else system
+    offered = given if isinstance(given, Mapping) else dict(enumerate(given))
+    systems = tuple(offered[k] for k in sorted(offered))
+    check_fidelities([s.meta for s in systems])
     meta = systems[fidelity].meta
     table = variable_table(
         meta,
         pose=bool(meta["floating"]),
         step_size=float(meta["experiment"]["step_s"]),
-        fidelities=len(systems),
+        fidelities=[k.name.lower() if isinstance(k, Enum) else "" for k in sorted(offered)],
         fidelity=fidelity,
     )
     told = functools.partial(_told, say)

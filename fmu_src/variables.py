@@ -90,7 +90,7 @@ class Variable:
 
 
 def variable_table(
-    meta: Mapping[str, Any], *, pose: bool, step_size: float, fidelities: int = 1, fidelity: int = 0
+    meta: Mapping[str, Any], *, pose: bool, step_size: float, fidelities: Sequence[str] = ("",), fidelity: int = 0
 ) -> tuple[Variable, ...]:
     """Make the table of variables of a System.
 
@@ -102,9 +102,9 @@ def variable_table(
         Whether the System has an initial pose (is not tied to the ground).
     step_size : float
         Default inner step, s.
-    fidelities : int
-        How many Systems there are to choose from; the others must share inputs, parameters and sensors with this one
-        (`check_variants`).
+    fidelities : sequence of str
+        Names of the Systems to choose from, empty where they have none; all must share inputs, parameters and sensors
+        (`check_fidelities`).
     fidelity : int
         The default one.
 
@@ -147,9 +147,10 @@ def variable_table(
             step_size * 10.0,
         )
     )
-    if fidelities > 1:
-        text = "How much model: 0 the least, up; stress.computed and the documentation say what it computes"
-        last = float(fidelities - 1)
+    if len(fidelities) > 1:
+        named = ", ".join(f"{k} {name}".rstrip() for k, name in enumerate(fidelities))
+        text = f"Level of detail of the model, from the least to the most: {named}"
+        last = float(len(fidelities) - 1)
         table.append(
             Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
         )
@@ -195,7 +196,7 @@ def _preceded(v: Variable, word: str) -> Variable:
     return replace(v, description=f"{word}: {v.description}")
 
 
-def check_variants(metas: Sequence[Mapping[str, Any]]) -> None:
+def check_fidelities(metas: Sequence[Mapping[str, Any]]) -> None:
     """Systems to choose from must have the same inputs, parameters and sensors in the same order."""
     for k, meta in enumerate(metas[1:], start=1):
         for kind in ("inputs", "parameters", "sensors"):

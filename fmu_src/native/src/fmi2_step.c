@@ -33,7 +33,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealStatus)(fmi2Component c, const fmi2S
   slave *s = fmi2_slave(c, "fmi2GetRealStatus", FMI2_DONE);
   if (s == NULL || !fmi2_given(s, "fmi2GetRealStatus", value != NULL)) return fmi2Error;
   if (kind != fmi2LastSuccessfulTime) return no_status(c, "fmi2GetRealStatus");
-  *value = ali3_time(s->rung.kernel);
+  *value = ali3_time(s->fidelity.kernel);
   return fmi2OK;
 }
 

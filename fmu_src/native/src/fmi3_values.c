@@ -2,7 +2,7 @@
 #include "fmi3_face.h"
 
 static double time_of(const slave *s) {
-  return s->calls.phase == SLAVE_INITIALISING ? s->calls.start_time : ali3_time(s->rung.kernel);
+  return s->calls.phase == SLAVE_INITIALISING ? s->calls.start_time : ali3_time(s->fidelity.kernel);
 }
 
 /* Time stands anywhere in a call and as often as the host likes; the variables between are read in one piece. */

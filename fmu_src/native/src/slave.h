@@ -67,11 +67,11 @@ typedef struct { /* a step that was refused and what the host did since: nothing
 } slave_refusal;
 
 typedef struct { /* a System of the FMU at work */
-  size_t fidelity;
+  size_t number;
   ali3_system *system;
   ali3_instance *kernel;
   void *snapshot; /* of the kernel before the step, which may be taken back */
-} slave_rung;
+} slave_fidelity;
 
 struct slave {
   void *host; /* what the face needs for its logger */
@@ -80,7 +80,7 @@ struct slave {
   char *name, *resources;
   bool logging, all_categories;
   unsigned categories; /* bits, see slave_category */
-  slave_rung rung;
+  slave_fidelity fidelity;
   slave_memory_of_calls calls;
   slave_refusal refusal;
   slave_status last_step; /* what the last step was answered with */
@@ -105,11 +105,11 @@ bool slave_allowed(slave *s, const char *function, unsigned mask);
 bool slave_path_of_uri(const char *uri, char *path, size_t size);
 unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size);
 
-/* rung.c */
-bool slave_rung_load(slave *s, size_t fidelity, slave_rung *rung);
-void slave_rung_take(slave *s, const slave_rung *rung);
-void slave_rung_free(const slave *s, slave_rung *rung);
-bool slave_rung_choose(slave *s);
+/* fidelity.c */
+bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded);
+void slave_fidelity_take(slave *s, const slave_fidelity *loaded);
+void slave_fidelity_free(const slave *s, slave_fidelity *loaded);
+bool slave_fidelity_choose(slave *s);
 
 /* life.c */
 slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bool logging, const char *name,

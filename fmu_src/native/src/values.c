@@ -10,10 +10,10 @@ bool slave_outputs(slave *s) {
   const slave_table *t = &slave_the_table;
   if (s->outputs_fresh) return true;
   if (!s->calls.initialised && !slave_initialise(s)) return false;
-  if (ali3_sensors(s->rung.kernel, s->sensors) != ALI3_OK) return false;
+  if (ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return false;
   for (size_t i = t->n_known; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
-    s->value[i] = v->source == SLAVE_SENSOR ? s->sensors[v->index] : ali3_solver_value(s->rung.kernel, v->index);
+    s->value[i] = v->source == SLAVE_SENSOR ? s->sensors[v->index] : ali3_solver_value(s->fidelity.kernel, v->index);
   }
   s->outputs_fresh = true;
   return true;
@@ -63,12 +63,12 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
 static slave_status try_parameter(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
   double before;
-  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->rung.kernel, v->index, &before) != ALI3_OK) return SLAVE_OK;
-  const ali3_status status = ali3_set_parameter(s->rung.kernel, v->index, value);
+  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->fidelity.kernel, v->index, &before) != ALI3_OK) return SLAVE_OK;
+  const ali3_status status = ali3_set_parameter(s->fidelity.kernel, v->index, value);
   if (status != ALI3_OK)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, which the model cannot take; it keeps %g.", v->name,
                      value, v->unit, s->value[reference]);
-  ali3_set_parameter(s->rung.kernel, v->index, before);
+  ali3_set_parameter(s->fidelity.kernel, v->index, before);
   return SLAVE_OK;
 }
 
