@@ -5,7 +5,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DoStep)(fmi2Component c, fmi2Real time, fmi
                                              fmi2Boolean no_set_state_prior) {
   slave *s = fmi2_slave(c, "fmi2DoStep", FMI2_RUN);
   (void)no_set_state_prior;
-  return s != NULL ? (fmi2Status)slave_step(s, time, step) : fmi2Error;
+  return s != NULL ? (fmi2Status)fmi2_step(s, time, step) : fmi2Error;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2CancelStep)(fmi2Component c) {

@@ -50,7 +50,7 @@ typedef enum { /* bits, for masks of allowed calls */
                SLAVE_TERMINATED = 16
 } slave_phase;
 
-enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024 };
+enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096 };
 
 typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
