@@ -110,6 +110,8 @@ typedef struct {
 
 ALI3_API const char *ali3_status_text(ali3_status s); /* one sentence per code */
 ALI3_API uint32_t ali3_version(void);
+/* Bytes of a structure of this header by its name, for callers in other languages; 0: there is none of that name. */
+ALI3_API size_t ali3_structure_size(const char *name);
 
 ALI3_API ali3_status ali3_system_load(const void *bytes, size_t size, ali3_system **out, char *message,
                                       size_t message_size);
