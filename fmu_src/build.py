@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import importlib.metadata
 import re
-import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,11 +14,10 @@ from pathlib import Path
 
 import mbs
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
-from fmu_src.native.package import NativeContents, Telling, pack_native
-from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
+from fmu_src.native.package import NativeContents, pack_native
+from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
 from fmu_src.probe import probe, with_nominal
 from fmu_src.variables import check_fidelities, variable_table
-from mbs.kernel import build
 
 Say = Callable[[str], None]
 _PATIENCE = 2.0
@@ -119,28 +117,12 @@ def build_fmu(
     file = out / f"{contents.model_name}.fmu"
 
     if kind == "python":
-        _pack_python(contents, chosen, file, told)
+        from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
+
+        pack_python(contents, chosen, file, told)
     else:
         pack_native(contents, _FACES[kind], chosen, file, told)
     return file
-
-
-def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, told: Telling) -> None:
-    # PythonFMU is needed for this kind only.
-    from fmu_src.python_slave.package import pack
-    from fmu_src.python_slave.shell_build import compile_shell
-
-    kernels, shells = {}, {}
-    with tempfile.TemporaryDirectory() as folder:
-        for platform in platforms:
-            place = Path(folder, platform)
-            place.mkdir()
-            with told(f"compiling for {platform}", "the first time for Windows takes two minutes"):
-                library = place / f"kernel{SUFFIXES[platform]}"
-                kernels[platform] = build.compile_library(TARGETS[platform][0], library)
-                shells[platform] = compile_shell(platform, place)
-        with told("packing"):
-            pack(contents, kernels, shells, file)
 
 
 @contextmanager

@@ -183,7 +183,6 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
         guid,
         tool=f"ALi3 {contents.version}",
         needs_execution_tool=False,
-        capable=True,
         sources=[path for path in sources if path.endswith(".c")],
     )
     with told("packing"):

@@ -32,8 +32,8 @@ typedef struct {
 static const pythonfmu *py; /* loaded with the first instance; it stays, as the interpreter does */
 
 /* PythonFMU hands over finished text: an exception of Python, or what the class in Python logs. */
-static void log_of_python(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
-                          fmi2String category, fmi2String text, ...) {
+static void log_of_python(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
+                          fmi2String text, ...) {
   const detour *d = environment;
   (void)name, (void)category;
   slave_say(d->link.s, status >= fmi2Error ? SLAVE_ERROR : (slave_status)status, "%s", text);

@@ -1,8 +1,9 @@
 """The slave as PythonFMU knows it: every call goes on to the slave in C, which decides, answers and tells.
 
-The library of the FMU (`detour.c`) makes the slave in C and gives its address and functions as the name of the instance,
-the only text that PythonFMU hands over. Answers go back beside PythonFMU, which turns an exception into fmi2Fatal: so
-nothing here raises on account of a host's mistake. States, derivatives, statuses and logging need no Python.
+The library of the FMU (`detour.c`) makes the slave in C. It gives its address and functions as the name of the
+instance, the only text that PythonFMU hands over. Answers do not pass PythonFMU, which knows few of them and makes
+fmi2Fatal of an exception: so nothing here raises on account of a host's mistake. States, derivatives, statuses and
+logging need no Python.
 """
 
 from __future__ import annotations

@@ -64,7 +64,8 @@ static ali3_status apply(slave *s) {
     pose[v->index] = s->value[i];
     posed = posed || s->value[i] != 0.0;
   }
-  if (status == ALI3_OK && posed) status = ali3_set_pose(s->fidelity.kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
+  if (status == ALI3_OK && posed)
+    status = ali3_set_pose(s->fidelity.kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
   return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 

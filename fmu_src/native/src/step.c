@@ -68,7 +68,8 @@ static ali3_status follow_slopes(slave *s, double elapsed) {
 static ali3_status advance(slave *s, int64_t n, double h) {
   ali3_status status = apply_pending(s);
   if (status != ALI3_OK) return status;
-  if (!any_slope(s)) return n == 1 ? ali3_step(s->fidelity.kernel, h) : ali3_run(s->fidelity.kernel, h, n, NULL, 1, NULL, NULL);
+  if (!any_slope(s))
+    return n == 1 ? ali3_step(s->fidelity.kernel, h) : ali3_run(s->fidelity.kernel, h, n, NULL, 1, NULL, NULL);
   for (int64_t k = 0; k < n && status == ALI3_OK; k++) {
     status = follow_slopes(s, (double)(k + 1) * h);
     if (status == ALI3_OK) status = ali3_step(s->fidelity.kernel, h);
@@ -115,7 +116,8 @@ static slave_status try_step(slave *s, double time, double step) {
   double h;
   if (!possible(s, time, step, now)) return SLAVE_ERROR;
   const int64_t n = division(s, now, time + step, &h);
-  ali3_snapshot_take(s->fidelity.kernel, s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
+  ali3_snapshot_take(s->fidelity.kernel,
+                     s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
   const ali3_status status = advance(s, n, h);
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);

@@ -63,7 +63,8 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
 static slave_status try_parameter(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
   double before;
-  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->fidelity.kernel, v->index, &before) != ALI3_OK) return SLAVE_OK;
+  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->fidelity.kernel, v->index, &before) != ALI3_OK)
+    return SLAVE_OK;
   const ali3_status status = ali3_set_parameter(s->fidelity.kernel, v->index, value);
   if (status != ALI3_OK)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, which the model cannot take; it keeps %g.", v->name,
