@@ -51,19 +51,19 @@ class Variable:
     name : str
         Structured name, unique in the table.
     causality : str
-        ``input``, ``parameter`` or ``output``.
+        ``input``, ``parameter``, ``output`` or ``local``.
     variability : str
-        ``continuous``, ``fixed`` or ``tunable``.
+        ``continuous``, ``discrete``, ``fixed``, ``tunable`` or ``constant``.
     unit : str
         SI unit.
     description : str
         One sentence.
     source : str
-        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity`` or
-        ``solver``, what the solver says about itself.
+        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
+        ``solver``, what the solver says about itself, or ``constant``.
     index : int
         Number of that input, parameter, sensor or figure of the solver; place in (x, y, z, yaw, speed) for ``pose``;
-        0 for `step_size` and `fidelity`.
+        0 for `step_size`, `fidelity` and constants.
     start, min, max : float, optional
         In `unit`.
     display_unit : str, optional
@@ -111,8 +111,9 @@ def variable_table(
     Returns
     -------
     tuple of Variable
-        Inputs, parameters, outputs; the place is the value reference. Where the sensors have no figures of the solver
-        by these names, `solver.status`, `solver.halvings`, `solver.energy_error` and `solver.energy_balance` come last.
+        Inputs, parameters, outputs, constants; the place is the value reference. Where the sensors have no figures of
+        the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error` and `solver.energy_balance`
+        are the last outputs.
 
     Raises
     ------
@@ -148,8 +149,8 @@ def variable_table(
         )
     )
     if len(fidelities) > 1:
-        named = ", ".join(f"{k} {name}".rstrip() for k, name in enumerate(fidelities))
-        text = f"Level of detail of the model, from the least to the most: {named}"
+        named = ", ".join(f"{k} {name}" for k, name in enumerate(fidelities) if name)
+        text = "Level of detail of the model, from the least to the most" + (f": {named}" if named else "")
         last = float(len(fidelities) - 1)
         table.append(
             Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
@@ -161,6 +162,7 @@ def variable_table(
         for name, k, unit, whole, text in _SOLVER
         if name not in sensed
     ]
+    table += [_constant(entry) for entry in meta.get("constants", ())]
     _check(table)
     return _distinct(table)
 
@@ -177,6 +179,15 @@ def _sensor(entry: Mapping[str, Any], index: int) -> Variable:
         index,
         display_unit=entry.get("display_unit") or _display(entry["name"], unit),
         whole=whole,
+    )
+
+
+def _constant(entry: Mapping[str, Any]) -> Variable:
+    unit = canonical_unit(entry["unit"] or "1")
+    return Variable(
+        *(entry["name"], "local", "constant", unit, entry.get("description", ""), "constant", 0),
+        start=float(entry["value"]),
+        display_unit=_display(entry["name"], unit),
     )
 
 

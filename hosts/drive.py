@@ -48,8 +48,8 @@ def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float
     manoeuvre = load_manoeuvre(name)
     if fidelity is not None:
         manoeuvre = replace(manoeuvre, start=manoeuvre.start | {"fidelity": fidelity})
-    driver = make_driver(manoeuvre.driver) if manoeuvre.driver else None
     with Fmu(path) as fmu:
+        driver = make_driver(manoeuvre.driver, fmu.constants()) if manoeuvre.driver else None
         experiment = fmu.description.defaultExperiment
         if step is None:
             step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01

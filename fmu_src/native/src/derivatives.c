@@ -31,7 +31,7 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
 slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, const int32_t *order, double *value) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < n; i++) {
-    if (reference[i] < t->n_known || reference[i] >= t->n_variables)
+    if (!slave_is_output(reference[i]))
       return slave_say(s, SLAVE_ERROR, "Value reference %u is no output.", (unsigned)reference[i]);
     if (order[i] != 1)
       return slave_say(s, SLAVE_ERROR, "A derivative of order %d was asked for; outputs have the first only.",
@@ -101,7 +101,7 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
                                size_t n_known, const double *seed, double *out) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < n_unknown; i++)
-    if (unknown[i] < t->n_known || unknown[i] >= t->n_variables)
+    if (!slave_is_output(unknown[i]))
       return slave_say(s, SLAVE_ERROR, "Value reference %u is no output; derivatives are those of outputs.",
                        (unsigned)unknown[i]);
   for (size_t i = 0; i < n_known; i++) {

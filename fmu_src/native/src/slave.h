@@ -16,7 +16,8 @@ typedef enum {
   SLAVE_STEP_SIZE,
   SLAVE_FIDELITY,
   SLAVE_SENSOR,
-  SLAVE_SOLVER /* what the solver says about itself: ali3_solver_value */
+  SLAVE_SOLVER, /* what the solver says about itself: ali3_solver_value */
+  SLAVE_CONSTANT /* the start is its value */
 } slave_source;
 
 typedef struct {
@@ -31,7 +32,7 @@ typedef struct {
   const char *token;           /* GUID or instantiation token */
   unsigned char identity[16];  /* the same as bytes */
   const slave_variable *variable;
-  size_t n_variables, n_known; /* known: all but the outputs, which come last */
+  size_t n_variables, n_known; /* known: inputs and parameters; then come outputs, then constants */
   const char *const *row;      /* names of the constraint rows of all Systems */
   const size_t *first_row;     /* n_systems + 1 */
   size_t n_systems;            /* to choose from by the fidelity */
@@ -130,6 +131,7 @@ const char *slave_worst_row(slave *s, char *text, size_t size);
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value);
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value);
 bool slave_outputs(slave *s);
+bool slave_is_output(uint32_t reference);
 
 slave_status slave_may_set(slave *s, uint32_t reference, double value); /* the answer it would get; nothing is set */
 
