@@ -12,10 +12,10 @@ from fmu_src.archive import identity_of, licence, write_zip
 from fmu_src.description import model_description
 from fmu_src.documentation import documentation
 from fmu_src.native.compile import compile_library
-from fmu_src.native.package import NativeContents, Telling
+from fmu_src.native.package import NativeContents, Telling, first_time
 from fmu_src.native.sources import shell_files
 from fmu_src.native.table import c_table
-from fmu_src.platforms import SUFFIXES, TARGETS
+from fmu_src.platforms import PYTHON_PLATFORMS, SUFFIXES, TARGETS
 
 _HERE = Path(__file__).parent
 _PYTHONFMU = Path(pythonfmu.__file__).parent
@@ -23,7 +23,13 @@ _PYTHONFMU_MODULES = ("_version", "default_experiment", "enums", "fmi2slave", "l
 _PYTHONFMU_LIBRARY = {"linux64": "libpythonfmu-export.so", "win64": "pythonfmu-export.dll"}
 
 
-def pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, told: Telling) -> str:
+def pack_python(
+    contents: NativeContents,
+    platforms: Sequence[str],
+    file: Path,
+    told: Telling,
+    libraries: dict[tuple[str, str], bytes],
+) -> str:
     """Compile and write the FMU.
 
     Parameters
@@ -36,6 +42,8 @@ def pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, 
         Where to; an older file is replaced only when the new one is whole.
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
+    libraries : dict
+        Libraries by model and platform that were compiled before; those compiled here are added.
 
     Returns
     -------
@@ -43,17 +51,19 @@ def pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, 
         The GUID, a hash of all the content.
     """
     name = contents.model_name
-    package, libraries = _package(), _pythonfmu_libraries(name, platforms)
+    package = _package()
     template = (_HERE / "main_template.py").read_text(encoding="utf-8")
-    # sources stand for the slave's libraries, which carry the identity
+    # all that any platform has; sources stand for the slave's libraries, which carry the identity
     sources = {f"sources/{f.name}": f.read_bytes() for f in shell_files("python")}
     identity, guid = identity_of(
-        package | libraries | sources | {"main": template.encode()}, [contents.identity("fmi2")[0]]
+        package | _pythonfmu_libraries(name, PYTHON_PLATFORMS) | sources | {"main": template.encode()},
+        [contents.identity("fmi2")[0]],
     )
     # Names of their own per build: a host's Python keeps one module per name, whatever FMU it came from.
     main, own = f"main_{identity[:12]}", f"ali3_{identity[:12]}"
     script = template.replace("ModelName", name).replace("PackageName", own)
-    files = {f"resources/{own}/{path}": data for path, data in package.items()} | libraries | contents.system_files
+    files = {f"resources/{own}/{path}": data for path, data in package.items()}
+    files |= contents.system_files | _pythonfmu_libraries(name, platforms)
     files |= {
         f"resources/{main}.py": script.encode(),
         "resources/slavemodule.txt": main.encode(),
@@ -83,10 +93,12 @@ def pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, 
         table.write_text(c_table(contents.table, contents.rows, identity, guid), encoding="utf-8")
         for platform in platforms:
             library = name + SUFFIXES[platform]
-            with told(f"compiling for {platform}", "the first time for Windows takes two minutes"):
-                made = compile_library(TARGETS[platform], "python", table, Path(temporary), library)
-            files[f"binaries/{platform}/{library}"] = made
-    with told("packing"):
+            if (name, platform) not in libraries:
+                with told(f"python: compiling for {platform}", first_time(platform)):
+                    made = compile_library(TARGETS[platform], "python", table, Path(temporary), library)
+                libraries[name, platform] = made
+            files[f"binaries/{platform}/{library}"] = libraries[name, platform]
+    with told("python: packing"):
         write_zip(files, file)
     return guid
 

@@ -43,7 +43,7 @@ class Slave(Fmi2Slave):
         super().__init__(**kwargs)
         # PythonFMU puts the resources before the host's own path at each instantiation and leaves them there.
         sys.path[:] = [place for place in sys.path if place != kwargs["resources"]]
-        self._link = link = _Link.from_address(int(self.instance_name))
+        self._link = link = _Link.from_address(int(kwargs["instance_name"]))
         self.instance_name = link.name.decode(errors="replace")
         self._slave = link.slave
         # Bound once: a field that is a function is made anew at every look.
