@@ -159,6 +159,33 @@ def test_fidelities_are_numbered_from_zero(tmp_path: Path) -> None:
         load_fidelities(f"{file}:build")
 
 
+def test_names_of_fidelities_stand_in_the_description(tmp_path: Path) -> None:
+    file = tmp_path / "named.py"
+    file.write_text(
+        "from enum import IntEnum\n"
+        "from mbs.scenes import pendulum\n"
+        "class Level(IntEnum):\n    RIGID = 0\n    QUASI_STATIC = 1\n"
+        "def build(fidelity=Level.QUASI_STATIC): return pendulum.build()\n"
+        "def fidelities(): return {k: build for k in reversed(Level)}\n"
+    )
+    name, systems, default = load_fidelities(f"{file}:build")
+    assert (list(systems), default) == ([0, 1], 1)
+    fmu = build_fmu(systems, name, tmp_path, [fmpy.platform], fidelity=default)
+    (v,) = (v for v in read_model_description(str(fmu)).modelVariables if v.name == "fidelity")
+    assert v.description.endswith("from the least to the most: 0 rigid, 1 quasi_static")
+    assert (v.type, v.start, v.min, v.max) == ("Integer", "1", "0", "1")
+
+
+def test_the_former_name_of_the_function_still_works(tmp_path: Path) -> None:
+    file = tmp_path / "former.py"
+    file.write_text(
+        "from mbs.scenes import pendulum\n"
+        "def build(fidelity=0): return pendulum.build()\n"
+        "def variants(): return {0: build, 1: build}\n"
+    )
+    assert list(load_fidelities(f"{file}:build")[1]) == [0, 1]
+
+
 def test_a_scene_without_fidelities_has_one() -> None:
     name, systems, default = load_fidelities("pendulum")
     assert (name, len(systems), default) == ("pendulum", 1, 0)

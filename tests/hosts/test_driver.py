@@ -89,7 +89,7 @@ def test_what_no_one_tells_of_the_car_is_asked_for(missing: str) -> None:
     with pytest.raises(HostError, match=rf"this FMU does not tell .*'{missing}'.*\[driver\]") as refusal:
         make_driver(SETTINGS, told)
     (setting,) = (name for name, constant in CONSTANTS.items() if constant == missing)
-    assert f"{setting} = NUMBER" in str(refusal.value)
+    assert f"--driver {setting}=NUMBER" in str(refusal.value)
     assert make_driver(SETTINGS | {setting: "1.25"}, told)
 
 
