@@ -36,7 +36,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.dr
         default=[],
         type=assignment,
         metavar="NAME=VALUE",
-        help="a setting of the manoeuvre's driver, such as wheelbase=2.6 of a car whose FMU does not tell it; repeatable",
+        help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not tell it; repeatable",
     )
     options = parser.parse_args(arguments)
     known = dict(options.driver)

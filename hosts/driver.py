@@ -149,7 +149,7 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
         if name not in numbers:
             raise HostError(
                 f"The driver needs the {name.replace('_', ' ')} of the car, which this FMU does not tell (it has no "
-                f"constant '{constant}'); give it as --driver {name}=NUMBER, or in the section [driver] of the manoeuvre."
+                f"constant '{constant}'); give it as --driver {name}=NUMBER, or in [driver] of the manoeuvre."
             )
     values = DriverSettings(**numbers)
     return Driver(course_of(settings["course"], values.vehicle_width), values)
