@@ -183,8 +183,8 @@ def header() -> str:
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")
         parts.append(_class(name, "Structure", f"`ali3_{c_name}`.", body))
-    names = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
-    parts.append(f'\nSTRUCTURES = {{\n{names}\n}}\n"""By their names in C."""')
+    structures = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
+    parts.append(f'\nSTRUCTURES = {{\n{structures}\n}}\n"""By their names in C."""')
     return "\n\n".join(parts) + "\n"
 
 
