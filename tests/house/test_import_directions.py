@@ -30,7 +30,7 @@ ROOMS = (
     "algebra",
 )
 """Rooms of the kernel; each may include headers of those behind it."""
-SHARED = ("instance.h", "system.h")
+SHARED = ("method.h", "instance.h", "system.h")
 """Data that all rooms share: each header may include those behind it, and none of a room."""
 PUBLIC = "../include/ali3.h"
 STANDARD = ("fmi2.h", "fmi3.h")
