@@ -31,7 +31,7 @@ ROOMS = (
 )
 """Rooms of the kernel; each may include headers of those behind it."""
 SHARED = ("method.h", "instance.h", "system.h")
-"""Data that all rooms share and the contract of methods: each header may include those behind it, and none of a room."""
+"""Contract of methods and data that all rooms share: each header may include those behind it, and none of a room."""
 PUBLIC = "../include/ali3.h"
 STANDARD = ("fmi2.h", "fmi3.h")
 """Headers of the FMI standard, for whoever speaks it."""
