@@ -6,11 +6,11 @@
 #include "../method.h"
 #include "../methods/branch_watch.h"
 #include "../methods/check_method.h"
+#include "../methods/energy_balance.h"
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
 #include "../sensors/sensors.h"
 #include "../start/initialise.h"
-#include "../state/books.h"
 #include "../state/vectors.h"
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
