@@ -33,11 +33,11 @@ ROOMS = (
 SHARED = ("method.h", "instance.h", "system.h")
 """Contract of methods and data that all rooms share: each header may include those behind it, and none of a room."""
 PUBLIC = "../include/ali3.h"
-STANDARD = ("fmi2.h", "fmi3.h")
+STANDARD = ("fmi2.h", "fmi3.h", "fmi2FunctionTypes.h")
 """Headers of the FMI standard, for whoever speaks it."""
 C_FOLDERS = {
     "fmu_src/native/src": ("ali3.h",),
-    "fmu_src/python_slave": STANDARD,
+    "fmu_src/python_slave": (*STANDARD, "fmi2_face.h"),  # it is part of the slave in C
     "hosts/c": STANDARD,
     "benchmarks/car/c": STANDARD,
 }
