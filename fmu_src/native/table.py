@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
 from fmu_src.arrays import Array, references
@@ -20,15 +20,15 @@ _SOURCES = {
 }
 
 
-def c_table(table: Sequence[Variable], rows: Sequence[Sequence[str]], identity: str, token: str) -> str:
+def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str]]], identity: str, token: str) -> str:
     """`table.c` of the shell.
 
     Parameters
     ----------
     table : sequence of Variable
         Inputs, parameters, outputs, constants.
-    rows : sequence of sequences of str
-        Names of the constraint rows of each System, for messages.
+    names : mapping
+        Names of the constraint rows (``"row"``) and force elements (``"element"``) of each System, for messages.
     identity : str
         32 hexadecimal digits.
     token : str
@@ -46,17 +46,24 @@ def c_table(table: Sequence[Variable], rows: Sequence[Sequence[str]], identity: 
         f"{str(v.whole).lower()}}},"
         for v, unit in zip(table, units, strict=True)
     )
-    names = "\n".join(f"    {c_string(name)}," for one in rows for name in one) or "    NULL,"
-    first = ", ".join(str(sum(map(len, rows[:k]))) for k in range(len(rows) + 1))
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
     known = sum(v.causality in ("input", "parameter") for v in table)
     return (
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
-        f"static const char *const rows[] = {{\n{names}\n}};\n\nstatic const size_t first_row[] = {{{first}}};\n\n"
+        f"{_names('row', names['row'])}{_names('element', names['element'])}"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
-        f"{len(table)}, {known},\n    rows, first_row, {len(rows)},\n}};\n"
+        f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])},\n}};\n"
+    )
+
+
+def _names(what: str, of_systems: Sequence[Sequence[str]]) -> str:
+    """Names of all Systems one after the other, and where those of each begin."""
+    lines = "\n".join(f"    {c_string(name)}," for one in of_systems for name in one) or "    NULL,"
+    first = ", ".join(str(sum(map(len, of_systems[:k]))) for k in range(len(of_systems) + 1))
+    return (
+        f"static const char *const {what}[] = {{\n{lines}\n}};\n\nstatic const size_t first_{what}[] = {{{first}}};\n\n"
     )
 
 

@@ -90,7 +90,7 @@ def pack_python(
     }
     with tempfile.TemporaryDirectory() as temporary:
         table = Path(temporary, "table.c")
-        table.write_text(c_table(contents.table, contents.rows, identity, guid), encoding="utf-8")
+        table.write_text(c_table(contents.table, contents.names, identity, guid), encoding="utf-8")
         for platform in platforms:
             library = name + SUFFIXES[platform]
             if (name, platform) not in libraries:

@@ -38,17 +38,25 @@ static const char *farthest(const slave *s, char *text, size_t size) {
   return text;
 }
 
+/* Which element refuses a start, why, and what height it would accept. */
+static const char *refused(const slave *s, char *text, size_t size) {
+  const slave_table *t = &slave_the_table;
+  const char *words = "";
+  int32_t element = -1;
+  const double height = ali3_start_excess(s->fidelity.kernel, &element, &words);
+  const char *name = element < 0 ? "" : t->element[t->first_element[s->fidelity.number] + (size_t)element];
+  snprintf(text, size, " '%.64s' %s. %.3g m higher nothing would be in its way.", name, words, height);
+  for (size_t i = 0; i < t->n_known; i++)
+    if (t->variable[i].source == SLAVE_POSE && t->variable[i].index == POSE_HEIGHT)
+      snprintf(text, size, " '%.64s' %s. '%.64s' is %g m; from %.3g m on nothing is in its way.", name, words,
+               t->variable[i].name, s->value[i], s->value[i] + height);
+  return text;
+}
+
 /* What is wrong with a start, in numbers. */
 static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
   if (status == ALI3_TOO_FAR) return farthest(s, text, size);
-  if (status != ALI3_BELOW_ROAD) return slave_worst_row(s, text, size);
-  const double lift = ali3_start_lift(s->fidelity.kernel);
-  snprintf(text, size, " %.3g m higher it would be clear of it.", lift);
-  for (size_t i = 0; i < slave_the_table.n_known; i++)
-    if (slave_the_table.variable[i].source == SLAVE_POSE && slave_the_table.variable[i].index == POSE_HEIGHT)
-      snprintf(text, size, " '%.64s' is %g m; from %.3g m on the tyres are clear of it.",
-               slave_the_table.variable[i].name, s->value[i], s->value[i] + lift);
-  return text;
+  return status == ALI3_START_REFUSED ? refused(s, text, size) : slave_worst_row(s, text, size);
 }
 
 static ali3_status apply(slave *s) {

@@ -35,6 +35,8 @@ typedef struct {
   size_t n_variables, n_known; /* known: inputs and parameters; then come outputs, then constants */
   const char *const *row;      /* names of the constraint rows of all Systems */
   const size_t *first_row;     /* n_systems + 1 */
+  const char *const *element;  /* names of the force elements of all Systems */
+  const size_t *first_element; /* n_systems + 1 */
   size_t n_systems;            /* to choose from by the fidelity */
 } slave_table;
 
