@@ -12,6 +12,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.running import run_command
 from benchmarks.car.stress_picture import amplitudes, draw, draw_plain, motion_of
 from benchmarks.shared.command import parser_of
 from mbs.scenes.prototype_car.chassis import DYNAMIC, reduced_chassis
@@ -39,4 +40,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))
