@@ -39,7 +39,7 @@ C_FOLDERS = {
     "fmu_src/native/src": ("ali3.h",),
     "fmu_src/python_slave": STANDARD,
     "hosts/c": STANDARD,
-    "benchmarks/c": STANDARD,
+    "benchmarks/car/c": STANDARD,
 }
 """C files outside the kernel: besides headers of their own folder they may include these."""
 

@@ -29,7 +29,7 @@ const char *ali3_status_text(ali3_status s) {
       "the tangent is singular",
       "the motion or a force became infinite",
       "this method takes no element states or filtered guides (energy_momentum_4: no damping; radau_5: no rolling)",
-      "a tyre starts deeper in the road than its radius",
+      "an element refuses the start",
       "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
       "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
       "the step is too long for an explicit method, which must follow the fastest motion",
