@@ -37,8 +37,9 @@ def main(picture: str = "motor_pendulum.png") -> float:
     left, right = figure.subplots(1, 2, subplot_kw={"xlabel": "time, s"})
     left.plot(result["time"], result["rod.angle"])
     left.set_ylabel("angle of the rod, rad")
-    right.plot(result["time"], result["energy.total"], result["time"], TORQUE * result["rod.angle"], "--")
-    right.set_ylabel("energy, J; dashed: work of the motor")
+    energy, work = result["energy.total"] - result["energy.total"][0], TORQUE * result["rod.angle"]
+    right.plot(result["time"], energy, result["time"], work, "--")
+    right.set_ylabel("change of energy, work of the motor, J")
     figure.savefig(picture, dpi=90)
     return largest
 

@@ -20,7 +20,7 @@ PROMISED = {
     "quarter_car": (0.0, 1e-8, "Hz with"),
     "robot_arm": (0.0, 1e-6, "torques up to 30.7 N m"),
     "rolling_disc": (1e-6, 5e-4, "circle of 1.041 m"),
-    "flexible_beam": (1e-5, 0.005, "deflection up to 18.8"),
+    "flexible_beam": (1e-5, 0.005, "deflection up to 18.77 mm"),
     "car_over_kerb": (0.01, 0.15, "falls by 0.0800 m"),
     "motor_pendulum": (0.8685, 0.8695, "the rod swings out to 0.869 rad"),
 }
