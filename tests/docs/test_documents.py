@@ -17,6 +17,7 @@ from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
 from fmu_src.variables import variable_table
 from hosts.manoeuvre import manoeuvre_names
+from mbs.scenes import prototype_car
 from mbs.settings import METHODS
 
 ROOT = Path(__file__).parents[2]
@@ -94,7 +95,7 @@ def test_readme_lists_the_manoeuvres_and_the_scene_of_ones_own():
 
 
 def test_readme_has_every_group_of_variables_and_no_other(car):
-    names = {v.name for v in variable_table(car.meta, pose=True, step_size=0.002, fidelities=4)}
+    names = {v.name for v in variable_table(car.meta, pose=True, step_size=0.002, fidelities=[f.name for f in prototype_car.fidelities()])}
     table = re.search(r"\| variables \|.*?\n\n", README, re.DOTALL)[0]
     cells = re.findall(r"`([^`]+)`", "\n".join(line.split("|")[1] for line in table.splitlines() if line))
     shown = {c.partition(".")[0] for c in cells if c[0] not in "._"}
