@@ -31,7 +31,7 @@ class Status(IntEnum):
     SINGULAR = 8
     NOT_FINITE = 9
     WRONG_METHOD = 10
-    BELOW_ROAD = 11
+    START_REFUSED = 11
     UNRESOLVED = 12
     NO_TREE = 13
     TOO_STIFF = 14
@@ -181,6 +181,23 @@ SENSOR_READS = {
     SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
     SensorType.WORK: SensorReads.FORCES,
 }
+
+
+class ElementType(IntEnum):
+    """Types of force elements."""
+
+    SPRING_DAMPER = 1
+    SCALAR_SPRING_DAMPER = 2
+    INPUT_FORCE = 3
+    BODY_FORCE = 4
+    BODY_TORQUE = 5
+    GYROSCOPIC_SPIN = 6
+    DRAG = 7
+    TYRE = 8
+    BRAKE = 9
+    AUTOMATIC_DRIVE = 10
+    CONTACT_POINTS = 11
+    SPIN_TORQUE = 12
 
 
 class SettingsFields(Structure):

@@ -18,6 +18,7 @@ KERNEL = Path(__file__).resolve().parent
 HEADER = KERNEL / "header.py"
 PAGE = KERNEL.parents[1] / "docs" / "system_file.md"
 PUBLIC, SENSORS = "include/ali3.h", "src/system/sensor_types.h"
+ELEMENTS = "src/elements/element_types.h"
 
 ENUMERATIONS = {
     "Status": (PUBLIC, "ALI3_OK", "ALI3_", "Codes of `ali3_status`: how a call of the kernel ended."),
@@ -101,6 +102,20 @@ def table(file: str, name: str) -> list[list[str]]:
     return entries
 
 
+def element_types() -> dict[str, int]:
+    """The types of force elements and their numbers.
+
+    Raises
+    ------
+    ValueError
+        If two have one number.
+    """
+    types = {name.upper(): int(number) for number, name in table(ELEMENTS, "ALI3_ELEMENT_TYPES")}
+    if len(set(types.values())) != len(types):
+        raise ValueError(f"two types of ALI3_ELEMENT_TYPES in {ELEMENTS} have one number.")
+    return types
+
+
 class SensorEntry(NamedTuple):
     """An entry of ALI3_SENSOR_TYPES; what the letters of `integers` mean is said there."""
 
@@ -179,6 +194,8 @@ def header() -> str:
     parts.append(_class("SensorType", "IntEnum", "Types of sensors.", items))
     reads = "\n".join(f"    SensorType.{t.name}: SensorReads.{t.reads}," for t in types)
     parts.append(f"\nSENSOR_READS = {{\n{reads}\n}}")
+    elements = (f"{name} = {number}" for name, number in element_types().items())
+    parts.append(_class("ElementType", "IntEnum", "Types of force elements.", elements))
     for c_name, name in STRUCTURES.items():
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")

@@ -6,11 +6,11 @@
 #include "../method.h"
 #include "../methods/branch_watch.h"
 #include "../methods/check_method.h"
+#include "../methods/energy_balance.h"
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
 #include "../sensors/sensors.h"
 #include "../start/initialise.h"
-#include "../state/books.h"
 #include "../state/vectors.h"
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
@@ -38,7 +38,12 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   ali3_vectors_copy(in, &in->start, &in->now);
   ali3_status status = ali3_start_in_equilibrium(in, t0);
   if (status == ALI3_OK) status = ali3_solve_initial(in, t0);
-  return begin(in, status == ALI3_OK && ali3_start_lift(in) > 0.0 ? ALI3_BELOW_ROAD : status, t0);
+  if (status == ALI3_OK) {
+    int32_t refusing;
+    ali3_start_excess(in, &refusing, NULL);
+    if (refusing >= 0) status = ALI3_START_REFUSED;
+  }
+  return begin(in, status, t0);
 }
 
 ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations) {

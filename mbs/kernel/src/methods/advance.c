@@ -1,9 +1,9 @@
 /* A step by the method of the settings, in halves where it does not converge. */
 #include "../instance.h"
 #include "../method.h"
-#include "../state/books.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
+#include "energy_balance.h"
 #include "steps.h"
 
 static ali3_status by_method(ali3_instance *in, double t, double h) {

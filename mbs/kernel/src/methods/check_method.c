@@ -1,33 +1,14 @@
 /* Which method takes which System. */
 #include "check_method.h"
-#include "../elements/spring_damper.h"
+#include "../elements/element.h"
 #include "../instance.h"
 #include "../method.h"
 #include "../system/without_memory.h"
 
-/* Whether the stops of a spring-damper take energy. */
-static bool lossy_stops(const ali3_instance *in, int32_t e) {
-  const int32_t first = in->system->el_real_ptr[e], n = in->system->el_real_ptr[e + 1] - first;
-  const double *loss = in->el_real + first + ALI3_SPRING_STOP_LOSS;
-  return n == ALI3_SPRING_REALS && (loss[0] != 0.0 || loss[1] != 0.0);
-}
-
 static bool conservative(const ali3_instance *in, int32_t e) {
-  const double *real = in->el_real + in->system->el_real_ptr[e];
-  switch (in->system->el_type[e]) {
-  case ALI3_SPRING_DAMPER:
-    return real[ALI3_SPRING_DAMPING] == 0.0 && !lossy_stops(in, e);
-  case ALI3_SCALAR_SPRING_DAMPER:
-    return real[1] == 0.0; /* damping */
-  case ALI3_INPUT_FORCE:
-  case ALI3_BODY_FORCE:
-  case ALI3_BODY_TORQUE:
-  case ALI3_GYROSCOPIC_SPIN:
-  case ALI3_SPIN_TORQUE:
-    return true;
-  default:
-    return false;
-  }
+  const ali3_element_type *type = in->system->el_kind[e];
+  const int32_t first = in->system->el_real_ptr[e], n = in->system->el_real_ptr[e + 1] - first;
+  return type->conservative && !(type->lossy != NULL && type->lossy(in->el_real + first, n));
 }
 
 /* Neither elements nor flexible bodies damp. */

@@ -10,11 +10,11 @@
 #include "../rows/guides.h"
 #include "../sensors/sensors.h"
 #include "../start/index_one.h"
-#include "../state/books.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "../system/without_memory.h"
+#include "energy_balance.h"
 #include "error_control.h"
 
 enum { NODES = 3, DATA = 3 * NODES };

@@ -11,11 +11,11 @@
 #include "../method.h"
 #include "../rows/guides.h"
 #include "../start/initialise.h"
-#include "../state/books.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "branch_watch.h"
 #include "check_method.h"
+#include "energy_balance.h"
 #include "error_control.h"
 
 static const double LEAST_SHARE = 1e-3; /* of the tolerance */

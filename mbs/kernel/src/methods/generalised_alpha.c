@@ -3,7 +3,7 @@
 
 #include "../instance.h"
 #include "../method.h"
-#include "../state/books.h"
+#include "energy_balance.h"
 #include "generalised_alpha.h"
 #include "history.h"
 #include "steps.h"

@@ -5,8 +5,8 @@
 
 #include "../instance.h"
 #include "../method.h"
-#include "../state/books.h"
 #include "../state/vectors.h"
+#include "energy_balance.h"
 #include "error_control.h"
 #include "steps.h"
 

@@ -9,10 +9,8 @@
 #include "../rows/guides.h"
 #include "../system/loading.h"
 #include "../tree/tree.h"
-#include "books.h"
 #include "parameters.h"
 #include "vectors.h"
-#include "work.h"
 #include "workspace.h"
 
 const char *ali3_status_text(ali3_status s) {
@@ -29,7 +27,7 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_NOT_FINITE] = "the motion or a force became infinite",
       [ALI3_WRONG_METHOD] =
           "this method takes no element states or filtered guides (energy_momentum_4: no damping; radau_5: no rolling)",
-      [ALI3_BELOW_ROAD] = "a tyre starts deeper in the road than its radius",
+      [ALI3_START_REFUSED] = "an element refuses the start",
       [ALI3_UNRESOLVED] =
           "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
       [ALI3_NO_TREE] =
@@ -98,21 +96,6 @@ bool ali3_settings_valid(const ali3_settings *s) {
          (s->update == ALI3_UPDATE_LINEARISED || s->update == ALI3_UPDATE_PAPER) &&
          (s->geometric == 0 || s->geometric == 1) && s->rho_infinity >= 0.0 && s->rho_infinity <= 1.0 &&
          s->method >= 0 && s->method < ALI3_METHOD_COUNT && s->predictor >= 0 && s->predictor < ALI3_PREDICTOR_COUNT;
-}
-
-ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
-  if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
-  const bool other = settings->method != in->settings.method;
-  in->settings = *settings;
-  if (in->initialised) ali3_books_open(in); /* another method may have kept none */
-  if (in->initialised && other) ali3_work_reopen(in);
-  return ALI3_OK;
-}
-
-ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings) {
-  if (in == NULL || settings == NULL) return ALI3_BAD_ARGUMENT;
-  *settings = in->settings;
-  return ALI3_OK;
 }
 
 /* The data of elements, guides and roads from the file and the parameters; refused as a whole when an element cannot

@@ -6,14 +6,9 @@
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../method.h"
-#include "books.h"
+#include "energy_balance.h"
 
 static const double REST = 1e-6; /* m/s: slower than that nothing moves, and round-off is no error of the energy */
-
-double ali3_energy_balance(const ali3_report *r) {
-  const double size = r != NULL ? r->kinetic_peak + r->work : 0.0;
-  return size > 0.0 ? fabs(r->energy_error) / size : 0.0;
-}
 
 /* Potential energy of v; flexible bodies prepared at its position. */
 static double potential(const ali3_instance *in, const ali3_vectors *v) {

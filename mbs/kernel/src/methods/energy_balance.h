@@ -1,6 +1,6 @@
 /* The energy balance of a run. */
-#ifndef ALI3_BOOKS_H
-#define ALI3_BOOKS_H
+#ifndef ALI3_METHODS_ENERGY_BALANCE_H
+#define ALI3_METHODS_ENERGY_BALANCE_H
 #include "../instance.h"
 
 void ali3_books_open(ali3_instance *in);
