@@ -21,7 +21,7 @@ from mbs.settings import METHODS
 
 ROOT = Path(__file__).parents[2]
 PLATFORM = fmpy.platform
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
 FILE = r"[\w./]+\.(?:c|h|py|md|cff)"
@@ -108,6 +108,12 @@ def test_links_and_named_files_exist(file):
         assert (file.parent / target).exists(), target
     for name in re.findall(rf"`((?:mbs|fmu_src|hosts|benchmarks|tests|docs|examples)/{FILE})`", text):
         assert (ROOT / name).is_file(), name
+
+
+@pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)
+def test_lines_have_at_most_120_characters(file):
+    text = re.sub(r"^```.*?^```", "", file.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    assert [line for line in text.splitlines() if len(line) > 120 and not line.startswith(("|", "    "))] == []
 
 
 @pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)
