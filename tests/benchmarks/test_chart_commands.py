@@ -12,7 +12,6 @@ from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.methods import pages
 from benchmarks.methods.arithmetic import operations
 from benchmarks.methods.honesty import VERDICTS
-from benchmarks.shared.pages import replace
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY
 from benchmarks.methods.stability_margins import margins
 from benchmarks.methods.work_precision import time_at_error
