@@ -21,7 +21,8 @@ from mbs.settings import METHODS
 
 ROOT = Path(__file__).parents[2]
 PLATFORM = fmpy.platform
-DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = ("README.md", "CONTRIBUTING.md", "mbs/kernel/src/methods/README.md")
+DOCUMENTS = [*(ROOT / page for page in PAGES), *sorted((ROOT / "docs").rglob("*.md"))]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
 FILE = r"[\w./]+\.(?:c|h|py|md|cff)"
