@@ -9,7 +9,7 @@ from itertools import pairwise
 from mbs.affine import Affine, AffineVector
 from mbs.elements.checks import index, not_negative, positive, size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

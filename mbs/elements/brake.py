@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mbs.affine import Affine, AffineVector
 from mbs.elements.checks import index, not_negative, positive, size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

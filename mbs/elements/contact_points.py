@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from mbs.affine import AffineVector
 from mbs.elements.checks import index, not_negative, positive, size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
 from mbs.errors import ModelError
+from mbs.kernel.header import ElementType
 
 STATES = 4
 """Per point: two deflections in the plane of contact and their rates."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.affine import AffineVector
 from mbs.elements.checks import not_negative, size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

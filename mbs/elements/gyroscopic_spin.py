@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.affine import Affine, AffineVector
 from mbs.elements.checks import positive, size
 from mbs.elements.record import ElementRecord
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

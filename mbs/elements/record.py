@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from mbs.affine import Affine
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,10 @@ class ElementRecord:
         Initial values of its slots.
     outputs : sequence of Output
         What it computes beside its force.
+    tangent : bool
+        Whether its force depends on the signals or their rates, so that the tangent couples their coordinates.
+    elastic : bool
+        Whether a spring in it holds the bodies it acts on.
     """
 
     name: str
@@ -49,3 +53,5 @@ class ElementRecord:
     outputs: Sequence[Output] = field(default_factory=tuple)
     real_names: Sequence[str] = ()
     """Names of the entries of `real`, so that a parameter can be tied to one."""
+    tangent: bool = True
+    elastic: bool = False

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.affine import Affine
 from mbs.elements.checks import not_negative, number
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)
@@ -47,4 +47,5 @@ class ScalarSpringDamper:
             ),
             outputs=(Output("force", self.unit, "generalised force on the coordinate"),),
             real_names=("stiffness", "damping", "free_value", "constant"),
+            elastic=True,
         )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.affine import Affine, AffineVector
 from mbs.elements.checks import index, not_negative, number, positive, size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 Pair = tuple[float, float]
 """Values at the nominal load and at twice of it."""
