@@ -180,6 +180,11 @@ class Fmu:
         """Start values from the model description, zero where there is none."""
         return np.array([float(self.variables[n].start or 0.0) for n in names])
 
+    def constants(self) -> dict[str, float]:
+        """Values of the constants, by name."""
+        constants = {n: v for n, v in self.variables.items() if v.variability == "constant" and v.type == "Real"}
+        return {n: float(v.start) for n, v in constants.items()}
+
     def _last_message(self) -> str:
         return self.messages[-1] if self.messages else ""
 

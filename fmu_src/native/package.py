@@ -197,7 +197,6 @@ def pack_native(
         guid,
         tool=f"ALi3 {contents.version}",
         needs_execution_tool=False,
-        capable=True,
         sources=[path for path in sources if path.endswith(".c")],
     )
     with told(f"{face.name}: packing"):

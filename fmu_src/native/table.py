@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import accumulate
 
-from fmu_src.arrays import Array
+from fmu_src.arrays import Array, references
 from fmu_src.variables import Variable
 
 _SOURCES = {
@@ -15,6 +16,7 @@ _SOURCES = {
     "fidelity": "SLAVE_FIDELITY",
     "sensor": "SLAVE_SENSOR",
     "solver": "SLAVE_SOLVER",
+    "constant": "SLAVE_CONSTANT",
 }
 
 
@@ -24,7 +26,7 @@ def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str
     Parameters
     ----------
     table : sequence of Variable
-        Outputs last.
+        Inputs, parameters, outputs, constants.
     names : mapping
         Names of the constraint rows (``"row"``) and force elements (``"element"``) of each System, for messages.
     identity : str
@@ -45,7 +47,7 @@ def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str
         for v, unit in zip(table, units, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
-    known = sum(v.causality != "output" for v in table)
+    known = sum(v.causality in ("input", "parameter") for v in table)
     return (
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'
@@ -87,12 +89,12 @@ def c_arrays(groups: Sequence[Array]) -> str:
         C.
     """
     items = [k for group in groups for k in group.items]
-    first = [0]
-    for group in groups:
-        first.append(first[-1] + len(group.items))
+    numbers, time = references(groups)
+    sizes = {time: 0} | {number: len(group.items) for number, group in zip(numbers, groups, strict=True)}
+    first = [0, *accumulate(sizes[number] for number in sorted(sizes))]
     return (
         '\n#include "fmi3_face.h"\n\n'
         f"static const uint32_t items[] = {{{', '.join(map(str, items))}}};\n\n"
         f"static const size_t first[] = {{{', '.join(map(str, first))}}};\n\n"
-        f"const fmi3_table fmi3_the_table = {{items, first, {len(groups)}}};\n"
+        f"const fmi3_table fmi3_the_table = {{items, first, {len(sizes)}, {time}}};\n"
     )

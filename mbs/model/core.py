@@ -21,6 +21,7 @@ from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.ports import PortedBody
 
 if TYPE_CHECKING:
+    from mbs.model.constants import Constant
     from mbs.model.guides import Guide
     from mbs.model.inputs import Input
     from mbs.model.joints.joint import Joint
@@ -96,6 +97,7 @@ class ModelCore:
         self.roads: list[Any] = []
         self.sensors: list[Sensor] = []
         self.parameters: list[Parameter] = []
+        self.constants: list[Constant] = []
         self.body_velocities: dict[int, tuple[Vector | None, Vector | None]] = {}  # None: left to the joints
         self.coordinate_rates: dict[int, float] = {}
         self._names: dict[str, set[str]] = {}

@@ -17,8 +17,8 @@ const char *slave_worst_row(slave *s, char *text, size_t size) {
   ali3_report report;
   text[0] = 0;
   const slave_table *t = &slave_the_table;
-  const size_t first = t->first_row[s->rung.fidelity], n = t->first_row[s->rung.fidelity + 1] - first;
-  if (ali3_report_get(s->rung.kernel, &report) == ALI3_OK && report.violation > ALI3_OPEN &&
+  const size_t first = t->first_row[s->fidelity.number], n = t->first_row[s->fidelity.number + 1] - first;
+  if (ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK && report.violation > ALI3_OPEN &&
       report.violation < HUGE_VAL && report.worst_row >= 0 && (size_t)report.worst_row < n)
     snprintf(text, size, " Worst constraint: '%.128s', open by %.3g m.", t->row[first + (size_t)report.worst_row],
              report.violation);
@@ -43,8 +43,8 @@ static const char *refused(const slave *s, char *text, size_t size) {
   const slave_table *t = &slave_the_table;
   const char *words = "";
   int32_t element = -1;
-  const double height = ali3_start_excess(s->rung.kernel, &element, &words);
-  const char *name = element < 0 ? "" : t->element[t->first_element[s->rung.fidelity] + (size_t)element];
+  const double height = ali3_start_excess(s->fidelity.kernel, &element, &words);
+  const char *name = element < 0 ? "" : t->element[t->first_element[s->fidelity.number] + (size_t)element];
   snprintf(text, size, " '%.64s' %s. %.3g m higher nothing would be in its way.", name, words, height);
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_POSE && t->variable[i].index == POSE_HEIGHT)
@@ -63,23 +63,24 @@ static ali3_status apply(slave *s) {
   const slave_table *t = &slave_the_table;
   double pose[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
   bool posed = false;
-  ali3_status status = ali3_reset(s->rung.kernel);
+  ali3_status status = ali3_reset(s->fidelity.kernel);
   for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
     const slave_variable *v = &t->variable[i];
-    if (v->source == SLAVE_INPUT) status = ali3_set_input(s->rung.kernel, v->index, s->value[i]);
-    if (v->source == SLAVE_PARAMETER) status = ali3_set_parameter(s->rung.kernel, v->index, s->value[i]);
+    if (v->source == SLAVE_INPUT) status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i]);
+    if (v->source == SLAVE_PARAMETER) status = ali3_set_parameter(s->fidelity.kernel, v->index, s->value[i]);
     if (v->source != SLAVE_POSE) continue;
     pose[v->index] = s->value[i];
     posed = posed || s->value[i] != 0.0;
   }
-  if (status == ALI3_OK && posed) status = ali3_set_pose(s->rung.kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
-  return status == ALI3_OK ? ali3_initialise(s->rung.kernel, s->calls.start_time) : status;
+  if (status == ALI3_OK && posed)
+    status = ali3_set_pose(s->fidelity.kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
+  return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 
 bool slave_initialise(slave *s) {
   char text[SLAVE_TEXT / 2];
   slave_stale(s);
-  if (!slave_rung_choose(s)) return false;
+  if (!slave_fidelity_choose(s)) return false;
   const ali3_status status = apply(s);
   s->calls.initialised = status == ALI3_OK;
   s->outputs_fresh = false;

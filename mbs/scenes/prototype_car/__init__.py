@@ -15,6 +15,7 @@ from mbs.model.guides import Guide
 from mbs.scenes.prototype_car import car_data
 from mbs.scenes.prototype_car.chassis import chassis as chassis_of
 from mbs.scenes.prototype_car.chassis import stress_outputs
+from mbs.scenes.prototype_car.constants import vehicle_constants
 from mbs.scenes.prototype_car.front_suspension import front_suspension
 from mbs.scenes.prototype_car.ground_contact import ground_contact
 from mbs.scenes.prototype_car.outputs import (
@@ -98,6 +99,7 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
     stress_outputs(m, parts, fidelity)
     ground_contact(m, parts, ground)
     work_outputs(m)
+    vehicle_constants(m)
     if guide is not None:
         m.drive("guided way", chassis.point(parts.origin)[0], guide(m))
     return m
