@@ -38,8 +38,16 @@ static void look(ali3_instance *in, const linear_step *step, double part, int st
   ali3_constraints(in, at->q, at->s, in->Phi, in->J);
   if (stage == POSITION) {
     ali3_velocity_values(in, in->J, at->qd, 2.0 / step->h, in->Phi);
-    const ali3_force_call call = {at->q, at->qd, in->now.y_last, step->h,      0.5 * step->h,     step->c,
-                                  false, in->Q,  in->y_work,     in->out_work, in->potential_work};
+    const ali3_force_call call = {.q = at->q,
+                                  .qd = at->qd,
+                                  .y_old = in->now.y_last,
+                                  .h = step->h,
+                                  .wC = 0.5 * step->h,
+                                  .wK = step->c,
+                                  .Q = in->Q,
+                                  .y_new = in->y_work,
+                                  .out = in->out_work,
+                                  .potential = in->potential_work};
     ali3_forces(in, &call);
     ali3_rows_transposed(S, in->J, at->lam, in->x);
     for (int32_t i = 0; i < S->size.nq; i++) in->x[i] -= in->Q[i];
@@ -104,8 +112,17 @@ static void guides(ali3_instance *in, double h) {
 static ali3_status factorise(ali3_instance *in, const linear_step *step) {
   const ali3_system *S = in->system;
   const ali3_vectors *v = &in->now;
-  const ali3_force_call call = {v->q, v->qd, v->y_last,  step->h,      0.5 * step->h,     step->c,
-                                true, in->Q, in->y_work, in->out_work, in->potential_work};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y_last,
+                                .h = step->h,
+                                .wC = 0.5 * step->h,
+                                .wK = step->c,
+                                .tangent = true,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
   ali3_constraints(in, v->q, v->s, in->Phi, in->J_tangent);
   ali3_forces(in, &call);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));

@@ -86,8 +86,17 @@ static void evaluate(ali3_instance *in, double h) {
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_discrete_rows(in, in->D, to->q, &in->now, to);
   ali3_velocity_middle(in, in->A, in->D, in->Phi, in->J);
-  const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h,      0.25 * h * h,
-                                true,       in->Q,    to->y,     to->out, to->potential};
+  const ali3_force_call call = {.q = in->middle,
+                                .qd = in->rate,
+                                .y_old = in->now.y,
+                                .h = 0.5 * h,
+                                .wC = 0.5 * h,
+                                .wK = 0.25 * h * h,
+                                .tangent = true,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
   in->discrete = true;
   in->force_input = in->input_middle;
   ali3_forces(in, &call);
@@ -295,8 +304,16 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   ali3_history_append(in, h, in->d0);
   if (S->size.ny > 0) {
     ali3_history_velocity(in, h, in->w);
-    const ali3_force_call call = {to->q, in->w, from->y, h,       0.5 * h,      0.25 * h * h,
-                                  false, in->Q, to->y,   to->out, to->potential};
+    const ali3_force_call call = {.q = to->q,
+                                  .qd = in->w,
+                                  .y_old = from->y,
+                                  .h = h,
+                                  .wC = 0.5 * h,
+                                  .wK = 0.25 * h * h,
+                                  .Q = in->Q,
+                                  .y_new = to->y,
+                                  .out = to->out,
+                                  .potential = to->potential};
     ali3_forces(in, &call);
     ali3_forces_accept(in, &call);
   }

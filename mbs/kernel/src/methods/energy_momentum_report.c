@@ -59,7 +59,8 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
 ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int64_t factorizations = in->report.factorizations, solves = in->report.solves;
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
+  const ali3_force_call call = {
+      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = in->Q, .y_new = in->y_work, .out = v->out, .potential = v->potential};
   ali3_status status = ali3_index_one_factorise(in, v->q);
   if (status == ALI3_OK) {
     memcpy(in->J_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));

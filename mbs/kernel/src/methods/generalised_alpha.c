@@ -19,7 +19,7 @@ typedef struct {
 
 static ali3_alpha alpha_of(double rho) {
   const double am = (2.0 * rho - 1.0) / (rho + 1.0), af = rho / (rho + 1.0), gamma = 0.5 + af - am;
-  const ali3_alpha x = {am, af, 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma};
+  const ali3_alpha x = {.am = am, .af = af, .beta = 0.25 * (gamma + 0.5) * (gamma + 0.5), .gamma = gamma};
   return x;
 }
 
@@ -41,12 +41,12 @@ static double rho_of(const ali3_instance *in, double h) {
 void ali3_alpha_rule(ali3_instance *in, double h) {
   const ali3_alpha x = alpha_of(rho_of(in, h));
   const double c = (1.0 - x.af) * x.beta * h * h / (1.0 - x.am), rate = x.gamma / (x.beta * h);
-  const ali3_rule rule = {c, rate, c * rate};
+  const ali3_rule rule = {.c = c, .rate = rate, .wC = c * rate};
   const ali3_vectors *from = &in->now;
   in->rule = rule;
   ali3_history_own(in, ALI3_METHOD_GENERALISED_ALPHA, from->qdd);
   if (quiet_first(in, h)) {
-    const ali3_rule first = {0.5 * h * h, 2.0 / h, h};
+    const ali3_rule first = {.c = 0.5 * h * h, .rate = 2.0 / h, .wC = h};
     in->rule = first;
     for (int32_t i = 0; i < in->system->size.nq; i++) {
       in->d0[i] = h * from->qd[i];

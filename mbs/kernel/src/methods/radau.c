@@ -69,8 +69,16 @@ static void place(ali3_instance *in, double t, double h, int i) {
 
 static void forces(ali3_instance *in, double wC, double wK) {
   ali3_vectors *to = &in->next;
-  const ali3_force_call call = {to->q,         to->qd, in->now.y, 0.0,     wC,           wK,
-                                wC + wK > 0.0, in->Q,  to->y,     to->out, to->potential};
+  const ali3_force_call call = {.q = to->q,
+                                .qd = to->qd,
+                                .y_old = in->now.y,
+                                .wC = wC,
+                                .wK = wK,
+                                .tangent = wC + wK > 0.0,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
   ali3_forces(in, &call);
 }
 

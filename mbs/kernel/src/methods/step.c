@@ -41,8 +41,17 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
-  const ali3_force_call call = {to->q,   to->qd, in->now.y, h,       in->rule.wC,  c,
-                                tangent, in->Q,  to->y,     to->out, to->potential};
+  const ali3_force_call call = {.q = to->q,
+                                .qd = to->qd,
+                                .y_old = in->now.y,
+                                .h = h,
+                                .wC = in->rule.wC,
+                                .wK = c,
+                                .tangent = tangent,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
   ali3_forces(in, &call);
   ali3_mass_times(in, in->w, in->r);
   for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
@@ -107,7 +116,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
 
 /* Trapezoidal rule (17), (18). */
 static void trapezoidal(ali3_instance *in, double h) {
-  const ali3_rule rule = {0.25 * h * h, 2.0 / h, 0.5 * h};
+  const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
   in->rule = rule;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
     in->d0[i] = h * in->now.qd[i] + rule.c * in->now.qdd[i];
@@ -144,7 +153,16 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
     ali3_alpha_accept(in, h);
   else
     to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_ALI3P;
-  const ali3_force_call call = {to->q, to->qd, from->y, h, in->rule.wC, c, false, in->Q, to->y, to->out, to->potential};
+  const ali3_force_call call = {.q = to->q,
+                                .qd = to->qd,
+                                .y_old = from->y,
+                                .h = h,
+                                .wC = in->rule.wC,
+                                .wK = c,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
   ali3_forces_accept(in, &call);
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */

@@ -31,8 +31,13 @@ void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
 void ali3_work_reopen(ali3_instance *in) {
   ali3_vectors *v = &in->now;
   if (in->system->n_work == 0) return;
-  const ali3_force_call call = {
-      v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, in->out_work, in->potential_work};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
   in->force_input = v->used;
   ali3_forces(in, &call);
   in->force_input = in->input;
@@ -82,7 +87,13 @@ void ali3_work_first(ali3_instance *in, double weight) {
 void ali3_work_beside(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
   if (in->system->n_work == 0) return;
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, in->out_work, v->potential};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = v->potential};
   ali3_forces(in, &call);
   ali3_work_stage(in, dt, in->watched, v->work);
 }
