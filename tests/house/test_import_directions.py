@@ -123,7 +123,7 @@ def test_the_kernel_includes_in_one_direction():
         ("system.h", '#include "rows/constraints.h"', "against the order"),
         ("rows/guides.h", '#include "../tree/tree.h"', "against the order"),
         ("system/message.h", '#include "loading.h"', "circle of includes"),
-        ("state/report.c", "int x = ali3_books_step;", "calls ali3_books_step: against the order"),
+        ("state/report.c", "int x = ali3_balance_step;", "calls ali3_balance_step: against the order"),
         ("more.c", "", "more.c lies in no room"),
     ],
 )

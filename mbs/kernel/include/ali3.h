@@ -95,9 +95,9 @@ typedef struct {
   int32_t worst_row, worst_coordinate;
   double energy_jump; /* change of the kinetic energy by the last switching, J */
   double energy_error; /* work of constraint forces and projections, J; 0: exact, or not measured */
-  /* what says whether the run is right, see ali3_energy_balance; the first three of methods with books of energy */
+  /* what says whether the run is right, see ali3_energy_balance; the first three of methods with an energy balance */
   double energy; /* kinetic and potential energy of the state, J */
-  double work; /* what inputs, drives, dampers and tyres gave and took: sum of their shares of the steps, J */
+  double work; /* what inputs and forces without a potential gave and took: sum over the steps, J */
   double kinetic_peak; /* largest kinetic energy, at least that of 1e-6 m/s, J */
   /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity (over the largest: radians
    * that the motion has turned), sum of what steps are off v + h a of their start */

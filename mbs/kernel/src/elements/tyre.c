@@ -206,10 +206,10 @@ static void evaluate(ali3_element_args *a) {
   const double rolls = transport / ROLL_SPEED, moving = rolls < 1.0 ? rolls * rolls * (2.0 - rolls * rolls) : 1.0;
   const double ratio =
       loaded > 1e-6 ? 1.0 + moving * (rolling / loaded - 1.0) : 1.0; /* slip radius over loaded radius */
-  const double *tangent[2] = {forward, left};
+  const double *along[2] = {forward, left};
   double row[2][7], travel[2];
   for (int i = 0; i < 2; i++) {
-    const double *t = tangent[i], spin = ali3_dot(t, push), lean = ali3_dot(t, e);
+    const double *t = along[i], spin = ali3_dot(t, push), lean = ali3_dot(t, e);
     travel[i] = ali3_dot(t, rd) - lean * turn;
     v[i] = travel[i] + ratio * spin * omega;
     for (int k = 0; k < 3; k++) row[i][k] = t[k], row[i][3 + k] = -lean * rho[k];
