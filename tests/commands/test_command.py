@@ -54,6 +54,13 @@ def test_each_command_helps_under_its_name(command: object, capsys: pytest.Captu
     assert capsys.readouterr().out.startswith(f"usage: ali3 {command.name} ")
 
 
+def test_each_command_is_in_the_documents() -> None:
+    page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    assert [line.split("`")[1] for line in page.splitlines() if line.startswith("| `ali3 ")] == [
+        f"ali3 {c.name}" for c in COMMANDS
+    ]
+
+
 def test_the_list_of_commands_imports_nothing_heavy(tmp_path: Path) -> None:
     text = "import sys; from ali3.command import main\ntry: main(['--help'])\nfinally: print('\\n', *sys.modules)"
     done = ran(["-c", text], tmp_path)

@@ -1,9 +1,9 @@
 /* What watches over the assembly modes of closed loops, step by step, and reports a change once it is made.
  *
  * Left: a loop is in none of its modes, as after a dead centre that it was not meant to reach.
- * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes its
- * sign is made again in 4 and in 8 parts: where these agree with each other and not with it, the step has jumped. On
- * the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
+ * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes
+ * its sign is made again in 4 and in 8 parts: where these agree with each other and not with it, the step has jumped.
+ * On the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
 #include <math.h>
 #include <string.h>
 

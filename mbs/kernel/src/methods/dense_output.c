@@ -1,7 +1,8 @@
 /* The state at any time of a controlled step: positions, velocities and accelerations at its start, centre and end give
  * the polynomial of degree eight (Hermite interpolation), accelerations, multipliers and outputs of the elements come
  * from the equations of index one there. Where these say that the polynomial errs by more than the tolerance, and
- * where there are element states or filtered guides, a step of the method is made to that time instead, and forgotten. */
+ * where there are element states or filtered guides, a step of the method is made to that time instead, and
+ * forgotten. */
 #include <math.h>
 #include <string.h>
 
@@ -85,7 +86,8 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
   return ali3_distance(in, measure, in->w, in->r, ali3_rate(in, measure)) <= measure->control->tolerance;
 }
 
-/* Where there are element states or filtered guides, just behind the start: its forces and states with the motion of the polynomial. */
+/* Where there are element states or filtered guides, just behind the start: its forces and states with the motion of
+ * the polynomial. */
 static void beside_start(ali3_instance *in, double t, double h, double when) {
   ali3_vectors_copy(in, &in->next, &in->origin);
   interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);

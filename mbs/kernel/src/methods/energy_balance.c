@@ -1,5 +1,5 @@
-/* What tells at no cost whether a run is right: energy that no force gave, beside the energy that was in the motion, and
- * how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
+/* What tells at no cost whether a run is right: energy that no force gave, beside the energy that was in the motion,
+ * and how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
 #include <math.h>
 
 #include "../flexible/flexible_body.h"

@@ -49,9 +49,10 @@ double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double
   return given + 0.5 * h * in->report.open_power;
 }
 
-/* Adds an error of the energy to the balance and, where no row is driven, judges it beside the kinetic energy, what the forces in
- * in->Q can give in a step and what the tolerance of the residual leaves open; so also with what the forces left
- * without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its end. */
+/* Adds an error of the energy to the balance and, where no row is driven, judges it beside the kinetic energy, what the
+ * forces in in->Q can give in a step and what the tolerance of the residual leaves open; so also with what the forces
+ * left without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its
+ * end. */
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open) {
   const ali3_system *S = in->system;
   const double left = 2.0 * in->settings.tolerance_r / h;

@@ -1,8 +1,8 @@
 /* Step sizes from the error: each step may err by its share of the tolerance (error per unit step), so that the errors
- * of a run add up to it. Where a shorter step does not err less in proportion (a kink of a force, a velocity kicked at a
- * singular position) it may err by a fixed share, and where it errs no less at all it is taken and counted.
- * Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential
- * Equations II", second edition, IV.2). */
+ * of a run add up to it. Where a shorter step does not err less in proportion (a kink of a force, a velocity kicked at
+ * a singular position) it may err by a fixed share, and where it errs no less at all it is taken and counted.
+ * Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential Equations II",
+ * second edition, IV.2). */
 #include <math.h>
 #include <string.h>
 

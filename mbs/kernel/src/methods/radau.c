@@ -213,9 +213,9 @@ static double opening(const ali3_instance *in) {
 }
 
 /* Until the tolerances hold and what is left, told from the last correction and the ratio of the last two errors, is
- * small beside the error of the method: a guess from the last collocation polynomial (`near`) errs by h^3, the method by
- * h^5. A tolerance in metres alone spoils the order at small steps, where it lets through accelerations of 2 / h^2 times
- * itself. */
+ * small beside the error of the method: a guess from the last collocation polynomial (`near`) errs by h^3, the method
+ * by h^5. A tolerance in metres alone spoils the order at small steps, where it lets through accelerations of 2 / h^2
+ * times itself. */
 static ali3_status newton(ali3_instance *in, double t, double h, double alpha, bool near) {
   const ali3_settings *settings = &in->settings;
   double last, change = 0.0, need = ROUND_OFF;

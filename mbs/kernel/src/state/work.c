@@ -1,8 +1,8 @@
-/* Work of force elements on the mechanism, of those that sensors of type 19 name: by the quadrature that the method of a
- * step itself uses, so that the work of all forces is the change of the energy but for what the method errs by.
+/* Work of force elements on the mechanism, of those that sensors of type 19 name: by the quadrature that the method of
+ * a step itself uses, so that the work of all forces is the change of the energy but for what the method errs by.
  *
- * Trapezoidal rule: D'(f0 + f1)/2 with the forces that Newton's loop balanced. Energy-momentum: D'f of the middle, where
- * f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages. */
+ * Trapezoidal rule: D'(f0 + f1)/2 with the forces that Newton's loop balanced. Energy-momentum: D'f of the middle,
+ * where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages. */
 #include <string.h>
 
 #include "../elements/forces.h"
