@@ -13,8 +13,9 @@ from mbs.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
 from mbs.flexible.inertia_relief import InertiaRelief
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.core import Coordinate
 from mbs.model.flexible import FlexibleBody
 from mbs.model.joints.joint import Joint
 from mbs.model.ports import PortedBody
@@ -87,7 +88,7 @@ def spatial(v: AffineVector) -> list[Affine]:
     return [*v.components, *([Affine()] * (3 - len(v)))]
 
 
-class SensorVocabulary(ModelCore):
+class SensorVocabulary(BodyVocabulary):
     """The ``sense_...`` methods of a model. Each sensor has a name, a unit and a description."""
 
     def _sense(
