@@ -15,7 +15,7 @@ from mbs.branch_warning import BranchWarning
 from mbs.control import ALLOWED, Control
 from mbs.errors import SimulationError
 from mbs.input_signals import Signal
-from mbs.kernel.binding import NO_TREE, NOT_CONVERGED, WRONG_METHOD, KernelError
+from mbs.kernel.binding import KernelError, Status
 from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
 from mbs.simulation.arguments import check_end
@@ -211,7 +211,7 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation)
         f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share, as short "
         f"as {run.fields.smallest:.1e} s; a larger tolerance or another method will do.",
         time,
-        NOT_CONVERGED,
+        Status.NOT_CONVERGED,
         _so_far(run, times, first),
     )
 
@@ -219,7 +219,7 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation)
 def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation, error: KernelError) -> SimulationError:
     """The failure with what was recorded until then."""
     simulation = run.simulation
-    if error.status in (NO_TREE, WRONG_METHOD):
+    if error.status in (Status.NO_TREE, Status.WRONG_METHOD):
         return refusal(simulation, "The run was refused", error, _so_far(run, times, first))
     what = (
         f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbs.errors import SimulationError
-from mbs.kernel.binding import NOT_CONVERGED, KernelError
+from mbs.kernel.binding import KernelError, Status
 from mbs.settings import Settings
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.prepared_system import prepared
@@ -88,7 +88,7 @@ def choose(start: Callable[[], Simulation], task: Task, settings: Settings, tole
             f"None of {', '.join(runs)} gets from t = {task.t0:g} to {task.t_end:g} s at a tolerance of {coarse:g}; "
             "name a method to see where it stops.",
             task.t0,
-            NOT_CONVERGED,
+            Status.NOT_CONVERGED,
         )
     lost = [f"{name} {'does not get through' if name in failed else 'is slower'}" for name in runs if name != best]
     return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs))

@@ -6,16 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from mbs.errors import SimulationError
-from mbs.kernel.binding import (
-    BELOW_ROAD,
-    NO_TREE,
-    TOO_FAR,
-    TOO_STIFF,
-    UNRESOLVED,
-    WRONG_METHOD,
-    KernelError,
-    open_row,
-)
+from mbs.kernel.binding import KernelError, Status, open_row
 from mbs.simulation.prepared_system import prepared
 from mbs.trajectory import Trajectory
 
@@ -50,19 +41,26 @@ def refusal(
     report = simulation.instance.report()
     # neither row nor balance is at fault where nothing was solved yet, or all was but did work
     unsolved = not report["factorizations"]
-    if not unsolved and error.status not in (WRONG_METHOD, NO_TREE, BELOW_ROAD, UNRESOLVED, TOO_STIFF, TOO_FAR):
+    if not unsolved and error.status not in (
+        Status.WRONG_METHOD,
+        Status.NO_TREE,
+        Status.BELOW_ROAD,
+        Status.UNRESOLVED,
+        Status.TOO_STIFF,
+        Status.TOO_FAR,
+    ):
         message += _worst_equations(simulation, report)
     return SimulationError(message, simulation.time, error.status, trajectory)
 
 
 def _remedy(simulation: Simulation, status: int) -> str:
     """What the status alone tells."""
-    if status in (WRONG_METHOD, NO_TREE):
-        tree = f" Here {prepared(simulation.system)[1]['report']['no_tree']}." if status == NO_TREE else ""
+    if status in (Status.WRONG_METHOD, Status.NO_TREE):
+        tree = f" Here {prepared(simulation.system)[1]['report']['no_tree']}." if status == Status.NO_TREE else ""
         return f"{tree} The method is {simulation.settings.method!r}; 'ali3p' takes every System."
-    if status == BELOW_ROAD:
+    if status == Status.BELOW_ROAD:
         return f" {simulation.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
-    rate = simulation.instance.report()["fastest_rate"] if status == TOO_STIFF else 0.0
+    rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
     if rate > 0.0:
         h = simulation.step_tried
         return (
