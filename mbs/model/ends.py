@@ -65,6 +65,8 @@ def on_one_body(body_1: Body, body_2: Body) -> bool:
     bool
         Whether they are one.
     """
+    if body_1.model is not body_2.model:
+        return False
     if body_1 is body_2 or (body_1.is_ground and body_2.is_ground):
         return True
     rigid = not (body_1.is_flexible or body_2.is_flexible or body_1.is_ground or body_2.is_ground)

@@ -47,10 +47,7 @@ def guide_time(model: ModelCore, name: str, motion: PPoly | tuple[ArrayLike, Arr
 
     Outside its pieces the motion stands still, so it should begin and end with zero rates.
     """
-    if isinstance(motion, PPoly):
-        pieces = motion
-    else:
-        pieces = _spline(motion, f"guide '{name}'")
+    pieces = motion if isinstance(motion, PPoly) else _spline(motion, f"guide '{name}'")
     c, b = np.asarray(pieces.c, dtype=float), np.asarray(pieces.x, dtype=float)
     if c.ndim != 2 or c.shape[0] > 6:
         raise ModelError(f"The motion of guide '{name}' must be one scalar motion of degree 5 or less.")
@@ -86,8 +83,7 @@ def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
 
 def _register(model: ModelCore, name: str, type: int, input: int, reals: list[float], start: float, unit: str) -> Guide:
     text(unit, f"The unit of guide {shown(name)}")
-    guide = Guide(
-        model.unique("guide", name), len(model.guides), type, input, tuple(float(r) for r in reals), start, unit
-    )
+    checked = tuple(number(r, f"A number of guide {shown(name)}") for r in reals)
+    guide = Guide(model.unique("guide", name), len(model.guides), type, input, checked, start, unit)
     model.guides.append(guide)
     return guide
