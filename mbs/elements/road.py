@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from mbs.checks import array, is_number, not_negative, not_zero, number, one_of, positive, vector
 from mbs.elements.record import Check
 from mbs.errors import ModelError
+from mbs.kernel.header import RoadType
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class PlaneRoad:
     grade_x: float = 0.0
     grade_y: float = 0.0
     friction: float = 0.9
-    type: ClassVar[int] = 0
+    type: ClassVar[RoadType] = RoadType.PLANE
     real_names: ClassVar[tuple[str, ...]] = ("height", "grade_x", "grade_y", "friction")
     real_checks: ClassVar[tuple[Check, ...]] = (number, number, number, not_negative)
 
@@ -70,7 +71,7 @@ class KerbRoad:
     lower_height: float = 0.0
     upper: Literal["before", "after"] = "before"
     friction: float = 0.9
-    type: ClassVar[int] = 1
+    type: ClassVar[RoadType] = RoadType.KERB
     real_names: ClassVar[tuple[str, ...]] = ("position", "lower_height", "step", "side", "friction")
     real_checks: ClassVar[tuple[Check, ...]] = (number, number, positive, not_zero, not_negative)
 
@@ -110,7 +111,7 @@ class GridRoad:
     heights: ArrayLike
     frictions: ArrayLike = 0.9
     friction_factor: float = 1.0
-    type: ClassVar[int] = 2
+    type: ClassVar[RoadType] = RoadType.GRID
     real_names: ClassVar[tuple[str, ...]] = ("nx", "ny", "x0", "y0", "dx", "dy", "friction")
     real_checks: ClassVar[tuple[Check, ...]] = (positive, positive, number, number, positive, positive, not_negative)
 

@@ -9,6 +9,7 @@ from typing import TypeAlias
 from mbs.checks import not_zero, number, positive, shown, text, whole
 from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
+from mbs.kernel.header import GuideType
 from mbs.model.core import ModelCore
 from mbs.model.guides import Guide
 
@@ -101,7 +102,7 @@ def _target(model: ModelCore, what: str, given: tuple[Owner, str | int, float]) 
             check = element.real_checks[k] if element.real_checks else number
             return _Target((ELEMENT, index, k, factor), f"the {real} of element '{owner_name}'", check)
     for guide in model.guides:
-        if guide.name == owner_name and guide.type == 1 and real in GUIDE_REALS:
+        if guide.name == owner_name and guide.type == GuideType.OF_INPUT and real in GUIDE_REALS:
             k, check = list(GUIDE_REALS).index(str(real)), GUIDE_REALS[str(real)]
             return _Target((GUIDE, guide.index, k, factor), f"the {real} of guide '{owner_name}'", check)
     raise ModelError(

@@ -16,6 +16,7 @@
 #include "../rows/constraints.h"
 #include "../rows/velocity_rows.h"
 #include "../sensors/sensors.h"
+#include "../system/guide_types.h"
 
 enum { POSITION, VELOCITY, ACCELERATION, MOST_CORRECTIONS = 60, SWEEPS = 2 };
 static const double PART = 1e-5; /* of an input's range: the difference taken */
@@ -90,7 +91,7 @@ static void guides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   ali3_vectors *d = &in->tangent;
   for (int32_t g = 0; g < S->size.ng; g++) {
-    if (S->guide_type[g] == 0) continue;
+    if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
     const double *real = in->guide_real + S->guide_real_ptr[g];
     const double w = real[0], target = real[1] * d->used[S->guide_input[g]], slope = target / h, lag = 2.0 * slope / w;
     const double rate = w * lag - slope, decay = ali3_exp(-w * h);
