@@ -13,19 +13,29 @@ from mbs.elements.record import ElementRecord
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
 from mbs.model.body import Body
+from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.core import Coordinate
 from mbs.model.flexible import FlexibleBody
+from mbs.model.force_sensors import ForceSensorVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joint_vocabulary import JointVocabulary
+from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.parameters import Owner, Parameter, new_parameter
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin, spin
 
 
-class Model(JointVocabulary, ForceVocabulary, JointSensorVocabulary):
+class Model(
+    JointVocabulary,
+    ForceVocabulary,
+    MotionSensorVocabulary,
+    ForceSensorVocabulary,
+    JointSensorVocabulary,
+    ChannelSensorVocabulary,
+):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 
     Points, axes and inertias are given in earth axes in the reference configuration, as read off a drawing. Where the
