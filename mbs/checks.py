@@ -8,9 +8,9 @@ model is described; what runs a System passes `ValueError`.
 from __future__ import annotations
 
 import math
-import numbers
 import unicodedata
 from collections.abc import Collection, Mapping, Sequence
+from numbers import Real
 from typing import Any, TypeVar
 
 import numpy as np
@@ -51,19 +51,24 @@ def is_number(value: object) -> bool:
     """Whether a value is one real number; text and truth values are not."""
     if isinstance(value, np.ndarray):
         return value.ndim == 0 and value.dtype.kind in "iuf"
-    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def is_finite(value: object) -> bool:
+    """Whether a value is one real number that a float can hold."""
+    try:
+        return is_number(value) and math.isfinite(float(value))  # type: ignore[arg-type]
+    except OverflowError:
+        return False
 
 
 def number(value: object, what: str, error: Error = ModelError) -> float:
     """A finite number below `LARGEST`."""
     if not is_number(value):
         raise error(f"{capital(what)} must be a number, not {shown(value)}.")
-    try:
-        x = float(value)  # type: ignore[arg-type]
-    except OverflowError:
-        x = math.inf
-    if not math.isfinite(x):
-        raise error(f"{capital(what)} is {x}; it must be a finite number.")
+    if not is_finite(value):
+        raise error(f"{capital(what)} is {shown(value)}; it must be a finite number.")
+    x = float(value)  # type: ignore[arg-type]
     if abs(x) >= LARGEST:
         raise error(f"{capital(what)} is {x:g}; its size must be below {LARGEST:g}.")
     return x
@@ -99,8 +104,8 @@ def limit(value: object, what: str, error: Error = ModelError) -> float:
     """A number that may be infinite: the end of a range."""
     if not is_number(value):
         raise error(f"{capital(what)} must be a number, not {shown(value)}.")
-    if math.isinf(x := float(value)):  # type: ignore[arg-type]
-        return x
+    if value in (math.inf, -math.inf):
+        return float(value)
     return number(value, what, error)
 
 
@@ -113,7 +118,7 @@ def whole(
         span = f" from {least} to {most}"
     elif least is not None:
         span = ", zero or above" if least == 0 else f", {least} or above"
-    good = is_number(value) and math.isfinite(value) and int(value) == value  # type: ignore[arg-type, call-overload]
+    good = is_finite(value) and int(value) == value  # type: ignore[call-overload]
     n = int(value) if good else 0  # type: ignore[call-overload]
     if not good or (least is not None and n < least) or (most is not None and n > most):
         raise error(f"{capital(what)} is {shown(value)}; it must be a whole number{span}.")
@@ -186,23 +191,27 @@ def array(
         What it must be, in words; by default from the shape.
     """
     wanted = wanted or _shape_text(shape)
-    if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":
-        found = np.array(value, dtype=float)
-    else:
-        found = _from_sequence(value, what, error, wanted)
+    found = numbers(value, what, error, wanted)
+    if not found.shape:
+        raise error(f"{capital(what)} is {shown(value)}; it must be {wanted}.")
     if len(found.shape) != len(shape) or any(n is not None and n != m for n, m in zip(shape, found.shape, strict=True)):
         raise error(f"{capital(what)} has shape {found.shape}; it must be {wanted}.")
     wrong = ~(np.abs(found) < LARGEST)
     if wrong.any():
         x = float(found[wrong][0])
-        said = f"all numbers must be of a size below {LARGEST:g}" if math.isfinite(x) else "all numbers must be finite"
         given = found.tolist() if found.size <= 4 else f"an array with the entry {x:g}"
-        raise error(f"{capital(what)} is {given}; {said}.")
+        if math.isfinite(x):
+            raise error(f"{capital(what)} is {given}; all numbers must be of a size below {LARGEST:g}.")
+        raise error(f"{capital(what)} is {given}, which is not finite; all numbers must be finite.")
     return found
 
 
-def _from_sequence(value: object, what: str, error: Error, wanted: str) -> NDArray[np.float64]:
-    """An array of a sequence whose entries are numbers, each looked at: NumPy would take text and truth values."""
+def numbers(
+    value: object, what: str, error: Error = ValueError, wanted: str = "a sequence of numbers"
+) -> NDArray[np.float64]:
+    """Numbers in an array of any shape, which need not be finite: NumPy would take text and truth values too."""
+    if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":
+        return np.array(value, dtype=float)
     try:
         entries = np.array(value, dtype=object)
         good = all(is_number(entry) for entry in entries.ravel())

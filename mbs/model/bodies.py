@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
-from mbs.checks import Vector, array, direction, instance_of, is_number, mapping, positive, shown, vector
+from mbs.checks import Vector, array, capital, direction, instance_of, is_number, mapping, positive, shown, vector
 from mbs.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
@@ -168,6 +168,8 @@ class BodyVocabulary(ModelCore):
         if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
             raise ModelError(f"Ports belong to a rigid body in space, not to '{body.name}'.")
         given = mapping(ports, f"The ports of body '{body.name}'", "names to places")
+        if not given:
+            raise ModelError(f"The ports of body '{body.name}' are {shown(ports)}; it needs one at least.")
         places = {n: vector(p, 3, f"the port {shown(n)} of body '{body.name}'") for n, p in given.items()}
         return PortedBody(body, places)
 
@@ -226,9 +228,11 @@ class BodyVocabulary(ModelCore):
             It is none, or one of another model.
         """
         if not isinstance(body, Body):
-            raise ModelError(f"{what} needs a body, got {shown(body)}.")
+            raise ModelError(f"{capital(what)} needs a body, got {shown(body)}.")
         if body.model is not self:
-            raise ModelError(f"{what}: body '{body.name}' belongs to model '{body.model.name}', not to '{self.name}'.")
+            raise ModelError(
+                f"{capital(what)}: body '{body.name}' belongs to model '{body.model.name}', not to '{self.name}'."
+            )
         return body
 
     def anchor(self, body: Body, position: ArrayLike | None, what: str) -> AffineVector:

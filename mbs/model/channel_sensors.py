@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from mbs.affine import Affine
 from mbs.checks import number, one_of, shown
+from mbs.checks import text as checked_text
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType, SolverValue
 from mbs.model.guides import Guide, owned_guide
@@ -72,7 +73,9 @@ class ChannelSensorVocabulary(SensorBase):
             The name is taken, or the input is not of this model.
         """
         channel = owned_input(self, input, f"The sensor '{name}'")
-        return self._sense(name, unit or channel.unit, description, SensorType.INPUT, integers=[channel.index])
+        return self._sense(
+            name, self._unit(unit, channel.unit), description, SensorType.INPUT, integers=[channel.index]
+        )
 
     def sense_guide(
         self, name: str, guide: Guide, order: int = 0, scale: float = 1.0, unit: str = "", description: str = ""
@@ -106,7 +109,12 @@ class ChannelSensorVocabulary(SensorBase):
         motion, k = owned_guide(self, guide, f"The {what}"), order_number(order, 2, what)
         factor = number(scale, f"The scale of {what}")
         return self._sense(
-            name, unit or motion.unit, description, SensorType.GUIDE, integers=[motion.index, k], reals=[factor]
+            name,
+            self._unit(unit, motion.unit),
+            description,
+            SensorType.GUIDE,
+            integers=[motion.index, k],
+            reals=[factor],
         )
 
     def sense_solver(self, name: str, kind: str, description: str = "") -> Sensor:
@@ -171,6 +179,6 @@ class ChannelSensorVocabulary(SensorBase):
             raise ModelError(
                 f"A notice of model {self.name!r} needs a sensor and a sentence, got {shown(sensor)}, {shown(text)}."
             )
-        told = replace(sensor, notice=text)
+        told = replace(sensor, notice=checked_text(text, f"The notice of sensor '{sensor.name}'"))
         self.sensors = [told if s is sensor else s for s in self.sensors]
         return told

@@ -373,6 +373,6 @@ class ModelCore:
             There is none.
         """
         for joint in self.joints:
-            if joint.name == name:
+            if isinstance(name, str) and joint.name == name:
                 return joint
         raise ModelError(f"The model '{self.name}' has no joint named {shown(name)}.")

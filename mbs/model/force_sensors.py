@@ -57,7 +57,12 @@ class ForceSensorVocabulary(SensorBase):
         ModelError
             The name is taken, or there is no such element or output; the message lists what there is.
         """
-        element_name = getattr(element, "name", element)
+        element_name = element.name if isinstance(element, ElementRecord) else element
+        if not isinstance(element_name, str) or not isinstance(output, str):
+            raise ModelError(
+                f"The sensor '{name}' needs a force element, or its name, and the name of an output, got "
+                f"{shown(element)} and {shown(output)}."
+            )
         factor = number(scale, f"The scale of sensor '{name}'")
         for index, record in enumerate(self.elements):
             if record.name == element_name:
@@ -65,13 +70,13 @@ class ForceSensorVocabulary(SensorBase):
                     if out.name == output:
                         return self._sense(
                             name,
-                            unit or out.unit,
-                            description or out.description,
+                            self._unit(unit, out.unit),
+                            self._unit(description, out.description),
                             SensorType.ELEMENT_OUTPUT,
                             integers=[index, k],
                             reals=[factor],
                             whole=out.whole and factor == 1.0,
-                            display_unit=out.display_unit if not unit else "",
+                            display_unit=out.display_unit if isinstance(unit, str) and not unit else "",
                         )
                 known = ", ".join(o.name for o in record.outputs) or "none"
                 raise ModelError(
@@ -123,12 +128,12 @@ class ForceSensorVocabulary(SensorBase):
             raise ModelError(f"The sensor '{name}' needs force elements or their names, got {shown(elements)}.")
         given = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
         known = {record.name: k for k, record in enumerate(self.elements)}
-        names = [str(getattr(e, "name", e)) for e in given]
+        names = [e.name if isinstance(e, ElementRecord) else e for e in given]
         for element in names:
-            if element not in known:
+            if not isinstance(element, str) or element not in known:
                 raise ModelError(
-                    f"The sensor '{name}' asks for element '{element}', but the model has no such element; it has: "
-                    f"{', '.join(known) or 'none'}."
+                    f"The sensor '{name}' asks for element {shown(element)}, but the model has no such element; it "
+                    f"has: {', '.join(known) or 'none'}."
                 )
         if not names or len(set(names)) < len(names):
             raise ModelError(f"The sensor '{name}' needs at least one element and each once, got {names}.")
@@ -239,7 +244,7 @@ class ForceSensorVocabulary(SensorBase):
         if relief.forces.shape[1] != 3 * n or not row < len(relief.forces):
             raise ModelError(
                 f"The {what} needs matrices of {n} interfaces and a row of them; they have "
-                f"{relief.forces.shape[1] // 3} and {len(relief.forces)} rows, the row is {row}."
+                f"{relief.forces.shape[1] // 3} and {len(relief.forces)} rows, the row is {shown(output)}."
             )
         signals = [*body.point(origin).components, *(s for e in np.eye(3) for s in body.vector(e).components)]
         weights = np.concatenate([relief.forces[row], relief.acceleration[row], relief.rotation[row]])

@@ -69,7 +69,7 @@ class JointSensorVocabulary(SensorBase):
                 f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
                 "drives, gears, racks and screws have one."
             )
-        unit = unit or ("N m" if found.type == "gear" else "N")
+        unit = self._unit(unit, "N m" if found.type == "gear" else "N")
         if found.equations[rows[0]].kind == "driven_distance":
             return self._driven_distance(name, found, component, unit, description)
         if found.normals:

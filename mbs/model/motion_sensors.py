@@ -168,7 +168,9 @@ class MotionSensorVocabulary(SensorBase):
             *spatial(self.expressions(vector, f"The {what}")),
             *spatial(self.expressions(axis, f"The {what}")),
         ]
-        return self._sense(name, unit or RATE_UNITS["m"][k], description, SensorType.COMPONENT, signals, integers=[k])
+        return self._sense(
+            name, self._unit(unit, RATE_UNITS["m"][k]), description, SensorType.COMPONENT, signals, integers=[k]
+        )
 
     def sense_coordinate(
         self,
@@ -209,8 +211,7 @@ class MotionSensorVocabulary(SensorBase):
         """
         k = order_number(order, 2, f"sensor '{name}'")
         expression = self.expression(coordinate, f"The sensor '{name}'")
-        if not unit:
-            unit = RATE_UNITS[coordinate.unit][k] if isinstance(coordinate, Coordinate) else "1"
+        unit = self._unit(unit, RATE_UNITS[coordinate.unit][k] if isinstance(coordinate, Coordinate) else "1")
         factor = number(scale, f"The scale of sensor '{name}'")
         return self._sense(name, unit, description, SIGNALS[k], [expression], reals=[factor], display_unit=display_unit)
 
@@ -386,7 +387,7 @@ class MotionSensorVocabulary(SensorBase):
         k = order_number(order, 1, f"sensor '{name}'")
         signals = list(self.expressions(vector, f"The sensor '{name}'").components)
         return self._sense(
-            name, unit or RATE_UNITS["m"][k], description, SensorType.NORM, signals, integers=[k, len(vector)]
+            name, self._unit(unit, RATE_UNITS["m"][k]), description, SensorType.NORM, signals, integers=[k, len(vector)]
         )
 
     def sense_direction(

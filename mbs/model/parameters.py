@@ -70,7 +70,10 @@ def new_parameter(
     if not low <= start <= high:
         raise ModelError(f"The {what} is {start:g}, which is not between its limits {low:g} and {high:g}.")
     if not isinstance(targets, (list, tuple)) or not targets:
-        raise ModelError(f"The {what} has no target; name the element and the real it writes.")
+        raise ModelError(
+            f"The {what} has no target; its targets must be a list of (element, name of a real, scale), not "
+            f"{shown(targets)}."
+        )
     found = [_target(model, what, target) for target in targets]
     for end, limit in (("min", low), ("max", high)):
         for target in found:

@@ -103,6 +103,10 @@ def spatial(v: AffineVector) -> list[Affine]:
 class SensorBase(BodyVocabulary):
     """How the ``sense_...`` methods of a model register a sensor: each has a name, a unit and a description."""
 
+    def _unit(self, unit: str, default: str) -> str:
+        """The unit that was given, else the default."""
+        return default if isinstance(unit, str) and not unit else unit
+
     def _sense(
         self,
         name: str,
