@@ -108,7 +108,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         ValueError
             It is no whole number above zero.
         """
-        every = whole(every, "every", 1, error=ValueError)
+        every = whole(every, "every", 1, 10**9, ValueError)
         if every == 1:
             return self
         values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))

@@ -49,8 +49,10 @@ def check_end(t0: float, t_end: float) -> float:
 
 def check_every(every: int) -> int:
     """An interval of the record in steps, or one sentence."""
-    if not is_finite(every) or int(every) != every or every < 1:
-        raise ValueError(f"every = {shown(every)}; it must be at least 1, a whole number of steps.")
+    if not is_finite(every) or int(every) != every or not 1 <= every <= MOST_VALUES:
+        raise ValueError(
+            f"every = {shown(every)}; it must be at least 1, a whole number of steps up to {MOST_VALUES:g}."
+        )
     return int(every)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.accuracy import AccuracyWarning
 from mbs.branch_warning import BranchWarning
-from mbs.checks import array
+from mbs.checks import array, shown
 from mbs.control import ALLOWED, Control
 from mbs.errors import SimulationError
 from mbs.input_signals import Signal
@@ -171,8 +171,8 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
         check_record(samples, 1)
         return t0 + interval * np.arange(samples, dtype=float)
     wanted = array(times, (None,), "the times", ValueError, "finite numbers that ascend")
-    if not np.all(np.diff(wanted) > 0.0):
-        raise ValueError("The times must be finite numbers that ascend.")
+    if not len(wanted) or not np.all(np.diff(wanted) > 0.0):
+        raise ValueError(f"The times must be finite numbers that ascend, not {shown(times)}.")
     if len(wanted) and not (wanted[0] >= t0 and wanted[-1] <= t_end):
         raise ValueError(
             f"The times must lie between {t0:g} and {t_end:g} s; they go from {wanted[0]:g} to {wanted[-1]:g}."

@@ -263,6 +263,7 @@ class Simulation:
         h = check_step(h)
         if not is_finite(n) or n != int(n) or n < 0:
             raise ValueError(f"n = {shown(n)}; it must be a whole number of steps.")
+        check_time(self.time + n * h, f"The end of n = {shown(n)} steps of {h:g} s")
         check_resolution(self.time, h)
         self.step_tried = h
         for _ in range(int(n)):
