@@ -5,22 +5,25 @@ from __future__ import annotations
 import functools
 import importlib.metadata
 import re
-import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
+from enum import Enum
 from pathlib import Path
 
 import mbs
+from ali3.files import check_writable
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
-from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
+from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
 from fmu_src.probe import probe, with_nominal
-from fmu_src.variables import check_variants, variable_table
-from mbs.kernel import build
+from fmu_src.texts import check_texts
+from fmu_src.variables import check_fidelities, variable_table
 
 Say = Callable[[str], None]
+Systems = mbs.System | Sequence[mbs.System] | Mapping[int, mbs.System]
 _PATIENCE = 2.0
 
 KINDS = {
@@ -45,7 +48,7 @@ def fmu_name(scene: str, kind: str = "native") -> str:
 
 
 def build_fmu(
-    system: mbs.System | Sequence[mbs.System],
+    system: Systems,
     name: str,
     out: Path,
     platforms: Sequence[str] | None = None,
@@ -60,8 +63,9 @@ def build_fmu(
 
     Parameters
     ----------
-    system : mbs.System or sequence of them
-        Several are the rungs of the parameter `fidelity`: with the same inputs, parameters and sensors.
+    system : mbs.System, sequence of them or mapping of int to mbs.System
+        Several are the choices of the parameter `fidelity`, by number from 0 on or by members of an enumeration, with
+        the same inputs, parameters and sensors.
     name : str
         Of the scene, such as ``prototype_car``.
     out : Path
@@ -89,54 +93,86 @@ def build_fmu(
     unknown = sorted(set(chosen) - set(able))
     if unknown or not chosen:
         raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
-    systems = (system,) if isinstance(system, mbs.System) else tuple(system)
-    check_variants([s.meta for s in systems])
-    meta = systems[fidelity].meta
-    table = variable_table(
-        meta,
-        pose=bool(meta["floating"]),
-        step_size=float(meta["experiment"]["step_s"]),
-        fidelities=len(systems),
-        fidelity=fidelity,
-    )
-    told = functools.partial(_told, say)
-    with told("finding what depends on what"):
-        reach = probe(systems, table)
-    contents = NativeContents(
-        fmu_name(name, kind),
-        meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
-        importlib.metadata.version("ali3"),
-        systems,
-        with_nominal(table, reach),
-        reach,
-        fidelity,
-        *(author, copyright, licence),
-    )
-    file = out / f"{contents.model_name}.fmu"
-
-    if kind == "python":
-        _pack_python(contents, chosen, file, told)
-    else:
-        pack_native(contents, _FACES[kind], chosen, file, told)
-    return file
+    file = out / f"{fmu_name(name, kind)}.fmu"
+    check_writable(file)
+    builder = FmuBuilder(system, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
+    return builder.build(kind, chosen, file)
 
 
-def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, told: Telling) -> None:
-    # PythonFMU is needed for this kind only.
-    from fmu_src.python_slave.package import pack
-    from fmu_src.python_slave.shell_build import compile_shell
+class FmuBuilder:
+    """Builds the kinds of FMU of one scene; what they share is made once.
 
-    kernels, shells = {}, {}
-    with tempfile.TemporaryDirectory() as folder:
-        for platform in platforms:
-            place = Path(folder, platform)
-            place.mkdir()
-            with told(f"compiling for {platform}", "the first time for Windows takes two minutes"):
-                library = place / f"kernel{SUFFIXES[platform]}"
-                kernels[platform] = build.compile_library(TARGETS[platform][0], library)
-                shells[platform] = compile_shell(platform, place)
-        with told("packing"):
-            pack(contents, kernels, shells, file)
+    Parameters
+    ----------
+    system : mbs.System, sequence of them or mapping of int to mbs.System
+        As for `build_fmu`.
+    name : str
+        Of the scene.
+    fidelity : int
+        The default among several Systems.
+    rights : tuple of str
+        Author, copyright and licence of the model; empty: the solver's.
+    told : callable
+        ``told(what, note)`` makes a context in which `what` is done.
+    """
+
+    def __init__(self, system: Systems, name: str, fidelity: int, rights: tuple[str, str, str], told: Telling) -> None:
+        given = (system,) if isinstance(system, mbs.System) else system
+        offered = given if isinstance(given, Mapping) else dict(enumerate(given))
+        systems = tuple(offered[k] for k in sorted(offered))
+        check_fidelities([s.meta for s in systems])
+        meta = systems[fidelity].meta
+        table = variable_table(
+            meta,
+            pose=bool(meta["floating"]),
+            step_size=float(meta["experiment"]["step_s"]),
+            fidelities=[k.name.lower() if isinstance(k, Enum) else "" for k in sorted(offered)],
+            fidelity=fidelity,
+        )
+        description = meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
+        check_texts(description, rights, table)
+        self._name, self._told = name, told
+        with told("finding what depends on what"):
+            reach = probe(systems, table)
+        version = importlib.metadata.version("ali3")
+        self._contents = NativeContents(
+            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights
+        )
+        self._libraries: dict[tuple[str, str], bytes] = {}
+
+    def pieces(self, kind: str, platforms: Sequence[str]) -> int:
+        """How many pieces of work `told` is going to be asked for by `build`."""
+        made = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
+        if kind == "python":
+            return 1 + len([platform for platform in platforms if platform not in made])
+        folders = [folder for platform in platforms for folder in _FACES[kind].binaries[platform]]
+        return 2 + len([folder for folder in folders if folder not in made])
+
+    def build(self, kind: str, platforms: Sequence[str], file: Path) -> Path:
+        """Build the FMU of a kind.
+
+        Parameters
+        ----------
+        kind : str
+            One of `KINDS`.
+        platforms : sequence of str
+            Those that the kind can have.
+        file : Path
+            Replaced at once when all is done.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
+        contents = replace(self._contents, model_name=fmu_name(self._name, kind))
+        if kind == "python":
+            from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
+
+            pack_python(contents, platforms, file, self._told, self._libraries)
+        else:
+            pack_native(contents, _FACES[kind], platforms, file, self._told, self._libraries)
+        return file
 
 
 @contextmanager

@@ -80,9 +80,12 @@ class NativeContents:
         return self.systems[self.fidelity]
 
     @property
-    def rows(self) -> list[list[str]]:
-        """Names of the constraint rows of each System."""
-        return [[row["name"] for row in system.meta["rows"]] for system in self.systems]
+    def names(self) -> dict[str, list[list[str]]]:
+        """Names of the constraint rows and force elements of each System."""
+        return {
+            what: [[item["name"] for item in system.meta[f"{what}s"]] for system in self.systems]
+            for what in ("row", "element")
+        }
 
     @property
     def system_files(self) -> dict[str, bytes]:
@@ -102,7 +105,7 @@ class NativeContents:
     def identity(self, face: str) -> tuple[str, str]:
         """Hash of the content, and the GUID made from it."""
         return identity_of(
-            packed_sources(face, c_table(self.table, self.rows, "0" * 32, "")) | self.system_files,
+            packed_sources(face, c_table(self.table, self.names, "0" * 32, "")) | self.system_files,
             [
                 *(self.model_name, self.description, self.version, self.stop_time, table_records(self.table)),
                 *(self.author, self.copyright, self.licence),
@@ -138,7 +141,14 @@ class Face:
     documents: Callable[[Description, NativeContents], dict[str, bytes]]
 
 
-def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], file: Path, told: Telling) -> str:
+def pack_native(
+    contents: NativeContents,
+    face: Face,
+    platforms: Sequence[str],
+    file: Path,
+    told: Telling,
+    libraries: dict[tuple[str, str], bytes],
+) -> str:
     """Compile and write the FMU.
 
     Parameters
@@ -151,6 +161,8 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
         Where to.
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
+    libraries : dict
+        Libraries by model and folder that were compiled before; those compiled here are added.
 
     Returns
     -------
@@ -161,7 +173,7 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
     identity, guid = contents.identity(face.name)
     table_c = face.tables(contents, identity, guid)
     sources = packed_sources(face.name, table_c)
-    with told("running the default experiment"):
+    with told(f"{face.name}: running the default experiment"):
         run = reference_run(contents.system)
     files = {
         **{f"sources/{path}": data for path, data in sources.items()},
@@ -176,19 +188,25 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
         for platform in platforms:
             library = name + SUFFIXES[platform]
             for folder, targets in face.binaries[platform].items():
-                with told(f"compiling for {folder}", "the first time takes up to two minutes"):
-                    made = compile_library(targets, face.name, table, Path(temporary), library)
-                files[f"binaries/{folder}/{library}"] = made
+                if (name, folder) not in libraries:
+                    with told(f"{face.name}: compiling for {folder}", first_time(platform)):
+                        made = compile_library(targets, face.name, table, Path(temporary), library)
+                    libraries[name, folder] = made
+                files[f"binaries/{folder}/{library}"] = libraries[name, folder]
     head = contents.description_head(
         guid,
         tool=f"ALi3 {contents.version}",
         needs_execution_tool=False,
-        capable=True,
         sources=[path for path in sources if path.endswith(".c")],
     )
-    with told("packing"):
+    with told(f"{face.name}: packing"):
         write_zip(files | face.documents(head, contents), file)
     return guid
+
+
+def first_time(platform: str) -> str:
+    """What a person should know who waits for the compiler."""
+    return "the first time, Windows' C runtime is compiled too: some minutes" if platform == "win64" else ""
 
 
 def _page(contents: NativeContents, words: Sequence[str]) -> bytes:

@@ -45,6 +45,9 @@ def metadata(
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
             for p in model.parameters
         ],
+        "constants": [
+            {"name": c.name, "unit": c.unit, "description": c.description, "value": c.value} for c in model.constants
+        ],
         "elements": [
             {
                 "name": e.name,

@@ -10,7 +10,7 @@ from mbs.affine import Affine, AffineVector
 from mbs.checks import not_negative, positive
 from mbs.elements.checks import index, size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

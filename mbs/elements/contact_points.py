@@ -12,8 +12,8 @@ from mbs.affine import AffineVector
 from mbs.checks import array, not_negative, positive
 from mbs.elements.checks import index, size
 from mbs.elements.record import Check, ElementRecord, Output
-from mbs.elements.types import ElementType
 from mbs.errors import ModelError
+from mbs.kernel.header import ElementType
 
 STATES = 4
 """Per point: two deflections in the plane of contact and their rates."""

@@ -8,7 +8,7 @@ from mbs.affine import AffineVector
 from mbs.checks import not_negative
 from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

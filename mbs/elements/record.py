@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from mbs.affine import Affine
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 Check: TypeAlias = Callable[[object, str], float]
 """One of the checks of numbers of `mbs.checks`."""
@@ -42,6 +42,10 @@ class ElementRecord:
         Initial values of its slots.
     outputs : sequence of Output
         What it computes beside its force.
+    tangent : bool
+        Whether its force depends on the signals or their rates, so that the tangent couples their coordinates.
+    elastic : bool
+        Whether a spring in it holds the bodies it acts on.
     """
 
     name: str
@@ -55,3 +59,5 @@ class ElementRecord:
     """Names of the first entries of `real`, so that a parameter can be tied to one."""
     real_checks: Sequence[Check] = ()
     """What each of these must satisfy, also as a parameter writes it; by default any finite number will do."""
+    tangent: bool = True
+    elastic: bool = False

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.affine import Affine
 from mbs.checks import not_negative, number
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)
@@ -48,4 +48,5 @@ class ScalarSpringDamper:
             outputs=(Output("force", self.unit, "generalised force on the coordinate"),),
             real_names=("stiffness", "damping", "free_value", "constant"),
             real_checks=(not_negative, not_negative, number, number),
+            elastic=True,
         )

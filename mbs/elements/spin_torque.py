@@ -8,7 +8,7 @@ from mbs.affine import Affine, AffineVector
 from mbs.checks import number
 from mbs.elements.checks import index, size
 from mbs.elements.record import ElementRecord
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

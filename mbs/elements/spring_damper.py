@@ -8,7 +8,7 @@ from mbs.affine import AffineVector
 from mbs.checks import not_negative, positive
 from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)
@@ -129,4 +129,5 @@ class SpringDamper:
                 *progressive,
             ),
             real_checks=(not_negative,) * (7 + len(progressive)),
+            elastic=True,
         )

@@ -8,7 +8,7 @@ from mbs.affine import Affine, AffineVector
 from mbs.checks import not_negative, number, positive
 from mbs.elements.checks import index, size
 from mbs.elements.record import Check, ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 Pair = tuple[float, float]
 """Values at the nominal load and at twice of it."""

@@ -19,6 +19,7 @@ from mbs.errors import ModelError
 
 if TYPE_CHECKING:
     from mbs.elements.road import Road
+    from mbs.model.constants import Constant
     from mbs.model.guides import Guide
     from mbs.model.inputs import Input
     from mbs.model.joints.joint import Joint
@@ -145,6 +146,7 @@ class ModelCore:
         self.roads: list[Road] = []
         self.sensors: list[Sensor] = []
         self.parameters: list[Parameter] = []
+        self.constants: list[Constant] = []
         self._names: set[tuple[str, str]] = set()
         self._undo: list[Callable[[], None]] | None = None
 

@@ -14,6 +14,7 @@ from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
 from mbs.model.body import Body
 from mbs.model.channel_sensors import ChannelSensorVocabulary
+from mbs.model.constants import Constant, new_constant
 from mbs.model.core import Coordinate
 from mbs.model.flexible import FlexibleBody
 from mbs.model.force_sensors import ForceSensorVocabulary
@@ -412,3 +413,31 @@ class Model(
             of the limits is no value that the target can have.
         """
         return new_parameter(self, name, value, min, max, unit, description, targets)
+
+    def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
+        """A number about the model that its users need and its equations do not, such as a wheelbase.
+
+        An FMU has it as a constant; it is no output and takes no part in a run.
+
+        Parameters
+        ----------
+        name : str
+            Unique, such as ``vehicle.wheelbase``.
+        value : float
+            Finite, in `unit`.
+        unit : str
+            SI unit.
+        description : str
+            One sentence for hosts.
+
+        Returns
+        -------
+        Constant
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is empty or taken, or the value is no finite number.
+        """
+        return new_constant(self, name, value, unit, description)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks import car_manoeuvres
+from benchmarks.car import manoeuvres
 from mbs import Pose, Simulation, SimulationError, compile
 from mbs.elements.road import KerbRoad, PlaneRoad
 from mbs.scenes import prototype_car
@@ -25,7 +25,7 @@ PEAK, REBOUND, BUMP, ACCELERATION = 0.05, 0.12, 0.4, 0.35  # relative
 
 @pytest.fixture(scope="module")
 def kerb():
-    return car_manoeuvres.run("kerb_drop", H)
+    return manoeuvres.run("kerb_drop", H)
 
 
 def test_kerb_passes_without_failed_or_halved_steps(kerb):
@@ -37,7 +37,7 @@ def test_kerb_passes_without_failed_or_halved_steps(kerb):
 
 @pytest.mark.parametrize("axle", ["F", "R"])
 def test_kerb_response_is_of_the_expected_size(axle):
-    t = car_manoeuvres.run("kerb_drop", 0.001)
+    t = manoeuvres.run("kerb_drop", 0.001)
     expected, w = EXPECTED[axle], f"{axle}L"
     load, travel = t[f"wheel_{w}.Fz"], t[f"wheel_{w}.travel"]
     assert np.count_nonzero(load < 1.0) * 0.001 == pytest.approx(expected["air"], abs=AIR_TIME)
@@ -92,6 +92,8 @@ def test_a_start_with_a_wheel_centre_in_the_road_is_refused_with_the_height_that
     low = -0.3 if grade == 0.0 else 0.0  # m; falling to the front, the drawn car has its rear wheels in the road
     with pytest.raises(SimulationError, match="deeper in the road than its radius") as refused:
         start_loads(system, Pose(z=low))
+    deepest = "tyre RL" if grade > 0.0 else "tyre F"
+    assert f"refuses the start. '{deepest}" in str(refused.value)
     lift = float(str(refused.value).split("radius. ")[1].split(" m")[0])
     assert max(start_loads(system, Pose(z=low + lift + ROUNDED))) == 0.0
     assert max(start_loads(system, Pose(z=low + lift - 0.01))) > 100.0

@@ -14,9 +14,9 @@
 #include "../instance.h"
 #include "../methods/newton.h"
 #include "../rows/constraints.h"
+#include "../rows/guides.h"
 #include "../rows/velocity_rows.h"
 #include "../sensors/sensors.h"
-#include "../system/guide_types.h"
 
 enum { POSITION, VELOCITY, ACCELERATION, MOST_CORRECTIONS = 60, SWEEPS = 2 };
 static const double PART = 1e-5; /* of an input's range: the difference taken */

@@ -146,5 +146,13 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_automatic_drive;
-const ali3_element_type ali3_automatic_drive = {evaluate, accept, 8, -1, 2, 4, 4, check};
+const ali3_element_type ali3_automatic_drive = {
+    .evaluate = evaluate,
+    .accept = accept,
+    .nsig = 8,
+    .nreal = -1,
+    .nint = 2,
+    .nstate = 4,
+    .nout = 4,
+    .check = check,
+};

@@ -25,5 +25,10 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_drag;
-const ali3_element_type ali3_drag = {evaluate, 0, -1, 2, 0, 0, 1, check};
+const ali3_element_type ali3_drag = {
+    .evaluate = evaluate,
+    .nsig = -1,
+    .nreal = 2,
+    .nout = 1,
+    .check = check,
+};

@@ -4,7 +4,6 @@
 
 #include "../algebra/elementary.h"
 #include "../instance.h"
-#include "../system/guide_types.h"
 #include "guides.h"
 
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {

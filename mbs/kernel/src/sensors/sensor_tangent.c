@@ -14,8 +14,6 @@ typedef struct {
   double v[3], d[3]; /* value and change */
 } moving;
 
-static const double SLOWEST = 0.1; /* m/s, as in sensors.c */
-
 /* Signal i (order 0) or its first or second rate, of a state, without the constant. */
 static double signal(const ali3_system *S, const ali3_vectors *x, int32_t i, int32_t order) {
   const double *column = order == 0 ? x->q : (order == 1 ? x->qd : x->qdd);
@@ -174,7 +172,7 @@ static double change_direction(const ali3_instance *in, const int32_t *v, const 
   (void)real;
   const moving p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3), b = vector(in, v + 7, 0, 3);
   const double along = dot(p.v, a.v), across = dot(p.v, b.v);
-  if (v[0] == 1 && along * along + across * across < SLOWEST * SLOWEST) return 0.0;
+  if (v[0] == 1 && along * along + across * across < ALI3_SLOWEST_DIRECTION * ALI3_SLOWEST_DIRECTION) return 0.0;
   return angle_change(across, along, dot_change(&p, &b), dot_change(&p, &a));
 }
 

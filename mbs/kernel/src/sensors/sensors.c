@@ -158,10 +158,9 @@ static double value_norm(const ali3_instance *in, const int32_t *v, const double
 }
 
 static double value_direction(const ali3_instance *in, const int32_t *v, const double *real) {
-  static const double SLOWEST = 0.1; /* m/s */
   const double x = along(in, v + 1, v + 4, v[0]), y = along(in, v + 1, v + 7, v[0]);
   (void)real;
-  return v[0] == 1 && x * x + y * y < SLOWEST * SLOWEST ? 0.0 : ali3_atan2(y, x);
+  return v[0] == 1 && x * x + y * y < ALI3_SLOWEST_DIRECTION * ALI3_SLOWEST_DIRECTION ? 0.0 : ali3_atan2(y, x);
 }
 
 static double value_angle_about(const ali3_instance *in, const int32_t *v, const double *real) {

@@ -7,7 +7,6 @@
 #include "../rows/guides.h"
 #include "../system.h"
 #include "check.h"
-#include "guide_types.h"
 #include "loading.h"
 #include "message.h"
 

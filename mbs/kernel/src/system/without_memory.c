@@ -1,7 +1,7 @@
 /* Whether a System has a memory beside q and qd. */
 #include "without_memory.h"
+#include "../rows/guides.h"
 #include "../system.h"
-#include "guide_types.h"
 
 /* No element states and no filtered guides: what a stage inside a step needs is then known from q, qd and the time. */
 bool ali3_without_memory(const ali3_system *S) {

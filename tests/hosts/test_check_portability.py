@@ -1,0 +1,182 @@
+"""What was found wrong with FMUs once is found again by `hosts.check` where it is put back in."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from mbs.kernel import build
+
+ROOT = Path(__file__).parents[2]
+SCENES = ROOT / "tests" / "fmu" / "scenes.py"
+Change = tuple[str, str, str]
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    name, system = load_scene(f"{SCENES}:crank_slider")
+    folder = tmp_path_factory.mktemp("fmus")
+    return {kind: build_fmu(system, name, folder, [fmpy.platform], kind=kind) for kind in ("native", "fmi3")}
+
+
+def findings(fmu: Path) -> dict[str, str]:
+    """Verdict and words of each check."""
+    command = [sys.executable, "-m", "hosts.check", str(fmu), "--steps", "5"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    lines = [line for line in done.stdout.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
+    return {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in lines}
+
+
+def changed(fmu: Path, copy: Path, changes: list[Change]) -> Path:
+    """A copy with texts of its files replaced; where sources are among them, its library is compiled from them."""
+    with zipfile.ZipFile(fmu) as source:
+        files = {name: source.read(name) for name in source.namelist()}
+    for name, old, new in changes:
+        assert old.encode() in files[name], (name, old)
+        files[name] = files[name].replace(old.encode(), new.encode())
+    if any(name.endswith(".c") for name, _, _ in changes):
+        folder = copy.with_suffix("")
+        for name, data in files.items():
+            if name.startswith("sources/"):
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                (folder / name).write_bytes(data)
+        (library,) = (name for name in files if name.startswith("binaries/"))
+        sources = sorted((folder / "sources").rglob("*.c"))
+        made = folder / Path(library).name
+        include = (folder / "sources", folder / "sources" / "kernel" / "include")
+        build.compile_c(sources, build.host_target(), made, include=include, defines=("ALI3_INSIDE",), what="a copy")
+        files[library] = made.read_bytes()
+        shutil.rmtree(folder / "sources")
+    with zipfile.ZipFile(copy, "w") as target:
+        for name, data in files.items():
+            target.writestr(name, data)
+    return copy
+
+
+def test_ours_have_none_of_it(fmus: dict[str, Path]) -> None:
+    for fmu in fmus.values():
+        found = findings(fmu)
+        assert len(found) == 26
+        assert all(words.startswith("ok") for words in found.values()), found
+
+
+XML = "modelDescription.xml"
+TEXTS: list[tuple[str, str, str, list[Change]]] = [
+    (
+        "native",
+        "dependencies",
+        "derivative by torque",
+        [(XML, 'dependencies="1" dependenciesKind="dependent"', 'dependencies=""')],
+    ),
+    (
+        "fmi3",
+        "dependencies",
+        "derivative by torque",
+        [(XML, 'dependencies="0" dependenciesKind="dependent"', 'dependencies=""')],
+    ),
+    (
+        "native",
+        "unit names",
+        "'N m' and 'N.m'",
+        [(XML, '<Unit name="N.m">', '<Unit name="N m"><BaseUnit kg="1" m="2" s="-2" /></Unit><Unit name="N.m">')],
+    ),
+    ("native", "whole numbers", "such as solver.", [(XML, "<Integer", "<Real")]),
+    (
+        "native",
+        "about the file",
+        "2000-01-01",
+        [(XML, 'generationDateAndTime="', 'generationDateAndTime="2000-01-01T00:00:00Z" x="')],
+    ),
+    ("native", "about the file", "no author, copyright", [(XML, ' author="', ' x1="'), (XML, ' copyright="', ' x2="')]),
+    ("native", "about the file", "nominal", [(XML, " nominal=", " x1=")]),
+    (
+        "native",
+        "about the file",
+        "several variables",
+        [
+            (
+                XML,
+                "How often inner steps had to be halved since the start",
+                "What the last step ended with: 0 good, else a code of the solver",
+            )
+        ],
+    ),
+    (
+        "fmi3",
+        "build description",
+        "not named",
+        [("sources/buildDescription.xml", '<Library name="m"', '<Library name="n"')],
+    ),
+]
+
+
+@pytest.mark.parametrize(("kind", "check", "said", "changes"), TEXTS)
+def test_documents(
+    fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, changes: list[Change]
+) -> None:
+    words = findings(changed(fmus[kind], tmp_path / "copy.fmu", changes))[check]
+    assert words.startswith("BAD")
+    assert said in words
+
+
+STATUS = "*value = (fmi2Status)s->last_step;"
+CALLS: list[tuple[str, str, str, Change]] = [
+    (
+        "fmi3",
+        "time",
+        "cannot be read",
+        ("sources/fmi3_life.c", "reference[i] >= fmi3_the_table.n_arrays", "reference[i] >= fmi3_the_table.time"),
+    ),
+    (
+        "native",
+        "quiet steps",
+        "status 1",
+        ("sources/step.c", "return slave_watch(s);", "return s->calls.step_warned ? SLAVE_WARNING : SLAVE_OK;"),
+    ),
+    ("native", "resources", "FILE://", ("sources/resource.c", "uri[n] == scheme[n] - ('a' - 'A')", "0")),
+    (
+        "native",
+        "refused steps",
+        "without end",
+        ("sources/refusal.c", "r->step == step ? r->count + 1 : 1", "r->step == step ? 1 : 1"),
+    ),
+    (
+        "native",
+        "careless calls",
+        "log category",
+        (
+            "sources/log.c",
+            "if (k == CATEGORIES)\n      return",
+            "if (k == CATEGORIES) return SLAVE_OK;\n    if (k == CATEGORIES)\n      return",
+        ),
+    ),
+    (
+        "native",
+        "careless calls",
+        "beyond the stop time",
+        ("sources/step.c", "time + step > s->calls.stop_time", "0.0 > 1.0 + s->calls.stop_time"),
+    ),
+    ("native", "careless calls", "empty instance name", ("sources/life.c", "name[0] == 0", "false")),
+    (
+        "native",
+        "careless calls",
+        "fmi2GetStatus",
+        ("sources/fmi2_step.c", STATUS, 'return no_status(c, "fmi2GetStatus");'),
+    ),
+    ("native", "far from zero", "clock stands", ("sources/step.c", "!(time + step > time) || ", "false && ")),
+]
+
+
+@pytest.mark.parametrize(("kind", "check", "said", "change"), CALLS)
+def test_calls(fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, change: Change) -> None:
+    words = findings(changed(fmus[kind], tmp_path / "copy.fmu", [change]))[check]
+    assert words.startswith("BAD")
+    assert said in words
