@@ -103,8 +103,8 @@ def variable_table(
     step_size : float
         Default inner step, s.
     fidelities : sequence of str
-        What to call the Systems to choose from, empty where they have no names; all must share inputs, parameters and sensors
-        (`check_fidelities`).
+        What to call the Systems to choose from, empty where they have no names; all must share inputs, parameters and
+        sensors (`check_fidelities`).
     fidelity : int
         The default one.
 
