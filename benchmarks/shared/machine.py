@@ -55,15 +55,20 @@ def describe(
     return meta | more
 
 
-def conditions(meta: Mapping[str, Any]) -> str:
-    """What `describe` found, in words: machine, versions, settings that are not the default ones, repeats."""
+def place(meta: Mapping[str, Any]) -> str:
+    """Machine and versions, in one line."""
     m = meta["machine"]
     versions = ", ".join(f"{name} {version}" for name, version in m["versions"].items())
+    return f"{m['processor']}, {m['cores']} cores, {m['system']}, Python {m['python']}; {versions}"
+
+
+def conditions(meta: Mapping[str, Any]) -> str:
+    """What `describe` found, in words: machine, versions, settings that are not the default ones, repeats."""
     standard = Settings().kernel_fields()
     changed = [f"{k} = {v:g}" for k, v in meta.get("settings", standard).items() if v != standard[k]]
     runs = "one run" if meta["repeats"] == 1 else f"{meta['repeats']} runs"
     return (
-        f"{m['processor']}, {m['cores']} cores, {m['system']}, Python {m['python']}; {versions}\n"
+        f"{place(meta)}\n"
         f"Settings: {', '.join(changed) or 'default'}; {runs} of each figure after {meta['warm_up']} to warm up"
     )
 
