@@ -56,9 +56,9 @@ def test_each_command_helps_under_its_name(command: object, capsys: pytest.Captu
 
 def test_each_command_is_in_the_documents() -> None:
     page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
-    assert [line.split("`")[1] for line in page.splitlines() if line.startswith("| `ali3 ")] == [
-        f"ali3 {c.name}" for c in COMMANDS
-    ]
+    rows = [line.split("|")[1:3] for line in page.splitlines() if line.startswith("| `ali3 ")]
+    assert [name.strip(" `") for name, _ in rows] == [f"ali3 {c.name}" for c in COMMANDS]
+    assert all(text.strip().startswith(c.text) for (_, text), c in zip(rows, COMMANDS, strict=True))
 
 
 def test_the_list_of_commands_imports_nothing_heavy(tmp_path: Path) -> None:
