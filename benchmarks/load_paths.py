@@ -1,9 +1,9 @@
 """Writes the loads of the prototype car's frame: ``python -m benchmarks.load_paths``.
 
-The rigid car with ports (rung 1) drives the manoeuvres of the host and the guided kerb test; the forces at the twenty
+The car with fidelity quasi_static drives the manoeuvres of the host and the guided kerb test; the forces at the twenty
 interfaces are snapshots.
-Their principal combinations in the energy norm of the frame are what can deform it; the second rung of the ladder has
-their deformations as modes.
+Their principal combinations in the energy norm of the frame are what can deform it; the fidelity load_paths has their
+deformations as modes.
 """
 
 from __future__ import annotations

@@ -6,19 +6,12 @@ import math
 import numbers
 from dataclasses import asdict, dataclass
 
-UPDATES = ("linearised", "paper")
-PREDICTORS = ("parabola", "acceleration")
-METHODS = {
-    "ali3p": {"method": 0},
-    "ali3p_no_projection": {"method": 0, "project": 0},
-    "ali3p_generalised_alpha": {"method": 1},
-    "energy_momentum": {"method": 2},
-    "energy_momentum_4": {"method": 3},
-    "runge_kutta_8": {"method": 4},
-    "semi_recursive": {"method": 5},
-    "semi_recursive_4": {"method": 6},
-    "radau_5": {"method": 7},
-}
+from mbs.kernel.header import Predictor, Update
+from mbs.methods import METHOD_TABLE
+
+UPDATES = tuple(update.name.lower() for update in Update)
+PREDICTORS = tuple(predictor.name.lower() for predictor in Predictor)
+METHODS = {name: method.kernel_fields for name, method in METHOD_TABLE.items()}
 """Names of the methods and what each sets in the kernel."""
 
 
@@ -114,7 +107,7 @@ class Settings:
     @property
     def looks_at_ends(self) -> bool:
         """Whether the method looks at inputs at the ends of its steps only, as the trapezoidal rule does."""
-        return METHODS[self.method]["method"] in (0, 1)
+        return METHOD_TABLE[self.method].looks_at_ends
 
     def kernel_fields(self) -> dict[str, float | int]:
         """Values by the field names of `ali3_settings`."""

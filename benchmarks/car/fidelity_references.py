@@ -7,18 +7,18 @@ import numpy as np
 from ali3.files import write_text
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import FILTERED, FOLDER, INTERVAL, LOADS, MOMENTS, POSITION
-from mbs.scenes.prototype_car.chassis import DYNAMIC, REFERENCE_MODES
+from mbs.scenes.prototype_car.fidelity import Fidelity
 
 STEP = 5e-4  # s
 
 
 def write(name: str) -> str:
     """Run, write and return one line."""
-    fine = fidelity_runs.run(name, REFERENCE_MODES, STEP)
+    fine = fidelity_runs.run(name, Fidelity.MANY_MODES, STEP)
     values = fidelity_runs.sampled(fine, STEP)
     checks = {
-        f"step {2 * STEP:g} s": fidelity_runs.sampled(fidelity_runs.run(name, REFERENCE_MODES, 2 * STEP), 2 * STEP),
-        "5 dynamic modes": fidelity_runs.sampled(fidelity_runs.run(name, DYNAMIC, STEP), STEP),
+        f"step {2 * STEP:g} s": fidelity_runs.sampled(fidelity_runs.run(name, Fidelity.MANY_MODES, 2 * STEP), 2 * STEP),
+        "5 dynamic modes": fidelity_runs.sampled(fidelity_runs.run(name, Fidelity.DYNAMIC, STEP), STEP),
     }
     said = []
     for what, other in checks.items():

@@ -15,7 +15,7 @@ from mbs import Simulation, compile
 from mbs.flexible import Frame, ReducedBody
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.scenes import kerb_test
-from mbs.scenes.prototype_car.chassis import DYNAMIC
+from mbs.scenes.prototype_car.fidelity import Fidelity
 
 Array = NDArray[np.float64]
 SCALE = 150.0  # of the deformation
@@ -46,7 +46,7 @@ class Motion:
 
 def amplitudes(body: ReducedBody) -> tuple[Array, Array]:
     """Times and modal amplitudes, shape (n, modes), of the kerb test."""
-    system = compile(kerb_test.build(DYNAMIC))
+    system = compile(kerb_test.build(Fidelity.DYNAMIC))
     names = list(system.meta["coordinates"])
     columns = [names.index(f"chassis.{mode}") for mode in body.mode_names]
     car = Simulation(system)

@@ -48,6 +48,9 @@ class Slave(Fmi2Slave):
         self._slave = link.slave
         # Bound once: a field that is a function is made anew at every look.
         self._step, self._get, self._set = link.step, link.get, link.set
+        # Hosts ask for the same variables again and again.
+        self._asked: list[int] = []
+        self._references = (c_uint32 * 0)()
 
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
@@ -75,8 +78,10 @@ class Slave(Fmi2Slave):
 
     def get_real(self, vrs: list[int]) -> list[float]:
         """Values of variables, whole ones too."""
+        if vrs != self._asked:
+            self._asked, self._references = list(vrs), (c_uint32 * len(vrs))(*vrs)
         values = (c_double * len(vrs))()
-        self._link.answer = self._get(self._slave, (c_uint32 * len(vrs))(*vrs), len(vrs), values)
+        self._link.answer = self._get(self._slave, self._references, len(vrs), values)
         return values[:]
 
     def set_real(self, vrs: list[int], values: list[float]) -> None:

@@ -183,6 +183,12 @@ def header() -> str:
     for name, (file, first, prefix, text) in ENUMERATIONS.items():
         values = (f"{item} = {value}" for item, value in enumeration(file, first, prefix).items())
         parts.append(_class(name, "IntEnum", text, values))
+    methods = table(PUBLIC, "ALI3_METHODS")
+    names = (f"{name} = {number}" for number, (name, _, _) in enumerate(methods))
+    parts.append(_class("MethodNumber", "IntEnum", "`ali3_settings.method`.", names))
+    orders = "\n".join(f"    MethodNumber.{name}: {order}," for name, _, order in methods)
+    text = "Orders of steps that change."
+    parts.append(f'\nMETHOD_ORDERS = {{\n{orders}\n}}\n"""{text}"""')
     types = sensor_types()
     items = (f"{t.name} = {t.number}" for t in types)
     parts.append(_class("SensorType", "IntEnum", "Types of sensors.", items))
@@ -194,8 +200,8 @@ def header() -> str:
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")
         parts.append(_class(name, "Structure", f"`ali3_{c_name}`.", body))
-    names = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
-    parts.append(f'\nSTRUCTURES = {{\n{names}\n}}\n"""By their names in C."""')
+    structures = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
+    parts.append(f'\nSTRUCTURES = {{\n{structures}\n}}\n"""By their names in C."""')
     return "\n\n".join(parts) + "\n"
 
 

@@ -46,16 +46,23 @@ typedef struct ali3_instance ali3_instance;
 
 enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
 
-enum {                    /* ali3_settings.method */
-       ALI3_METHOD_ALI3P = 0,              /* trapezoidal rule with projections */
-       ALI3_METHOD_GENERALISED_ALPHA,      /* the same with generalised-alpha, rho_infinity */
-       ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
-       ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
-       ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
-       ALI3_METHOD_SEMI_RECURSIVE,         /* explicit, relative coordinates, order eight; no element states */
-       ALI3_METHOD_SEMI_RECURSIVE_4,       /* the same of order four, for coarse errors */
-       ALI3_METHOD_RADAU_5,                /* implicit collocation, index three, order five; no element states */
-       ALI3_METHOD_COUNT
+/* Methods, numbers of ali3_settings.method in this order: X(NAME, name, order of steps that change). */
+/* clang-format off */
+#define ALI3_METHODS(X) \
+  X(ALI3P, ali3p, 2)                         /* trapezoidal rule with projections */ \
+  X(GENERALISED_ALPHA, generalised_alpha, 1) /* the same with generalised-alpha, rho_infinity */ \
+  X(ENERGY_MOMENTUM, energy_momentum, 2)     /* discrete derivatives of rows and potentials; keeps energy */ \
+  X(ENERGY_MOMENTUM_4, energy_momentum_4, 3) /* five of them, order four; conservative Systems only */ \
+  X(RUNGE_KUTTA_8, runge_kutta_8, 8)         /* explicit, index one, order eight; no element states */ \
+  X(SEMI_RECURSIVE, semi_recursive, 8)       /* explicit, relative coordinates, order eight; no element states */ \
+  X(SEMI_RECURSIVE_4, semi_recursive_4, 4)   /* the same of order four, for coarse errors */ \
+  X(RADAU_5, radau_5, 5)                     /* implicit collocation, index three; no element states */
+/* clang-format on */
+enum {
+#define ALI3_METHOD_NUMBER(NAME, name, order) ALI3_METHOD_##NAME,
+  ALI3_METHODS(ALI3_METHOD_NUMBER)
+#undef ALI3_METHOD_NUMBER
+      ALI3_METHOD_COUNT
 };
 
 typedef enum {

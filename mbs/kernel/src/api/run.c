@@ -3,15 +3,14 @@
 
 #include "../algebra/finite.h"
 #include "../instance.h"
+#include "../method.h"
 #include "../methods/branch_watch.h"
 #include "../methods/check_method.h"
-#include "../methods/energy_momentum.h"
-#include "../methods/semi_recursive.h"
+#include "../methods/energy_balance.h"
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
 #include "../sensors/sensors.h"
 #include "../start/initialise.h"
-#include "../state/books.h"
 #include "../state/vectors.h"
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
@@ -89,11 +88,11 @@ ali3_status ali3_step(ali3_instance *in, double h) {
 
 /* After a quiet or sampled step the last good state lacks what only a reader needs. */
 static ali3_status give_up(ali3_instance *in, ali3_status status, bool quiet, bool sampled) {
-  const double owner = in->now.memory[ALI3_MEMORY_OWNER];
+  const ali3_method *method = ali3_method_of(in);
   ali3_vectors_copy(in, &in->start, &in->now);
   in->force_input = in->start.used; /* the present inputs are those of the step that failed */
-  if (quiet && owner == (double)ALI3_METHOD_ENERGY_MOMENTUM) ali3_energy_momentum_report(in);
-  if (sampled && owner == (double)ALI3_METHOD_SEMI_RECURSIVE) ali3_semi_recursive_report(in);
+  if (quiet && method->after_quiet != NULL) method->after_quiet(in);
+  if (sampled && method->after_sampled != NULL) method->after_sampled(in);
   in->force_input = in->input;
   if (!ali3_finite(in->now.q, (int64_t)in->n_vector)) ali3_vectors_copy(in, &in->now, &in->start);
   return status;

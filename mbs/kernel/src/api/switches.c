@@ -6,9 +6,9 @@
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../methods/energy_balance.h"
 #include "../rows/constraints.h"
 #include "../start/initialise.h"
-#include "../state/books.h"
 #include "../state/vectors.h"
 
 static double kinetic_energy(ali3_instance *in) {

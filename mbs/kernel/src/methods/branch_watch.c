@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "../instance.h"
+#include "../method.h"
 #include "../rows/assembly_mode.h"
 #include "../state/vectors.h"
 #include "branch_watch.h"
-#include "check_method.h"
 #include "steps.h"
 
 static const double IN_LINE = 0.25; /* square of the largest sine of a ring whose branches may be near */
@@ -57,7 +57,7 @@ void ali3_branch_before(ali3_instance *in) {
   if (!in->mode_known) look(in);
   in->mode_known = true;
   for (int64_t k = 0; k < ali3_triad_count(S); k++) in->sine_before[k] = in->mode_sine[k];
-  if (ali3_relative(in)) return; /* its state is not always that of the last step */
+  if (ali3_method_of(in)->relative) return; /* its state is not always that of the last step */
   for (int64_t loop = 0; loop < ali3_loop_count(S) && !in->branch_kept; loop++) {
     const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
     for (int32_t k = first; k < end && !in->branch_kept; k++)
@@ -148,7 +148,7 @@ ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);
   if (!watches(in)) return ALI3_OK;
-  if (ali3_relative(in) && in->quiet) {
+  if (ali3_method_of(in)->relative && in->quiet) {
     in->mode_known = false;
     return ALI3_OK;
   }

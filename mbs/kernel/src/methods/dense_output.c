@@ -6,14 +6,15 @@
 #include <string.h>
 
 #include "../instance.h"
+#include "../method.h"
 #include "../rows/guides.h"
 #include "../sensors/sensors.h"
 #include "../start/index_one.h"
-#include "../state/books.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "../system/without_memory.h"
+#include "energy_balance.h"
 #include "error_control.h"
 
 enum { NODES = 3, DATA = 3 * NODES };
@@ -118,7 +119,7 @@ static void look(ali3_instance *in, double *out, double *positions) {
 /* Sensors (ns) and coordinates (nq) at time `when` of the step from t that in->origin, in->centre, in->now hold. */
 ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
                               double *out, double *positions) {
-  const bool relative = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
+  const bool relative = ali3_method_of(in)->relative;
   const bool at_end = when >= t + h - NEAR * h;
   const bool sums = in->system->n_work > 0; /* work is known at the ends of steps */
   const bool smooth = ali3_without_memory(in->system) && (at_end || !sums);

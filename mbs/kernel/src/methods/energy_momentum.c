@@ -13,6 +13,7 @@
 #include "../flexible/discrete_inertia.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../method.h"
 #include "../rows/constraints.h"
 #include "../rows/discrete_rows.h"
 #include "../rows/guides.h"
@@ -21,6 +22,7 @@
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "energy_balance.h"
 #include "energy_momentum.h"
 #include "history.h"
 #include "newton.h"
@@ -306,3 +308,23 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   if (reported) status = ali3_energy_momentum_show(in, to);
   return status == ALI3_OK ? ali3_accept(in) : status;
 }
+
+static ali3_status step(ali3_instance *in, double t, double h) {
+  return ali3_energy_momentum(in, t, h, 0.5, !in->quiet);
+}
+
+/* Of the carried velocities, after steps from `from`. */
+void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h) {
+  const bool past =
+      from->memory[ALI3_MEMORY_COUNT] >= 1.0 && from->memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
+  ali3_books_change(in, h, past ? from->own : from->qd, past ? from->past_a : from->qdd, in->now.own);
+}
+
+static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->next, h); }
+
+const ali3_method ali3_method_energy_momentum = {.step = step,
+                                                 .before = ali3_energy_momentum_restart,
+                                                 .motion = motion,
+                                                 .after_quiet = ali3_energy_momentum_report,
+                                                 .owner = ALI3_METHOD_ENERGY_MOMENTUM,
+                                                 .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -8,7 +8,7 @@
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
-#include "../state/books.h"
+#include "energy_balance.h"
 #include "energy_watch.h"
 
 /* Shares of the kinetic energy: of a step as asked for, and of a part of one that was halved. A part that cannot be

@@ -13,12 +13,15 @@
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../method.h"
 #include "../rows/constraints.h"
 #include "../rows/guides.h"
 #include "../rows/violation.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "check_method.h"
+#include "energy_balance.h"
 #include "history.h"
 #include "newton.h"
 #include "predict.h"
@@ -307,7 +310,7 @@ static ali3_status inputs(ali3_instance *in) {
 }
 
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
-ali3_status ali3_radau(ali3_instance *in, double t, double h) {
+static ali3_status step(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const size_t nq = (size_t)S->size.nq;
   const int64_t before = in->report.iterations;
@@ -334,3 +337,14 @@ ali3_status ali3_radau(ali3_instance *in, double t, double h) {
   to->h_last[0] = 0.0;
   return ali3_accept(in);
 }
+
+/* The tangent of the stages has no rate of the rows. */
+static ali3_status takes(const ali3_instance *in) {
+  return in->system->n_velocity_row > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_memory(in);
+}
+
+const ali3_method ali3_method_radau_5 = {.step = step,
+                                         .motion = ali3_books_step,
+                                         .takes = takes,
+                                         .owner = ALI3_METHOD_RADAU_5,
+                                         .round_off = ALI3_ROUND_OFF_COLLOCATION};

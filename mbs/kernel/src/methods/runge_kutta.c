@@ -9,6 +9,7 @@
 #include "../algebra/fronts.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../method.h"
 #include "../rows/constraints.h"
 #include "../rows/guides.h"
 #include "../rows/violation.h"
@@ -16,6 +17,8 @@
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "check_method.h"
+#include "energy_balance.h"
 #include "energy_watch.h"
 #include "newton.h"
 #include "predict.h"
@@ -94,7 +97,7 @@ static ali3_status after_jump(ali3_instance *in) {
 }
 
 /* From in->now to in->next, a copy of it; in->now changes only when the step is good. t is the time at its end. */
-ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
+static ali3_status step(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const int64_t before = in->report.iterations;
@@ -137,3 +140,13 @@ ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
   to->h_last[0] = 0.0;
   return ali3_accept(in);
 }
+
+static bool keeps_books(const ali3_instance *in) { return in->system->n_flexible == 0; }
+
+const ali3_method ali3_method_runge_kutta_8 = {.step = step,
+                                               .motion = ali3_books_step,
+                                               .keeps_books = keeps_books,
+                                               .takes = ali3_needs_no_memory,
+                                               .owner = ALI3_METHOD_RUNGE_KUTTA_8,
+                                               .stable_rate = 5.0,
+                                               .round_off = ALI3_ROUND_OFF_INDEX_1};

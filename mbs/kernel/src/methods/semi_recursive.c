@@ -9,16 +9,17 @@
 #include "../algebra/finite.h"
 #include "../elements/forces.h"
 #include "../instance.h"
+#include "../method.h"
 #include "../rows/constraints.h"
 #include "../rows/violation.h"
 #include "../start/index_one.h"
-#include "../state/books.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "../tree/tree.h"
+#include "check_method.h"
+#include "energy_balance.h"
 #include "newton.h"
-#include "semi_recursive.h"
 #include "steps.h"
 #include "tableau.h"
 
@@ -237,16 +238,14 @@ static void books(ali3_instance *in, double h) {
   ali3_books_motion(&in->report, speed, change, miss);
 }
 
-/* From in->now by a step h that ends at time t; in->now changes only when the step is good. */
-ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
+/* From in->now by a step h; in->now changes only when the step is good. */
+static ali3_status step(ali3_instance *in, double h, const ali3_tableau *rule) {
   const ali3_system *S = in->system;
   const ali3_tree *T = S->tree;
-  const ali3_tableau *rule = in->settings.method == ALI3_METHOD_SEMI_RECURSIVE ? &ali3_order_8 : &ali3_order_4;
   const int32_t n = T->n;
   const int64_t before = in->report.iterations;
   const bool mine = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
   ali3_tree_work *w = in->tree;
-  (void)t;
   ali3_status status = ali3_inputs_at(in, 0.0);
   if (status != ALI3_OK) return status;
   in->force_input = in->input_middle;
@@ -298,7 +297,7 @@ ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
 }
 
 /* After quiet steps: the natural coordinates of the last one. */
-void ali3_semi_recursive_report(ali3_instance *in) {
+static void report(ali3_instance *in) {
   ali3_tree_work *w = in->tree;
   if (!recall(in, in->now.own)) return;
   place(in, w->state);
@@ -313,3 +312,33 @@ void ali3_semi_recursive_report(ali3_instance *in) {
   }
   ali3_vectors_copy(in, &in->now, &in->next);
 }
+
+static ali3_status takes(const ali3_instance *in) {
+  return in->system->tree == NULL ? ALI3_NO_TREE : ali3_needs_no_memory(in);
+}
+
+static ali3_status step_8(ali3_instance *in, double t, double h) {
+  (void)t;
+  return step(in, h, &ali3_order_8);
+}
+
+const ali3_method ali3_method_semi_recursive = {.step = step_8,
+                                                .takes = takes,
+                                                .after_sampled = report,
+                                                .owner = ALI3_METHOD_SEMI_RECURSIVE,
+                                                .relative = true,
+                                                .stable_rate = 5.0,
+                                                .round_off = ALI3_ROUND_OFF_INDEX_1};
+
+static ali3_status step_4(ali3_instance *in, double t, double h) {
+  (void)t;
+  return step(in, h, &ali3_order_4);
+}
+
+const ali3_method ali3_method_semi_recursive_4 = {.step = step_4,
+                                                  .takes = takes,
+                                                  .after_sampled = report,
+                                                  .owner = ALI3_METHOD_SEMI_RECURSIVE,
+                                                  .relative = true,
+                                                  .stable_rate = 2.5,
+                                                  .round_off = ALI3_ROUND_OFF_INDEX_1};

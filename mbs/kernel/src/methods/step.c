@@ -8,12 +8,14 @@
 #include "../elements/forces.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../method.h"
 #include "../rows/constraints.h"
 #include "../rows/guides.h"
 #include "../rows/velocity_rows.h"
 #include "../rows/violation.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "energy_balance.h"
 #include "energy_watch.h"
 #include "generalised_alpha.h"
 #include "newton.h"
@@ -113,7 +115,7 @@ static void trapezoidal(ali3_instance *in, double h) {
   }
 }
 
-/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
+/* Also of generalised-alpha. */
 ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -161,3 +163,11 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   ali3_work_step(in, 0.5);
   return ali3_accept(in);
 }
+
+bool ali3_projects(const ali3_instance *in) { return in->settings.project; }
+
+const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
+                                       .motion = ali3_books_step,
+                                       .keeps_books = ali3_projects,
+                                       .owner = ALI3_METHOD_ALI3P,
+                                       .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -4,15 +4,11 @@
 #include <string.h>
 
 #include "../instance.h"
-#include "../state/books.h"
+#include "../method.h"
 #include "../state/vectors.h"
+#include "energy_balance.h"
 #include "error_control.h"
 #include "steps.h"
-
-int32_t ali3_order(int32_t method) {
-  static const int32_t order[ALI3_METHOD_COUNT] = {2, 1, 2, 3, 8, 8, 4, 5}; /* of steps that change */
-  return order[method];
-}
 
 /* A step from time t that is never halved inside; what a failed one leaves behind is for the caller to mend. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
@@ -64,7 +60,7 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
     status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h);
   }
   if (status == ALI3_OK) {
-    const double share = 1.0 / (ldexp(1.0, ali3_order(in->settings.method)) - 1.0);
+    const double share = 1.0 / (ldexp(1.0, ali3_method_order(in)) - 1.0);
     for (int32_t i = 0; i < nq; i++) {
       in->w[i] = share * (in->now.q[i] - in->coarse.q[i]);
       in->x[i] = share * (in->now.qd[i] - in->coarse.qd[i]);

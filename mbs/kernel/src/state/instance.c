@@ -11,10 +11,8 @@
 #include "../system/loading.h"
 #include "../system/without_memory.h"
 #include "../tree/tree.h"
-#include "books.h"
 #include "parameters.h"
 #include "vectors.h"
-#include "work.h"
 
 const char *ali3_status_text(ali3_status s) {
   static const char *const text[ALI3_STATUS_COUNT] = {
@@ -192,21 +190,6 @@ bool ali3_settings_valid(const ali3_settings *s) {
          (s->update == ALI3_UPDATE_LINEARISED || s->update == ALI3_UPDATE_PAPER) &&
          (s->geometric == 0 || s->geometric == 1) && s->rho_infinity >= 0.0 && s->rho_infinity <= 1.0 &&
          s->method >= 0 && s->method < ALI3_METHOD_COUNT && s->predictor >= 0 && s->predictor < ALI3_PREDICTOR_COUNT;
-}
-
-ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
-  if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
-  const bool other = settings->method != in->settings.method;
-  in->settings = *settings;
-  if (in->initialised) ali3_books_open(in); /* another method may have kept none */
-  if (in->initialised && other) ali3_work_reopen(in);
-  return ALI3_OK;
-}
-
-ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings) {
-  if (in == NULL || settings == NULL) return ALI3_BAD_ARGUMENT;
-  *settings = in->settings;
-  return ALI3_OK;
 }
 
 /* The data of elements, guides and roads from the file and the parameters; refused as a whole when an element cannot

@@ -5,21 +5,10 @@
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
-#include "books.h"
+#include "../method.h"
+#include "energy_balance.h"
 
 static const double REST = 1e-6; /* m/s: slower than that nothing moves, and round-off is no error of the energy */
-
-double ali3_energy_balance(const ali3_report *r) {
-  const double size = r != NULL ? r->kinetic_peak + r->work : 0.0;
-  return size > 0.0 ? fabs(r->energy_error) / size : 0.0;
-}
-
-/* Whether ali3_energy_watch sees the steps of the present method. */
-bool ali3_keeps_books(const ali3_instance *in) {
-  const int32_t method = in->settings.method;
-  if (method == ALI3_METHOD_RUNGE_KUTTA_8) return in->system->n_flexible == 0;
-  return in->settings.project && (method == ALI3_METHOD_ALI3P || method == ALI3_METHOD_GENERALISED_ALPHA);
-}
 
 /* Potential energy of v; flexible bodies prepared at its position. */
 static double potential(const ali3_instance *in, const ali3_vectors *v) {
@@ -39,7 +28,8 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
 /* The energy of in->now, from which the next step counts. */
 void ali3_books_open(ali3_instance *in) {
   in->report.open_power = 0.0;
-  if (!ali3_keeps_books(in)) return;
+  const ali3_method *method = ali3_method_of(in);
+  if (method->keeps_books == NULL || !method->keeps_books(in)) return;
   ali3_flexible_prepare(in, in->now.q);
   const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
   double rest = 0.0;
@@ -64,17 +54,11 @@ void ali3_books_motion(ali3_report *report, double speed, double change, double 
   report->predictor_path += sqrt(miss);
 }
 
-/* After a step of natural coordinates: what was in->now is in in->next, of a composed step in in->whole. */
-void ali3_books_step(ali3_instance *in, double h) {
-  const int32_t method = in->settings.method, nq = in->system->size.nq;
-  const ali3_vectors *from = method == ALI3_METHOD_ENERGY_MOMENTUM_4 ? &in->whole : &in->next;
-  const bool carried = method == ALI3_METHOD_ENERGY_MOMENTUM || method == ALI3_METHOD_ENERGY_MOMENTUM_4;
-  const bool past = carried && from->memory[ALI3_MEMORY_COUNT] >= 1.0 &&
-                    from->memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
-  const double *v0 = past ? from->own : from->qd, *v1 = carried ? in->now.own : in->now.qd;
-  const double *a = past ? from->past_a : from->qdd, *m = in->system->mass_floor;
+/* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
+void ali3_books_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
+  const double *m = in->system->mass_floor;
   double speed = 0.0, change = 0.0, miss = 0.0;
-  for (int32_t i = 0; i < nq; i++) {
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
     const double d = v1[i] - v0[i], e = d - h * a[i];
     speed += m[i] * v1[i] * v1[i];
     change += m[i] * d * d;
@@ -82,6 +66,9 @@ void ali3_books_step(ali3_instance *in, double h) {
   }
   ali3_books_motion(&in->report, speed, change, miss);
 }
+
+/* The same where velocities and accelerations of the states tell: what was in->now is in in->next. */
+void ali3_books_step(ali3_instance *in, double h) { ali3_books_change(in, h, in->next.qd, in->next.qdd, in->now.qd); }
 
 /* The books as they were before a step that was refused. */
 void ali3_books_back(ali3_report *report, const ali3_report *before) {
