@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -120,6 +121,21 @@ def test_as_a_module_it_forgets_the_current_folder(crowded: Path) -> None:
         (crowded / f"{name}.py").unlink()
     done = ran(["-m", "ali3", "run", "none.fmu"], crowded)
     assert (done.returncode, done.stderr) == (2, "error: There is no file none.fmu.\n")
+
+
+def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path: Path) -> None:
+    text = (
+        "import os, sys, sysconfig; here = os.getcwd(); library = sysconfig.get_path('stdlib')\n"
+        "sys.path[:] = [here, library, here]\n"
+        f"sys.path.append({str(ROOT)!r})\n"
+        "from ali3.search_path import forget_current_folder as forget\n"
+        "forget(); print(sys.path == [library, here, sys.path[-1]])\n"
+        "os.environ['PYTHONPATH'] = here; sys.path.insert(0, here); forget(); print(sys.path[0] == here)"
+    )
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    command = [sys.executable, "-c", text]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path, env=environment)
+    assert done.stdout.split() == ["True", "True"]
 
 
 def test_the_modules_themselves_go_on_working_in_a_clone() -> None:
