@@ -8,7 +8,7 @@ import pytest
 from mbs.kernel.binding import Instance, LoadedSystem
 
 from .scenes import everything, four_bar
-from .system_builder import Element, SystemBuilder, distance_row
+from .system_builder import Element, Row, SystemBuilder, distance_row
 
 SEED = 11
 DIFFERENCE = 1e-6
@@ -99,6 +99,47 @@ def test_the_tangent_is_the_derivative_of_the_residual(groups: list[int], geomet
     expected = 0.5 * (expected + expected.T)  # a damper in motion has an unsymmetric part, which is left out
     penalty = c * alpha * J.T @ J
     np.testing.assert_allclose(tangent - penalty, expected - penalty, atol=1e-6)
+
+
+def turning_pair() -> SystemBuilder:
+    """Two planar vectors a, b and the angle from a to b: cos(theta) a x b - sin(theta) a . b = 0."""
+    b = SystemBuilder(
+        np.diag([1.0, 2.0, 1.5, 0.7, 0.3]),
+        [0.9, -0.4, 0.2, 1.1, 1.8],
+        rows=[Row(0.0, theta=4, angle=[(2, 0, 1.0, 0.0), (3, 1, 1.0, 0.0), (3, 0, 0.0, 1.0), (2, 1, 0.0, -1.0)])],
+    )
+    b.sensors = [(10, [3], [])]
+    return b
+
+
+def test_an_angle_between_two_moving_vectors_has_all_its_derivatives() -> None:
+    b = turning_pair()
+    instance = initialised(b)
+    rng = np.random.default_rng(SEED + 2)
+    d, h, lam = DIFFERENCE, 0.01, np.array([40.0])
+    for _ in range(5):
+        q, qd = b.q0 + 0.5 * rng.normal(size=5), rng.normal(size=5)
+        now = {k: np.array(v) for k, v in instance.evaluate(q, qd, None, 0.0).items()}
+
+        def jacobian(x: np.ndarray) -> np.ndarray:
+            return np.array(instance.evaluate(x, qd, None, 0.0)["jacobian"])  # noqa: B023
+
+        phi = [
+            float(b.row_scale(b.rows[0]) * b.value(b.rows[0], q + s * d * e)) for e in np.eye(5) for s in (1.0, -1.0)
+        ]
+        np.testing.assert_allclose(now["jacobian"], np.subtract(phi[::2], phi[1::2]) / (2 * d), atol=FD_TOLERANCE)
+        drift = (jacobian(q + d * qd) - jacobian(q - d * qd)) @ qd / (2 * d)
+        np.testing.assert_allclose(now["gamma"], [drift], atol=FD_TOLERANCE)
+    q, c = (
+        b.q0 + 0.5 * rng.normal(size=5),
+        h * h / 4,
+    )  # where the row is open, its own value is in the second derivative
+    assert abs(b.value(b.rows[0], q)) > 0.1
+    instance.set_q(q)
+    second = np.array([(jacobian(q + d * e) - jacobian(q - d * e)) / (2 * d) for e in np.eye(5)])
+    plain = np.reshape(instance.tangent(h, np.zeros(1)), (5, 5))
+    found = (np.reshape(instance.tangent(h, lam), (5, 5)) - plain) / (c * lam[0])
+    np.testing.assert_allclose(found, second, atol=1e-3)  # beside the penalty, 1e7 times as large
 
 
 def chain(n: int, groups: list[int]) -> SystemBuilder:
