@@ -24,9 +24,9 @@ from benchmarks.command import parser_of, save_rows, watched
 from benchmarks.common import describe, print_table, wrong_on_purpose
 from benchmarks.kernel_methods import TITLES, all_settings, controlled, suits
 from benchmarks.work_precision_chart import draw
-from mbs.controlled_run import ControlledRun, StalledError, Task
 from mbs.kernel.binding import KernelError
-from mbs.method_choice import ORDERS
+from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
+from mbs.simulation.method_choice import ORDERS
 
 ROUNDS, FEW_ROUNDS = 7, 2
 LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few rounds, or the first run, must do

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.input_signals import unit_text
+from mbs.kernel.header import BALANCE_WRONG, HALVINGS_SUSPECT
 from mbs.run_report import Report
 from mbs.system import System
 
 Array = NDArray[np.float64]
 
 WRONG_ERROR = 0.05  # of the largest range in a unit
-WRONG_BALANCE = 0.036  # ALI3_BALANCE_WRONG: above it, at any time, no run of the survey was right
-SUSPECT_HALVINGS = 0.1  # per step
+WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 SUSPECT_DRIFT = 0.03  # energy balance times (1 + radians turned); half of the smallest of a wrong run
 GOAL_ERROR, GOAL_DRIFT = 0.01, 0.01  # what the step that is proposed aims at
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more

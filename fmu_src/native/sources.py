@@ -38,7 +38,8 @@ def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
     """
     files = {f.name: f.read_bytes() for f in shell_files(face)}
     files |= {f.name: f.read_bytes() for f in HERE.glob("*.h") if not f.name.startswith(_OTHER[face])}
-    files |= {f"kernel/src/{f.name}": f.read_bytes() for f in (build.HERE / "src").glob("*.[ch]")}
+    rooms = (build.HERE / "src").rglob("*.[ch]")
+    files |= {f"kernel/{f.relative_to(build.HERE).as_posix()}": f.read_bytes() for f in rooms}
     # once for the kernel's own files and once where every compiler of source FMUs looks
     header = (KERNEL_INCLUDE / "ali3.h").read_bytes()
     files |= {"kernel/include/ali3.h": header, "ali3.h": header, "table.c": table_c.encode()}

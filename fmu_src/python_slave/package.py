@@ -14,7 +14,7 @@ from fmu_src.documentation import documentation
 from fmu_src.native.package import NativeContents
 from fmu_src.platforms import SUFFIXES
 from fmu_src.variables import table_records
-from mbs.kernel import binding
+from mbs.kernel import binding, header
 
 _HERE = Path(__file__).parent
 _PYTHONFMU = Path(pythonfmu.__file__).parent
@@ -92,7 +92,8 @@ def _package_files(
     entries = {
         "__init__.py": b"",
         "slave.py": (_HERE / "slave.py").read_bytes(),
-        "binding.py": Path(binding.__file__).read_bytes(),
+        "header.py": Path(header.__file__).read_bytes(),
+        **{f"binding/{f.name}": f.read_bytes() for f in sorted(Path(binding.__file__).parent.glob("*.py"))},
         **{f"system_{k}.ali3": system.to_bytes() for k, system in enumerate(contents.systems)},
         "pythonfmu/__init__.py": b"",
     }

@@ -198,19 +198,19 @@ class Slave(Fmi2Slave):
 
     def _watch_modes(self) -> None:
         """A closed loop that changed its assembly mode, once."""
-        if self._mode_warned or self._kernel.solver_value(_STATUS) != binding.BRANCH_CHANGED:
+        if self._mode_warned or self._kernel.solver_value(_STATUS) != binding.Status.BRANCH_CHANGED:
             return
         self._mode_warned = True
         self.log(f"{self._kernel.branch_text()} This is said once.", Fmi2Status.warning)
 
     def _watch(self) -> None:
         """What a run says about itself after a step, once: that its numbers are not what was asked."""
-        doubt = binding.NO_DOUBT if self._energy_warned else self._kernel.doubt()
-        if doubt == binding.NO_DOUBT:
+        doubt = binding.Doubt.NONE if self._energy_warned else self._kernel.doubt()
+        if doubt == binding.Doubt.NONE:
             return
         self._energy_warned = True
         report, time, h = self._kernel.report(), self._kernel.time, self._values[self._step_reference]
-        if doubt == binding.DOUBT_BALANCE:
+        if doubt == binding.Doubt.BALANCE:
             balance = self._kernel.solver_value(_BALANCE)
             text = (
                 f"At {time:.6g} s the steps have made or lost {report['energy_error']:.3g} J where no force did, "
@@ -388,9 +388,12 @@ class Slave(Fmi2Slave):
 
     def _start_hint(self, error: Exception) -> str:
         """What is wrong with a start, in numbers."""
-        if not isinstance(error, binding.KernelError) or error.status not in (binding.BELOW_ROAD, binding.TOO_FAR):
+        if not isinstance(error, binding.KernelError) or error.status not in (
+            binding.Status.BELOW_ROAD,
+            binding.Status.TOO_FAR,
+        ):
             return self._worst()
-        if error.status == binding.TOO_FAR:
+        if error.status == binding.Status.TOO_FAR:
             return self._farthest()
         lift = self._kernel.start_lift()
         heights = [k for k, v in enumerate(self._table) if v["source"] == "pose" and v["index"] == _POSE_HEIGHT]

@@ -1,4 +1,4 @@
-"""Roads: what `mbs/kernel/src/road.h` needs to know of them."""
+"""Roads: what `mbs/kernel/src/elements/road.h` needs to know of them."""
 
 from __future__ import annotations
 

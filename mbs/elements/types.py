@@ -1,4 +1,4 @@
-"""Element type numbers: part of the System file, equal to the enum in `mbs/kernel/src/element.h`."""
+"""Element type numbers: part of the System file, equal to the enum in `mbs/kernel/src/elements/element.h`."""
 
 from enum import IntEnum
 

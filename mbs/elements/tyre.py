@@ -125,7 +125,7 @@ class Tyre:
         )
 
     def _named(self) -> list[tuple[str, float]]:
-        """Names and values of the reals, in the order of `mbs/kernel/src/tyre.c`."""
+        """Names and values of the reals, in the order of `mbs/kernel/src/elements/tyre.c`."""
         scalars = (
             "radius",
             "bottoming_radius",

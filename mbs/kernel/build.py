@@ -29,8 +29,8 @@ FLAGS = [
 
 
 def sources() -> list[Path]:
-    """C files of the kernel, sorted by name."""
-    return sorted((HERE / "src").glob("*.c"))
+    """C files of the kernel, sorted by room and name."""
+    return sorted((HERE / "src").rglob("*.c"))
 
 
 def host_target() -> str:

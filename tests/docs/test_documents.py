@@ -78,6 +78,9 @@ def test_modelling_page_runs(tmp_path):
     assert "degrees of freedom           1" in printed
     assert "Trajectory(2001 samples" in printed
     assert "the crank has turned 758.63 rad" in printed
+    assert "after 1 s 100 and -33 rad/s" in printed  # 2 N m on 0.01 + 0.09/9 kg m2
+    assert "friction 0.5: slides 0.41 m" in printed  # v^2/(2 mu g)
+    assert "friction 0.1: slides 2.04 m" in printed
 
 
 def test_readme_lists_the_manoeuvres_and_the_scene_of_ones_own():

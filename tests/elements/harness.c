@@ -2,8 +2,8 @@
  * kernel. */
 #include <string.h>
 
-#include "element.h"
-#include "road.h"
+#include "elements/element.h"
+#include "elements/road.h"
 
 #if defined(_WIN32)
 #define EXPORT __declspec(dllexport)

@@ -21,22 +21,22 @@ from mbs.elements import ElementRecord, PlaneRoad, Road
 Array = NDArray[np.float64]
 KERNEL = Path(__file__).parents[2] / "mbs" / "kernel" / "src"
 SOURCES = (
-    "spring_damper",
-    "scalar_spring_damper",
-    "input_force",
-    "body_force",
-    "body_torque",
-    "gyroscopic_spin",
-    "drag",
-    "tyre",
-    "tmeasy",
-    "brake",
-    "contact_law",
-    "contact_points",
-    "automatic_drive",
-    "spin_torque",
-    "road",
-    "elementary",
+    "elements/spring_damper",
+    "elements/scalar_spring_damper",
+    "elements/input_force",
+    "elements/body_force",
+    "elements/body_torque",
+    "elements/gyroscopic_spin",
+    "elements/drag",
+    "elements/tyre",
+    "elements/tmeasy",
+    "elements/brake",
+    "elements/contact_law",
+    "elements/contact_points",
+    "elements/automatic_drive",
+    "elements/spin_torque",
+    "elements/road",
+    "algebra/elementary",
 )
 
 

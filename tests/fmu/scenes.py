@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import mbs
 
 
@@ -28,7 +30,22 @@ def heavy_crane() -> mbs.Model:
 
 
 def reach() -> mbs.Model:
-    m = mbs.Model("reach", dimension=2)
+    return _reach("reach")[0]
+
+
+def sprung_reach() -> mbs.Model:
+    """The same with a damped spring, whose stiffness is a parameter, and with the input and the energy as outputs."""
+    m, bob, pull = _reach("sprung_reach")
+    spring = m.spring_damper("spring", (m.ground, (1.0, 1.5)), bob, stiffness=5.0, damping=1.0, free_length=0.2)
+    target = (spring, "stiffness", 1.0)
+    m.parameter("spring.stiffness", 5.0, 0.0, 50.0, "N/m", "Stiffness of the spring", targets=[target])
+    m.sense_input("pull_used", pull)
+    m.sense_energy("energy.total")
+    return m
+
+
+def _reach(name: str) -> tuple[mbs.Model, Any, Any]:
+    m = mbs.Model(name, dimension=2)
     bob = m.point_mass("bob", mass=1.0, position=(0.6, 0.8))
     m.distance("rod", (m.ground, (0.0, 0.0)), bob)
     pull = m.input("pull", min=0.0, max=10.0, unit="m")
@@ -38,7 +55,7 @@ def reach() -> mbs.Model:
     m.sense_position("bob.x", bob, component="x")
     m.sense_velocity("bob.vx", bob, component="x")
     m.sense_guide("pulled", winch, unit="m")
-    return m
+    return m, bob, pull
 
 
 def sled() -> mbs.Model:

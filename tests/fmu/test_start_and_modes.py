@@ -11,7 +11,7 @@ import pytest
 
 import mbs
 from fmu_src.build import build_fmu
-from mbs.kernel.binding import BRANCH_CHANGED
+from mbs.kernel.binding import Status
 from tests.simulation.loops import suspension
 from tests.simulation.scenes_in_equilibrium import MASS, STIFFNESS, hanging
 
@@ -77,4 +77,4 @@ def test_the_status_tells_a_changed_assembly_mode(thrown: Path, host: HostMaker)
         assert fmu.step(k * 0.005, 0.005) in (OK, WARNING)
         seen.append(status(fmu))
     assert set(seen[:17]) == {0}
-    assert set(seen[19:]) == {BRANCH_CHANGED}
+    assert set(seen[19:]) == {Status.BRANCH_CHANGED}

@@ -13,7 +13,7 @@ import pytest
 import mbs
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
-from mbs.kernel.binding import BRANCH_CHANGED
+from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -100,4 +100,4 @@ def test_a_changed_assembly_mode_is_told_once(
     (told,) = (m for m in driven.messages if "closed loop" in m)
     assert "1.6 s" in told
     assert "'B', 'C'" in told
-    assert driven.get("solver.status") == BRANCH_CHANGED
+    assert driven.get("solver.status") == Status.BRANCH_CHANGED

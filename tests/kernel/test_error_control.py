@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from mbs.kernel.binding import BAD_ARGUMENT, NOT_INITIALISED, ControlFields, Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
 
 from .scenes import everything, four_bar, pendulum
 from .system_builder import SystemBuilder
@@ -128,7 +128,7 @@ def test_bad_fields_are_refused_and_change_nothing(bad: dict[str, float]) -> Non
     before = instance.save()
     with pytest.raises(KernelError) as error:
         run(instance, control(**bad), np.array([2.0]))
-    assert error.value.status == BAD_ARGUMENT
+    assert error.value.status == Status.BAD_ARGUMENT
     assert instance.save() == before
 
 
@@ -136,4 +136,4 @@ def test_a_run_before_the_start_is_refused() -> None:
     instance = Instance(LoadedSystem(pendulum().to_bytes()))
     with pytest.raises(KernelError) as error:
         run(instance, control(), np.array([2.0]))
-    assert error.value.status == NOT_INITIALISED
+    assert error.value.status == Status.NOT_INITIALISED

@@ -76,8 +76,8 @@ def test_before_a_step_there_is_none() -> None:
     _, instance = prepared([0.0, 0.0, 0.0])
     instance.reset()
     instance.initialise()
-    assert derivative(instance, [1.0, 0.0, 0.0])[0] == binding.NOT_INITIALISED
-    assert derivative(instance, [np.nan, 0.0, 0.0])[0] == binding.BAD_ARGUMENT
+    assert derivative(instance, [1.0, 0.0, 0.0])[0] == binding.Status.NOT_INITIALISED
+    assert derivative(instance, [np.nan, 0.0, 0.0])[0] == binding.Status.BAD_ARGUMENT
 
 
 def test_rates_of_sensors() -> None:

@@ -25,7 +25,7 @@ BUILDERS = pytest.mark.parametrize("builder", [everything, sleigh])
 def refused(data: bytes) -> str:
     with pytest.raises(KernelError) as refusal:
         LoadedSystem(data)
-    assert refusal.value.status == binding.BAD_FILE
+    assert refusal.value.status == binding.Status.BAD_FILE
     assert refusal.value.message.startswith("the System file was refused: ")
     return refusal.value.message
 
@@ -35,7 +35,7 @@ def exercise(data: bytes) -> bool:
     try:
         instance = Instance(LoadedSystem(data))
     except KernelError as refusal:
-        if refusal.status not in (binding.BAD_FILE, binding.BAD_ARGUMENT, binding.NO_MEMORY):
+        if refusal.status not in (binding.Status.BAD_FILE, binding.Status.BAD_ARGUMENT, binding.Status.NO_MEMORY):
             raise
         return False
     try:

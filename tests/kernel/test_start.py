@@ -66,7 +66,7 @@ def test_an_assembly_that_cannot_close_is_refused_with_its_worst_row() -> None:
     before = bytes(instance.get_state()[0])
     with pytest.raises(KernelError) as refusal:
         instance.initialise(0.0)
-    assert refusal.value.status == binding.NOT_ASSEMBLED
+    assert refusal.value.status == binding.Status.NOT_ASSEMBLED
     assert instance.report()["worst_row"] in (1, 2)
     assert instance.report()["violation"] > 0.1
     assert "open by" in refusal.value.message
@@ -108,7 +108,7 @@ def test_no_equilibrium_is_refused_and_the_state_kept() -> None:
     before = bytes(instance.get_state()[0])
     with pytest.raises(KernelError) as refusal:
         instance.static_equilibrium(0.0, 1e-6, 20)
-    assert refusal.value.status == binding.NOT_CONVERGED
+    assert refusal.value.status == binding.Status.NOT_CONVERGED
     assert bytes(instance.get_state()[0]) == before
 
 

@@ -89,7 +89,7 @@ def test_altered_bytes_are_refused_and_change_nothing() -> None:
     for data in bad:
         with pytest.raises(KernelError) as refusal:
             instance.restore(data)
-        assert refusal.value.status == binding.BAD_STATE
+        assert refusal.value.status == binding.Status.BAD_STATE
     assert bits(instance) == before
 
 
@@ -98,7 +98,7 @@ def test_a_state_of_another_system_is_refused() -> None:
     other.initialise()
     with pytest.raises(KernelError) as refusal:
         other.restore(moving().save())
-    assert refusal.value.status == binding.BAD_STATE
+    assert refusal.value.status == binding.Status.BAD_STATE
 
 
 def test_reset_goes_back_to_the_file() -> None:
@@ -150,7 +150,7 @@ def test_nothing_works_before_initialise() -> None:
     for call in (lambda: instance.step(0.01), instance.sensors):
         with pytest.raises(KernelError) as refusal:
             call()
-        assert refusal.value.status == binding.NOT_INITIALISED
+        assert refusal.value.status == binding.Status.NOT_INITIALISED
 
 
 def test_arguments_out_of_range_are_refused() -> None:
@@ -171,7 +171,7 @@ def test_arguments_out_of_range_are_refused() -> None:
     for call in calls:
         with pytest.raises(KernelError) as refusal:
             call()
-        assert refusal.value.status == binding.BAD_ARGUMENT
+        assert refusal.value.status == binding.Status.BAD_ARGUMENT
     assert bits(instance) == before
     instance.set_input(0, 5.0)
     assert instance.get_input(0) == 1.0  # clamped to its range
@@ -194,7 +194,7 @@ def test_an_input_out_of_its_range_is_refused_under_a_right_checksum() -> None:
     for bad in (1e9, -1e9, np.inf, np.nan):
         with pytest.raises(KernelError) as caught:
             instance.restore(forged(saved, at, bad))
-        assert caught.value.status == binding.BAD_STATE
+        assert caught.value.status == binding.Status.BAD_STATE
     assert bits(instance) == before
     instance.restore(forged(saved, at, 0.3))
     assert instance.get_input(0) == 0.3

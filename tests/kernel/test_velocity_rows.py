@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from mbs.kernel.binding import NOT_INITIALISED, Instance, LoadedSystem
+from mbs.kernel.binding import Instance, LoadedSystem, Status
 from mbs.settings import Settings
 from tests.methods.rolling_models import ROLLING
 
@@ -138,7 +138,7 @@ def test_after_generalised_alpha_there_is_no_derivative_of_a_step() -> None:
     instance.step(H)
     out = (ctypes.c_double * 4)()
     status = instance._library.ali3_input_derivative(instance._handle, (ctypes.c_double * 1)(1.0), out)
-    assert status == NOT_INITIALISED
+    assert status == Status.NOT_INITIALISED
 
 
 def test_a_step_of_energy_momentum_has_the_exact_derivative_of_its_rows() -> None:

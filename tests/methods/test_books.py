@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import re
-from pathlib import Path
-
 import pytest
 
-import mbs
 from benchmarks.cases import CASES, system_of
 from benchmarks.honesty_scenes import printed_model
-from mbs import Model, Settings, Simulation, SimulationError, accuracy, compile, simulate
-from mbs.kernel import binding
+from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import cart_pole
 from mbs.settings import METHODS
 from tests.simulation.scenes import pendulum
@@ -92,17 +87,3 @@ def test_a_restored_run_goes_on_with_its_books(method):
     second.step(0.005, 30)
     assert second.report == straight.report
     assert CASES["spatial_chain"].conservative
-
-
-def test_the_limits_are_those_of_the_kernel():
-    """Written in C, for the FMU, and in Python."""
-    header = (Path(mbs.__file__).parent / "kernel" / "include" / "ali3.h").read_text(encoding="utf-8")
-    defined = dict(re.findall(r"#define (ALI3_\w+) ([0-9.e+-]+)$", header, re.MULTILINE))
-    here = {
-        "ALI3_BALANCE_WRONG": accuracy.WRONG_BALANCE,
-        "ALI3_HALVINGS_SUSPECT": accuracy.SUSPECT_HALVINGS,
-        "ALI3_OPEN": binding.OPEN,
-        "ALI3_FARTHEST": binding.FARTHEST,
-        "ALI3_FASTEST": binding.FASTEST,
-    }
-    assert {name: float(defined[name]) for name in here} == here

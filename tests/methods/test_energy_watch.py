@@ -11,7 +11,7 @@ from benchmarks import references
 from benchmarks.cases import CASES, system_of
 from benchmarks.honesty_scenes import printed_model
 from mbs import AccuracyWarning, Model, Settings, Simulation, SimulationError, compile, simulate
-from mbs.kernel.binding import NOT_FINITE, UNRESOLVED, open_row
+from mbs.kernel.binding import Status, open_row
 from mbs.scenes import cart_pole
 
 BOOKS = 0.02  # of the change of energy: the books take the next step to be like the present one
@@ -54,7 +54,7 @@ def test_the_spike_of_the_light_cart_is_refused_where_the_step_does_not_resolve_
     simulation = Simulation(system_of("cart_pole"), settings=Settings(method=method, max_halvings=4))
     with pytest.raises(SimulationError, match="energy came or went without a force") as refused:
         simulation.run(0.6, h, progress=False)
-    assert refused.value.status == UNRESOLVED
+    assert refused.value.status == Status.UNRESOLVED
     assert "Worst" not in str(refused.value)
     assert refused.value.time == simulation.time == pytest.approx(0.4515, abs=1e-4)
     bob = np.array([simulation.sensors[f"bob.position.{c}"] for c in "xy"])
@@ -90,7 +90,7 @@ def test_an_infinite_motion_is_said_in_words():
     m.force("push", ball, inputs=[m.input("push", unit="N"), None])
     with pytest.raises(SimulationError, match="became infinite") as refused:
         simulate(compile(m), 1.0, 0.02, {"push": jolt}, progress=False)
-    assert refused.value.status == NOT_FINITE
+    assert refused.value.status == Status.NOT_FINITE
     words = str(refused.value).lower().replace("infinite", "")
     assert "nan" not in words
     assert "inf" not in words

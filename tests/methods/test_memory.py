@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mbs import Model, compile
-from mbs.kernel.binding import BAD_STATE, Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
 from mbs.scenes import bricard, double_four_bar, prototype_car, spatial_chain
 from mbs.settings import METHODS
 from tests.methods.rolling_models import sleigh
@@ -132,7 +132,7 @@ def test_a_counter_that_would_overflow_is_refused(count: int) -> None:
         struct.pack_into("<q", state, at, count)
         with pytest.raises(KernelError) as refusal:
             instance.restore(sealed(state))
-        assert refusal.value.status == BAD_STATE
+        assert refusal.value.status == Status.BAD_STATE
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -9,16 +9,7 @@ import pytest
 from benchmarks.cases import system_of
 from benchmarks.honesty_scenes import printed_model
 from mbs import Model, Pose, Settings, Simulation, SimulationError, compile, simulate
-from mbs.kernel.binding import (
-    FARTHEST,
-    NOT_CONVERGED,
-    TOO_FAR,
-    TOO_STIFF,
-    Instance,
-    KernelError,
-    LoadedSystem,
-    open_row,
-)
+from mbs.kernel.binding import FARTHEST, Instance, KernelError, LoadedSystem, Status, open_row
 from mbs.scenes import cart_pole, prototype_car
 
 DAMPING = 5000.0  # 1/s, of 1 kg
@@ -44,7 +35,7 @@ def test_a_step_too_long_for_an_explicit_method_is_told_with_the_rate(method):
     with pytest.raises(SimulationError, match="the step is too long for an explicit method") as refused:
         simulation.step(0.1, 50)
     text = str(refused.value)
-    assert refused.value.status == TOO_STIFF
+    assert refused.value.status == Status.TOO_STIFF
     if method == "runge_kutta_8":  # the others go on until nothing is left to tell a rate from
         assert float(re.search(r"Its rate here is (\S+) 1/s", text)[1]) == pytest.approx(DAMPING, rel=0.01)
         assert "'ali3p'" in text
@@ -102,7 +93,7 @@ def test_a_step_refused_in_its_second_half_leaves_the_state_where_it_was():
 def test_a_start_beyond_the_digits_is_refused_as_that(pose):
     with pytest.raises(SimulationError, match="too far away or too fast") as refused:
         Simulation(compile(prototype_car.build()), pose=pose)
-    assert refused.value.status == TOO_FAR
+    assert refused.value.status == Status.TOO_FAR
     assert "wishbone" not in str(refused.value)
     assert repr(pose) in str(refused.value)
 
@@ -121,7 +112,7 @@ def test_an_iteration_that_ran_away_is_no_singular_tangent():
     settings = Settings(method="energy_momentum_4", max_halvings=0)
     with pytest.raises(SimulationError, match="did not converge") as refused:
         simulate(printed_model(), 2.0, 0.02, {"torque": 4.0}, settings, progress=False)
-    assert refused.value.status == NOT_CONVERGED
+    assert refused.value.status == Status.NOT_CONVERGED
 
 
 @pytest.mark.parametrize(("unit", "shown"), [("1", "is 2 at"), ("", "is 2 at"), ("N.m", "is 2 N.m at")])

@@ -12,9 +12,9 @@ import mbs
 from benchmarks.cases import CASES, exact_of, system_of
 from benchmarks.honesty_scenes import CRANK_ANGLE, SCENES, printed_model
 from mbs import AccuracyWarning, Model, Pose, Settings, Simulation, SimulationError, compile, simulate
-from mbs import simulation as stepping
 from mbs.accuracy import Accuracy, divisor, judged_sensors
 from mbs.scenes import prototype_car
+from mbs.simulation import fixed_steps
 
 TORQUE = {"torque": 4.0}
 QUIET = {"progress": False}
@@ -190,14 +190,14 @@ class TestRepeats:
             simulate(compile(m), 20.0, 0.05, estimate_error=True, **QUIET)
 
     def test_a_repeat_that_is_refused_is_told(self, monkeypatch):
-        march = Simulation._march
+        march = fixed_steps.march
 
-        def refuse(self, t_end, h, *more):
+        def refuse(simulation, t_end, h, *more):
             if h < 0.01:
                 raise SimulationError("it fell apart", 0.5, 7)
-            return march(self, t_end, h, *more)
+            return march(simulation, t_end, h, *more)
 
-        monkeypatch.setattr(stepping.Simulation, "_march", refuse)
+        monkeypatch.setattr(fixed_steps, "march", refuse)
         with pytest.warns(AccuracyWarning, match="repeat with steps of 0.005 s was refused.*fell apart"):
             simulate(system_of("pendulum"), 1.0, 0.01, estimate_error=True, **QUIET)
 

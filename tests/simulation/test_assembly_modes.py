@@ -12,7 +12,7 @@ import pytest
 
 import mbs
 from mbs import BranchWarning, Model, Settings, Simulation, SimulationError, System, compile
-from mbs.kernel.binding import BRANCH_CHANGED, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem, Status
 from mbs.scenes import (
     assembly_defect_four_bar,
     bricard,
@@ -144,7 +144,7 @@ def test_the_sensor_of_the_status_tells_it_from_then_on() -> None:
         run = simulate(compile(m), 0.15, 5e-4)
     assert run.report is not None
     after = run.t >= run.report.branch_time - 1e-9
-    assert np.all(run["solver.status"][after] == BRANCH_CHANGED)
+    assert np.all(run["solver.status"][after] == Status.BRANCH_CHANGED)
     assert np.all(run["solver.status"][~after] == 0.0)
 
 

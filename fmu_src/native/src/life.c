@@ -8,7 +8,7 @@
 static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->rung.system);
-  const size_t numbers = t->n_variables + t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + 2 * (size_t)z.nu;
+  const size_t numbers = t->n_variables + t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + (size_t)z.nu;
   double *pool = s->memory.allocate(1, numbers * sizeof(double) + 2 * t->n_known + (size_t)z.ns + 1);
   if (pool == NULL) {
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
@@ -18,8 +18,7 @@ static bool take_arrays(slave *s) {
   s->slope = s->value + t->n_variables;
   s->sensors = s->slope + t->n_known * SLAVE_MOST_ORDERS;
   s->direction = s->sensors + z.ns;
-  s->input = s->direction + z.nu;
-  s->pending = (unsigned char *)(s->input + z.nu);
+  s->pending = (unsigned char *)(s->direction + z.nu);
   s->clamped = s->pending + t->n_known;
   s->known = s->clamped + t->n_known;
   return true;

@@ -20,7 +20,7 @@ static bool table_fits(const ali3_system *system, size_t fidelity) {
 }
 
 void slave_rung_free(const slave *s, slave_rung *rung) {
-  if (rung->saved != NULL) s->memory.release(rung->saved);
+  if (rung->snapshot != NULL) s->memory.release(rung->snapshot);
   if (rung->kernel != NULL) ali3_instance_free(rung->kernel);
   if (rung->system != NULL) ali3_system_free(rung->system);
   memset(rung, 0, sizeof *rung);
@@ -50,8 +50,8 @@ bool slave_rung_load(slave *s, size_t fidelity, slave_rung *rung) {
   }
   if (status == ALI3_OK) status = ali3_instance_new(rung->system, &rung->kernel);
   if (status == ALI3_OK) {
-    rung->saved = s->memory.allocate(1, ali3_state_size(rung->system));
-    if (rung->saved == NULL) status = ALI3_NO_MEMORY;
+    rung->snapshot = s->memory.allocate(1, ali3_snapshot_size(rung->system));
+    if (rung->snapshot == NULL) status = ALI3_NO_MEMORY;
   }
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The file %s was refused: %s%s%s.", file, ali3_status_text(status),

@@ -70,7 +70,7 @@ typedef struct { /* a System of the FMU at work */
   size_t fidelity;
   ali3_system *system;
   ali3_instance *kernel;
-  unsigned char *saved; /* one state of the kernel, for steps that are taken back */
+  void *snapshot; /* of the kernel before the step, which may be taken back */
 } slave_rung;
 
 struct slave {
@@ -89,7 +89,7 @@ struct slave {
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *clamped; /* per known variable: said once */
   bool outputs_fresh;
-  double *sensors, *direction, *input; /* work: ns, nu, nu */
+  double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, fidelity_reference; /* the latter n_variables where there is no choice */
 };

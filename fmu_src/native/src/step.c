@@ -28,13 +28,6 @@ static int64_t division(slave *s, double time, double end, double *h) {
   return (int64_t)n;
 }
 
-static bool any_pending(const slave *s, slave_source source) {
-  const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i < t->n_known; i++)
-    if (s->pending[i] && t->variable[i].source == source) return true;
-  return false;
-}
-
 static bool any_slope(const slave *s) {
   for (size_t i = 0; i < slave_the_table.n_known * SLAVE_MOST_ORDERS; i++)
     if (s->slope[i] != 0.0) return true;
@@ -92,12 +85,6 @@ static void forget_slopes(slave *s) {
     if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->rung.kernel, t->variable[i].index, s->value[i]);
 }
 
-static void take_back(slave *s, bool whole) {
-  const int32_t nu = ali3_system_sizes(s->rung.system).nu;
-  if (whole) ali3_state_restore(s->rung.kernel, s->rung.saved, ali3_state_size(s->rung.system));
-  for (int32_t i = 0; i < nu; i++) ali3_set_input(s->rung.kernel, i, s->input[i]);
-}
-
 /* Whether a step can be asked for here at all; said if not. */
 static bool possible(slave *s, double time, double step, double now) {
   if (!(fabs(time) < HUGE_VAL && step > 0.0 && step < HUGE_VAL))
@@ -128,15 +115,11 @@ static slave_status try_step(slave *s, double time, double step) {
   double h;
   if (!possible(s, time, step, now)) return SLAVE_ERROR;
   const int64_t n = division(s, now, time + step, &h);
-  /* one step keeps the last state when it fails; several, or a changed parameter, must be taken back together */
-  const bool whole = n > 1 || any_pending(s, SLAVE_PARAMETER);
-  if (whole) ali3_state_save(s->rung.kernel, s->rung.saved, ali3_state_size(s->rung.system));
-  const int32_t nu = ali3_system_sizes(s->rung.system).nu;
-  for (int32_t i = 0; i < nu; i++) ali3_get_input(s->rung.kernel, i, &s->input[i]);
+  ali3_snapshot_take(s->rung.kernel, s->rung.snapshot); /* inputs, parameters and inner steps go back together */
   const ali3_status status = advance(s, n, h);
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
-    take_back(s, whole);
+    ali3_snapshot_restore(s->rung.kernel, s->rung.snapshot);
     return slave_refuse_step(s, status, now, step, worst);
   }
   forget_slopes(s);

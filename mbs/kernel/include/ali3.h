@@ -110,6 +110,8 @@ typedef struct {
 
 ALI3_API const char *ali3_status_text(ali3_status s); /* one sentence per code */
 ALI3_API uint32_t ali3_version(void);
+/* Bytes of a structure of this header by its name, for callers in other languages; 0: there is none of that name. */
+ALI3_API size_t ali3_structure_size(const char *name);
 
 ALI3_API ali3_status ali3_system_load(const void *bytes, size_t size, ali3_system **out, char *message,
                                       size_t message_size);
@@ -249,6 +251,11 @@ ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
 ALI3_API size_t ali3_state_size(const ali3_system *s);
 ALI3_API ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size);
 ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size);
+/* A copy in memory of what inputs, parameters and steps change, for steps that are taken back: a block of
+ * ali3_snapshot_size bytes, aligned as by malloc, which must be restored to the instance it was taken of. */
+ALI3_API size_t ali3_snapshot_size(const ali3_system *s);
+ALI3_API void ali3_snapshot_take(const ali3_instance *in, void *snapshot);
+ALI3_API void ali3_snapshot_restore(ali3_instance *in, const void *snapshot);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

@@ -1,0 +1,28 @@
+"""The kernel through ctypes. This package and `header.py` need nothing but the standard library, so that an FMU can
+carry them.
+
+A library is loaded once per path; a `LoadedSystem` may be shared by threads, an `Instance` belongs to one at a time.
+Names and units: `include/ali3.h`.
+"""
+
+from ..header import FARTHEST, FASTEST, OPEN, ControlFields, Doubt, Sizes, Status
+from .errors import KernelError, open_row
+from .instance import Instance
+from .library import library_path, load_library
+from .loaded_system import LoadedSystem
+
+__all__ = [
+    "FARTHEST",
+    "FASTEST",
+    "OPEN",
+    "ControlFields",
+    "Doubt",
+    "Instance",
+    "KernelError",
+    "LoadedSystem",
+    "Sizes",
+    "Status",
+    "library_path",
+    "load_library",
+    "open_row",
+]

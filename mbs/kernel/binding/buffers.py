@@ -1,0 +1,33 @@
+"""Sequences and buffers as C arrays of doubles."""
+
+from __future__ import annotations
+
+from ctypes import c_double
+from typing import Any
+
+
+def numbers(values: Any, count: int, what: str) -> Any:
+    """A C array of `count` doubles from a sequence or buffer; None stays None (null pointer)."""
+    if values is None:
+        return None
+    if hasattr(values, "tolist"):
+        values = values.tolist()
+    flat = list(values)
+    if len(flat) != count:
+        raise ValueError(f"{what} has {len(flat)} values; this System needs {count}.")
+    return (c_double * count)(*flat)
+
+
+def buffer(values: Any, count: int, what: str, *, writable: bool) -> Any:
+    """The memory of a contiguous float64 buffer as a C array, copied only where it is read-only."""
+    if values is None:
+        return None
+    view = memoryview(values)
+    if view.nbytes != 8 * count or (view.format or "").lstrip("<=@") != "d" or not view.c_contiguous:
+        raise ValueError(f"{what} must be a contiguous buffer of {count} float64 values.")
+    if view.readonly and writable:
+        raise ValueError(f"{what} must be writable.")
+    if count == 0:
+        return (c_double * 0)()
+    kind = c_double * count
+    return kind.from_buffer_copy(view) if view.readonly else kind.from_buffer(view)

@@ -1,0 +1,39 @@
+"""What a refused call of the kernel raises."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Mapping, Sequence
+
+from ..header import OPEN
+
+
+class KernelError(RuntimeError):
+    """A call that the kernel refused.
+
+    Attributes
+    ----------
+    status : int
+        Code of `ali3_status`.
+    message : str
+        One sentence.
+    """
+
+    def __init__(self, status: int, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+        self.message = message
+
+
+def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
+    """Name and gap of the row farthest from closed; empty where it is closed or there is no finite figure of it."""
+    row, violation = int(report["worst_row"]), report["violation"]
+    if not (0 <= row < len(names) and OPEN < violation < math.inf):
+        return ""
+    return f"'{names[row]}', open by {violation:.3g} m"
+
+
+def status_text(library: ctypes.CDLL, status: int) -> str:
+    """The kernel's sentence for a status."""
+    return f"{library.ali3_status_text(status).decode()}."

@@ -1,0 +1,366 @@
+"""A State of a System and the work space to step it."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable, Mapping, Sequence
+from ctypes import POINTER, byref, c_double, c_int32, c_int64, c_void_p
+from typing import Any
+
+from ..header import OPEN, ControlFields, Doubt, InputTable, InputTables, RecordFields, ReportFields, SettingsFields
+from .buffers import buffer, numbers
+from .errors import KernelError, status_text
+from .loaded_system import LoadedSystem
+
+_DOUBLES = POINTER(c_double)
+_INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLES)
+
+
+class Instance:
+    """A State of a System and the work space to step it. A refused call leaves the last accepted state.
+
+    Parameters
+    ----------
+    system : LoadedSystem
+        Kept alive by the instance.
+    """
+
+    def __init__(self, system: LoadedSystem) -> None:
+        self._handle: c_void_p | None = None
+        self.system = system
+        self._library = system._library
+        handle = c_void_p()
+        self._check(self._library.ali3_instance_new(system._handle, byref(handle)))
+        self._handle = handle
+        # Bound once: an attribute of the library costs more than the call of a small step.
+        self._step = self._library.ali3_step
+        self._sensors = self._library.ali3_sensors
+        self._inputs: Any = None  # keeps what the kernel calls and reads
+        self._input_error: BaseException | None = None
+
+    def __del__(self) -> None:
+        if self._handle is not None:
+            self._library.ali3_instance_free(self._handle)
+            self._handle = None
+
+    def _check(self, status: int) -> None:
+        if status:
+            error, self._input_error = self._input_error, None
+            if error is not None:
+                raise error
+            raise KernelError(status, status_text(self._library, status))
+
+    def reset(self) -> None:
+        """Back to the values of the System file; settings, inputs and parameters too."""
+        self._check(self._library.ali3_reset(self._handle))
+
+    def settings(self) -> dict[str, float | int]:
+        """Present settings by field name."""
+        fields = SettingsFields()
+        self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
+        return {name: getattr(fields, name) for name, _ in SettingsFields._fields_}
+
+    def set_settings(self, **values: float) -> None:
+        """Change the settings named; the others stay."""
+        fields = SettingsFields()
+        self._check(self._library.ali3_get_settings(self._handle, byref(fields)))
+        known = dict(SettingsFields._fields_)
+        for name, value in values.items():
+            if name not in known:
+                raise TypeError(f"{name!r} is not a setting of the kernel.")
+            setattr(fields, name, int(value) if known[name] is c_int32 else float(value))
+        self._check(self._library.ali3_set_settings(self._handle, byref(fields)))
+
+    def set_input(self, index: int, value: float) -> None:
+        """Value of an input from now on, clamped to its range."""
+        self._check(self._library.ali3_set_input(self._handle, index, value))
+
+    def get_input(self, index: int) -> float:
+        """Present value of an input."""
+        value = c_double()
+        self._check(self._library.ali3_get_input(self._handle, index, byref(value)))
+        return value.value
+
+    def set_input_function(self, function: Callable[[float, bool, Any], None] | None) -> None:
+        """Inputs as a function of time, asked for at every time at which a method looks at them; None ends that.
+
+        Parameters
+        ----------
+        function : callable or None
+            Called with the time in s, whether the value behind a jump is meant, and a writable array of all inputs
+            that holds the present ones. What it raises ends the step and is raised by `step` or `run`.
+        """
+
+        def ask(_: Any, t: float, after: int, values: Any) -> int:
+            try:
+                function(t, bool(after), values)  # type: ignore[misc]
+            except BaseException as error:
+                self._input_error = error
+                return 1
+            return 0
+
+        callback = _INPUT_FUNCTION(ask) if function is not None else None
+        address = ctypes.cast(callback, c_void_p) if callback is not None else None
+        self._check(self._library.ali3_set_input_function(self._handle, address, None))
+        self._inputs = callback
+
+    def set_input_tables(self, tables: Mapping[int, tuple[Any, Any]], tolerance: float) -> None:
+        """The same from tables, without a call of Python.
+
+        Parameters
+        ----------
+        tables : mapping of int to (times, values)
+            Per number of an input two contiguous float64 buffers of equal length; times do not decrease.
+        tolerance : float
+            Times this near to a jump are at it, s.
+        """
+        kept, rows = [], []
+        for index, (times, values) in tables.items():
+            n = memoryview(times).nbytes // 8
+            arrays = [buffer(part, n, "a table", writable=False) for part in (times, values)]
+            kept.append(arrays)
+            rows.append(InputTable(index, n, *(ctypes.cast(a, _DOUBLES) for a in arrays)))
+        table = (InputTable * len(rows))(*rows)
+        context = InputTables(tolerance, len(rows), table)
+        address = ctypes.cast(self._library.ali3_input_of_tables, c_void_p)
+        self._check(self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p)))
+        self._inputs = (context, table, kept)
+
+    def set_parameter(self, index: int, value: float) -> None:
+        """Value of a parameter from now on; refused outside its range."""
+        self._check(self._library.ali3_set_parameter(self._handle, index, value))
+
+    def get_parameter(self, index: int) -> float:
+        """Present value of a parameter."""
+        value = c_double()
+        self._check(self._library.ali3_get_parameter(self._handle, index, byref(value)))
+        return value.value
+
+    def set_pose(self, x: float, y: float, z: float, yaw: float, speed: float) -> None:
+        """Start of a scene that is not tied to the ground (m, rad, m/s); before `initialise`."""
+        self._check(self._library.ali3_set_pose(self._handle, x, y, z, yaw, speed))
+
+    def set_q(self, q: Sequence[float] | None, qd: Sequence[float] | None = None) -> None:
+        """Coordinates (nq,) and rates (nq,) to start from; before `initialise`."""
+        nq = self.system.sizes.nq
+        self._check(self._library.ali3_set_q(self._handle, numbers(q, nq, "q"), numbers(qd, nq, "qd")))
+
+    def set_switch(self, index: int, on: bool) -> None:
+        """Rows of a switch on or off; those that go on hold the values they have now."""
+        self._check(self._library.ali3_set_switch(self._handle, index, int(on)))
+
+    def get_switch(self, index: int) -> bool:
+        """Whether the rows of a switch are on."""
+        on = c_int32()
+        self._check(self._library.ali3_get_switch(self._handle, index, byref(on)))
+        return bool(on.value)
+
+    def initialise(self, t0: float = 0.0) -> None:
+        """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
+        self._start(self._library.ali3_initialise(self._handle, t0))
+
+    def start_lift(self) -> float:
+        """How much higher a start refused with `BELOW_ROAD` must be, m: there no tyre touches the road."""
+        return float(self._library.ali3_start_lift(self._handle))
+
+    def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
+        """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""
+        self._start(self._library.ali3_static_equilibrium(self._handle, t0, tolerance, max_iterations))
+
+    def _start(self, status: int) -> None:
+        if not status:
+            return
+        report = self.report()
+        text = status_text(self._library, status)
+        if OPEN < report["violation"] < math.inf:
+            text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
+        raise KernelError(status, text)
+
+    def step(self, h: float) -> None:
+        """One step of `h` seconds with the inputs as they are."""
+        status = self._step(self._handle, h)
+        if status:
+            self._check(status)
+
+    def run(self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None) -> int:
+        """`n` steps of `h` seconds.
+
+        Parameters
+        ----------
+        h : float
+            Step, s.
+        n : int
+            Number of steps.
+        inputs : buffer of float64, shape (n, nu), optional
+            Input values, a row per step; None keeps them as they are.
+        every : int
+            Sensors are recorded after every so many steps.
+        out : writable buffer of float64, shape (n // every, ns), optional
+            Takes the sensor values.
+
+        Returns
+        -------
+        int
+            Steps done; less than `n` never without a `KernelError`.
+        """
+        sizes = self.system.sizes
+        given = buffer(inputs, n * sizes.nu, "inputs", writable=False)
+        taken = buffer(out, n // every * sizes.ns if every > 0 else 0, "out", writable=True)
+        done = c_int64()
+        self._check(self._library.ali3_run(self._handle, h, n, given, every, taken, byref(done)))
+        return done.value
+
+    def control_run(
+        self,
+        control: ControlFields,
+        scale: Any,
+        t_end: float,
+        most_steps: int,
+        times: Any,
+        sensors: Any,
+        positions: Any,
+        done: int,
+    ) -> int:
+        """Steps whose errors add up to a tolerance, see `ali3_control_run`.
+
+        Parameters
+        ----------
+        control : ControlFields
+            Changed in place.
+        scale : buffer of float64, shape (nq,)
+            Size of a unit of each coordinate, m.
+        t_end : float
+            Time that is the end of a step, s.
+        most_steps : int
+            After so many accepted steps the call returns.
+        times : buffer of float64, shape (n,)
+            Times to record at, ascending.
+        sensors, positions : writable buffers of float64, shape (n, ns) and (n, nq)
+            Take the records; either may be None.
+        done : int
+            Rows that are already written.
+
+        Returns
+        -------
+        int
+            Rows written, those before included.
+        """
+        sizes, n = self.system.sizes, memoryview(times).nbytes // 8
+        rows = (
+            buffer(times, n, "times", writable=False),
+            buffer(sensors, n * sizes.ns, "sensors", writable=True),
+            buffer(positions, n * sizes.nq, "positions", writable=True),
+        )
+        record = RecordFields(n, *(None if r is None else ctypes.cast(r, POINTER(c_double)) for r in rows))
+        written = c_int64(done)
+        lengths = buffer(scale, sizes.nq, "scale", writable=False)
+        status = self._library.ali3_control_run(
+            self._handle, byref(control), lengths, t_end, most_steps, byref(record), byref(written)
+        )
+        self._check(status)
+        return written.value
+
+    def refresh(self) -> None:
+        """Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs."""
+        self._check(self._library.ali3_refresh(self._handle))
+
+    def sensors(self, out: Any = None) -> Any:
+        """Sensor values (ns,) at the present state, in a new C array or in `out`."""
+        values = out if out is not None else (c_double * self.system.sizes.ns)()
+        status = self._sensors(self._handle, values)
+        if status:
+            self._check(status)
+        return values
+
+    def report(self) -> dict[str, float | int]:
+        """Counters and residuals by field name."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def solver_value(self, kind: int) -> float:
+        """What the solver says about itself: one of `SolverValue`."""
+        return float(self._library.ali3_solver_value(self._handle, kind))
+
+    def doubt(self) -> Doubt:
+        """Whether the run says that it is wrong."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return Doubt(self._library.ali3_run_doubt(byref(fields)))
+
+    def energy_balance(self) -> float:
+        """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return float(self._library.ali3_energy_balance(byref(fields)))
+
+    def branch_text(self) -> str:
+        """A sentence about the first change of the assembly mode of a closed loop; empty where there was none."""
+        text = ctypes.create_string_buffer(1024)
+        self._check(self._library.ali3_branch_text(self._handle, text, len(text)))
+        return text.value.decode(errors="ignore")
+
+    @property
+    def time(self) -> float:
+        """Time of the state, s."""
+        return float(self._library.ali3_time(self._handle))
+
+    def save(self) -> bytes:
+        """All that continues bit for bit."""
+        data = ctypes.create_string_buffer(self.system.state_size)
+        self._check(self._library.ali3_state_save(self._handle, data, len(data)))
+        return data.raw
+
+    def restore(self, data: bytes) -> None:
+        """Continue from saved bytes of the same System; altered bytes are refused."""
+        self._check(self._library.ali3_state_restore(self._handle, bytes(data), len(data)))
+
+    def get_state(self) -> tuple[Any, Any, Any, Any, Any]:
+        """Copies of q, qd, qdd (nq,), the multipliers of the stored rows (nc,) and the element states y (ny,)."""
+        sizes = self.system.sizes
+        parts = tuple((c_double * n)() for n in (sizes.nq, sizes.nq, sizes.nq, sizes.nc, sizes.ny))
+        self._check(self._library.ali3_get_state(self._handle, *parts))
+        return parts[0], parts[1], parts[2], parts[3], parts[4]
+
+    def evaluate(
+        self, q: Sequence[float], qd: Sequence[float], y: Sequence[float] | None = None, t: float | None = None
+    ) -> dict[str, Any]:
+        """Rows, forces and element outputs at given values; the state stays.
+
+        Returns
+        -------
+        dict
+            `phi`, `phi_t`, `gamma` (nc,), `jacobian` (nnz_rows,) of the stored rows, `force` (nq,), `outputs` (nout,).
+        """
+        s = self.system.sizes
+        counts = {"phi": s.nc, "jacobian": s.nnz_rows, "phi_t": s.nc, "gamma": s.nc, "force": s.nq, "outputs": s.nout}
+        values = {name: (c_double * n)() for name, n in counts.items()}
+        given = (numbers(q, s.nq, "q"), numbers(qd, s.nq, "qd"), numbers(y, s.ny, "y"))
+        time = self.time if t is None else t
+        self._check(self._library.ali3_evaluate(self._handle, *given, time, *values.values()))
+        return values
+
+    def tangent(self, h: float, lam: Sequence[float] | None = None) -> Any:
+        """The tangent (23) at the present state for step `h`: C array of nq * nq, symmetric."""
+        sizes = self.system.sizes
+        dense = (c_double * (sizes.nq * sizes.nq))()
+        self._check(self._library.ali3_tangent(self._handle, h, numbers(lam, sizes.nc, "lam"), dense))
+        return dense
+
+    def mass_matrix(self, q: Sequence[float]) -> Any:
+        """M(q): C array of nq * nq, symmetric; it depends on q only where bodies are flexible."""
+        nq = self.system.sizes.nq
+        dense = (c_double * (nq * nq))()
+        self._check(self._library.ali3_mass_matrix(self._handle, numbers(q, nq, "q"), dense))
+        return dense
+
+    def element_step(
+        self, q: Sequence[float], qd: Sequence[float], y_old: Sequence[float] | None, h: float
+    ) -> tuple[Any, Any]:
+        """Element states (ny,) after `h` seconds at held q, qd, and the generalised force (nq,) with them."""
+        s = self.system.sizes
+        y_new, force = (c_double * s.ny)(), (c_double * s.nq)()
+        given = (numbers(q, s.nq, "q"), numbers(qd, s.nq, "qd"), numbers(y_old, s.ny, "y_old"))
+        self._check(self._library.ali3_element_step(self._handle, *given, h, y_new, force))
+        return y_new, force

@@ -1,0 +1,122 @@
+"""The shared library of the kernel: where it is, its functions, whether it is of this version."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
+from pathlib import Path
+from typing import Any
+
+from ..header import STRUCTURES, ControlFields, RecordFields, ReportFields, SettingsFields, Sizes
+
+_DOUBLES = POINTER(c_double)
+_SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
+    "ali3_status_text": (c_char_p, [c_int32]),
+    "ali3_version": (c_uint32, []),
+    "ali3_structure_size": (c_size_t, [c_char_p]),
+    "ali3_system_load": (c_int32, [c_char_p, c_size_t, POINTER(c_void_p), c_char_p, c_size_t]),
+    "ali3_system_free": (None, [c_void_p]),
+    "ali3_system_sizes": (Sizes, [c_void_p]),
+    "ali3_instance_new": (c_int32, [c_void_p, POINTER(c_void_p)]),
+    "ali3_instance_free": (None, [c_void_p]),
+    "ali3_reset": (c_int32, [c_void_p]),
+    "ali3_default_settings": (SettingsFields, []),
+    "ali3_set_settings": (c_int32, [c_void_p, POINTER(SettingsFields)]),
+    "ali3_get_settings": (c_int32, [c_void_p, POINTER(SettingsFields)]),
+    "ali3_set_input": (c_int32, [c_void_p, c_int32, c_double]),
+    "ali3_get_input": (c_int32, [c_void_p, c_int32, _DOUBLES]),
+    "ali3_set_input_function": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "ali3_set_parameter": (c_int32, [c_void_p, c_int32, c_double]),
+    "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),
+    "ali3_set_pose": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double]),
+    "ali3_set_q": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
+    "ali3_set_switch": (c_int32, [c_void_p, c_int32, c_int32]),
+    "ali3_get_switch": (c_int32, [c_void_p, c_int32, POINTER(c_int32)]),
+    "ali3_initialise": (c_int32, [c_void_p, c_double]),
+    "ali3_start_lift": (c_double, [c_void_p]),
+    "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
+    "ali3_step": (c_int32, [c_void_p, c_double]),
+    "ali3_run": (c_int32, [c_void_p, c_double, c_int64, _DOUBLES, c_int64, _DOUBLES, POINTER(c_int64)]),
+    "ali3_control_run": (
+        c_int32,
+        [
+            c_void_p,
+            POINTER(ControlFields),
+            _DOUBLES,
+            c_double,
+            c_int64,
+            POINTER(RecordFields),
+            POINTER(c_int64),
+        ],
+    ),
+    "ali3_refresh": (c_int32, [c_void_p]),
+    "ali3_sensors": (c_int32, [c_void_p, _DOUBLES]),
+    "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
+    "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
+    "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
+    "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
+    "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
+    "ali3_time": (c_double, [c_void_p]),
+    "ali3_solver_value": (c_double, [c_void_p, c_int32]),
+    "ali3_run_doubt": (c_int32, [POINTER(ReportFields)]),
+    "ali3_state_size": (c_size_t, [c_void_p]),
+    "ali3_state_save": (c_int32, [c_void_p, c_char_p, c_size_t]),
+    "ali3_state_restore": (c_int32, [c_void_p, c_char_p, c_size_t]),
+    "ali3_get_state": (c_int32, [c_void_p] + [_DOUBLES] * 5),
+    "ali3_evaluate": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 6),
+    "ali3_mass_matrix": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
+    "ali3_tangent": (c_int32, [c_void_p, c_double, _DOUBLES, _DOUBLES]),
+    "ali3_element_step": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 2),
+}
+
+_OTHER_SOURCES = ": it was compiled from other sources. Compile it again: python -m mbs.kernel.build"
+
+_libraries: dict[str, ctypes.CDLL] = {}
+
+
+def library_path() -> Path:
+    """The library in `lib/` of this package, or what the environment variable ALI3_KERNEL_LIBRARY names."""
+    override = os.environ.get("ALI3_KERNEL_LIBRARY")
+    if override:
+        return Path(override)
+    name = {"win32": "ali3.dll", "darwin": "libali3.dylib"}.get(sys.platform, "libali3.so")
+    return Path(__file__).resolve().parents[1] / "lib" / name
+
+
+def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
+    """Load the kernel.
+
+    Parameters
+    ----------
+    path : path, optional
+        The library; by default `library_path()`.
+
+    Returns
+    -------
+    ctypes.CDLL
+        With argument and result types set.
+
+    Raises
+    ------
+    OSError
+        If the library is not there, not for this platform, or made from other sources than this package.
+    """
+    key = str(Path(path) if path is not None else library_path())
+    if key in _libraries:
+        return _libraries[key]
+    library = ctypes.CDLL(key)
+    for name, (result, arguments) in _SIGNATURES.items():
+        function = getattr(library, name, None)
+        if function is None:
+            raise OSError(f"The kernel {key} has no function {name}{_OTHER_SOURCES}")
+        function.restype = result
+        function.argtypes = arguments
+    for name, structure in STRUCTURES.items():
+        size = ctypes.sizeof(structure)
+        found = library.ali3_structure_size(name.encode())
+        if found != size:
+            raise OSError(f"In the kernel {key} {name} has {found} bytes, in this package {size}{_OTHER_SOURCES}")
+    _libraries[key] = library
+    return library

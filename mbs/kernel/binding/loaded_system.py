@@ -1,0 +1,46 @@
+"""A System in the kernel's memory."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from ctypes import byref, c_void_p
+
+from ..header import Sizes
+from .errors import KernelError, status_text
+from .library import load_library
+
+
+class LoadedSystem:
+    """A System in the kernel's memory, immutable and shared by its instances.
+
+    Parameters
+    ----------
+    data : bytes
+        A System file.
+    library : path, optional
+        The kernel library; by default `library_path()`.
+
+    Attributes
+    ----------
+    sizes : Sizes
+        Numbers of coordinates, rows, inputs, sensors and so on.
+    """
+
+    def __init__(self, data: bytes, library: str | os.PathLike[str] | None = None) -> None:
+        self._handle: c_void_p | None = None
+        self._library = load_library(library)
+        handle = c_void_p()
+        message = ctypes.create_string_buffer(256)
+        status = self._library.ali3_system_load(bytes(data), len(data), byref(handle), message, len(message))
+        if status:
+            text = f"{message.value.decode(errors='replace')}." if message.value else status_text(self._library, status)
+            raise KernelError(status, f"the System file was refused: {text}")
+        self._handle = handle
+        self.sizes: Sizes = self._library.ali3_system_sizes(handle)
+        self.state_size: int = self._library.ali3_state_size(handle)
+
+    def __del__(self) -> None:
+        if self._handle is not None:
+            self._library.ali3_system_free(self._handle)
+            self._handle = None

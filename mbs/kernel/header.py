@@ -1,0 +1,231 @@
+"""Numbers and structures of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+
+from ctypes import POINTER, Structure, c_double, c_int32, c_int64
+from enum import IntEnum
+
+OPEN = 1e-9
+"""A row that is open by less, m, is not why something failed."""
+FARTHEST = 1e8
+"""Largest distance of a start, m."""
+FASTEST = 1e6
+"""Largest speed of a start, m/s."""
+BALANCE_WRONG = 0.036
+"""Energy balance above which, at any time, no run was right that was tried."""
+HALVINGS_SUSPECT = 0.1
+"""Halvings per step above which a run is suspect."""
+DOUBT_FROM = 100
+"""Steps that a run makes before it is judged."""
+
+
+class Status(IntEnum):
+    """Codes of `ali3_status`: how a call of the kernel ended."""
+
+    OK = 0
+    BAD_ARGUMENT = 1
+    BAD_FILE = 2
+    BAD_STATE = 3
+    NO_MEMORY = 4
+    NOT_INITIALISED = 5
+    NOT_ASSEMBLED = 6
+    NOT_CONVERGED = 7
+    SINGULAR = 8
+    NOT_FINITE = 9
+    WRONG_METHOD = 10
+    BELOW_ROAD = 11
+    UNRESOLVED = 12
+    NO_TREE = 13
+    TOO_STIFF = 14
+    TOO_FAR = 15
+    NO_EQUILIBRIUM = 16
+    BRANCH_CHANGED = 17
+
+
+class Update(IntEnum):
+    """`ali3_settings.update`."""
+
+    LINEARISED = 0
+    PAPER = 1
+
+
+class Predictor(IntEnum):
+    """`ali3_settings.predictor`."""
+
+    PARABOLA = 0
+    ACCELERATION = 1
+
+
+class BranchKind(IntEnum):
+    """`ali3_report.branch_kind`."""
+
+    NONE = 0
+    LEFT = 1
+    JUMP = 2
+
+
+class SolverValue(IntEnum):
+    """What the solver says about itself."""
+
+    ITERATIONS = 0
+    VIOLATION = 1
+    RESIDUAL = 2
+    FACTORIZATIONS = 3
+    HALVINGS = 4
+    STATUS = 5
+    ENERGY_ERROR = 6
+    ENERGY_BALANCE = 7
+
+
+class Doubt(IntEnum):
+    """`ali3_doubt`: what a run says against itself."""
+
+    NONE = 0
+    HALVINGS = 1
+    BALANCE = 2
+
+
+class SettingsFields(Structure):
+    """`ali3_settings`."""
+
+    _fields_ = (
+        ("alpha", c_double),
+        ("eps_rel", c_double),
+        ("tolerance_r", c_double),
+        ("tolerance_phi", c_double),
+        ("rho_infinity", c_double),
+        ("max_iterations", c_int32),
+        ("max_halvings", c_int32),
+        ("project", c_int32),
+        ("update", c_int32),
+        ("geometric", c_int32),
+        ("method", c_int32),
+        ("predictor", c_int32),
+    )
+
+
+class ReportFields(Structure):
+    """`ali3_report`."""
+
+    _fields_ = (
+        ("steps", c_int64),
+        ("iterations", c_int64),
+        ("factorizations", c_int64),
+        ("solves", c_int64),
+        ("halvings", c_int64),
+        ("failures", c_int64),
+        ("last_iterations", c_int32),
+        ("max_iterations", c_int32),
+        ("last_status", c_int32),
+        ("negative_pivots", c_int32),
+        ("residual", c_double),
+        ("violation", c_double),
+        ("velocity_violation", c_double),
+        ("worst_row", c_int32),
+        ("worst_coordinate", c_int32),
+        ("energy_jump", c_double),
+        ("energy_error", c_double),
+        ("energy", c_double),
+        ("work", c_double),
+        ("kinetic_peak", c_double),
+        ("speed_peak", c_double),
+        ("velocity_path", c_double),
+        ("predictor_path", c_double),
+        ("fastest_rate", c_double),
+        ("open_power", c_double),
+        ("branch_changes", c_int64),
+        ("branch_time", c_double),
+        ("branch_kind", c_int32),
+        ("branch_loop", c_int32),
+        ("branch_triad", c_int32),
+    )
+
+
+class Sizes(Structure):
+    """`ali3_sizes`."""
+
+    _fields_ = (
+        ("nq", c_int32),
+        ("nc", c_int32),
+        ("nu", c_int32),
+        ("ng", c_int32),
+        ("ne", c_int32),
+        ("ny", c_int32),
+        ("ns", c_int32),
+        ("np", c_int32),
+        ("nout", c_int32),
+        ("nf", c_int32),
+        ("front_size", c_int32),
+        ("nnz_mass", c_int32),
+        ("nnz_rows", c_int32),
+        ("nsig", c_int32),
+        ("has_pose", c_int32),
+        ("n_switch", c_int32),
+    )
+
+
+class ControlFields(Structure):
+    """`ali3_control`."""
+
+    _fields_ = (
+        ("tolerance", c_double),
+        ("length", c_double),
+        ("span", c_double),
+        ("rate", c_double),
+        ("longest", c_double),
+        ("h", c_double),
+        ("last", c_double),
+        ("usual", c_double),
+        ("smallest", c_double),
+        ("largest", c_double),
+        ("error_sum", c_double),
+        ("forced_error", c_double),
+        ("accepted", c_int64),
+        ("rejected", c_int64),
+        ("failed", c_int64),
+        ("forced", c_int64),
+        ("kept", c_int64),
+        ("side_steps", c_int64),
+    )
+
+
+class RecordFields(Structure):
+    """`ali3_record`."""
+
+    _fields_ = (
+        ("n", c_int64),
+        ("time", POINTER(c_double)),
+        ("sensors", POINTER(c_double)),
+        ("positions", POINTER(c_double)),
+    )
+
+
+class InputTable(Structure):
+    """`ali3_input_table`."""
+
+    _fields_ = (
+        ("input", c_int32),
+        ("n", c_int64),
+        ("time", POINTER(c_double)),
+        ("value", POINTER(c_double)),
+    )
+
+
+class InputTables(Structure):
+    """`ali3_input_tables`."""
+
+    _fields_ = (
+        ("tolerance", c_double),
+        ("n", c_int32),
+        ("table", POINTER(InputTable)),
+    )
+
+
+STRUCTURES = {
+    "ali3_settings": SettingsFields,
+    "ali3_report": ReportFields,
+    "ali3_sizes": Sizes,
+    "ali3_control": ControlFields,
+    "ali3_record": RecordFields,
+    "ali3_input_table": InputTable,
+    "ali3_input_tables": InputTables,
+}
+"""By their names in C."""

@@ -1,0 +1,149 @@
+"""Writes `header.py` from the C headers: the numbers and the structures that the kernel and Python share.
+
+The headers are the source. After a change of theirs:
+
+    python mbs/kernel/read_headers.py
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+KERNEL = Path(__file__).resolve().parent
+HEADER = KERNEL / "header.py"
+PUBLIC = "include/ali3.h"
+
+ENUMERATIONS = {
+    "Status": (PUBLIC, "ALI3_OK", "ALI3_", "Codes of `ali3_status`: how a call of the kernel ended."),
+    "Update": (PUBLIC, "ALI3_UPDATE_LINEARISED", "ALI3_UPDATE_", "`ali3_settings.update`."),
+    "Predictor": (PUBLIC, "ALI3_PREDICTOR_PARABOLA", "ALI3_PREDICTOR_", "`ali3_settings.predictor`."),
+    "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
+    "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "What the solver says about itself."),
+    "Doubt": (PUBLIC, "ALI3_DOUBT_NONE", "ALI3_DOUBT_", "`ali3_doubt`: what a run says against itself."),
+}
+"""Per Python name: header, first item, what its items begin with, docstring."""
+LIMITS = {
+    "ALI3_OPEN": "A row that is open by less, m, is not why something failed.",
+    "ALI3_FARTHEST": "Largest distance of a start, m.",
+    "ALI3_FASTEST": "Largest speed of a start, m/s.",
+    "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",
+    "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
+    "ALI3_DOUBT_FROM": "Steps that a run makes before it is judged.",
+}
+STRUCTURES = {
+    "settings": "SettingsFields",
+    "report": "ReportFields",
+    "sizes": "Sizes",
+    "control": "ControlFields",
+    "record": "RecordFields",
+    "input_table": "InputTable",
+    "input_tables": "InputTables",
+}
+"""Names in Python of the structures ``ali3_...``; those that others point to come first."""
+
+_TYPES = {"double": "c_double", "int32_t": "c_int32", "int64_t": "c_int64"}
+
+
+def text_of(file: str) -> str:
+    """A header without its comments."""
+    return re.sub(r"/\*.*?\*/", " ", (KERNEL / file).read_text(encoding="utf-8"), flags=re.DOTALL)
+
+
+def enumeration(file: str, first: str, prefix: str) -> dict[str, int]:
+    """Items of the enumeration that starts with `first`, without the prefix and without its count.
+
+    Raises
+    ------
+    ValueError
+        If the header has no such enumeration or an item has another prefix.
+    """
+    found = re.search(r"enum \{\s*(" + first + r"\b[^}]*)\}", text_of(file))
+    if found is None:
+        raise ValueError(f"{file} has no enumeration that starts with {first}.")
+    items: dict[str, int] = {}
+    value = 0
+    for item in filter(None, (part.strip() for part in found[1].split(","))):
+        name, _, given = (part.strip() for part in item.partition("="))
+        if not name.startswith(prefix):
+            raise ValueError(f"{name} in {file} does not start with {prefix}.")
+        value = int(given) if given else value
+        if not name.endswith("_COUNT"):
+            items[name.removeprefix(prefix)] = value
+        value += 1
+    return items
+
+
+def table(file: str, name: str) -> list[list[str]]:
+    """Entries ``X(...)`` of a list macro: the arguments as text, adjacent strings joined and without quotes."""
+    found = re.search(rf"#define {name}\(X\)((?:[^\n]*\\\n)+[^\n]*)", text_of(file))
+    if found is None:
+        raise ValueError(f"{file} has no list {name}.")
+    argument = re.compile(r'\s*((?:"(?:[^"\\]|\\.)*"\s*)+|[^,()"]+?)\s*([,)])')
+    entries, text, at = [], found[1].replace("\\\n", " "), 0
+    while (start := text.find("X(", at)) >= 0:
+        at, end, entry = start + 2, "", []
+        while end != ")":
+            part = argument.match(text, at)
+            if part is None:
+                raise ValueError(f"an entry of {name} in {file} cannot be read: {text[start : start + 60]}")
+            entry.append(str(ast.literal_eval(f"({part[1]})")) if part[1].startswith('"') else part[1])
+            at, end = part.end(), part[2]
+        entries.append(entry)
+    return entries
+
+
+def structure(name: str) -> list[tuple[str, str]]:
+    """Fields of ``ali3_name`` and their ctypes."""
+    found = re.search(rf"typedef struct \{{([^{{}}]*)\}} ali3_{name};", text_of(PUBLIC))
+    if found is None:
+        raise ValueError(f"{PUBLIC} has no structure ali3_{name}.")
+    fields = []
+    for declaration in filter(None, (part.strip() for part in found[1].split(";"))):
+        kind, _, names = declaration.removeprefix("const ").partition(" ")
+        for field in names.split(","):
+            pointer = field.strip().startswith("*")
+            ctype = _TYPES.get(kind) or STRUCTURES[kind.removeprefix("ali3_")]
+            fields.append((field.strip(" *"), f"POINTER({ctype})" if pointer else ctype))
+    return fields
+
+
+def header() -> str:
+    """Text of `header.py`."""
+    parts = [
+        '"""Numbers and structures of the kernel\'s C headers. Written by `python mbs/kernel/read_headers.py`."""',
+        "from ctypes import POINTER, Structure, c_double, c_int32, c_int64\nfrom enum import IntEnum",
+    ]
+    public, limits = text_of(PUBLIC), []
+    for name, text in LIMITS.items():
+        found = re.search(rf"#define {name} (\S+)", public)
+        if found is None:
+            raise ValueError(f"{PUBLIC} does not define {name}.")
+        limits.append(f'{name.removeprefix("ALI3_")} = {found[1]}\n"""{text}"""')
+    parts.append("\n".join(limits))
+    for name, (file, first, prefix, text) in ENUMERATIONS.items():
+        items = enumeration(file, first, prefix).items()
+        parts.append(_class(name, "IntEnum", text, (f"{item} = {value}" for item, value in items)))
+    for c_name, name in STRUCTURES.items():
+        fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
+        body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")
+        parts.append(_class(name, "Structure", f"`ali3_{c_name}`.", body))
+    names = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
+    parts.append(f'\nSTRUCTURES = {{\n{names}\n}}\n"""By their names in C."""')
+    return "\n\n".join(parts) + "\n"
+
+
+def _class(name: str, base: str, text: str, body: Iterable[str]) -> str:
+    lines = "\n".join(f"    {line}" for line in body)
+    return f'\nclass {name}({base}):\n    """{text}"""\n\n{lines}'
+
+
+def main() -> None:
+    """Write `header.py`."""
+    HEADER.write_text(header(), encoding="utf-8", newline="\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,108 @@
+/* Multifrontal L D L' of the tangent: dense column-major fronts, no pivoting, Schur complements added into the parent.
+ * In the columns of its pivots a factorised front holds L below the diagonal and 1/D on it. */
+#include "fronts.h"
+#include "../instance.h"
+#include "front_block.h"
+
+static void subtract(double *restrict target, const double *restrict column, double factor, int32_t from, int32_t n) {
+  for (int32_t i = from; i < n; i++) target[i] -= factor * column[i];
+}
+
+/* Four pivots at once, so that a column is loaded and stored once for eight operations. */
+static void subtract_panel(double *restrict target, const double *restrict c, int32_t n, const double f[PANEL],
+                           int32_t from) {
+  const double *restrict c1 = c + n, *restrict c2 = c + 2 * (int64_t)n, *restrict c3 = c + 3 * (int64_t)n;
+  const double f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
+  for (int32_t i = from; i < n; i++) target[i] -= (f0 * c[i] + f1 * c1[i]) + (f2 * c2[i] + f3 * c3[i]);
+}
+
+/* Panels of pivots: first the columns of the panel among themselves, then column j of the rest loses L_jp times the
+ * unscaled column p, so that the inner loops run down columns. */
+static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n) {
+  for (int32_t start = 0; start < n_pivot; start += PANEL) {
+    const int32_t end = start + PANEL < n_pivot ? start + PANEL : n_pivot;
+    double *panel = block + (int64_t)start * n, inverse[PANEL], factor[PANEL];
+    for (int32_t p = start; p < end; p++) {
+      double *column = block + (int64_t)p * n;
+      for (int32_t k = start; k < p; k++)
+        subtract(column, block + (int64_t)k * n, block[(int64_t)k * n + p] * inverse[k - start], p, n);
+      const ali3_status status = ali3_check_pivot(in, first + p, column[p]);
+      if (status != ALI3_OK) return status;
+      inverse[p - start] = 1.0 / column[p];
+    }
+    for (int32_t j = end; j < n; j++) {
+      for (int32_t p = start; p < end; p++) factor[p - start] = block[(int64_t)p * n + j] * inverse[p - start];
+      if (end - start == PANEL)
+        subtract_panel(block + (int64_t)j * n, panel, n, factor, j);
+      else
+        for (int32_t p = start; p < end; p++)
+          subtract(block + (int64_t)j * n, block + (int64_t)p * n, factor[p - start], j, n);
+    }
+    for (int32_t p = start; p < end; p++) {
+      double *column = block + (int64_t)p * n;
+      for (int32_t i = p + 1; i < n; i++) column[i] *= inverse[p - start];
+      column[p] = inverse[p - start];
+    }
+  }
+  return ALI3_OK;
+}
+
+ali3_status ali3_factorise(ali3_instance *in, double *F) {
+  const ali3_system *S = in->system;
+  in->report.factorizations++;
+  in->report.negative_pivots = 0;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first,
+                  n = S->front_ptr[f + 1] - S->front_ptr[f];
+    const int32_t *map = S->front_map + S->front_ptr[f], parent = S->front_parent[f];
+    double *block = F + S->front_off[f];
+    const ali3_status status = eliminate(in, block, first, n_pivot, n);
+    if (status != ALI3_OK) return status;
+    if (parent < 0) continue;
+    const int32_t parent_n = S->front_ptr[parent + 1] - S->front_ptr[parent];
+    for (int32_t j = n_pivot; j < n; j++) {
+      const double *column = block + (int64_t)j * n;
+      double *target = F + S->front_off[parent] + (int64_t)map[j] * parent_n;
+      for (int32_t i = j; i < n; i++) target[map[i]] += column[i];
+    }
+  }
+  return ALI3_OK;
+}
+
+/* Sum of column and x from `from` on, in two sums so that additions need not wait for each other. */
+static double product(const double *restrict column, const double *restrict x, int32_t from, int32_t n) {
+  double even = 0.0, odd = 0.0;
+  int32_t i = from;
+  for (; i + 1 < n; i += 2) {
+    even += column[i] * x[i];
+    odd += column[i + 1] * x[i + 1];
+  }
+  if (i < n) even += column[i] * x[i];
+  return even + odd;
+}
+
+/* b becomes the solution. */
+void ali3_solve(ali3_instance *in, const double *F, double *b) {
+  const ali3_system *S = in->system;
+  double *x = in->local;
+  in->report.solves++;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
+    const int32_t *idx = S->front_idx + S->front_ptr[f];
+    for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
+    const double *block = F + S->front_off[f];
+    ali3_front_forward(block, x, n_pivot, n);
+    for (int32_t p = 0; p < n_pivot; p++) x[p] *= block[(int64_t)p * n + p];
+    for (int32_t i = 0; i < n; i++) b[idx[i]] = x[i];
+  }
+  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
+    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
+    const double *block = F + S->front_off[f];
+    for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
+    for (int32_t p = n_pivot - 1; p >= 0; p--) {
+      x[p] -= product(block + (int64_t)p * n, x, p + 1, n);
+      b[first + p] = x[p];
+    }
+  }
+}

@@ -1,0 +1,150 @@
+/* Multifrontal L U of a matrix whose pattern is symmetric but whose numbers are not quite: the fronts of the tangent,
+ * whole blocks instead of lower triangles, no pivoting. A factorised front holds L below the diagonal (ones on it are
+ * not stored) and U above, with the inverse of its diagonal. A coordinate may stand for several unknowns (`width`), one
+ * beside the other in vectors and fronts. */
+#include "../instance.h"
+#include "front_block.h"
+#include "fronts.h"
+
+#define ALI3_INLINED __attribute__((always_inline)) /* compiled apart for each width */
+
+/* Panels of pivots: columns of the panel among themselves, then the others lose the panel at once. */
+static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n,
+                             int32_t width) {
+  for (int32_t start = 0; start < n_pivot; start += PANEL) {
+    const int32_t end = start + PANEL < n_pivot ? start + PANEL : n_pivot;
+    for (int32_t p = start; p < end; p++) {
+      double *restrict column = block + (int64_t)p * n;
+      for (int32_t k = start; k < p; k++) {
+        const double *restrict left = block + (int64_t)k * n, factor = column[k];
+        for (int32_t i = k + 1; i < n; i++) column[i] -= factor * left[i];
+      }
+      const ali3_status status = ali3_check_pivot(in, first + p / width, column[p]);
+      if (status != ALI3_OK) return status;
+      const double inverse = 1.0 / column[p];
+      column[p] = inverse;
+      for (int32_t i = p + 1; i < n; i++) column[i] *= inverse;
+    }
+    for (int32_t j = end; j < n; j++) {
+      double *restrict column = block + (int64_t)j * n;
+      if (end - start == PANEL) {
+        const double *restrict a = block + (int64_t)start * n, *restrict b = a + n, *restrict c = b + n,
+                               *restrict d = c + n;
+        const double u0 = column[start], u1 = column[start + 1] - a[start + 1] * u0,
+                     u2 = column[start + 2] - (a[start + 2] * u0 + b[start + 2] * u1),
+                     u3 = column[start + 3] - (a[start + 3] * u0 + b[start + 3] * u1 + c[start + 3] * u2);
+        column[start + 1] = u1;
+        column[start + 2] = u2;
+        column[start + 3] = u3;
+        for (int32_t i = end; i < n; i++) column[i] -= (u0 * a[i] + u1 * b[i]) + (u2 * c[i] + u3 * d[i]);
+      } else {
+        for (int32_t p = start; p < end; p++) {
+          const double *restrict left = block + (int64_t)p * n, factor = column[p];
+          for (int32_t i = p + 1; i < n; i++) column[i] -= factor * left[i];
+        }
+      }
+    }
+  }
+  return ALI3_OK;
+}
+
+/* Fills the upper triangles from the lower ones. */
+void ali3_mirror(const ali3_instance *in, double *F) {
+  const ali3_system *S = in->system;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
+    double *block = F + S->front_off[f];
+    for (int32_t j = 0; j < n; j++)
+      for (int32_t i = j + 1; i < n; i++) block[(int64_t)i * n + j] = block[(int64_t)j * n + i];
+  }
+}
+
+/* The offset of a front in F is width^2 that of the tangent. */
+ALI3_INLINED static inline ali3_status factorise(ali3_instance *in, int32_t width, double *F) {
+  const ali3_system *S = in->system;
+  const int64_t square = (int64_t)width * width;
+  in->report.factorizations++;
+  in->report.negative_pivots = 0;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t first = S->front_col[f], first_rest = S->front_col[f + 1] - first,
+                  coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n_pivot = width * first_rest,
+                  n = width * coordinates;
+    const int32_t *map = S->front_map + S->front_ptr[f], parent = S->front_parent[f];
+    double *block = F + square * S->front_off[f];
+    const ali3_status status = eliminate(in, block, first, n_pivot, n, width);
+    if (status != ALI3_OK) return status;
+    if (parent < 0) continue;
+    const int32_t parent_n = width * (S->front_ptr[parent + 1] - S->front_ptr[parent]);
+    for (int32_t j = n_pivot; j < n; j++) {
+      const double *column = block + (int64_t)j * n;
+      double *target = F + square * S->front_off[parent] + (int64_t)(width * map[j / width] + j % width) * parent_n;
+      for (int32_t i = first_rest; i < coordinates; i++)
+        for (int32_t s = 0; s < width; s++) target[width * map[i] + s] += column[width * i + s];
+    }
+  }
+  return ALI3_OK;
+}
+
+/* A loop over one unknown would cost small fronts five percent. */
+ali3_status ali3_factorise_lu(ali3_instance *in, int32_t width, double *F) {
+  return width == 1 ? factorise(in, 1, F) : factorise(in, ALI3_RADAU, F);
+}
+
+/* The part of b that belongs to a front of so many coordinates. */
+ALI3_INLINED static inline void gather(const int32_t *idx, int32_t width, int32_t coordinates, const double *restrict b,
+                                       double *restrict x) {
+  for (int32_t i = 0; i < coordinates; i++)
+    for (int32_t s = 0; s < width; s++) x[width * i + s] = b[width * idx[i] + s];
+}
+
+/* The pivots of x become the solution, the rest of which is there already; down the columns of U, two at a time. */
+static void backward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
+  int32_t j = n - 1;
+  for (; j > n_pivot; j -= 2) {
+    const double *restrict b = block + (int64_t)j * n, *restrict a = b - n;
+    const double first = x[j - 1], second = x[j];
+    for (int32_t i = 0; i < n_pivot; i++) x[i] -= a[i] * first + b[i] * second;
+  }
+  if (j == n_pivot) {
+    const double *restrict a = block + (int64_t)j * n, first = x[j];
+    for (int32_t i = 0; i < n_pivot; i++) x[i] -= a[i] * first;
+  }
+  for (int32_t p = n_pivot - 1; p >= 0; p--) {
+    const double *restrict column = block + (int64_t)p * n, factor = x[p] * column[p];
+    x[p] = factor;
+    for (int32_t i = 0; i < p; i++) x[i] -= factor * column[i];
+  }
+}
+
+/* b becomes the solution. */
+ALI3_INLINED static inline void solve(ali3_instance *in, int32_t width, const double *F, double *b) {
+  const ali3_system *S = in->system;
+  const int64_t square = (int64_t)width * width;
+  double *restrict x = in->local;
+  in->report.solves++;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n = width * coordinates,
+                  n_pivot = width * (S->front_col[f + 1] - S->front_col[f]);
+    const int32_t *idx = S->front_idx + S->front_ptr[f];
+    const double *block = F + square * S->front_off[f];
+    gather(idx, width, coordinates, b, x);
+    ali3_front_forward(block, x, n_pivot, n);
+    for (int32_t i = 0; i < coordinates; i++)
+      for (int32_t s = 0; s < width; s++) b[width * idx[i] + s] = x[width * i + s];
+  }
+  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
+    const int32_t first = S->front_col[f], n_pivot = width * (S->front_col[f + 1] - first);
+    const int32_t coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n = width * coordinates;
+    const int32_t *idx = S->front_idx + S->front_ptr[f];
+    gather(idx, width, coordinates, b, x);
+    backward(F + square * S->front_off[f], x, n_pivot, n);
+    for (int32_t p = 0; p < n_pivot; p++) b[width * first + p] = x[p];
+  }
+}
+
+void ali3_solve_lu(ali3_instance *in, int32_t width, const double *F, double *b) {
+  if (width == 1)
+    solve(in, 1, F, b);
+  else
+    solve(in, ALI3_RADAU, F, b);
+}

@@ -1,0 +1,118 @@
+/* Looks inside for tests and linearisation: rows, forces, tangent and element steps at given values. The state stays
+ * as it is. */
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../instance.h"
+#include "../methods/newton.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
+
+static void copy(double *to, const double *from, int64_t n) {
+  if (to != NULL && n > 0) memcpy(to, from, (size_t)n * sizeof(double));
+}
+
+ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam, double *y) {
+  if (in == NULL) return ALI3_BAD_ARGUMENT;
+  const ali3_sizes *z = &in->system->size;
+  copy(q, in->now.q, z->nq);
+  copy(qd, in->now.qd, z->nq);
+  copy(qdd, in->now.qdd, z->nq);
+  copy(lam, in->now.lam, z->nc);
+  copy(y, in->now.y, z->ny);
+  return ALI3_OK;
+}
+
+ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, const double *y, double t, double *phi,
+                          double *jacobian_values, double *phi_t, double *gamma, double *force, double *outputs) {
+  if (in == NULL || q == NULL || qd == NULL) return ALI3_BAD_ARGUMENT;
+  const ali3_sizes *z = &in->system->size;
+  if (!ali3_finite(q, z->nq) || !ali3_finite(qd, z->nq) || (y != NULL && !ali3_finite(y, z->ny)) || !(t - t == 0.0))
+    return ALI3_BAD_ARGUMENT;
+  ali3_vectors *work = &in->next;
+  copy(work->s, in->now.s, z->ng);
+  copy(work->sd, in->now.sd, z->ng);
+  copy(work->sdd, in->now.sdd, z->ng);
+  ali3_guides_time(in, work, t);
+  ali3_constraints(in, q, work->s, in->Phi, in->J);
+  ali3_constraint_rate(in, q, work, in->Phit);
+  ali3_constraint_gamma(in, q, qd, work, in->gamma);
+  const ali3_force_call call = {q,          qd,           y != NULL ? y : in->now.y, 0.0, 0.0, 0.0, false, in->Q,
+                                in->y_work, in->out_work, in->potential_work};
+  ali3_forces(in, &call);
+  copy(phi, in->Phi, z->nc);
+  copy(jacobian_values, in->J, z->nnz_rows);
+  copy(phi_t, in->Phit, z->nc);
+  copy(gamma, in->gamma, z->nc);
+  copy(force, in->Q, z->nq);
+  copy(outputs, in->out_work, z->nout);
+  return ALI3_OK;
+}
+
+/* Lower triangles of the fronts as a dense symmetric matrix. */
+static void spread(const ali3_instance *in, double *dense) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  memset(dense, 0, (size_t)nq * (size_t)nq * sizeof(double));
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
+    for (int32_t j = 0; j < n; j++)
+      for (int32_t i = j; i < n; i++) {
+        const double value = in->F[S->front_off[f] + (int64_t)j * n + i];
+        dense[(int64_t)idx[i] * nq + idx[j]] += value;
+        if (i != j) dense[(int64_t)idx[j] * nq + idx[i]] += value;
+      }
+  }
+}
+
+ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) {
+  if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
+  memcpy(in->F, in->system->front_mass, (size_t)in->system->size.front_size * sizeof(double));
+  ali3_flexible_prepare(in, q);
+  ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+  spread(in, dense);
+  return ALI3_OK;
+}
+
+ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense) {
+  if (in == NULL || dense == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+  if (lam != NULL && !ali3_finite(lam, in->system->size.nc)) return ALI3_BAD_ARGUMENT;
+  const ali3_system *S = in->system;
+  const double c = 0.25 * h * h;
+  const ali3_vectors *v = &in->now;
+  const ali3_force_call call = {
+      v->q, v->qd, v->y, h, 0.5 * h, c, true, in->Q, in->y_work, in->out_work, in->potential_work};
+  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  ali3_forces(in, &call);
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_rows_square(in, in->J, c * ali3_penalty(in, h), in->F);
+  if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
+  ali3_forces_tangent(in, in->F);
+  spread(in, dense);
+  return ALI3_OK;
+}
+
+ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old, double h,
+                              double *y_new, double *force) {
+  if (in == NULL || q == NULL || qd == NULL || !(h >= 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+  const ali3_sizes *z = &in->system->size;
+  if (!ali3_finite(q, z->nq) || !ali3_finite(qd, z->nq) || (y_old != NULL && !ali3_finite(y_old, z->ny)))
+    return ALI3_BAD_ARGUMENT;
+  const ali3_force_call call = {q,
+                                qd,
+                                y_old != NULL ? y_old : in->now.y,
+                                h,
+                                0.5 * h,
+                                0.25 * h * h,
+                                false,
+                                in->Q,
+                                in->y_work,
+                                in->out_work,
+                                in->potential_work};
+  ali3_forces(in, &call);
+  copy(y_new, in->y_work, z->ny);
+  copy(force, in->Q, z->nq);
+  return ALI3_OK;
+}

@@ -1,0 +1,63 @@
+/* Rows that are switched on and off at run time: a joint that closes or opens without a new System. A row that is off
+ * is a row of zeros; one that is switched on holds the value it has at that moment (its anchor). */
+#include <math.h>
+#include <string.h>
+
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../start/initialise.h"
+#include "../state/books.h"
+#include "../state/vectors.h"
+
+static double kinetic_energy(ali3_instance *in) {
+  ali3_flexible_prepare(in, in->now.q);
+  return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
+}
+
+static void set(ali3_instance *in, int32_t number, bool on) {
+  const ali3_system *S = in->system;
+  in->now.on[number] = 1.0;
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (S->row_switch[k] == number) in->now.anchor[k] = 0.0;
+  if (!on) {
+    in->now.on[number] = 0.0;
+    return;
+  }
+  if (!in->initialised) return; /* at the start rows hold what the drawing says */
+  ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (S->row_switch[k] == number) in->now.anchor[k] = in->Phi[k];
+}
+
+/* Velocities go to the nearest ones in the metric of the mass (an impact without rebound), accelerations and
+ * multipliers are solved anew; what the impact takes is in report.energy_jump. */
+ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
+  if (in == NULL || number < 0 || number >= in->system->size.n_switch || (on != 0 && on != 1)) return ALI3_BAD_ARGUMENT;
+  if ((in->now.on[number] != 0.0) == (on == 1)) return ALI3_OK;
+  if (!in->initialised) {
+    set(in, number, on == 1);
+    return ALI3_OK;
+  }
+  ali3_vectors_copy(in, &in->start, &in->now);
+  const double before = kinetic_energy(in);
+  set(in, number, on == 1);
+  const ali3_status status = ali3_solve_rates(in, false);
+  in->report.last_status = (int32_t)status;
+  if (status != ALI3_OK) {
+    ali3_vectors_copy(in, &in->now, &in->start);
+    in->report.failures++;
+    return status;
+  }
+  in->report.energy_jump = kinetic_energy(in) - before;
+  memset(in->now.memory, 0, ALI3_MEMORY * sizeof(double));
+  ali3_books_open(in);
+  return ALI3_OK;
+}
+
+ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on) {
+  if (in == NULL || on == NULL || number < 0 || number >= in->system->size.n_switch) return ALI3_BAD_ARGUMENT;
+  *on = in->now.on[number] != 0.0;
+  return ALI3_OK;
+}

@@ -1,0 +1,16 @@
+/* Forces of all elements and flexible bodies, and their tangents. */
+#ifndef ALI3_FORCES_H
+#define ALI3_FORCES_H
+#include "../instance.h"
+
+typedef struct {
+  const double *q, *qd, *y_old;
+  double h, wC, wK;
+  bool tangent;
+  double *Q, *y_new, *out, *potential;
+} ali3_force_call;
+void ali3_forces(ali3_instance *in, const ali3_force_call *call);
+void ali3_elements_tangent(ali3_instance *in, double *F);
+void ali3_forces_tangent(ali3_instance *in, double *F);
+void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call);
+#endif

@@ -1,0 +1,71 @@
+/* A flexible body in the arrays of a System, and the loops that its files share. */
+#ifndef ALI3_BODY_ARRAYS_H
+#define ALI3_BODY_ARRAYS_H
+#include "../instance.h"
+
+enum {
+  ALI3_FLEX_AXES = 0,
+  ALI3_FLEX_FIRST = 9,
+  ALI3_FLEX_SECOND = 12,
+  ALI3_FLEX_COUPLING = 21
+}; /* places in the work */
+
+typedef struct {
+  int32_t n;                          /* modes */
+  const int32_t *frame, *mode, *loc;  /* 12, n, 12 + n */
+  const double *P, *c, *E, *H, *K, *C, *gravity;
+  double *A, *S, *J, *D;              /* axes; P eta; J - J0; 9 x n */
+} ali3_flexible;
+
+static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b) {
+  const ali3_system *s = in->system;
+  const int64_t first = s->flex_mode_ptr[b], n = s->flex_mode_ptr[b + 1] - first, square = s->flex_square[b];
+  double *work = in->flex + ALI3_FLEX_COUPLING * (int64_t)b + 9 * first;
+  const ali3_flexible f = {(int32_t)n,
+                           s->flex_frame + 12 * (int64_t)b,
+                           s->flex_mode + first,
+                           s->flex_loc + 12 * (int64_t)b + first,
+                           s->flex_P + 3 * first,
+                           s->flex_c + 9 * first,
+                           s->flex_T + 9 * square,
+                           s->flex_T + 9 * square + 6 * n * n,
+                           s->flex_K + square,
+                           s->flex_C + square,
+                           s->flex_gravity + 3 * (int64_t)b,
+                           work + ALI3_FLEX_AXES,
+                           work + ALI3_FLEX_FIRST,
+                           work + ALI3_FLEX_SECOND,
+                           work + ALI3_FLEX_COUPLING};
+  return f;
+}
+
+/* out += M x, M by columns; four columns at once. */
+static inline void ali3_accumulate(int32_t n, const double *restrict M, const double *restrict x,
+                                   double *restrict out) {
+  int32_t l = 0;
+  for (; l + 3 < n; l += 4) {
+    const double *restrict c0 = M + (int64_t)l * n, *restrict c1 = c0 + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
+    const double x0 = x[l], x1 = x[l + 1], x2 = x[l + 2], x3 = x[l + 3];
+    for (int32_t i = 0; i < n; i++) out[i] += (c0[i] * x0 + c1[i] * x1) + (c2[i] * x2 + c3[i] * x3);
+  }
+  for (; l < n; l++) {
+    const double *restrict column = M + (int64_t)l * n, factor = x[l];
+    for (int32_t i = 0; i < n; i++) out[i] += column[i] * factor;
+  }
+}
+
+static inline double ali3_inner(int32_t n, const double *restrict a, const double *restrict b) {
+  double even = 0.0, odd = 0.0;
+  int32_t i = 0;
+  for (; i + 1 < n; i += 2) {
+    even += a[i] * b[i];
+    odd += a[i + 1] * b[i + 1];
+  }
+  if (i < n) even += a[i] * b[i];
+  return even + odd;
+}
+
+static inline void ali3_gather(int32_t n, const int32_t *index, const double *from, double *to) {
+  for (int32_t i = 0; i < n; i++) to[i] = from[index[i]];
+}
+#endif

@@ -1,0 +1,25 @@
+/* M x: the constant mass matrix and what flexible bodies add to it. */
+#include "mass.h"
+#include "../instance.h"
+#include "flexible_body.h"
+
+void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out) {
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    double sum = 0.0;
+    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += S->mass_val[k] * x[S->mass_col[k]];
+    out[i] = sum;
+  }
+}
+
+void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
+  ali3_constant_mass_times(in->system, x, out);
+  if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
+}
+
+/* a' M b, M of the last q prepared; M b stays in `work` (nq). */
+double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work) {
+  double sum = 0.0;
+  ali3_mass_times(in, b, work);
+  for (int32_t i = 0; i < in->system->size.nq; i++) sum += work[i] * a[i];
+  return sum;
+}

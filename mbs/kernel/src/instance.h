@@ -1,0 +1,104 @@
+/* The instance of a System: its state, settings and work space. */
+#ifndef ALI3_INSTANCE_H
+#define ALI3_INSTANCE_H
+#include <stdbool.h>
+
+#include "system.h"
+
+typedef struct ali3_road ali3_road;           /* elements/road.h */
+typedef struct ali3_tree_work ali3_tree_work; /* tree/tree.h: their work space */
+
+/* One state; the vectors lie in one block of `n` doubles so that a copy is one memcpy. */
+typedef struct {
+  double *q, *qd, *qdd, *lam, *y;
+  double *mean, *mean_before; /* mean rates of the last two steps, of systems with flexible bodies */
+  double *s, *sd, *sdd;      /* guides */
+  double *out, *potential;   /* of the last evaluation of the elements */
+  double *used;              /* inputs as used in the last step */
+  double *y_last, *h_last;   /* of the last step: slots at its start (ny), its size; 0 at a start */
+  double *on, *anchor;       /* switches: 0 or 1; nc where there are any: what a switched row holds */
+  /* of the methods that carry more than q, qd, qdd */
+  double *memory;            /* whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
+  double *own;               /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
+  double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
+  /* work.c: since the start; potential at the start; power, then forces, at the end of the last step; of the last step
+   * mean forces, ways of their signals */
+  double *work, *stored, *watched, *step_force, *step_way;
+} ali3_vectors;
+
+enum { ALI3_STAGES = 12, ALI3_RADAU = 3 }; /* of runge_kutta.c, radau.c */
+enum { ALI3_PAST = 4, ALI3_MEMORY_OWNER = 0, ALI3_MEMORY_COUNT, ALI3_MEMORY_TIME, ALI3_MEMORY = 2 + ALI3_PAST };
+
+/* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
+typedef struct {
+  double c, rate, wC;
+} ali3_rule;
+
+struct ali3_instance {
+  const ali3_system *system;
+  void (*release)(void *block);
+  ali3_settings settings;
+  ali3_report report;
+  ali3_report report_before; /* of the step that branch_watch.c may make again */
+  double t_base, h_last; /* time = t_base + count * h_last */
+  bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
+  int64_t count;
+  int32_t initialised;
+  /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
+  ali3_vectors now, next, start, whole, tangent;
+  ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
+  ali3_rule rule;
+  bool kept; /* in->start holds the state before the step */
+  bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
+  bool sampled; /* only sensors will look at it */
+  bool controlled; /* steps change from one to the next, and may be forgotten */
+  size_t n_vector;
+  double *input, *input_work, *parameter, *input_middle;
+  const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */
+  double *el_real, *guide_real, *road_real; /* copies that parameters write to */
+  ali3_road *road;
+  /* work space */
+  double *D, *d0, *r, *x, *w, *hat; /* nq */
+  double *stage; /* ALI3_STAGES x nq: accelerations, of radau.c residuals too */
+  double *middle, *rate; /* nq: position and velocity in the middle of the step */
+  double *J0, *A, *A_tangent; /* row pattern: Phi_q at the start, discrete derivative, where F was made */
+  double *at_J0; /* nq, ng, switches: where J0 was made */
+  bool has_J0;
+  double *Phi, *Phit, *gamma, *mu, *lam; /* nc */
+  double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
+  double *F; /* front storage */
+  double *Q; /* nq */
+  double *u, *ud; /* signals */
+  double *S; /* signal tangents of all elements */
+  double *SB; /* one element: signals x coordinates */
+  unsigned char *idle; /* ne: 1 where the last ali3_forces met no force and no tangent */
+  double *correction_q, *step_q, *correction_lam, *step_lam; /* of the last iteration */
+  double *local; /* one front */
+  double *shifted; /* nq */
+  double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
+  double wC, wK; /* weights of the last forces */
+  /* of radau.c, empty where states have memory: stages of the rows, of Phi_q, of where the tangent saw it, of
+   * corrections */
+  double *stage_Phi, *stage_lam, *stage_J, *stage_J_tangent, *stage_x;
+  double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
+  double *y_work, *out_work, *potential_work, *parameter_work;
+  ali3_tree_work *tree;
+  /* inputs.c: who is asked, inputs at the start of the step, when it starts, its length, the time of in->now */
+  ali3_input_function *input_function;
+  void *input_context;
+  double *input_begin, *stage_input; /* nu; of the stages of radau.c */
+  double input_time, input_length, t_now;
+  /* of branch_watch.c, signed squares: sines and cosines of the triads at in->now; sines before the step, after it, after it in parts;
+   * loops that left their modes */
+  double *mode_sine, *mode_cosine, *sine_before, *sine_after, *sine_few, *mode_left;
+  ali3_vectors before; /* the state before a step where branches may be near */
+  bool mode_known, branch_kept;
+  /* of start_equilibrium.c: where a start is and how a pose moves it; the last pose; who placed the present start */
+  double *start_q, *pose_0, *pose_cos, *pose_sin, pose[5];
+  int32_t placed;
+  bool start_moved; /* not as in the file */
+  double *watched, *work_sum, *stage_power; /* work.c: of the last ali3_forces; of the stages of a step */
+};
+
+enum { ALI3_PLACED_BY_FILE = 0, ALI3_PLACED_BY_POSE, ALI3_PLACED_BY_Q };
+#endif

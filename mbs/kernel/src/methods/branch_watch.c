@@ -1,0 +1,162 @@
+/* What watches over the assembly modes of closed loops, step by step, and reports a change once it is made.
+ *
+ * Left: a loop is in none of its modes, as after a dead centre that it was not meant to reach.
+ * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes its
+ * sign is made again in 4 and in 8 parts: where these agree with each other and not with it, the step has jumped. On
+ * the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
+#include <math.h>
+#include <string.h>
+
+#include "../instance.h"
+#include "../rows/assembly_mode.h"
+#include "../state/vectors.h"
+#include "branch_watch.h"
+#include "check_method.h"
+#include "steps.h"
+
+static const double IN_LINE = 0.25; /* square of the largest sine of a ring whose branches may be near */
+static const double APART = 0.5; /* of the change in the step: the parts come out elsewhere; of that: they agree */
+enum { FEW = 4, MANY = 8 };
+
+enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
+
+static bool watches(const ali3_instance *in) { return ali3_triad_count(in->system) > 0; }
+
+/* Whether triad k and all others of its ring, at least one, are nearly in line. */
+static bool in_line(const ali3_instance *in, const double *sine, int32_t k, int32_t first, int32_t end) {
+  const int32_t *ring = in->system->mode_triad + RING;
+  int32_t n = 0;
+  for (int32_t j = first; j < end; j++) {
+    if (ring[ITEMS * j] != ring[ITEMS * k]) continue;
+    if (!(fabs(sine[j]) < IN_LINE)) return false;
+    n++;
+  }
+  return n > 1;
+}
+
+static void look(ali3_instance *in) {
+  ali3_mode_angles(in, in->now.q);
+  for (int64_t loop = 0; loop < ali3_loop_count(in->system); loop++)
+    in->mode_left[loop] = ali3_mode_left(in, loop) >= 0 ? 1.0 : 0.0;
+}
+
+static void report(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind, double t) {
+  ali3_report *r = &in->report;
+  if (r->branch_changes++ > 0) return; /* the first is told */
+  r->branch_loop = (int32_t)loop;
+  r->branch_triad = triad;
+  r->branch_kind = kind;
+  r->branch_time = t;
+}
+
+/* Before a step: the angles it starts from, and the whole state where branches may be near. */
+void ali3_branch_before(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  in->branch_kept = false;
+  if (!watches(in)) return;
+  if (!in->mode_known) look(in);
+  in->mode_known = true;
+  for (int64_t k = 0; k < ali3_triad_count(S); k++) in->sine_before[k] = in->mode_sine[k];
+  if (ali3_relative(in)) return; /* its state is not always that of the last step */
+  for (int64_t loop = 0; loop < ali3_loop_count(S) && !in->branch_kept; loop++) {
+    const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
+    for (int32_t k = first; k < end && !in->branch_kept; k++)
+      in->branch_kept = in_line(in, in->mode_sine, k, first, end);
+  }
+  if (!in->branch_kept) return;
+  ali3_vectors_copy(in, &in->before, &in->now);
+  in->report_before = in->report;
+}
+
+/* Back to before the step, with the books that go with it: they take part in the judgement of a step. */
+static void again(ali3_instance *in) {
+  ali3_vectors_copy(in, &in->now, &in->before);
+  in->report = in->report_before;
+  in->t_now = ali3_time(in); /* that of the last whole step */
+}
+
+/* The step from in->before in n equal parts, the angles at its end; false where a part fails. */
+static bool in_parts(ali3_instance *in, double t, double h, int n) {
+  again(in);
+  for (int i = 1; i <= n; i++) {
+    in->kept = false;
+    if (ali3_advance(in, t - h + h * (double)i / n, h / n, 0) != ALI3_OK) return false;
+  }
+  ali3_mode_angles(in, in->now.q);
+  return true;
+}
+
+/* Whether a step made triad k of a loop with the triads first to end change its sign where branches may be near. */
+static bool crossed(const ali3_instance *in, int32_t k, int32_t first, int32_t end) {
+  return in->sine_before[k] * in->sine_after[k] < 0.0 && in_line(in, in->sine_before, k, first, end) &&
+         in_line(in, in->sine_after, k, first, end);
+}
+
+static double root(double signed_square) { return signed_square < 0.0 ? -sqrt(-signed_square) : sqrt(signed_square); }
+
+/* The first triad, counted in its loop, whose sign the step changed otherwise than its parts do, or -1. */
+static int32_t jumped(ali3_instance *in, double t, double h, int32_t first, int32_t end) {
+  const size_t all = (size_t)ali3_triad_count(in->system) * sizeof(double);
+  if (!in_parts(in, t, h, FEW)) return -1;
+  memcpy(in->sine_few, in->mode_sine, all);
+  if (!in_parts(in, t, h, MANY)) return -1;
+  for (int32_t k = first; k < end; k++) {
+    const double before = root(in->sine_before[k]), after = root(in->sine_after[k]), few = root(in->sine_few[k]),
+                 many = root(in->mode_sine[k]), apart = fabs(many - after);
+    if (crossed(in, k, first, end) && many * after < 0.0 && few * after < 0.0 && apart > APART * fabs(after - before) &&
+        fabs(many - few) < APART * apart)
+      return k - first;
+  }
+  return -1;
+}
+
+/* Makes a step in which a triad of the loop changed its sign again in parts; then once more as it was, because readers
+ * use what a step leaves behind. */
+static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
+  const ali3_system *S = in->system;
+  const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
+  int32_t k = first;
+  while (k < end && !crossed(in, k, first, end)) k++;
+  if (k == end) return ALI3_OK;
+  const ali3_report whole = in->report;
+  const int32_t triad = jumped(in, t, h, first, end);
+  again(in);
+  in->kept = false;
+  const ali3_status status = ali3_advance(in, t, h, in->settings.max_halvings);
+  in->report = whole;
+  if (status == ALI3_OK && triad >= 0) report(in, loop, triad, ALI3_BRANCH_JUMP, t);
+  return status;
+}
+
+/* Tells the loops that have left their modes at time t. */
+static void left_modes(ali3_instance *in, double t) {
+  ali3_mode_angles(in, in->now.q);
+  for (int64_t loop = 0; loop < ali3_loop_count(in->system); loop++) {
+    const int32_t left = ali3_mode_left(in, loop);
+    if (left >= 0 && in->mode_left[loop] == 0.0) report(in, loop, left, ALI3_BRANCH_LEFT, t);
+    in->mode_left[loop] = left >= 0 ? 1.0 : 0.0;
+  }
+}
+
+/* After a controlled step, whose halves have shown already that no other branch is near enough to be jumped to. */
+void ali3_branch_look(ali3_instance *in, double t) {
+  if (watches(in)) left_modes(in, t);
+}
+
+/* After a good step that ended at t. */
+ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
+  const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);
+  if (!watches(in)) return ALI3_OK;
+  if (ali3_relative(in) && in->quiet) {
+    in->mode_known = false;
+    return ALI3_OK;
+  }
+  left_modes(in, t);
+  if (!in->branch_kept) return ALI3_OK;
+  memcpy(in->sine_after, in->mode_sine, all);
+  ali3_status status = ALI3_OK;
+  for (int64_t loop = 0; loop < ali3_loop_count(S) && status == ALI3_OK; loop++) status = judge(in, t, h, loop);
+  memcpy(in->mode_sine, in->sine_after, all);
+  return status;
+}

@@ -1,0 +1,9 @@
+/* Steps that may change an assembly mode. */
+#ifndef ALI3_BRANCH_WATCH_H
+#define ALI3_BRANCH_WATCH_H
+#include "../instance.h"
+
+void ali3_branch_before(ali3_instance *in);
+ali3_status ali3_branch_after(ali3_instance *in, double t, double h);
+void ali3_branch_look(ali3_instance *in, double t);
+#endif

@@ -1,0 +1,143 @@
+/* The state at any time of a controlled step: positions, velocities and accelerations at its start, centre and end give
+ * the polynomial of degree eight (Hermite interpolation), accelerations, multipliers and outputs of the elements come
+ * from the equations of index one there. Where these say that the polynomial errs by more than the tolerance, and
+ * where states have memory, a step of the method is made to that time instead, and forgotten. */
+#include <math.h>
+#include <string.h>
+
+#include "../instance.h"
+#include "../rows/guides.h"
+#include "../sensors/sensors.h"
+#include "../start/index_one.h"
+#include "../state/books.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "../system/without_memory.h"
+#include "error_control.h"
+
+enum { NODES = 3, DATA = 3 * NODES };
+/* Of the step from start to end, x = -1 to 1: what q, dq/dx, d2q/dx2 at x = -1, 0, 1 add to the coefficient of x^k. */
+static const double basis[DATA][DATA] = {
+    {0.0, 0.0, 0.0, -35.0 / 16, 3.0, 21.0 / 8, -4.0, -15.0 / 16, 1.5},
+    {0.0, 0.0, 0.0, -11.0 / 16, 13.0 / 16, 9.0 / 8, -11.0 / 8, -7.0 / 16, 9.0 / 16},
+    {0.0, 0.0, 0.0, -1.0 / 16, 1.0 / 16, 1.0 / 8, -1.0 / 8, -1.0 / 16, 1.0 / 16},
+    {1.0, 0.0, 0.0, 0.0, -6.0, 0.0, 8.0, 0.0, -3.0},
+    {0.0, 1.0, 0.0, -3.0, 0.0, 3.0, 0.0, -1.0, 0.0},
+    {0.0, 0.0, 0.5, 0.0, -1.5, 0.0, 1.5, 0.0, -0.5},
+    {0.0, 0.0, 0.0, 35.0 / 16, 3.0, -21.0 / 8, -4.0, 15.0 / 16, 1.5},
+    {0.0, 0.0, 0.0, -11.0 / 16, -13.0 / 16, 9.0 / 8, 11.0 / 8, -7.0 / 16, -9.0 / 16},
+    {0.0, 0.0, 0.0, 1.0 / 16, 1.0 / 16, -1.0 / 8, -1.0 / 8, 1.0 / 16, 1.0 / 16},
+};
+/* Error of positions over h^2 times the defect of the accelerations, of velocities over h times it, at most. */
+static const double OF_POSITION = 0.01, OF_VELOCITY = 0.05;
+static const double NEAR = 1e-6; /* of a step: there the state of its end serves */
+static const double LEAST_PART = 1e-3; /* of a step: a shorter one would read forces from round-off */
+
+/* Weights of the nine vectors in the polynomial (order 0) or its first or second derivative by x. */
+static void weights(double x, int order, double weight[DATA]) {
+  for (int j = 0; j < DATA; j++) {
+    double sum = 0.0;
+    for (int k = DATA - 1; k >= order; k--) {
+      const double factor = order == 0 ? 1.0 : (order == 1 ? k : (double)k * (k - 1));
+      sum = sum * x + factor * basis[j][k];
+    }
+    weight[j] = sum;
+  }
+}
+
+static void interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to) {
+  const ali3_vectors *node[NODES] = {&in->origin, &in->centre, &in->now};
+  const double unit[3] = {1.0, 0.5 * h, 0.25 * h * h};
+  double *result[3] = {to->q, to->qd, to->qdd}, weight[DATA];
+  for (int order = 0; order < 3; order++) {
+    weights(x, order, weight);
+    for (int32_t i = 0; i < in->system->size.nq; i++) {
+      double sum = 0.0;
+      for (int n = 0; n < NODES; n++)
+        sum += weight[3 * n] * node[n]->q[i] + unit[1] * weight[3 * n + 1] * node[n]->qd[i] +
+               unit[2] * weight[3 * n + 2] * node[n]->qdd[i];
+      result[order][i] = sum / unit[order];
+    }
+  }
+}
+
+/* in->next from the polynomial and the equations of index one; false: they do not agree within the tolerance. */
+static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t, double h, double when) {
+  const int32_t nq = in->system->size.nq;
+  const double x = 2.0 * (when - t) / h - 1.0;
+  ali3_vectors *at = &in->next;
+  ali3_vectors_copy(in, at, x < 0.0 ? &in->centre : &in->now);
+  interpolate(in, h, x, at);
+  memcpy(in->D, at->qdd, (size_t)nq * sizeof(double));
+  ali3_guides_time(in, at, when);
+  in->t_now = when;
+  ali3_status status = ali3_inputs_begin(in, when, 0.0);
+  if (status == ALI3_OK) status = ali3_index_one(in, at);
+  in->report.iterations--; /* nothing that the motion needed */
+  if (status != ALI3_OK) return false;
+  for (int32_t i = 0; i < nq; i++) {
+    const double defect = at->qdd[i] - in->D[i];
+    in->w[i] = OF_POSITION * h * h * defect;
+    in->r[i] = OF_VELOCITY * h * defect;
+  }
+  return ali3_distance(in, measure, in->w, in->r, ali3_rate(in, measure)) <= measure->control->tolerance;
+}
+
+/* Where states have memory, just behind the start: its forces and states with the motion of the polynomial. */
+static void beside_start(ali3_instance *in, double t, double h, double when) {
+  ali3_vectors_copy(in, &in->next, &in->origin);
+  interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
+  ali3_guides_time(in, &in->next, when);
+  ali3_work_beside(in, when - t);
+}
+
+/* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->coarse. */
+static ali3_status side_step(ali3_instance *in, double t, double h, double when) {
+  const ali3_report before = in->report;
+  const double middle = t + 0.5 * h;
+  const bool second = when > middle + LEAST_PART * h;
+  const double from = second ? middle : t;
+  const bool sampled = in->sampled;
+  ali3_vectors_copy(in, &in->coarse, &in->now);
+  ali3_vectors_copy(in, &in->now, second ? &in->centre : &in->origin);
+  in->sampled = false;
+  const ali3_status status = ali3_trial_step(in, from, when - from);
+  in->sampled = sampled;
+  if (status == ALI3_OK) ali3_vectors_copy(in, &in->next, &in->now);
+  ali3_vectors_copy(in, &in->now, &in->coarse);
+  ali3_books_back(&in->report, &before);
+  return status;
+}
+
+static void look(ali3_instance *in, double *out, double *positions) {
+  if (out != NULL) ali3_sensors_evaluate(in, out);
+  if (positions != NULL) memcpy(positions, in->now.q, (size_t)in->system->size.nq * sizeof(double));
+}
+
+/* Sensors (ns) and coordinates (nq) at time `when` of the step from t that in->origin, in->centre, in->now hold. */
+ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
+                              double *out, double *positions) {
+  const bool relative = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
+  const bool at_end = when >= t + h - NEAR * h;
+  const bool sums = in->system->n_work > 0; /* work is known at the ends of steps */
+  const bool smooth = ali3_without_memory(in->system) && (at_end || !sums);
+  if (at_end && !relative) {
+    look(in, out, positions);
+    return ALI3_OK;
+  }
+  if (!smooth && when < t + LEAST_PART * h) {
+    beside_start(in, t, h, when);
+  } else if (!smooth || !polynomial(in, measure, t, h, at_end ? t + h : when)) {
+    const ali3_status status = side_step(in, t, h, when);
+    measure->control->side_steps++;
+    if (status != ALI3_OK) return status;
+  }
+  const ali3_vectors end = in->now;
+  in->now = in->next;
+  look(in, out, positions);
+  in->next = in->now;
+  in->now = end;
+  memcpy(in->input, end.used, (size_t)in->system->size.nu * sizeof(double));
+  return ALI3_OK;
+}

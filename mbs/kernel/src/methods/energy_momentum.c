@@ -1,0 +1,308 @@
+/* One energy-momentum step of index 3. With D = q1 - q0, v1 = 2 D/h - v0 and everything in the middle of the step,
+ *   M (D - h v0) + c (A' lam - Q) = 0,  Phi(q1) = 0,  c = h^2/2,
+ * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: rows do no
+ * work, springs give back what they take, dampers and inputs account for the rest. The step carries its own velocity;
+ * the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is taken at
+ * both ends (discrete_inertia.c). */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/discrete_inertia.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/discrete_rows.h"
+#include "../rows/guides.h"
+#include "../rows/velocity_rows.h"
+#include "../rows/violation.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "energy_momentum.h"
+#include "history.h"
+#include "newton.h"
+#include "predict.h"
+#include "steps.h"
+
+enum { REFINEMENTS = 2, REFINEMENTS_COMPOSED = 4, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
+static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
+static const double TWO_MORE = 10.0; /* tolerances: made anew also if two more iterations with the old end above */
+static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
+static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 50.0; /* of the tolerance; s^-1 */
+static const double EPS_SHARE = 1e-3;                          /* of eps_rel */
+static const double SHARE = 1e-2, ROUND_OFF = 1e-12; /* of accelerations: what may be left of what the method errs by */
+static const double STRADDLE = 1e5, MOST_RAISED = 100.0; /* of penalties */
+static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0}; /* factors of the penalty; the last with patience */
+
+/* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
+ * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones feed the round-off
+ * of rows that turn far in a step back as forces. */
+double ali3_energy_momentum_penalty(const ali3_instance *in, double h) {
+  return 0.5 * h * h * ali3_penalty(in, h) / EPS_SHARE;
+}
+
+/* The penalty of this step. A row that loses its lever a at a singular position has one of either sign at the ends of
+ * the step that crosses it, and the iteration contracts by 1 / (1 + c alpha a_mean a_end): it diverges where that
+ * product lies between -2 and 0. Levers grow with the turn of the rows in a step, so the rule's penalty is raised where
+ * they turn little. */
+static double raised_penalty(const ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  const double weight = ali3_energy_momentum_penalty(in, h);
+  double turn = 0.0;
+  if (in->settings.alpha > 0.0) return weight;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    double square = 0.0;
+    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
+      const double change = in->J[i] - in->J0[i];
+      square += change * change * S->mass_floor_inverse[S->row_col[i]];
+    }
+    if (square > turn) turn = square;
+  }
+  const double most = MOST_RAISED * 0.5 / (in->settings.eps_rel * EPS_SHARE);
+  return fmax(weight, fmin(most, STRADDLE / turn));
+}
+
+static void evaluate(ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  const double c = 0.5 * h * h, inverse = 1.0 / h;
+  ali3_vectors *to = &in->next;
+  for (int32_t i = 0; i < nq; i++) {
+    const double D = in->D[i];
+    to->q[i] = in->now.q[i] + D;
+    in->middle[i] = in->now.q[i] + 0.5 * D;
+    in->rate[i] = inverse * D;
+    in->w[i] = D - h * in->now.own[i];
+  }
+  if (S->n_flexible > 0) {
+    for (int32_t i = 0; i < nq; i++) in->x[i] = 2.0 * in->rate[i] - in->now.own[i];
+    ali3_flexible_momentum(in, to->q, in->x, in->d0);
+  }
+  ali3_constraints(in, to->q, to->s, in->Phi, in->J);
+  ali3_discrete_rows(in, in->D, to->q, &in->now, to);
+  ali3_velocity_middle(in, in->A, in->D, in->Phi, in->J);
+  const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h,      0.25 * h * h,
+                                true,       in->Q,    to->y,     to->out, to->potential};
+  in->discrete = true;
+  in->force_input = in->input_middle;
+  ali3_forces(in, &call);
+  in->discrete = false;
+  in->force_input = in->input;
+  ali3_constant_mass_times(S, in->w, in->r);
+  if (S->n_flexible > 0) {
+    for (int32_t i = 0; i < nq; i++) in->w[i] *= inverse;
+    ali3_discrete_inertia(in, h, in->hat, in->d0, in->rate, in->w, in->r);
+  }
+  ali3_rows_transposed(S, in->A, to->lam, in->x);
+  for (int32_t i = 0; i < nq; i++) in->r[i] += c * (in->x[i] - in->Q[i]);
+}
+
+/* Whether in->J0 is Phi_q of v, bit for bit; remembers v. */
+static bool same_place(ali3_instance *in, const ali3_vectors *v) {
+  const ali3_sizes *z = &in->system->size;
+  const double *part[3] = {v->q, v->s, v->on};
+  const int32_t n[3] = {z->nq, z->ng, z->n_switch};
+  bool same = in->has_J0;
+  double *at = in->at_J0;
+  for (int k = 0; k < 3; at += n[k], k++) {
+    const size_t size = (size_t)n[k] * sizeof(double);
+    same = same && memcmp(at, part[k], size) == 0;
+    memcpy(at, part[k], size);
+  }
+  in->has_J0 = true;
+  return same;
+}
+
+/* The exact tangent M + h^2/4 (K + sum lam_k H_k) + h/2 C + weight A' Phi_q(q1), slightly unsymmetric. */
+static ali3_status factorise(ali3_instance *in, double h, double weight) {
+  const ali3_system *S = in->system;
+  double *J = in->J, *A = in->A;
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, 0.25 * h * h, in->F);
+  ali3_forces_tangent(in, in->F);
+  ali3_mirror(in, in->F);
+  ali3_rows_product(in, A, J, weight, in->F);
+  in->J = in->J_tangent;
+  in->J_tangent = J;
+  in->A = in->A_tangent;
+  in->A_tangent = A;
+  return ali3_factorise_lu(in, 1, in->F);
+}
+
+static ali3_status correct(ali3_instance *in, double weight, double alpha, int32_t iteration) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  for (int32_t k = 0; k < nc; k++) in->mu[k] = weight * in->Phi[k];
+  ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
+  for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
+  ali3_solve_lu(in, 1, in->F, in->x);
+  if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+  ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
+  for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
+  ali3_accelerate(in, iteration);
+  for (int32_t k = 0; k < nc; k++) in->next.lam[k] += in->lam[k];
+  for (int32_t i = 0; i < nq; i++) in->D[i] += in->x[i];
+  return ALI3_OK;
+}
+
+/* The larger of what is left of the balance and of the rows, each in parts of its tolerance. */
+static double error(const ali3_instance *in, double *r, double *v) {
+  *r = in->report.residual / in->settings.tolerance_r;
+  *v = ali3_opening(in->system, in->Phi) / in->settings.tolerance_phi;
+  return fmax(*r, *v);
+}
+
+/* Back to the iterate before the last correction. */
+static ali3_status undo(ali3_instance *in, double h) {
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] -= in->step_q[i];
+  for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] -= in->step_lam[k];
+  evaluate(in, h);
+  return ali3_judge(in, in->r) ? ALI3_OK : ALI3_NOT_FINITE;
+}
+
+/* First guess and all that belongs to it. */
+static bool start(ali3_instance *in, double h) {
+  const int32_t past = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST;
+  ali3_history_predict(in, 0.5 * h, ali3_history_order(in, past), in->d0, in->next.lam);
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] = h * in->now.own[i] + 0.5 * h * h * in->d0[i];
+  evaluate(in, h);
+  return ali3_judge(in, in->r);
+}
+
+/* Size of the last correction in parts of what accelerations add to the step, in the metric of the masses. */
+static double change_of(const ali3_instance *in) {
+  double change = 0.0, size = 0.0;
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
+    const double m = in->system->mass_floor[i];
+    change += m * in->step_q[i] * in->step_q[i];
+    size += m * in->w[i] * in->w[i];
+  }
+  return size > 0.0 ? sqrt(change / size) : 0.0;
+}
+
+/* What may be left of a sub-step of order four, as `change_of`: a part of what the method errs by, the fourth power of
+ * the change of the accelerations from one to the next. A tolerance in metres spoils the order at small steps. */
+static double need_of(const ali3_instance *in, double h) {
+  const ali3_vectors *v = &in->now;
+  const int32_t nq = in->system->size.nq;
+  const double *time = v->memory + ALI3_MEMORY_TIME;
+  double change = 0.0, size = 0.0;
+  if (!(v->memory[ALI3_MEMORY_COUNT] >= 2.0) || time[0] == time[1]) return ROUND_OFF;
+  for (int32_t i = 0; i < nq; i++) {
+    const double a = v->past_a[i], difference = a - v->past_a[nq + i], m = in->system->mass_floor[i];
+    change += m * difference * difference;
+    size += m * a * a;
+  }
+  if (!(size > 0.0)) return ROUND_OFF;
+  const double turn = h / (time[0] - time[1]), square = change / size * turn * turn;
+  return fmax(ROUND_OFF, SHARE * square * square);
+}
+
+/* Past the tolerances while it is cheap: energy is kept as far as the equations are solved. A tangent serves until
+ * the errors, which fall by the same ratio with each iteration, show that a new one is cheaper. Without patience an
+ * iteration that new tangents make worse is given up. */
+static ali3_status newton(ali3_instance *in, double h, double weight, bool patient, int32_t *iterations) {
+  const ali3_settings *settings = &in->settings;
+  const bool composed = settings->method != ALI3_METHOD_ENERGY_MOMENTUM;
+  const double alpha = 2.0 * weight / (h * h), refine = fmin(1.0, REFINE_COMPOSED * fabs(h));
+  const double least_r = composed ? refine : REFINE_R * fabs(h), least_v = composed ? refine : REFINE_PHI;
+  const int32_t most = composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
+  double r, v, last = error(in, &r, &v), need = composed ? need_of(in, h) : HUGE_VAL;
+  int32_t refinements = 0, worse = 0;
+  bool fresh = true;
+  for (int32_t k = 0; k < settings->max_iterations; k++) {
+    ali3_status status = fresh ? factorise(in, h, weight) : ALI3_OK;
+    if (status == ALI3_OK) status = correct(in, weight, alpha, k);
+    if (status != ALI3_OK) return ali3_newton_ended(in, status);
+    ++*iterations;
+    evaluate(in, h);
+    if (!ali3_judge(in, in->r)) return ALI3_NOT_FINITE;
+    const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
+    const double change = change_of(in), left = change * fmin(1.0, ratio);
+    if (r <= least_r && v <= least_v && left <= need) return ALI3_OK;
+    if (last <= 1.0 && size > last) return undo(in, h);
+    if (!patient && fresh && size > last && ++worse == MOST_WORSE) return ALI3_NOT_CONVERGED;
+    const bool slow = k > 0 && ratio > SLOW;
+    if (size <= 1.0 && (refinements++ == most || slow)) return ALI3_OK;
+    fresh = slow || (size > 1.0 && size * ratio * ratio > TWO_MORE);
+    last = size;
+  }
+  return last <= 1.0 ? ALI3_OK : ALI3_NOT_CONVERGED;
+}
+
+/* The iteration with its penalty, and where it fails with others; *weight is the one that served. */
+static ali3_status solve(ali3_instance *in, double h, double *weight, int32_t *iterations) {
+  if (!start(in, h)) return ALI3_NOT_FINITE;
+  const double usual = raised_penalty(in, h);
+  ali3_status status = ALI3_NOT_CONVERGED;
+  for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+    *weight = ATTEMPT[attempt] * usual;
+    if (attempt > 0 && !start(in, h)) return ALI3_NOT_FINITE;
+    status = newton(in, h, *weight, attempt == ATTEMPTS - 1, iterations);
+    if (status != ALI3_NOT_CONVERGED && status != ALI3_SINGULAR) break;
+  }
+  return status;
+}
+
+/* Takes out of lam what makes no force (redundant rows): round-off that extrapolation would let grow. */
+static void clean(ali3_instance *in, double weight, double *lam) {
+  const ali3_system *S = in->system;
+  ali3_rows_transposed(S, in->A_tangent, lam, in->x);
+  ali3_solve_lu(in, 1, in->F, in->x);
+  ali3_rows_times(S, in->J_tangent, in->x, lam);
+  for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
+}
+
+/* Energy bounds what the carried velocity has off the rows, but not in coordinates without mass, which flexible bodies
+ * have many of: there it changes sign with every step and grows with the rate at which they turn. These Systems carry
+ * the reported velocity. Not in a composition, whose steps must be symmetric. */
+static bool carries_projected(const ali3_instance *in) {
+  return in->system->n_flexible > 0 && in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM;
+}
+
+/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
+ * The middle of this step is that share of the one
+ * that ali3_inputs_begin was told of. */
+ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool reported) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  double weight = 0.0;
+  ali3_vectors *from = &in->now, *to = &in->next;
+  int32_t iterations = 0;
+  ali3_history_own(in, ALI3_METHOD_ENERGY_MOMENTUM, from->qd);
+  ali3_guides_step(in, from, to, t, h);
+  ali3_status status = ali3_inputs_at(in, share);
+  if (status != ALI3_OK) return status;
+  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
+  if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
+  status = solve(in, h, &weight, &iterations);
+  in->report.iterations += iterations;
+  ali3_iterations_since(in, in->report.iterations - iterations);
+  if (status != ALI3_OK) return status;
+  for (int32_t i = 0; i < nq; i++) {
+    to->own[i] = 2.0 / h * in->D[i] - from->own[i];
+    in->d0[i] = 2.0 * (in->D[i] - h * from->own[i]) / (h * h);
+  }
+  ali3_work_step(in, 1.0);
+  ali3_predict_rates(in, h);
+  clean(in, weight, to->lam);
+  ali3_history_append(in, h, in->d0);
+  if (S->size.ny > 0) {
+    ali3_history_velocity(in, h, in->w);
+    const ali3_force_call call = {to->q, in->w, from->y, h,       0.5 * h,      0.25 * h * h,
+                                  false, in->Q, to->y,   to->out, to->potential};
+    ali3_forces(in, &call);
+    ali3_forces_accept(in, &call);
+  }
+  to->h_last[0] = 0.0;
+  if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
+  same_place(in, to);
+  memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
+  if (carries_projected(in)) ali3_energy_momentum_carry(in, to, weight);
+  if (reported) status = ali3_energy_momentum_show(in, to);
+  return status == ALI3_OK ? ali3_accept(in) : status;
+}

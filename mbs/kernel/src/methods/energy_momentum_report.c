@@ -1,0 +1,96 @@
+/* What a reader of an energy-momentum state sees: velocities on the constraints with the kinetic energy of the carried
+ * ones, accelerations, multipliers, outputs. */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../start/index_one.h"
+#include "../state/vectors.h"
+#include "energy_momentum.h"
+#include "projection.h"
+
+enum { MAX_SWEEPS = 3 };
+static const double VELOCITY_TOLERANCE = 1e-11, ROUND_OFF = 1e-11;
+static const double LEAST_RATIO = 0.5, MOST_RATIO = 2.0; /* of kinetic energies that may be made equal */
+
+static const double SAME_STEP = 1e-6; /* relative difference of two steps that counts as none */
+
+/* Gives v the kinetic energy of v->own, except where a drive sets the velocity or much was taken away. */
+static void scale(ali3_instance *in, const ali3_vectors *v) {
+  const int32_t nq = in->system->size.nq;
+  ali3_flexible_prepare(in, v->q);
+  const double ratio = ali3_mass_product(in, v->own, v->own, in->x) / ali3_mass_product(in, v->qd, v->qd, in->x);
+  for (int32_t k = 0; k < in->system->size.nc; k++)
+    if (in->Phit[k] != 0.0) return;
+  if (!(ratio > LEAST_RATIO && ratio < MOST_RATIO)) return;
+  const double factor = sqrt(ratio);
+  for (int32_t i = 0; i < nq; i++) v->qd[i] *= factor;
+}
+
+/* What a System with flexible bodies carries: v->own goes to the rows with the tangent of the step, which is
+ * unsymmetric and spreads what is taken away by A. Needs Phi_q in in->J. */
+void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  double violation;
+  ali3_constraint_rate(in, v->q, v, in->Phit);
+  memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
+  for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
+    if (ali3_rates_closed(in, in->Phit, v->qd, VELOCITY_TOLERANCE, &violation)) break;
+    for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] *= weight;
+    ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
+    ali3_solve_lu(in, 1, in->F, in->x);
+    for (int32_t i = 0; i < nq; i++) v->qd[i] -= in->x[i];
+  }
+  scale(in, v);
+  memcpy(v->own, v->qd, (size_t)nq * sizeof(double));
+}
+
+/* v->qd is the carried velocity without what it has off the rows, taken away in the metric of the masses: multipliers
+ * move velocities along M^-1 Phi_q', and any other direction would leave driven motion with one order less. v->qdd and
+ * v->lam are those of the forces there: of the order of positions and velocities, and of nothing but the state, whatever
+ * steps led to it. Middles of past steps would tell them less well, for the carried velocity errs along driven rows with
+ * a sign that changes from step to step. Needs Phi_q in in->J. */
+ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
+  const ali3_system *S = in->system;
+  const int64_t factorizations = in->report.factorizations, solves = in->report.solves;
+  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
+  ali3_status status = ali3_index_one_factorise(in, v->q);
+  if (status == ALI3_OK) {
+    memcpy(in->J_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
+    memcpy(v->qd, v->own, (size_t)S->size.nq * sizeof(double));
+    ali3_constraint_rate(in, v->q, v, in->Phit);
+    in->report.velocity_violation =
+        ali3_project(in, ALI3_INDEX_ONE_PENALTY, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
+    scale(in, v);
+    ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
+    ali3_forces(in, &call);
+    status = ali3_index_one_solve(in, in->Q, in->gamma, ROUND_OFF, v->qdd, v->lam);
+  }
+  in->report.factorizations = factorizations; /* those of steps are counted */
+  in->report.solves = solves;
+  return status;
+}
+
+/* After quiet steps. */
+void ali3_energy_momentum_report(ali3_instance *in) {
+  ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
+  ali3_energy_momentum_show(in, &in->now);
+}
+
+/* Before a step of h: the carried velocity goes to the reported one where steps change. What it has off the rows has
+ * the size that belongs to the step it comes from; in a step a hundred times as short it would be a force a hundred
+ * times as large, as it would stay what it is. */
+void ali3_energy_momentum_restart(ali3_instance *in, double h) {
+  const double *memory = in->now.memory, last = -2.0 * memory[ALI3_MEMORY_TIME];
+  if (memory[ALI3_MEMORY_OWNER] != (double)ALI3_METHOD_ENERGY_MOMENTUM || !(memory[ALI3_MEMORY_COUNT] >= 1.0)) return;
+  if (!in->controlled && fabs(h - last) <= SAME_STEP * fabs(h)) return;
+  ali3_keep(in);
+  if (!in->controlled) ali3_energy_momentum_report(in); /* after a quiet step nothing is reported yet */
+  memcpy(in->now.own, in->now.qd, (size_t)in->system->size.nq * sizeof(double));
+}

@@ -1,0 +1,68 @@
+/* Energy that a step makes or takes where no force does, and the refusal of steps that do not resolve the motion.
+ *
+ * By the trapezoidal rule the kinetic energy changes by D'(f0 + f1)/2, f all forces, -Phi_q' lam among them. With
+ * Phi = 0 at both ends (Phi_q0 + Phi_q1) D = -2 h Phi_t to third order, and beside the work of drives there remains
+ * -(Phi_q1 D + h Phi_t)'(lam1 - lam0)/2: rows do work where they turn and their forces change within the step. */
+#include <math.h>
+
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../state/books.h"
+#include "energy_watch.h"
+
+/* Shares of the kinetic energy: of a step as asked for, and of a part of one that was halved. A part that cannot be
+ * halved again may have what it might have if it had been asked for: else ten short steps pass where a long one does
+ * not. */
+static const double MOST = 0.1, MOST_OF_A_PART = 0.02;
+
+/* Before the projections: in->J and in->Phit are of the end of the step, in->next.lam those of Newton's loop. */
+double ali3_constraint_work(ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  double work = 0.0;
+  ali3_rows_times(S, in->J, in->D, in->gamma);
+  for (int32_t k = 0; k < S->size.nc; k++)
+    work -= 0.5 * (in->gamma[k] + h * in->Phit[k]) * (in->next.lam[k] - in->now.lam[k]);
+  return work;
+}
+
+/* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, and the work that the forces
+ * did in this step which (25) left without balance at its start. *kinetic is the kinetic energy of the mean of the
+ * velocities before and after (24), *end that after it but for the square of what (24) changed, *open the power of the
+ * forces that (25) leaves without balance now. */
+double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double *end, double *open) {
+  const ali3_vectors *v = &in->next;
+  const int32_t nq = in->system->size.nq;
+  double given = 0.0, power = 0.0, twice = 0.0;
+  for (int32_t i = 0; i < nq; i++) in->w[i] = 0.5 * (in->rule.rate * in->D[i] + in->hat[i] + v->qd[i]);
+  ali3_mass_times(in, in->w, in->x);
+  for (int32_t i = 0; i < nq; i++) {
+    given += 2.0 * (v->qd[i] - in->w[i]) * in->x[i];
+    twice += in->w[i] * in->x[i];
+  }
+  ali3_mass_times(in, v->qdd, in->x);
+  for (int32_t i = 0; i < nq; i++) power += v->qd[i] * (in->x[i] - in->Q[i]);
+  for (int32_t k = 0; k < in->system->size.nc; k++) power -= v->lam[k] * in->Phit[k];
+  *kinetic = 0.5 * twice;
+  *end = 0.5 * (twice + given);
+  *open = power;
+  return given + 0.5 * h * in->report.open_power;
+}
+
+/* Books an error of the energy and, where no row is driven, judges it beside the kinetic energy, what the forces in
+ * in->Q can give in a step and what the tolerance of the residual leaves open; so also with what the forces left
+ * without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its end. */
+ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open) {
+  const ali3_system *S = in->system;
+  const double left = 2.0 * in->settings.tolerance_r / h;
+  const double coming = fabs(error + 0.5 * h * (open - in->report.open_power)), worse = fmax(fabs(error), coming);
+  double size = kinetic;
+  for (int32_t i = 0; i < S->size.nq; i++)
+    size += 0.5 * (h * h * in->Q[i] * in->Q[i] * S->mass_floor_inverse[i] + left * left * S->mass_floor[i]);
+  if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
+  const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps gives energy in no time */
+  if (!driven && !(worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size)) return ALI3_UNRESOLVED;
+  ali3_books_energy(in, error, end);
+  in->report.open_power = open;
+  return ALI3_OK;
+}

@@ -1,0 +1,23 @@
+/* What the files of the error control share. */
+#ifndef ALI3_ERROR_CONTROL_H
+#define ALI3_ERROR_CONTROL_H
+#include "../instance.h"
+
+/* What a controlled run is told; scale is the size of a unit of each coordinate, m (nq), or NULL: 1 m each. */
+typedef struct {
+  ali3_control *control;
+  const double *scale;
+} ali3_measure;
+
+/* step_doubling.c */
+int32_t ali3_order(int32_t method);
+ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error);
+ali3_status ali3_trial_step(ali3_instance *in, double t, double h);
+double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
+                     double rate);
+double ali3_rate(const ali3_instance *in, const ali3_measure *measure);
+
+/* dense_output.c */
+ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
+                              double *out, double *positions);
+#endif

@@ -1,0 +1,69 @@
+/* Rule of generalised-alpha, and the quiet start of flexible systems, which is its most damped form. */
+#include <string.h>
+
+#include "../instance.h"
+#include "generalised_alpha.h"
+#include "history.h"
+
+enum { QUIET_STEPS = 6 };
+static const double UNRESOLVED = 2.0; /* step times frequency of a mode, rad */
+
+/* Generalised-alpha of Chung and Hulbert in the form of Arnold and Bruels: an algorithmic acceleration a (in->now.own)
+ * with (1 - am) a1 + am a0 = (1 - af) qdd1 + af qdd0; the balance of forces holds at the end of the step. */
+typedef struct {
+  double am, af, beta, gamma;
+} ali3_alpha;
+
+static ali3_alpha alpha_of(double rho) {
+  const double am = (2.0 * rho - 1.0) / (rho + 1.0), af = rho / (rho + 1.0), gamma = 0.5 + af - am;
+  const ali3_alpha x = {am, af, 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma};
+  return x;
+}
+
+/* At a start, light nodes of flexible bodies have the accelerations of loads they have not bent under yet. Where the
+ * step does not resolve the fastest mode, the trapezoidal rule would let that ring: the first steps have no memory of
+ * it at high frequencies. */
+bool ali3_quiet_start(const ali3_instance *in, double h) {
+  return in->system->n_flexible > 0 && h * h * in->system->flex_rate > UNRESOLVED * UNRESOLVED &&
+         in->settings.method == ALI3_METHOD_ALI3P && in->settings.project && in->report.steps < QUIET_STEPS;
+}
+
+/* The first quiet step has one acceleration, that at its end. */
+static bool quiet_first(const ali3_instance *in, double h) { return ali3_quiet_start(in, h) && in->report.steps == 0; }
+
+static double rho_of(const ali3_instance *in, double h) {
+  return ali3_quiet_start(in, h) ? 0.0 : in->settings.rho_infinity;
+}
+
+void ali3_alpha_rule(ali3_instance *in, double h) {
+  const ali3_alpha x = alpha_of(rho_of(in, h));
+  const double c = (1.0 - x.af) * x.beta * h * h / (1.0 - x.am), rate = x.gamma / (x.beta * h);
+  const ali3_rule rule = {c, rate, c * rate};
+  const ali3_vectors *from = &in->now;
+  in->rule = rule;
+  ali3_history_own(in, ALI3_METHOD_GENERALISED_ALPHA, from->qdd);
+  if (quiet_first(in, h)) {
+    const ali3_rule first = {0.5 * h * h, 2.0 / h, h};
+    in->rule = first;
+    for (int32_t i = 0; i < in->system->size.nq; i++) {
+      in->d0[i] = h * from->qd[i];
+      in->hat[i] = -from->qd[i];
+    }
+    return;
+  }
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
+    const double known = h * from->qd[i] + (0.5 - x.beta) * h * h * from->own[i];
+    in->d0[i] = known - c * (x.am * from->own[i] - x.af * from->qdd[i]) / (1.0 - x.af);
+    in->hat[i] = from->qd[i] + (1.0 - x.gamma) * h * from->own[i] -
+                 x.gamma / x.beta * (from->qd[i] + (0.5 - x.beta) * h * from->own[i]);
+  }
+}
+
+void ali3_alpha_accept(ali3_instance *in, double h) {
+  const double beta = alpha_of(rho_of(in, h)).beta;
+  const bool first = quiet_first(in, h);
+  memcpy(in->next.memory, in->now.memory, ALI3_MEMORY * sizeof(double));
+  for (int32_t i = 0; i < in->system->size.nq; i++)
+    in->next.own[i] = first ? (in->D[i] - in->d0[i]) / in->rule.c
+                            : (in->D[i] - h * in->now.qd[i] - (0.5 - beta) * h * h * in->now.own[i]) / (beta * h * h);
+}

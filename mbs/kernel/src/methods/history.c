@@ -1,0 +1,150 @@
+/* What the methods carry from step to step beside q, qd, qdd, and the start value that it gives: mean accelerations
+ * and multipliers of past steps, extrapolated by the polynomial through their middles. */
+#include <math.h>
+#include <string.h>
+
+#include "../instance.h"
+#include "../state/vectors.h"
+#include "history.h"
+
+static const double WELL = 1e-4;   /* squared relative error of a good guess */
+static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
+static const double FAR = 2.0;     /* times the last step that the next may be long */
+static const double CONTROLLED_FAR = 4.5; /* of a controlled one: the last was a half, and steps grow */
+
+/* Number of past steps, at most `most`; a restored state may hold any number there. */
+static int32_t past(const ali3_vectors *v, int32_t most) {
+  const double count = v->memory[ALI3_MEMORY_COUNT];
+  return count < (double)most ? (count > 0.0 ? (int32_t)count : 0) : most;
+}
+
+/* The memory belongs to `method`; a new owner starts from `own` (nq) and without a past. */
+void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
+  double *memory = in->now.memory;
+  if (memory[ALI3_MEMORY_OWNER] == (double)method) return;
+  ali3_keep(in);
+  memset(memory, 0, ALI3_MEMORY * sizeof *memory);
+  memory[ALI3_MEMORY_OWNER] = (double)method;
+  memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
+}
+
+/* Weights (Lagrange) with which values at the n times extrapolate to time t. */
+static void lagrange(const double *time, int32_t n, double t, double *weight) {
+  for (int32_t k = 0; k < n; k++) {
+    double above = 1.0, below = 1.0;
+    for (int32_t j = 0; j < n; j++) {
+      if (j == k) continue;
+      above *= t - time[j];
+      below *= time[k] - time[j];
+    }
+    weight[k] = above / below;
+  }
+}
+
+/* How many of `most` past steps to extrapolate from: as many as would have told the last one best, and all of them
+ * where all that came before it would have, or well enough. In a swing that turns within a few steps old ones
+ * mislead. */
+int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
+  const ali3_vectors *v = &in->now;
+  const int32_t nq = in->system->size.nq, n = past(v, most);
+  const double *time = v->memory + ALI3_MEMORY_TIME;
+  double least = HUGE_VAL, weight[ALI3_PAST];
+  int32_t best = n;
+  if (n <= 2) return n;
+  for (int32_t m = n - 1; m > 0; m--) {
+    double error = 0.0, square = 0.0;
+    lagrange(time + 1, m, time[0], weight);
+    for (int32_t i = 0; i < nq; i++) {
+      const double last = v->past_a[i];
+      double miss = -last;
+      for (int32_t k = 0; k < m; k++) miss += weight[k] * v->past_a[(int64_t)(k + 1) * nq + i];
+      error += miss * miss;
+      square += last * last;
+    }
+    if (error < least) {
+      least = error;
+      best = m == n - 1 ? n : m;
+    }
+    if (least <= WELL * square) break;
+  }
+  return best;
+}
+
+/* Whether the n steps before the last would have told the last much better than that nothing changes. */
+bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
+  const int32_t nq = in->system->size.nq;
+  const double *memory = in->now.memory, *time = memory + ALI3_MEMORY_TIME, *a = in->now.past_a;
+  double weight[ALI3_PAST], error = 0.0, change = 0.0;
+  if (!(memory[ALI3_MEMORY_COUNT] > (double)n && h < (in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1])))
+    return false;
+  lagrange(time + 1, n, time[0], weight);
+  for (int32_t i = 0; i < nq; i++) {
+    const double m = in->system->mass_floor[i], one = a[i] - a[nq + i];
+    double all = a[i];
+    for (int32_t k = 0; k < n; k++) all -= weight[k] * a[(int64_t)(k + 1) * nq + i];
+    error += m * all * all;
+    change += m * one * one;
+  }
+  return error < SMOOTH * SMOOTH * change;
+}
+
+/* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from at most `most` past ones; without a
+ * past those of the state. */
+void ali3_history_predict(const ali3_instance *in, double when, int32_t most, double *a, double *lam) {
+  const ali3_vectors *v = &in->now;
+  const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
+  const int32_t n = past(v, most);
+  double weight[ALI3_PAST];
+  if (n == 0) {
+    memcpy(a, v->qdd, (size_t)nq * sizeof *a);
+    memcpy(lam, v->lam, (size_t)nc * sizeof *lam);
+    return;
+  }
+  memset(a, 0, (size_t)nq * sizeof *a);
+  memset(lam, 0, (size_t)nc * sizeof *lam);
+  lagrange(v->memory + ALI3_MEMORY_TIME, n, when, weight);
+  for (int32_t k = 0; k < n; k++) {
+    const double *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
+    for (int32_t i = 0; i < nq; i++) a[i] += weight[k] * past_a[i];
+    for (int32_t i = 0; i < nc; i++) lam[i] += weight[k] * past_lam[i];
+  }
+}
+
+/* in->next goes on from in->now with the step h just made: its mean acceleration a, its multipliers in->next.lam. */
+void ali3_history_append(ali3_instance *in, double h, const double *a) {
+  const ali3_vectors *from = &in->now, *to = &in->next;
+  const size_t nq = (size_t)in->system->size.nq, nc = (size_t)in->system->size.nc;
+  const int32_t n = past(from, ALI3_PAST);
+  to->memory[ALI3_MEMORY_OWNER] = from->memory[ALI3_MEMORY_OWNER];
+  to->memory[ALI3_MEMORY_COUNT] = n < ALI3_PAST ? n + 1 : n;
+  to->memory[ALI3_MEMORY_TIME] = -0.5 * h;
+  for (int32_t k = 1; k < ALI3_PAST; k++) to->memory[ALI3_MEMORY_TIME + k] = from->memory[ALI3_MEMORY_TIME + k - 1] - h;
+  memcpy(to->past_a, a, nq * sizeof *a);
+  memcpy(to->past_lam, to->lam, nc * sizeof *a);
+  memcpy(to->past_a + nq, from->past_a, (ALI3_PAST - 1) * nq * sizeof *a);
+  memcpy(to->past_lam + nc, from->past_lam, (ALI3_PAST - 1) * nc * sizeof *a);
+}
+
+/* Velocity at the end of the step for the states of elements: the straight line through the mean rates of this step
+ * and the last. What the carried one has beside it changes sign with every step; a brush or a brake that sticks would
+ * take that for a motion, and creep. Over many steps these velocities add up to the way that was made. */
+void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
+  const ali3_vectors *from = &in->now;
+  const int32_t nq = in->system->size.nq;
+  const double half = -from->memory[ALI3_MEMORY_TIME]; /* of the last step */
+  if (!(from->memory[ALI3_MEMORY_COUNT] >= 1.0)) {
+    memcpy(v, in->next.own, (size_t)nq * sizeof *v);
+    return;
+  }
+  const double share = 0.5 * h / (0.5 * h + half);
+  double along = 0.0, square = 0.0;
+  for (int32_t i = 0; i < nq; i++) {
+    const double last = from->own[i] - half * from->past_a[i];
+    const double line = share * (in->rate[i] - last), m = in->system->mass_floor[i];
+    v[i] = in->next.own[i] - in->rate[i];
+    along += m * v[i] * line;
+    square += m * v[i] * v[i];
+  }
+  const double part = square > 0.0 ? fmin(1.0, fmax(0.0, along / square)) : 0.0;
+  for (int32_t i = 0; i < nq; i++) v[i] = in->rate[i] + part * v[i];
+}

@@ -1,0 +1,11 @@
+/* What Newton's iterations share. */
+#ifndef ALI3_NEWTON_H
+#define ALI3_NEWTON_H
+#include "../instance.h"
+
+double ali3_penalty(const ali3_instance *in, double h);
+bool ali3_judge(ali3_instance *in, const double *r);
+ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status);
+void ali3_iterations_since(ali3_instance *in, int64_t before);
+void ali3_accelerate(ali3_instance *in, int32_t iteration);
+#endif

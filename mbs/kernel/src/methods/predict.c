@@ -1,0 +1,50 @@
+/* First guess of the increment and the multipliers of an ALi3-P step. Where the motion has been smooth, mean
+ * accelerations and multipliers go on along the parabola through those of the last three steps; else the present ones
+ * stay. Flexible bodies have modes that vibrate faster than the step can follow; the trapezoidal rule lets their rates
+ * and accelerations ring, and with them those of all that is tied to them, but not the positions. There the mean rates
+ * of the last two steps go on. */
+#include <string.h>
+
+#include "../instance.h"
+#include "history.h"
+#include "predict.h"
+
+enum { PARABOLA = 3 };
+/* Share of the change of the multipliers that is taken: no step corrects what they have along dependent rows or has
+ * right about rows that lose their lever, and whole extrapolations of that would grow. */
+static const double SHARE = 0.5;
+
+/* Returns whether past steps told; `from_past` false leaves them aside. */
+bool ali3_predict(ali3_instance *in, double h, bool from_past) {
+  const ali3_system *S = in->system;
+  const ali3_vectors *from = &in->now;
+  double *lam = in->next.lam;
+  if (S->n_flexible > 0) {
+    for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * (2.0 * from->mean[i] - from->mean_before[i]);
+    memcpy(lam, from->lam, (size_t)S->size.nc * sizeof *lam);
+    return false;
+  }
+  ali3_history_own(in, in->settings.method, from->qdd);
+  const bool goes_on =
+      from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA && ali3_history_smooth(in, PARABOLA, h);
+  ali3_history_predict(in, 0.5 * h, goes_on ? PARABOLA : 0, in->x, lam);
+  for (int32_t k = 0; k < S->size.nc; k++) lam[k] = from->lam[k] + SHARE * (lam[k] - from->lam[k]);
+  for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * in->x[i];
+  return goes_on;
+}
+
+/* Keeps the mean acceleration and the multipliers of the step from in->now to in->next. */
+void ali3_predict_accept(ali3_instance *in, double h) {
+  if (in->system->n_flexible > 0) return;
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->x[i] = 2.0 * (in->D[i] - h * in->now.qd[i]) / (h * h);
+  ali3_history_append(in, h, in->x);
+}
+
+/* Keeps the mean rate of the step from in->now to in->next, of systems with flexible bodies. */
+void ali3_predict_rates(ali3_instance *in, double h) {
+  if (in->system->n_flexible == 0) return;
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
+    in->next.mean[i] = in->D[i] / h;
+    in->next.mean_before[i] = in->now.mean[i];
+  }
+}

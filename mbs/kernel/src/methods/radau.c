@@ -1,0 +1,336 @@
+/* Radau IIA with three stages (Hairer, Wanner, "Solving Ordinary Differential Equations II", second edition, IV.5 and
+ * VII.4 to 8) on the equations of index three: every stage has its accelerations a_i and multipliers lam_i,
+ *   M a_i + Phi_q' lam_i = Q,  Phi = 0  at  v_i = v + h A_ij a_j,  q_i = q + c_i h v + h^2 (A^2)_ij a_j,
+ * the last one is the end of the step, where velocities and accelerations go to the rows. Newton's tangent is the exact
+ * one of all stages together: rows that are redundant are so with another combination at every stage, and one Phi_q
+ * for all of them would turn the multipliers of that combination into forces. */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
+#include "../rows/violation.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "history.h"
+#include "newton.h"
+#include "predict.h"
+#include "projection.h"
+#include "steps.h"
+
+enum { STAGES = ALI3_RADAU, LAST = STAGES - 1, SWEEPS = 3, REFINEMENTS = 3 };
+static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-12;
+static const double SLOW = 0.3;         /* ratio of two errors from which on the tangent is made anew */
+static const double LEAST = 1e-2;       /* of the tolerances, what makes refinement end early */
+static const double SHARE = 1e-5, ROUND_OFF = 1e-12; /* of accelerations, what may be left of them */
+static const double STALLED = 1e-9; /* less is round-off where corrections do not fall any more */
+static const double EPS_SHARE = 1e-3;   /* of eps_rel, for rows that singular positions nearly lose */
+static const double LONGEST = 2.0;      /* steps; the last collocation polynomial is no guide farther on */
+
+static const double node[STAGES] = {0.15505102572168219, 0.64494897427831781, 1.0}; /* (4 -+ sqrt 6)/10 */
+/* A and A^2 to 17 digits */
+static const double first[STAGES][STAGES] = {{0.19681547722366043, -0.06553542585019839, 0.02377097434822015},
+                                             {0.39442431473908728, 0.29207341166522846, -0.04154875212599793},
+                                             {0.37640306270046728, 0.51248582618842161, 0.11111111111111111}};
+static const double second[STAGES][STAGES] = {{0.02183503419072274, -0.01985725409861227, 0.01004263019656241},
+                                              {0.17719058743194561, 0.03816496580927726, -0.00737596352989574},
+                                              {0.31804138174397717, 0.18195861825602283, 0.00000000000000000}};
+
+static double *acceleration(const ali3_instance *in, int i) { return in->stage + (int64_t)i * in->system->size.nq; }
+static double *residual(const ali3_instance *in, int i) { return acceleration(in, STAGES + i); }
+static double *of_rows(const ali3_instance *in, double *v, int i) { return v + (int64_t)i * in->system->size.nc; }
+static double *power_of(const ali3_instance *in, int i) { return in->stage_power + (int64_t)i * in->system->n_work; }
+static double *of_entries(const ali3_instance *in, double *v, int i) { return v + i * in->system->size.nnz_rows; }
+
+/* Position, velocity, guides and inputs of stage i. */
+static void place(ali3_instance *in, double t, double h, int i) {
+  const ali3_vectors *from = &in->now;
+  ali3_vectors *to = &in->next;
+  const double *restrict a0 = acceleration(in, 0), *restrict a1 = acceleration(in, 1),
+                         *restrict a2 = acceleration(in, 2);
+  for (int32_t k = 0; k < in->system->size.nq; k++) {
+    to->qd[k] = from->qd[k] + h * (first[i][0] * a0[k] + first[i][1] * a1[k] + first[i][2] * a2[k]);
+    to->q[k] = from->q[k] +
+               h * (node[i] * from->qd[k] + h * (second[i][0] * a0[k] + second[i][1] * a1[k] + second[i][2] * a2[k]));
+  }
+  in->force_input = in->stage_input + (int64_t)i * in->system->size.nu;
+  ali3_guides_time(in, to, t - (1.0 - node[i]) * h);
+}
+
+static void forces(ali3_instance *in, double wC, double wK) {
+  ali3_vectors *to = &in->next;
+  const ali3_force_call call = {to->q,         to->qd, in->now.y, 0.0,     wC,           wK,
+                                wC + wK > 0.0, in->Q,  to->y,     to->out, to->potential};
+  ali3_forces(in, &call);
+}
+
+/* Rows and residuals r_i = M a_i + Phi_q' lam_i - Q of all stages; the report has the worst. False: not finite. */
+static bool evaluate(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
+  double largest = 0.0, open = 0.0;
+  for (int i = 0; i < STAGES; i++) {
+    double *Phi = of_rows(in, in->stage_Phi, i), *J = of_entries(in, in->stage_J, i), *r = residual(in, i);
+    place(in, t, h, i);
+    ali3_constraints(in, in->next.q, in->next.s, Phi, J);
+    forces(in, 0.0, 0.0);
+    if (S->n_work > 0) memcpy(power_of(in, i), in->watched, (size_t)S->n_work * sizeof(double));
+    ali3_mass_times(in, acceleration(in, i), r);
+    ali3_rows_transposed(S, J, of_rows(in, in->stage_lam, i), in->x);
+    for (int32_t k = 0; k < S->size.nq; k++) {
+      r[k] += in->x[k] - in->Q[k];
+      const double size = 0.5 * h * h * fabs(r[k]) * S->mass_floor_inverse[k];
+      if (!(size <= largest) && largest == largest) { /* a NaN stays */
+        largest = size;
+        in->report.worst_coordinate = k;
+      }
+    }
+    int32_t worst = 0;
+    const double violation = ali3_violation(S, Phi, &worst);
+    if (!(violation <= open) && open == open) {
+      open = violation;
+      in->report.worst_row = worst;
+    }
+  }
+  in->report.iterations += STAGES;
+  in->report.residual = largest;
+  in->report.violation = open;
+  return largest < 1e300 && open < 1e300;
+}
+
+/* Blocks (stage, k) of the tangent of all stages from the fronts of one: M + h A_ik C + h^2 (A^2)_ik K. */
+static void merge(ali3_instance *in, double h, int stage) {
+  const ali3_system *S = in->system;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
+    const double *M = in->F + S->front_off[f], *C = in->F_C + S->front_off[f], *K = in->F_K + S->front_off[f];
+    double *block = in->F_stages + (int64_t)STAGES * STAGES * S->front_off[f];
+    for (int k = 0; k < STAGES; k++) {
+      const double wM = k == stage ? 1.0 : 0.0, wC = h * first[stage][k], wK = h * h * second[stage][k];
+      for (int32_t j = 0; j < n; j++)
+        for (int32_t i = j; i < n; i++) {
+          const int64_t at = (int64_t)j * n + i;
+          const double value = wM * M[at] + wC * C[at] + wK * K[at];
+          block[(int64_t)(STAGES * j + k) * STAGES * n + STAGES * i + stage] = value;
+          block[(int64_t)(STAGES * i + k) * STAGES * n + STAGES * j + stage] = value;
+        }
+    }
+  }
+}
+
+/* The tangent at the present stages; in->F, in->F_C, in->F_K stay those of the last one. */
+static ali3_status factorise(ali3_instance *in, double t, double h, double alpha) {
+  const ali3_system *S = in->system;
+  const size_t size = (size_t)S->size.front_size * sizeof(double);
+  const bool flexible = S->n_flexible > 0;
+  memcpy(in->stage_J_tangent, in->stage_J, STAGES * (size_t)S->size.nnz_rows * sizeof(double));
+  for (int i = 0; i < STAGES; i++) {
+    place(in, t, h, i);
+    memcpy(in->F, S->front_mass, size);
+    memset(in->F_C, 0, size);
+    memset(in->F_K, 0, size);
+    forces(in, 1.0, 0.0);
+    ali3_elements_tangent(in, in->F_C);
+    forces(in, 0.0, 1.0);
+    ali3_elements_tangent(in, in->F_K);
+    if (flexible) {
+      ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+      ali3_flexible_tangent(in, 0.0, 1.0, 0.0, in->F_C);
+      ali3_flexible_tangent(in, 0.0, 0.0, 1.0, in->F_K);
+    }
+    if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, of_rows(in, in->stage_lam, i), 1.0, in->F_K);
+    ali3_rows_square(in, of_entries(in, in->stage_J, i), alpha, in->F_K);
+    merge(in, h, i);
+  }
+  return ali3_factorise_lu(in, STAGES, in->F_stages);
+}
+
+/* in->w = sum_k (A^2)_ik x_k of the interleaved corrections. */
+static void twice(ali3_instance *in, int i) {
+  for (int32_t k = 0; k < in->system->size.nq; k++) {
+    const double *x = in->stage_x + STAGES * (int64_t)k;
+    in->w[k] = second[i][0] * x[0] + second[i][1] * x[1] + second[i][2] * x[2];
+  }
+}
+
+/* Size of accelerations in the metric of the masses, stage i of coordinate k at v[k * along + i * across]. */
+static double size_of(const ali3_instance *in, const double *v, int64_t along, int64_t across) {
+  double square = 0.0;
+  for (int32_t k = 0; k < in->system->size.nq; k++)
+    for (int i = 0; i < STAGES; i++) {
+      const double x = v[k * along + i * across];
+      square += in->system->mass_floor[k] * x * x;
+    }
+  return sqrt(square);
+}
+
+/* *change: of the accelerations, in parts of them. */
+static ali3_status correct(ali3_instance *in, double h, double alpha, double *change) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  for (int i = 0; i < STAGES; i++) {
+    const double *Phi = of_rows(in, in->stage_Phi, i), *r = residual(in, i);
+    for (int32_t k = 0; k < nc; k++) in->mu[k] = alpha * Phi[k];
+    ali3_rows_transposed(S, of_entries(in, in->stage_J_tangent, i), in->mu, in->x);
+    for (int32_t k = 0; k < nq; k++) in->stage_x[STAGES * k + i] = -(r[k] + in->x[k]);
+  }
+  ali3_solve_lu(in, STAGES, in->F_stages, in->stage_x);
+  if (!ali3_finite(in->stage_x, STAGES * (int64_t)nq)) return ALI3_NOT_FINITE;
+  for (int i = 0; i < STAGES; i++) {
+    double *lam = of_rows(in, in->stage_lam, i), *a = acceleration(in, i);
+    const double *Phi = of_rows(in, in->stage_Phi, i);
+    twice(in, i);
+    ali3_rows_times(S, of_entries(in, in->stage_J_tangent, i), in->w, in->mu);
+    for (int32_t k = 0; k < nc; k++) lam[k] += alpha * (Phi[k] + h * h * in->mu[k]);
+    for (int32_t k = 0; k < nq; k++) a[k] += in->stage_x[STAGES * k + i];
+  }
+  const double size = size_of(in, in->stage, 1, nq);
+  *change = size > 0.0 ? size_of(in, in->stage_x, STAGES, 1) / size : 0.0;
+  return ALI3_OK;
+}
+
+static double opening(const ali3_instance *in) {
+  double largest = 0.0;
+  for (int i = 0; i < STAGES; i++) largest = fmax(largest, ali3_opening(in->system, of_rows(in, in->stage_Phi, i)));
+  return largest;
+}
+
+/* Until the tolerances hold and what is left, told from the last correction and the ratio of the last two errors, is
+ * small beside the error of the method: a guess from the last collocation polynomial (`near`) errs by h^3, the method by
+ * h^5. A tolerance in metres alone spoils the order at small steps, where it lets through accelerations of 2 / h^2 times
+ * itself. */
+static ali3_status newton(ali3_instance *in, double t, double h, double alpha, bool near) {
+  const ali3_settings *settings = &in->settings;
+  double last, change = 0.0, need = ROUND_OFF;
+  bool fresh = true;
+  int32_t refinements = 0;
+  if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
+  last = fmax(in->report.residual / settings->tolerance_r, opening(in) / settings->tolerance_phi);
+  for (int32_t iteration = 0; iteration < settings->max_iterations; iteration++) {
+    ali3_status status = fresh ? factorise(in, t, h, alpha) : ALI3_OK;
+    if (status == ALI3_OK) status = correct(in, h, alpha, &change);
+    if (status != ALI3_OK) return ali3_newton_ended(in, status);
+    if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
+    const double r = in->report.residual / settings->tolerance_r, v = opening(in) / settings->tolerance_phi;
+    const double size = fmax(r, v), left = size < last ? change * size / last : change;
+    if (iteration == 0 && near) need = fmax(ROUND_OFF, SHARE * change * change);
+    if (r <= LEAST && v <= LEAST && left <= need) return ALI3_OK;
+    const bool slow = iteration > 0 && size > SLOW * last;
+    if (size <= 1.0 && (refinements++ == REFINEMENTS || (slow && (fresh || left <= STALLED)))) return ALI3_OK;
+    fresh = slow;
+    last = size;
+  }
+  return ALI3_NOT_CONVERGED;
+}
+
+/* Stages from the collocation polynomial of the last step, or as the state is; returns whether the former. */
+static bool predict(ali3_instance *in, double h) {
+  const double *time = in->now.memory + ALI3_MEMORY_TIME;
+  const bool near = -time[LAST] > 0.0 && (1.0 - node[0]) * h <= LONGEST * -time[LAST];
+  for (int i = 0; i < STAGES; i++)
+    ali3_history_predict(in, node[i] * h, near ? STAGES : 1, acceleration(in, i), of_rows(in, in->stage_lam, i));
+  return near;
+}
+
+/* Takes out of the multipliers what makes no force (redundant rows): round-off that extrapolation would let grow. */
+static void clean(ali3_instance *in, double h, double alpha) {
+  const ali3_system *S = in->system;
+  for (int i = 0; i < STAGES; i++) {
+    ali3_rows_transposed(S, of_entries(in, in->stage_J_tangent, i), of_rows(in, in->stage_lam, i), in->x);
+    for (int32_t k = 0; k < S->size.nq; k++) in->stage_x[STAGES * k + i] = in->x[k];
+  }
+  ali3_solve_lu(in, STAGES, in->F_stages, in->stage_x);
+  for (int i = 0; i < STAGES; i++) {
+    double *lam = of_rows(in, in->stage_lam, i);
+    twice(in, i);
+    ali3_rows_times(S, of_entries(in, in->stage_J_tangent, i), in->w, lam);
+    for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= alpha * h * h;
+  }
+}
+
+/* Stages for the start value of the next step, newest first. */
+static void remember(ali3_instance *in, double h) {
+  const size_t nq = (size_t)in->system->size.nq, nc = (size_t)in->system->size.nc;
+  ali3_vectors *to = &in->next;
+  memset(to->memory, 0, ALI3_MEMORY * sizeof(double));
+  memset(to->past_a, 0, ALI3_PAST * nq * sizeof(double));
+  memset(to->past_lam, 0, ALI3_PAST * nc * sizeof(double));
+  memcpy(to->own, in->now.own, nq * sizeof(double));
+  to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_RADAU_5;
+  to->memory[ALI3_MEMORY_COUNT] = STAGES;
+  for (int i = 0; i < STAGES; i++) {
+    const int place = LAST - i;
+    to->memory[ALI3_MEMORY_TIME + place] = (node[i] - 1.0) * h;
+    memcpy(to->past_a + (size_t)place * nq, acceleration(in, i), nq * sizeof(double));
+    memcpy(to->past_lam + (size_t)place * nc, of_rows(in, in->stage_lam, i), nc * sizeof(double));
+  }
+}
+
+/* Velocities and accelerations of the end to the rows, in the metric of the mass: stages err by multipliers, which move
+ * velocities along M^-1 Phi_q', and only a projection along the same directions takes no more away. */
+static ali3_status project(ali3_instance *in, double h, double alpha) {
+  const ali3_system *S = in->system;
+  const double weight = h * h * alpha;
+  ali3_vectors *v = &in->next;
+  const size_t entries = (size_t)S->size.nnz_rows * sizeof(double);
+  memcpy(in->J, of_entries(in, in->stage_J, LAST), entries);
+  memcpy(in->J_tangent, in->J, entries);
+  if (in->settings.project) {
+    memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+    if (S->n_flexible > 0) ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+    ali3_rows_square(in, in->J, weight, in->F);
+    const ali3_status status = ali3_factorise(in, in->F);
+    if (status != ALI3_OK) return status;
+  }
+  const int32_t sweeps = in->settings.project ? SWEEPS : 0;
+  ali3_constraint_rate(in, v->q, v, in->Phit);
+  in->report.velocity_violation = ali3_project(in, weight, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, sweeps);
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
+  ali3_project(in, weight, in->gamma, v->qdd, v->lam, ACCELERATION_TOLERANCE, sweeps);
+  return ALI3_OK;
+}
+
+static ali3_status inputs(ali3_instance *in) {
+  const int32_t nu = in->system->size.nu;
+  ali3_status status = ALI3_OK;
+  for (int i = 0; i < STAGES && status == ALI3_OK; i++) {
+    status = ali3_inputs_at(in, node[i]);
+    memcpy(in->stage_input + (int64_t)i * nu, in->input_middle, (size_t)nu * sizeof(double));
+  }
+  return status;
+}
+
+/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
+ali3_status ali3_radau(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
+  const size_t nq = (size_t)S->size.nq;
+  const int64_t before = in->report.iterations;
+  const double alpha = ali3_penalty(in, h) / EPS_SHARE;
+  ali3_vectors *from = &in->now, *to = &in->next;
+  ali3_history_own(in, ALI3_METHOD_RADAU_5, from->qdd);
+  ali3_status status = inputs(in);
+  if (status != ALI3_OK) return status;
+  status = newton(in, t, h, alpha, predict(in, h));
+  in->force_input = in->input;
+  ali3_iterations_since(in, before);
+  if (status != ALI3_OK) return status;
+  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(to->qdd, acceleration(in, LAST), nq * sizeof(double));
+  memcpy(to->lam, of_rows(in, in->stage_lam, LAST), (size_t)S->size.nc * sizeof(double));
+  for (int i = 0; i < STAGES; i++) ali3_work_stage(in, h * first[LAST][i], power_of(in, i), to->work);
+  ali3_work_keep(in, to);
+  clean(in, h, alpha);
+  remember(in, h);
+  status = project(in, h, alpha);
+  if (status != ALI3_OK) return status;
+  for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = to->q[i] - from->q[i];
+  ali3_predict_rates(in, h);
+  to->h_last[0] = 0.0;
+  return ali3_accept(in);
+}

@@ -1,0 +1,139 @@
+/* Explicit Runge-Kutta method of order eight with twelve stages (coefficients of Dormand and Prince, in Hairer,
+ * Norsett, Wanner, "Solving Ordinary Differential Equations I", second edition) on the equations of index one: every
+ * stage solves for accelerations and multipliers, positions and velocities return to the rows at the end of a step. For
+ * smooth motion without stiff forces, away from singular positions; the last stage of a step is the first of the
+ * next. */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/fronts.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
+#include "../rows/violation.h"
+#include "../start/index_one.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "energy_watch.h"
+#include "newton.h"
+#include "predict.h"
+#include "projection.h"
+#include "steps.h"
+#include "tableau.h"
+
+enum { STAGES = ALI3_STAGES, SWEEPS = 3 };
+static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
+static const double VELOCITY_TOLERANCE = 1e-12;
+
+/* Power of the forces in in->Q and of drives at the state that has just been solved. */
+static double power(ali3_instance *in, const ali3_vectors *v) {
+  double sum = 0.0;
+  ali3_constraint_rate(in, v->q, v, in->Phit);
+  for (int32_t i = 0; i < in->system->size.nq; i++) sum += v->qd[i] * in->Q[i];
+  for (int32_t k = 0; k < in->system->size.nc; k++) sum += v->lam[k] * in->Phit[k];
+  return sum;
+}
+
+/* Where stage `stage` looks: positions and velocities from the accelerations of the stages before it. `row` are its
+ * weights, `second` those of the double integral. */
+static void combine(ali3_instance *in, double h, double time, const double *row, int stages) {
+  const int32_t nq = in->system->size.nq;
+  double second[STAGES] = {0.0};
+  for (int i = 0; i < stages; i++)
+    for (int j = 0; j < i; j++) second[j] += row[i] * ali3_order_8.stage_weight[i][j];
+  for (int32_t i = 0; i < nq; i++) {
+    in->next.qd[i] = 0.0;
+    in->next.q[i] = 0.0;
+  }
+  for (int j = 0; j < stages; j++) {
+    const double *restrict a = in->stage + (int64_t)j * nq, first = row[j], twice = second[j];
+    if (first == 0.0 && twice == 0.0) continue;
+    for (int32_t i = 0; i < nq; i++) {
+      in->next.qd[i] += first * a[i];
+      in->next.q[i] += twice * a[i];
+    }
+  }
+  for (int32_t i = 0; i < nq; i++) {
+    in->next.q[i] = in->now.q[i] + h * (time * in->now.qd[i] + h * in->next.q[i]);
+    in->next.qd[i] = in->now.qd[i] + h * in->next.qd[i];
+  }
+}
+
+/* Back to Phi = 0 and Phi_q qd + Phi_t = 0 with the tangent of the last stage, which was at the end of the step too. */
+static ali3_status close(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  ali3_vectors *v = &in->next;
+  memcpy(in->J_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
+  for (int sweep = 0;; sweep++) {
+    ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+    in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+    if (ali3_closed(S, in->Phi, in->settings.tolerance_phi)) break;
+    if (!(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
+    if (sweep == in->settings.max_iterations) return ALI3_NOT_CONVERGED;
+    for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] = ALPHA * in->Phi[k];
+    ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
+    ali3_solve(in, in->F, in->x);
+    for (int32_t i = 0; i < S->size.nq; i++) v->q[i] -= in->x[i];
+  }
+  ali3_constraint_rate(in, v->q, v, in->Phit);
+  in->report.velocity_violation = ali3_project(in, ALPHA, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, SWEEPS);
+  return ALI3_OK;
+}
+
+/* Where inputs jump at the start of the step its first stage is not the last one of the step before: accelerations and
+ * multipliers of in->next, a copy of in->now, become those behind the jump. */
+static ali3_status after_jump(ali3_instance *in) {
+  if (!ali3_inputs_jump(in)) return ALI3_OK;
+  const ali3_status status = ali3_inputs_at(in, 0.0);
+  if (status != ALI3_OK) return status;
+  const ali3_status solved = ali3_index_one(in, &in->next);
+  ali3_work_keep(in, &in->next);
+  return solved;
+}
+
+/* From in->now to in->next, a copy of it; in->now changes only when the step is good. t is the time at its end. */
+ali3_status ali3_runge_kutta(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  const int64_t before = in->report.iterations;
+  ali3_vectors *from = &in->now, *to = &in->next;
+  in->force_input = in->input_middle;
+  ali3_status status = after_jump(in);
+  memcpy(in->stage, to->qdd, (size_t)nq * sizeof(double));
+  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  const bool watched = S->n_flexible == 0; /* else M changes, and in->Q has inertia forces */
+  const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->r) : 0.0;
+  double work = watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->stage, in->r) : 0.0;
+  ali3_work_stage(in, h * ali3_order_8.weight[0], to->watched, to->work);
+  for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
+    combine(in, h, ali3_order_8.node[stage], ali3_order_8.stage_weight[stage], stage);
+    ali3_guides_time(in, to, t - (1.0 - ali3_order_8.node[stage]) * h);
+    status = ali3_inputs_at(in, ali3_order_8.node[stage]);
+    if (status != ALI3_OK) break;
+    status = ali3_index_one(in, to);
+    ali3_work_stage(in, h * ali3_order_8.weight[stage], in->watched, to->work);
+    if (watched) work += h * ali3_order_8.weight[stage] * power(in, to);
+    memcpy(in->stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
+  }
+  in->force_input = in->input;
+  if (status == ALI3_OK) {
+    combine(in, h, 1.0, ali3_order_8.weight, STAGES);
+    ali3_guides_time(in, to, t);
+    status = close(in);
+  }
+  if (status == ALI3_OK) status = ali3_index_one(in, to);
+  ali3_work_keep(in, to);
+  if (status == ALI3_OK && watched) {
+    const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->r) - kinetic;
+    status = ali3_energy_watch(in, h, gained - work, kinetic + fmax(gained, 0.0), kinetic + gained, 0.0);
+  }
+  ali3_iterations_since(in, before);
+  if (status != ALI3_OK) return status;
+  to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
+  for (int32_t i = 0; i < nq; i++) in->D[i] = to->q[i] - from->q[i];
+  ali3_predict_rates(in, h);
+  to->h_last[0] = 0.0;
+  return ali3_accept(in);
+}

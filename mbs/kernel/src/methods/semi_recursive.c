@@ -1,0 +1,315 @@
+/* Semi-recursive formulation: explicit Runge-Kutta rules on the relative coordinates of a spanning tree (J. Garcia de
+ * Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapters 5 and 8). Loops are closed by a
+ * second transformation to independent rates; positions and velocities return to the rows at the end of a step. What
+ * goes from step to step lies in the state's memory of the method; natural coordinates are written when somebody
+ * looks. */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../elements/forces.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/violation.h"
+#include "../start/index_one.h"
+#include "../state/books.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "../tree/tree.h"
+#include "newton.h"
+#include "semi_recursive.h"
+#include "steps.h"
+#include "tableau.h"
+
+static const double TURNS = 1e4, TWO_PI = 6.283185307179586; /* rad: beyond, whole turns are taken off */
+static const double BROKEN = 1e3; /* m: the rows are lost */
+
+/* Numbers of the method in a state: q, qd, qdd, turned angles, rank, order of rows, order of joints. They begin at
+ * `own`. */
+static void keep(const ali3_instance *in, double *own) {
+  const ali3_tree *T = in->system->tree;
+  const ali3_tree_work *w = in->tree;
+  const size_t n = (size_t)T->n;
+  memcpy(own, w->state, 2 * n * sizeof(double));
+  memcpy(own + 2 * n, w->qdd, n * sizeof(double));
+  memcpy(own + 3 * n, w->turned, (size_t)T->n_angle * sizeof(double));
+  if (T->n_row == 0) return;
+  double *order = own + 3 * n + T->n_angle;
+  *order++ = w->rank;
+  for (int32_t i = 0; i < T->n_row; i++) *order++ = w->row_order[i];
+  for (int32_t j = 0; j < T->n; j++) *order++ = w->column_order[j];
+}
+
+/* n different whole numbers from `first` on; a restored state may hold anything. */
+static bool permutation(const double *v, int32_t n, int32_t first, int32_t *out) {
+  bool seen[ALI3_LANES] = {false};
+  for (int32_t i = 0; i < n; i++) {
+    if (!(v[i] >= first && v[i] < first + n)) return false;
+    out[i] = (int32_t)v[i];
+    if (seen[out[i] - first]) return false;
+    seen[out[i] - first] = true;
+  }
+  return true;
+}
+
+static bool recall(const ali3_instance *in, const double *own) {
+  const ali3_tree *T = in->system->tree;
+  ali3_tree_work *w = in->tree;
+  const size_t n = (size_t)T->n;
+  memcpy(w->state, own, 2 * n * sizeof(double));
+  memcpy(w->qdd, own + 2 * n, n * sizeof(double));
+  memcpy(w->turned, own + 3 * n, (size_t)T->n_angle * sizeof(double));
+  w->rank = 0;
+  if (T->n_row == 0) return true;
+  const double *order = own + 3 * n + T->n_angle;
+  if (!(order[0] >= 0.0 && order[0] <= T->n_row && order[0] <= T->n)) return false;
+  w->rank = (int32_t)order[0];
+  return permutation(order + 1, T->n_row, 0, w->row_order) &&
+         permutation(order + 1 + T->n_row, T->n, 1, w->column_order);
+}
+
+static void place(const ali3_instance *in, const double *x) {
+  memcpy(in->tree->q + 1, x, (size_t)in->system->tree->n * sizeof(double));
+  ali3_tree_place(in->system->tree, in->tree);
+}
+
+/* Frames, joint motions and the factorised rows at the positions in x. */
+static void position(const ali3_instance *in) {
+  const ali3_system *S = in->system;
+  ali3_tree_joints(S->tree, in->tree);
+  if (S->tree->n_row == 0) return;
+  ali3_loops_rows(S, in->tree, true);
+  ali3_loops_factorise(S->tree, in->tree);
+}
+
+/* Joint accelerations at the positions placed and the rates qd. */
+static ali3_status accelerations(ali3_instance *in, const double *qd, double *qdd) {
+  const ali3_system *S = in->system;
+  const ali3_tree *T = S->tree;
+  ali3_tree_work *w = in->tree;
+  bool good;
+  memcpy(w->qd + 1, qd, (size_t)T->n * sizeof(double));
+  ali3_tree_move(T, w);
+  ali3_tree_forces(T, w);
+  if (S->size.ne > 0) {
+    ali3_vectors *v = &in->next;
+    ali3_tree_write(in, v->q, v->qd, NULL);
+    const ali3_force_call call = {v->q, v->qd, in->now.y, 0.0, 0.0, 0.0, false, in->Q, v->y, v->out, v->potential};
+    ali3_forces(in, &call);
+    ali3_tree_load(in, in->Q);
+  }
+  ali3_tree_mass(T, w);
+  ali3_angles_mass(S, w);
+  if (S->size.ne > 0) ali3_angles_load(S, w, in->Q);
+  if (T->n_row > 0) {
+    ali3_loops_bias(S, w);
+    good = ali3_loops_solve(T, w, qdd);
+  } else {
+    good = ali3_tree_factorise(T, w, w->load);
+    ali3_tree_solve(T, w, w->load);
+    memcpy(qdd, w->load + 1, (size_t)T->n * sizeof(double));
+  }
+  in->report.iterations++;
+  in->report.factorizations++;
+  return good ? ALI3_OK : ALI3_SINGULAR;
+}
+
+/* From natural coordinates, where another method or a start has left the state. */
+static ali3_status begin(ali3_instance *in) {
+  ali3_tree_work *w = in->tree;
+  const ali3_tree *T = in->system->tree;
+  ali3_tree_read(in, in->now.q, in->now.qd, w->state);
+  ali3_angles_read(in->system, w, in->now.q);
+  place(in, w->state);
+  ali3_tree_joints(T, w);
+  if (T->n_row > 0) {
+    ali3_loops_rows(in->system, w, true);
+    ali3_loops_choose(T, w);
+    ali3_loops_factorise(T, w);
+  }
+  return accelerations(in, w->state + T->n, w->qdd);
+}
+
+/* Accelerations at the start of a step where its inputs are not those at the end of the last. */
+static ali3_status after_jump(ali3_instance *in) {
+  ali3_tree_work *w = in->tree;
+  place(in, w->state);
+  position(in);
+  return accelerations(in, w->state + in->system->tree->n, w->qdd);
+}
+
+/* w->sum = state + h times the rates of the stages with their weights. */
+static void combine(const ali3_instance *in, double h, const double *weight, int32_t stages) {
+  ali3_tree_work *w = in->tree;
+  const int32_t n = 2 * in->system->tree->n;
+  double *restrict sum = w->sum;
+  for (int32_t i = 0; i < n; i++) sum[i] = 0.0;
+  for (int32_t j = 0; j < stages; j++) {
+    const double *restrict rate = w->stage[j], a = weight[j];
+    if (a == 0.0) continue;
+    for (int32_t i = 0; i < n; i++) sum[i] += a * rate[i];
+  }
+  for (int32_t i = 0; i < n; i++) sum[i] = w->state[i] + h * sum[i];
+}
+
+static double largest(const double *v, int32_t n) {
+  double most = 0.0;
+  for (int32_t i = 0; i < n; i++) most = fabs(v[i]) > most ? fabs(v[i]) : most;
+  return most;
+}
+
+/* Positions in w->sum placed and back on the rows, with the factors of the last stage, which was at the end of the step
+ * or near it; then velocities. */
+static ali3_status close(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const ali3_tree *T = S->tree;
+  ali3_tree_work *w = in->tree;
+  double *qd = w->sum + T->n;
+  for (int32_t sweep = 0;; sweep++) {
+    place(in, w->sum);
+    if (T->n_row == 0) break;
+    ali3_loops_rows(S, w, false);
+    const double violation = largest(w->Phi, T->n_row);
+    in->report.violation = violation;
+    if (violation <= in->settings.tolerance_phi) break;
+    if (sweep == in->settings.max_iterations || !(violation < BROKEN)) return ALI3_NOT_CONVERGED;
+    ali3_loops_correct(T, w, w->Phi, w->sum);
+  }
+  position(in);
+  if (T->n_row == 0) return ALI3_OK;
+  for (int32_t i = 0; i < T->n_row; i++) {
+    w->gamma[i] = 0.0;
+    for (int32_t j = 0; j < T->n; j++) w->gamma[i] += w->row[i][j + 1] * qd[j];
+  }
+  ali3_loops_correct(T, w, w->gamma, qd);
+  ali3_loops_choose(T, w);
+  ali3_loops_factorise(T, w);
+  return ALI3_OK;
+}
+
+/* Natural coordinates of v at the state of the method, with what its readers need. */
+static ali3_status show(ali3_instance *in, ali3_vectors *v) {
+  const ali3_system *S = in->system;
+  ali3_tree_accelerate(S->tree, in->tree, in->tree->qdd);
+  ali3_tree_write(in, v->q, v->qd, v->qdd);
+  if (in->controlled && in->sampled) return ALI3_OK; /* only the motion is looked at */
+  if (in->sampled && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
+  /* not from the last multipliers: bits must not depend on who looked when */
+  memset(v->lam, 0, (size_t)S->size.nc * sizeof(double));
+  const ali3_status status = ali3_index_one(in, v);
+  if (status != ALI3_OK) return status;
+  ali3_tree_write(in, v->q, v->qd, v->qdd); /* those of the multipliers' solution have its error */
+  in->report.iterations--; /* evaluations of the method itself are counted */
+  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+  ali3_rows_times(S, in->J, v->qd, in->mu);
+  int32_t worst = 0;
+  in->report.velocity_violation = ali3_violation(S, in->mu, &worst);
+  return ALI3_OK;
+}
+
+static void turn_back(const ali3_system *S, ali3_tree_work *w) {
+  for (int32_t j = 0; j < S->tree->n; j++)
+    if (fabs(w->state[j]) > TURNS && S->tree->slide[j + 1] == 0.0) {
+      const double angle = TWO_PI * floor(w->state[j] / TWO_PI + 0.5);
+      w->state[j] -= angle;
+      w->q[j + 1] = w->state[j];
+      ali3_angles_turn(S, w, j + 1, angle);
+    }
+}
+
+/* In the metric of the diagonal of the mass matrix; w->stage[0] has rates and accelerations at the start of the step,
+ * w->sum the rates at its end. */
+static void books(ali3_instance *in, double h) {
+  const ali3_tree *T = in->system->tree;
+  const ali3_tree_work *w = in->tree;
+  const double *v0 = w->stage[0], *a = v0 + T->n, *v1 = w->sum + T->n;
+  double speed = 0.0, change = 0.0, miss = 0.0;
+  for (int32_t j = 0; j < T->n; j++) {
+    double m = 0.0;
+    for (int i = 0; i < 3; i++)
+      m += w->angular[i][j + 1] * w->turn[i][j + 1] + w->linear[i][j + 1] * w->shift[i][j + 1];
+    const double d = v1[j] - v0[j], e = d - h * a[j];
+    speed += m * v1[j] * v1[j];
+    change += m * d * d;
+    miss += m * e * e;
+  }
+  ali3_books_motion(&in->report, speed, change, miss);
+}
+
+/* From in->now by a step h that ends at time t; in->now changes only when the step is good. */
+ali3_status ali3_semi_recursive(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
+  const ali3_tree *T = S->tree;
+  const ali3_tableau *rule = in->settings.method == ALI3_METHOD_SEMI_RECURSIVE ? &ali3_order_8 : &ali3_order_4;
+  const int32_t n = T->n;
+  const int64_t before = in->report.iterations;
+  const bool mine = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
+  ali3_tree_work *w = in->tree;
+  (void)t;
+  ali3_status status = ali3_inputs_at(in, 0.0);
+  if (status != ALI3_OK) return status;
+  in->force_input = in->input_middle;
+  if (!(mine && recall(in, in->now.own)))
+    status = begin(in);
+  else if (ali3_inputs_jump(in))
+    status = after_jump(in);
+  else
+    ali3_work_recall(in);
+  ali3_work_first(in, h * rule->weight[0]);
+  memcpy(w->stage[0], w->state + n, (size_t)n * sizeof(double));
+  memcpy(w->stage[0] + n, w->qdd, (size_t)n * sizeof(double));
+  for (int32_t stage = 1; stage < rule->stages && status == ALI3_OK; stage++) {
+    combine(in, h, rule->stage_weight[stage], stage);
+    status = ali3_inputs_at(in, rule->node[stage]);
+    if (status != ALI3_OK) break;
+    place(in, w->sum);
+    position(in);
+    memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));
+    status = accelerations(in, w->sum + n, w->stage[stage] + n);
+    ali3_work_stage(in, h * rule->weight[stage], in->watched, in->work_sum);
+  }
+  in->force_input = in->input;
+  if (status == ALI3_OK) {
+    combine(in, h, rule->weight, rule->stages);
+    status = close(in);
+  }
+  if (status == ALI3_OK) status = accelerations(in, w->sum + n, w->qdd);
+  ali3_iterations_since(in, before);
+  if (status != ALI3_OK) return status;
+  if (!ali3_finite(w->sum, 2 * n) || !ali3_finite(w->qdd, n)) return ALI3_NOT_FINITE;
+  books(in, h);
+  memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
+  turn_back(S, w);
+  ali3_vectors *v = in->quiet ? &in->now : &in->next;
+  if (!in->quiet) ali3_vectors_copy(in, v, &in->now);
+  ali3_work_stage(in, 1.0, in->work_sum, v->work);
+  ali3_work_keep(in, v);
+  if (!in->quiet) {
+    status = show(in, v);
+    if (status != ALI3_OK) return status;
+  }
+  keep(in, v->own);
+  v->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_SEMI_RECURSIVE;
+  v->memory[ALI3_MEMORY_COUNT] = 0.0;
+  v->h_last[0] = 0.0;
+  memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
+  return in->quiet ? ALI3_OK : ali3_accept(in);
+}
+
+/* After quiet steps: the natural coordinates of the last one. */
+void ali3_semi_recursive_report(ali3_instance *in) {
+  ali3_tree_work *w = in->tree;
+  if (!recall(in, in->now.own)) return;
+  place(in, w->state);
+  ali3_tree_joints(in->system->tree, w);
+  memcpy(w->qd + 1, w->state + in->system->tree->n, (size_t)in->system->tree->n * sizeof(double));
+  ali3_tree_move(in->system->tree, w);
+  in->sampled = false;
+  ali3_vectors_copy(in, &in->next, &in->now);
+  if (show(in, &in->next) != ALI3_OK) { /* nothing but the motion */
+    ali3_tree_write(in, in->next.q, in->next.qd, in->next.qdd);
+    memset(in->next.lam, 0, (size_t)in->system->size.nc * sizeof(double));
+  }
+  ali3_vectors_copy(in, &in->now, &in->next);
+}

@@ -1,0 +1,163 @@
+/* One ALi3-P step: trapezoidal rule (17), (18) in the increment D = q_(n+1) - q_n, Newton on (19), (20), projections
+ * (24), (25). */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
+#include "../rows/velocity_rows.h"
+#include "../rows/violation.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "energy_watch.h"
+#include "generalised_alpha.h"
+#include "newton.h"
+#include "predict.h"
+#include "projection.h"
+#include "steps.h"
+
+enum { MAX_SWEEPS = 3 };
+/* Relative violations at which projections end: velocities at round-off; accelerations only steer the next
+ * prediction. */
+static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
+
+/* Positions, rates, rows, forces and residual r = M (D - d0) + c (Phi_q' lam - Q) of (20) for the present D and lam. */
+static void evaluate(ali3_instance *in, double h, bool tangent) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  const double c = in->rule.c, rate = in->rule.rate;
+  ali3_vectors *to = &in->next;
+  for (int32_t i = 0; i < nq; i++) {
+    to->q[i] = in->now.q[i] + in->D[i];
+    to->qd[i] = rate * in->D[i] + in->hat[i];
+    in->w[i] = in->D[i] - in->d0[i];
+  }
+  ali3_constraints(in, to->q, to->s, in->Phi, in->J);
+  ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
+  const ali3_force_call call = {to->q,   to->qd, in->now.y, h,       in->rule.wC,  c,
+                                tangent, in->Q,  to->y,     to->out, to->potential};
+  ali3_forces(in, &call);
+  ali3_mass_times(in, in->w, in->r);
+  for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
+}
+
+/* Judges the residual with the multipliers. */
+static bool judge(ali3_instance *in) {
+  ali3_rows_transposed(in->system, in->J, in->next.lam, in->x);
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->x[i] = in->r[i] + in->rule.c * in->x[i];
+  return ali3_judge(in, in->x);
+}
+
+/* One Newton correction (21) with the tangent (23) and the multiplier update. */
+static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  const double c = in->rule.c;
+  double *lam = in->next.lam;
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_rows_square(in, in->J, c * alpha, in->F);
+  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, lam, c, in->F);
+  ali3_forces_tangent(in, in->F);
+  const ali3_status status = ali3_factorise(in, in->F);
+  if (status != ALI3_OK) return status;
+  for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + alpha * in->Phi[k];
+  ali3_rows_transposed(S, in->J, in->mu, in->x);
+  for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + c * in->x[i]);
+  ali3_solve(in, in->F, in->x);
+  if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+  if (in->settings.update == ALI3_UPDATE_LINEARISED) {
+    ali3_rows_times(S, in->J, in->x, in->gamma);
+    for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
+    ali3_accelerate(in, iteration);
+    for (int32_t k = 0; k < nc; k++) lam[k] += in->lam[k];
+  }
+  for (int32_t i = 0; i < nq; i++) in->D[i] += in->x[i];
+  return ALI3_OK;
+}
+
+static ali3_status newton(ali3_instance *in, double h, double alpha) {
+  const ali3_settings *settings = &in->settings;
+  evaluate(in, h, true);
+  in->report.last_iterations = 0;
+  while (in->report.last_iterations < settings->max_iterations) {
+    const ali3_status status = correct(in, alpha, in->report.last_iterations);
+    if (status != ALI3_OK) return ali3_newton_ended(in, status);
+    in->report.iterations++;
+    in->report.last_iterations++;
+    if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
+    double *J = in->J;
+    in->J = in->J_tangent;
+    in->J_tangent = J;
+    evaluate(in, h, true);
+    if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
+      for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
+    if (!judge(in)) return ALI3_NOT_FINITE;
+    if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
+      return ALI3_OK;
+  }
+  return ALI3_NOT_CONVERGED;
+}
+
+/* Trapezoidal rule (17), (18). */
+static void trapezoidal(ali3_instance *in, double h) {
+  const ali3_rule rule = {0.25 * h * h, 2.0 / h, 0.5 * h};
+  in->rule = rule;
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
+    in->d0[i] = h * in->now.qd[i] + rule.c * in->now.qdd[i];
+    in->hat[i] = -in->now.qd[i];
+  }
+}
+
+/* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
+ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  const double alpha = ali3_penalty(in, h);
+  ali3_vectors *from = &in->now, *to = &in->next;
+  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_quiet_start(in, h);
+  ali3_guides_step(in, from, to, t, h);
+  const bool from_past = ali3_predict(in, h, true);
+  if (is_alpha)
+    ali3_alpha_rule(in, h);
+  else
+    trapezoidal(in, h);
+  const double c = in->rule.c;
+  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
+  /* derivatives of a step are those of the trapezoidal rule, also in a quiet start */
+  to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
+  ali3_status status = newton(in, h, alpha);
+  if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
+    ali3_predict(in, h, false);
+    status = newton(in, h, alpha);
+  }
+  if (status != ALI3_OK) return status;
+  for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;
+  if (is_alpha)
+    ali3_alpha_accept(in, h);
+  else
+    to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_ALI3P;
+  const ali3_force_call call = {to->q, to->qd, from->y, h, in->rule.wC, c, false, in->Q, to->y, to->out, to->potential};
+  ali3_forces_accept(in, &call);
+  ali3_predict_rates(in, h);
+  ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
+  ali3_constraint_rate(in, to->q, to, in->Phit);
+  if (in->settings.project) {
+    double kinetic, end, open, work = ali3_constraint_work(in, h);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
+    ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
+    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS);
+    work += ali3_projection_work(in, h, &kinetic, &end, &open);
+    const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);
+    if (resolved != ALI3_OK) return resolved;
+  } else {
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0);
+  }
+  ali3_work_step(in, 0.5);
+  return ali3_accept(in);
+}

@@ -1,0 +1,81 @@
+/* Error of a step by step doubling: one whole step against two halves, of which the halves stay (Hairer, Norsett,
+ * Wanner, "Solving Ordinary Differential Equations I", second edition, II.4). */
+#include <math.h>
+#include <string.h>
+
+#include "../instance.h"
+#include "../state/books.h"
+#include "../state/vectors.h"
+#include "error_control.h"
+#include "steps.h"
+
+int32_t ali3_order(int32_t method) {
+  static const int32_t order[ALI3_METHOD_COUNT] = {2, 1, 2, 3, 8, 8, 4, 5}; /* of steps that change */
+  return order[method];
+}
+
+/* A step from time t that is never halved inside; what a failed one leaves behind is for the caller to mend. */
+ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
+  in->kept = false;
+  in->t_now = t;
+  return ali3_advance(in, t + h, h, 0);
+}
+
+static double scale_of(const ali3_measure *measure, int32_t i) {
+  return measure->scale != NULL ? measure->scale[i] : 1.0;
+}
+
+/* Largest of |q_i| and, where there is mass, |qd_i| over the rate (1/s), in parts of the length of the control. */
+double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
+                     double rate) {
+  const ali3_system *S = in->system;
+  double largest = 0.0;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    const double size = fabs(q[i]), speed = S->mass_missing[i] == 0.0 ? fabs(qd[i]) / rate : 0.0;
+    const double part = scale_of(measure, i) * fmax(size, speed);
+    if (!(part <= largest) && largest == largest) largest = part; /* a NaN stays */
+  }
+  return largest / measure->control->length;
+}
+
+/* Rate by which velocities are measured, 1/s: that of the present motion, and at least the one given. */
+double ali3_rate(const ali3_instance *in, const ali3_measure *measure) {
+  const ali3_system *S = in->system;
+  double largest = 0.0;
+  for (int32_t i = 0; i < S->size.nq; i++)
+    if (S->mass_missing[i] == 0.0) largest = fmax(largest, scale_of(measure, i) * fabs(in->now.qd[i]));
+  return fmax(measure->control->rate, largest / measure->control->length);
+}
+
+/* From in->now, which stays in in->origin, to in->now by way of in->centre; *error in parts of the length. A failed step
+ * leaves in->now as it was. */
+ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
+  const int32_t nq = in->system->size.nq;
+  const ali3_report before = in->report;
+  ali3_vectors_copy(in, &in->origin, &in->now);
+  ali3_status status = ali3_trial_step(in, t, h);
+  ali3_books_back(&in->report, &before);
+  ali3_vectors_copy(in, &in->coarse, &in->now);
+  ali3_vectors_copy(in, &in->now, &in->origin);
+  if (status == ALI3_OK) status = ali3_trial_step(in, t, 0.5 * h);
+  if (status == ALI3_OK) {
+    in->report.steps++;
+    ali3_vectors_copy(in, &in->centre, &in->now);
+    status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h);
+  }
+  if (status == ALI3_OK) {
+    const double share = 1.0 / (ldexp(1.0, ali3_order(in->settings.method)) - 1.0);
+    for (int32_t i = 0; i < nq; i++) {
+      in->w[i] = share * (in->now.q[i] - in->coarse.q[i]);
+      in->x[i] = share * (in->now.qd[i] - in->coarse.qd[i]);
+    }
+    *error = ali3_distance(in, measure, in->w, in->x, ali3_rate(in, measure));
+    in->report.steps++;
+    if (*error < 1e300) return ALI3_OK;
+    status = ALI3_NOT_FINITE;
+  }
+  ali3_books_back(&in->report, &before);
+  in->report.steps = before.steps;
+  ali3_vectors_copy(in, &in->now, &in->origin);
+  return status;
+}

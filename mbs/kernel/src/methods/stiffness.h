@@ -1,0 +1,7 @@
+/* Why an explicit method refused a step. */
+#ifndef ALI3_STIFFNESS_H
+#define ALI3_STIFFNESS_H
+#include "../instance.h"
+
+ali3_status ali3_explain_refusal(ali3_instance *in, ali3_status status, double h);
+#endif

@@ -1,0 +1,10 @@
+/* Guides of rows over time. */
+#ifndef ALI3_GUIDES_H
+#define ALI3_GUIDES_H
+#include "../instance.h"
+
+const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal);
+void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t);
+void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t);
+void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_vectors *to, double t, double h);
+#endif

@@ -1,0 +1,26 @@
+/* Rows that are switched on or off: one that is off is a row of zeros, one that is on holds its anchor. */
+#include "switch_rows.h"
+#include "../instance.h"
+
+/* Phi less the anchors; rows that are off vanish. */
+void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J) {
+  const ali3_system *S = in->system;
+  if (S->size.n_switch == 0) return;
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    if (S->row_switch[k] < 0) continue;
+    if (in->now.on[S->row_switch[k]] != 0.0) {
+      Phi[k] -= in->now.anchor[k];
+    } else {
+      Phi[k] = 0.0;
+      for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) J[i] = 0.0;
+    }
+  }
+}
+
+/* One number per row, zero where the row is off. */
+void ali3_switch_values(const ali3_instance *in, double *v) {
+  const ali3_system *S = in->system;
+  if (S->size.n_switch == 0) return;
+  for (int32_t k = 0; k < S->size.nc; k++)
+    if (S->row_switch[k] >= 0 && in->now.on[S->row_switch[k]] == 0.0) v[k] = 0.0;
+}

@@ -1,0 +1,65 @@
+/* Conditions on velocities that no position integrates (rolling, skates): rows A(q) qd = 0 with A_b = row_lin + sum of
+ * h q_a. They bring no Phi; A stands in their place of Phi_q, so that projections, accelerations and forces A' lam need
+ * nothing of their own. Where a step solves for positions, the value of such a row is A qd over the rate of its rule,
+ * whose derivative with respect to the increment is A and a term of the size of the step. */
+#include "velocity_rows.h"
+#include "../instance.h"
+
+static bool is_off(const ali3_instance *in, int32_t k) {
+  const int32_t number = in->system->row_switch[k];
+  return number >= 0 && in->now.on[number] == 0.0;
+}
+
+/* No Phi, and what the coordinates add to A. */
+void ali3_velocity_jacobian(const ali3_instance *in, const double *q, double *Phi, double *J) {
+  const ali3_system *S = in->system;
+  for (int64_t i = 0; i < S->n_velocity_row; i++) {
+    Phi[S->velocity_row[i]] = 0.0;
+    for (int32_t t = S->velocity_ptr[i]; t < S->velocity_ptr[i + 1]; t++)
+      J[S->velocity[t].jb] += S->velocity[t].h * q[S->velocity[t].a];
+  }
+}
+
+/* d(A)/dt qd */
+void ali3_velocity_gamma(const ali3_instance *in, const double *qd, double *gamma) {
+  const ali3_system *S = in->system;
+  for (int64_t i = 0; i < S->n_velocity_row; i++) {
+    double sum = 0.0;
+    for (int32_t t = S->velocity_ptr[i]; t < S->velocity_ptr[i + 1]; t++)
+      sum += S->velocity[t].h * qd[S->velocity[t].a] * qd[S->velocity[t].b];
+    gamma[S->velocity_row[i]] = sum;
+  }
+}
+
+/* Phi = A v / rate */
+void ali3_velocity_values(const ali3_instance *in, const double *A, const double *v, double rate, double *Phi) {
+  const ali3_system *S = in->system;
+  for (int64_t i = 0; i < S->n_velocity_row; i++) {
+    const int32_t k = S->velocity_row[i];
+    double sum = 0.0;
+    for (int32_t j = S->row_ptr[k]; j < S->row_ptr[k + 1]; j++) sum += A[j] * v[S->row_col[j]];
+    Phi[k] = sum / rate;
+  }
+}
+
+/* Over a step that goes D with the A of its middle: Phi = A D, and J its exact derivative A + sum of h D_b / 2. */
+void ali3_velocity_middle(const ali3_instance *in, const double *A, const double *D, double *Phi, double *J) {
+  const ali3_system *S = in->system;
+  ali3_velocity_values(in, A, D, 1.0, Phi);
+  for (int64_t i = 0; i < S->n_velocity_row; i++) {
+    const int32_t k = S->velocity_row[i];
+    for (int32_t j = S->row_ptr[k]; j < S->row_ptr[k + 1]; j++) J[j] = A[j];
+    if (is_off(in, k)) continue;
+    for (int32_t t = S->velocity_ptr[i]; t < S->velocity_ptr[i + 1]; t++)
+      J[S->velocity[t].ja] += 0.5 * S->velocity[t].h * D[S->velocity[t].b];
+  }
+}
+
+/* Rows that positions do not know. */
+void ali3_velocity_release(const ali3_instance *in, double *J) {
+  const ali3_system *S = in->system;
+  for (int64_t i = 0; i < S->n_velocity_row; i++) {
+    const int32_t k = S->velocity_row[i];
+    for (int32_t j = S->row_ptr[k]; j < S->row_ptr[k + 1]; j++) J[j] = 0.0;
+  }
+}

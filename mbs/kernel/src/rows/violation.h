@@ -1,0 +1,9 @@
+/* How far rows are open, in metres. */
+#ifndef ALI3_VIOLATION_H
+#define ALI3_VIOLATION_H
+#include "../system.h"
+
+double ali3_violation(const ali3_system *S, const double *Phi, int32_t *worst);
+double ali3_opening(const ali3_system *S, const double *Phi);
+bool ali3_closed(const ali3_system *S, const double *Phi, double tolerance);
+#endif

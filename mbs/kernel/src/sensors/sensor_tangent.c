@@ -1,0 +1,288 @@
+/* Change of the sensor values along in->tangent, a direction in the space of states; type numbers as in sensors.c.
+ * Along (qd, qdd, ...) it is the rate of a sensor. */
+#include <math.h>
+#include <string.h>
+
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../state/work.h"
+#include "sensors.h"
+
+typedef struct {
+  double v[3], d[3]; /* value and change */
+} moving;
+
+static const double SLOWEST = 0.1; /* m/s, as in sensors.c */
+
+/* Signal i (order 0) or its first or second rate, of a state, without the constant. */
+static double signal(const ali3_system *S, const ali3_vectors *x, int32_t i, int32_t order) {
+  const double *column = order == 0 ? x->q : (order == 1 ? x->qd : x->qdd);
+  double sum = 0.0;
+  for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * column[S->sig_col[k]];
+  return sum;
+}
+
+static moving vector(const ali3_instance *in, const int32_t *v, int32_t order, int32_t n) {
+  moving m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  for (int32_t i = 0; i < n; i++) {
+    m.v[i] = signal(in->system, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
+    m.d[i] = signal(in->system, &in->tangent, v[i], order);
+  }
+  return m;
+}
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static double dot_change(const moving *a, const moving *b) { return dot(a->d, b->v) + dot(a->v, b->d); }
+
+static void cross(const double a[3], const double b[3], double out[3]) {
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static double angle_change(double y, double x, double dy, double dx) {
+  const double square = x * x + y * y;
+  return square > 0.0 ? (x * dy - y * dx) / square : 0.0;
+}
+
+static double component(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
+  const moving p = vector(in, points, order, 3), a = vector(in, axis, 0, 3);
+  return dot_change(&p, &a);
+}
+
+static double pitch(const ali3_instance *in, int32_t i) {
+  const moving u = vector(in, &i, 0, 1);
+  const double rest = 1.0 - u.v[0] * u.v[0];
+  return rest > 0.0 ? -u.d[0] / sqrt(rest) : 0.0;
+}
+
+static double axial_rate(const ali3_instance *in, const int32_t *v) {
+  const moving a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3);
+  const moving ad = vector(in, v, 1, 3), bd = vector(in, v + 3, 1, 3);
+  return 0.5 * (dot_change(&ad, &b) - dot_change(&bd, &a));
+}
+
+/* dp = 1/2 w p with the turn w = 1/2 sum a x da of the axes, both in earth axes. */
+static double quaternion(const ali3_instance *in, int32_t wanted, const int32_t *v, const double p[4]) {
+  double w[3] = {0.0, 0.0, 0.0}, one[3];
+  for (int32_t i = 0; i < 3; i++) {
+    const moving a = vector(in, v + 3 * i, 0, 3);
+    cross(a.v, a.d, one);
+    for (int32_t j = 0; j < 3; j++) w[j] += 0.5 * one[j];
+  }
+  cross(w, p + 1, one);
+  return wanted == 0 ? -0.5 * dot(w, p + 1) : 0.5 * (p[0] * w[wanted - 1] + one[wanted - 1]);
+}
+
+/* What the positions change in the energies of flexible bodies: they are quadratic in q, for which differences of any
+ * width are exact. */
+static void flexible_energy(const ali3_instance *in, double *kinetic, double *gravity, double *elastic) {
+  const int32_t nq = in->system->size.nq;
+  for (int side = -1; side <= 1; side += 2) {
+    double twice = 0.0, of_weight = 0.0, of_strain = 0.0;
+    for (int32_t i = 0; i < nq; i++) in->w[i] = in->now.q[i] + side * in->tangent.q[i];
+    ali3_flexible_prepare(in, in->w);
+    ali3_flexible_energy(in, in->w, &of_weight, &of_strain);
+    memset(in->x, 0, (size_t)nq * sizeof(double));
+    ali3_flexible_mass_times(in, in->now.qd, in->x);
+    for (int32_t i = 0; i < nq; i++) twice += in->x[i] * in->now.qd[i];
+    *kinetic += 0.25 * side * twice;
+    *gravity += 0.5 * side * of_weight;
+    *elastic += 0.5 * side * of_strain;
+  }
+}
+
+static double energy(const ali3_instance *in, int32_t kind) {
+  const ali3_system *S = in->system;
+  double kinetic = 0.0, gravity = 0.0, elastic = 0.0;
+  if (S->n_flexible > 0) flexible_energy(in, &kinetic, &gravity, &elastic);
+  ali3_flexible_prepare(in, in->now.q);
+  ali3_mass_times(in, in->now.qd, in->x);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    kinetic += in->x[i] * in->tangent.qd[i];
+    gravity -= S->gravity_force[i] * in->tangent.q[i];
+  }
+  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->tangent.potential[e];
+  const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
+  return kinds[kind];
+}
+
+static double reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
+  double sum = 0.0;
+  for (int32_t i = 0; i < v[0]; i++) sum += weight[i] * in->system->row_scale[v[1 + i]] * in->tangent.lam[v[1 + i]];
+  return sum;
+}
+
+/* The product rule, factor by factor. */
+static double products(const ali3_instance *in, const int32_t *v, const double *weight) {
+  double sum = 0.0;
+  for (int32_t k = 0; k < v[0]; k++) {
+    const int32_t *term = v + 1 + 5 * k, row = term[0], guide = term[4];
+    const double scale = weight[k] * in->system->row_scale[row];
+    double value = scale * in->now.lam[row], change = scale * in->tangent.lam[row];
+    for (int i = 1; i < 4; i++) {
+      if (term[i] < 0) continue;
+      const moving u = vector(in, term + i, 0, 1);
+      change = change * u.v[0] + value * u.d[0];
+      value *= u.v[0];
+    }
+    if (guide >= 0) change = change * in->now.s[guide] + value * in->tangent.s[guide];
+    sum += change;
+  }
+  return sum;
+}
+
+static double norm(const ali3_instance *in, const int32_t *v) {
+  const moving p = vector(in, v + 2, v[0], v[1]);
+  const double length = sqrt(dot(p.v, p.v));
+  return length > 0.0 ? dot(p.v, p.d) / length : 0.0;
+}
+
+static double direction(const ali3_instance *in, const int32_t *v) {
+  const moving p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3), b = vector(in, v + 7, 0, 3);
+  const double along = dot(p.v, a.v), across = dot(p.v, b.v);
+  if (v[0] == 1 && along * along + across * across < SLOWEST * SLOWEST) return 0.0;
+  return angle_change(across, along, dot_change(&p, &b), dot_change(&p, &a));
+}
+
+static double angle_about(const ali3_instance *in, const int32_t *v) {
+  const moving a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3), c = vector(in, v + 6, 0, 3);
+  double one[3], two[3];
+  moving turn;
+  cross(b.v, a.v, turn.v);
+  cross(b.d, a.v, one);
+  cross(b.v, a.d, two);
+  for (int32_t i = 0; i < 3; i++) turn.d[i] = one[i] + two[i];
+  return angle_change(dot(turn.v, c.v), dot(a.v, b.v), dot_change(&turn, &c), dot_change(&a, &b));
+}
+
+/* Products of axes with forces at ports and accelerations, as in sensors.c. */
+static double quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
+  const int32_t n = v[0], *row = v + 13;
+  const double *gravity = real, *weight = real + 3;
+  moving axis[3], rdd = vector(in, v + 1, 2, 3);
+  double sum = 0.0;
+  for (int i = 0; i < 3; i++) axis[i] = vector(in, v + 4 + 3 * i, 0, 3);
+  for (int k = 0; k < 3; k++) rdd.v[k] -= gravity[k];
+  for (int32_t p = 0; p < n; p++, row += 3, weight += 3) {
+    moving force;
+    for (int k = 0; k < 3; k++) {
+      force.v[k] = in->system->row_scale[row[k]] * in->now.lam[row[k]];
+      force.d[k] = in->system->row_scale[row[k]] * in->tangent.lam[row[k]];
+    }
+    for (int i = 0; i < 3; i++) sum += weight[i] * dot_change(&axis[i], &force);
+  }
+  for (int i = 0; i < 3; i++) sum += weight[i] * dot_change(&axis[i], &rdd);
+  weight += 3;
+  for (int j = 0; j < 3; j++) {
+    const moving add = vector(in, v + 4 + 3 * j, 2, 3);
+    for (int i = 0; i < 3; i++) sum += weight[3 * i + j] * dot_change(&axis[i], &add);
+  }
+  return sum;
+}
+
+static double change(const ali3_instance *in, int32_t type, const int32_t *v, const double *real, const double *p) {
+  const ali3_vectors *d = &in->tangent;
+  switch (type) {
+  case 0:
+  case 1:
+  case 2:
+    return real[0] * signal(in->system, d, v[0], type);
+  case 3:
+    return component(in, v + 1, v + 4, v[0]);
+  case 4: {
+    const moving y = vector(in, v, 0, 1), x = vector(in, v + 1, 0, 1);
+    return angle_change(y.v[0], x.v[0], y.d[0], x.d[0]);
+  }
+  case 5:
+    return pitch(in, v[0]);
+  case 6:
+    return real[0] * axial_rate(in, v);
+  case 7:
+    return quaternion(in, v[0], v + 1, p);
+  case 8:
+    return real[0] * d->out[in->system->el_out_ptr[v[0]] + v[1]];
+  case 9:
+    return reaction(in, v, real);
+  case 10:
+    return energy(in, v[0]);
+  case 11:
+    return d->used[v[0]];
+  case 12:
+    return real[0] * (v[1] == 0 ? d->s : (v[1] == 1 ? d->sd : d->sdd))[v[0]];
+  case 13:
+    return 0.0; /* counts and residuals */
+  case 14:
+    return norm(in, v);
+  case 15:
+    return direction(in, v);
+  case 16:
+    return angle_about(in, v);
+  case 17:
+    return quasi_static(in, v, real);
+  case 18:
+    return products(in, v, real);
+  default:
+    return ali3_work_change(in, v[0], v[1], v + 2);
+  }
+}
+
+void ali3_sensors_tangent(const ali3_instance *in, double *out) {
+  const ali3_system *S = in->system;
+  double p[4] = {1.0, 0.0, 0.0, 0.0};
+  for (int32_t i = 0; i < S->size.ns; i++) {
+    const int32_t *v = S->sen_int + S->sen_int_ptr[i];
+    if (S->sen_type[i] == 7) ali3_quaternion(in, v + 1, p);
+    out[i] = change(in, S->sen_type[i], v, S->sen_real + S->sen_real_ptr[i], p);
+  }
+}
+
+/* Whether positions and velocities are all that a sensor's rate asks for: accelerations have no known rates. */
+static unsigned char rate_known(int32_t type, const int32_t *v) {
+  switch (type) {
+  case 0:
+  case 1:
+  case 4:
+  case 5:
+  case 6:
+  case 7:
+  case 16:
+    return 1;
+  case 3:
+  case 14:
+  case 15:
+    return v[0] < 2;
+  case 10:
+    return v[0] < 2;
+  case 12:
+    return v[1] < 2;
+  default:
+    return 0;
+  }
+}
+
+ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known) {
+  if (in == NULL || rates == NULL || known == NULL) return ALI3_BAD_ARGUMENT;
+  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  const ali3_system *S = in->system;
+  const ali3_vectors *now = &in->now;
+  ali3_vectors *d = &in->tangent;
+  const size_t nq = (size_t)S->size.nq * sizeof(double), ng = (size_t)S->size.ng * sizeof(double);
+  memset(d->q, 0, in->n_vector * sizeof(double));
+  if (nq > 0) {
+    memcpy(d->q, now->qd, nq);
+    memcpy(d->qd, now->qdd, nq);
+  }
+  if (ng > 0) {
+    memcpy(d->s, now->sd, ng);
+    memcpy(d->sd, now->sdd, ng);
+  }
+  ali3_sensors_tangent(in, rates);
+  for (int32_t i = 0; i < S->size.ns; i++) {
+    known[i] = rate_known(S->sen_type[i], S->sen_int + S->sen_int_ptr[i]);
+    if (!known[i]) rates[i] = 0.0;
+  }
+  return ALI3_OK;
+}

@@ -1,0 +1,205 @@
+/* Sensor values of the present state. Type numbers and integers: docs/system_file.md. */
+#include <math.h>
+
+#include "../algebra/elementary.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../state/work.h"
+#include "sensors.h"
+
+/* Signal i (order 0) or its first or second rate. */
+static double signal(const ali3_instance *in, int32_t i, int32_t order) {
+  const ali3_system *S = in->system;
+  const double *x = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
+  double sum = order == 0 ? S->sig_const[i] : 0.0;
+  for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
+  return sum;
+}
+
+static void vector(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]) {
+  for (int i = 0; i < 3; i++) out[i] = signal(in, v[i], order);
+}
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static double component(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
+  double p[3], a[3];
+  vector(in, points, order, p);
+  vector(in, axis, 0, a);
+  return dot(p, a);
+}
+
+static double axial_rate(const ali3_instance *in, const int32_t *v) {
+  double a[3], b[3], ad[3], bd[3];
+  vector(in, v, 0, a);
+  vector(in, v + 3, 0, b);
+  vector(in, v, 1, ad);
+  vector(in, v + 3, 1, bd);
+  return 0.5 * (dot(ad, b) - dot(bd, a));
+}
+
+/* Scalar first, w >= 0; the largest of the four is found from the trace and the others follow from it. */
+void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]) {
+  double R[3][3];
+  for (int i = 0; i < 3; i++) {
+    double axis[3];
+    vector(in, v + 3 * i, 0, axis);
+    for (int j = 0; j < 3; j++) R[j][i] = axis[j];
+  }
+  const double trace = R[0][0] + R[1][1] + R[2][2];
+  int largest = 0;
+  double best = trace;
+  for (int i = 0; i < 3; i++)
+    if (R[i][i] > best) {
+      best = R[i][i];
+      largest = i + 1;
+    }
+  if (largest == 0) {
+    n[0] = 1.0 + trace;
+    n[1] = R[2][1] - R[1][2];
+    n[2] = R[0][2] - R[2][0];
+    n[3] = R[1][0] - R[0][1];
+  } else {
+    const int i = largest - 1, j = (i + 1) % 3, k = (i + 2) % 3;
+    n[0] = R[k][j] - R[j][k];
+    n[1 + i] = 1.0 + R[i][i] - R[j][j] - R[k][k];
+    n[1 + j] = R[j][i] + R[i][j];
+    n[1 + k] = R[k][i] + R[i][k];
+  }
+  const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3]);
+  const double size = n[0] < 0.0 ? -length : length;
+  for (int i = 0; i < 4; i++) n[i] = length > 0.0 ? n[i] / size : (i == 0 ? 1.0 : 0.0);
+}
+
+static double energy(const ali3_instance *in, int32_t kind) {
+  const ali3_system *S = in->system;
+  double kinetic = 0.0, gravity = S->gravity_const[0], elastic = 0.0;
+  ali3_flexible_prepare(in, in->now.q);
+  ali3_flexible_energy(in, in->now.q, &gravity, &elastic);
+  ali3_mass_times(in, in->now.qd, in->x);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    kinetic += 0.5 * in->x[i] * in->now.qd[i];
+    gravity -= S->gravity_force[i] * in->now.q[i];
+  }
+  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->now.potential[e];
+  const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
+  return kinds[kind];
+}
+
+static double reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
+  double sum = 0.0;
+  for (int32_t i = 0; i < v[0]; i++) sum += weight[i] * in->system->row_scale[v[1 + i]] * in->now.lam[v[1 + i]];
+  return sum;
+}
+
+/* Multipliers times constant weights, up to three signals and a guide. */
+static double products(const ali3_instance *in, const int32_t *v, const double *weight) {
+  double sum = 0.0;
+  for (int32_t k = 0; k < v[0]; k++) {
+    const int32_t *term = v + 1 + 5 * k;
+    double value = weight[k] * in->system->row_scale[term[0]] * in->now.lam[term[0]];
+    for (int i = 1; i < 4; i++)
+      if (term[i] >= 0) value *= signal(in, term[i], 0);
+    sum += term[4] >= 0 ? value * in->now.s[term[4]] : value;
+  }
+  return sum;
+}
+
+static double norm(const ali3_instance *in, const int32_t *v) {
+  double sum = 0.0;
+  for (int32_t i = 0; i < v[1]; i++) {
+    const double x = signal(in, v[2 + i], v[0]);
+    sum += x * x;
+  }
+  return sqrt(sum);
+}
+
+static double direction(const ali3_instance *in, const int32_t *v) {
+  static const double SLOWEST = 0.1; /* m/s */
+  const double along = component(in, v + 1, v + 4, v[0]), across = component(in, v + 1, v + 7, v[0]);
+  return v[0] == 1 && along * along + across * across < SLOWEST * SLOWEST ? 0.0 : ali3_atan2(across, along);
+}
+
+static double angle_about(const ali3_instance *in, const int32_t *v) {
+  double a[3], b[3], c[3];
+  vector(in, v, 0, a);
+  vector(in, v + 3, 0, b);
+  vector(in, v + 6, 0, c);
+  const double cross[3] = {b[1] * a[2] - b[2] * a[1], b[2] * a[0] - b[0] * a[2], b[0] * a[1] - b[1] * a[0]};
+  return ali3_atan2(dot(cross, c), dot(a, b));
+}
+
+/* Forces at the ports, specific acceleration and spin of the origin in body axes, times constant weights. */
+static double quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
+  const int32_t n = v[0], *row = v + 13;
+  const double *gravity = real, *weight = real + 3;
+  double axis[3][3], rdd[3], add[3], sum = 0.0;
+  for (int i = 0; i < 3; i++) vector(in, v + 4 + 3 * i, 0, axis[i]);
+  vector(in, v + 1, 2, rdd);
+  for (int k = 0; k < 3; k++) rdd[k] -= gravity[k];
+  for (int32_t p = 0; p < n; p++, row += 3, weight += 3) {
+    double force[3];
+    for (int k = 0; k < 3; k++) force[k] = in->system->row_scale[row[k]] * in->now.lam[row[k]];
+    for (int i = 0; i < 3; i++) sum += weight[i] * dot(axis[i], force);
+  }
+  for (int i = 0; i < 3; i++) sum += weight[i] * dot(axis[i], rdd);
+  weight += 3;
+  for (int j = 0; j < 3; j++) {
+    vector(in, v + 4 + 3 * j, 2, add);
+    for (int i = 0; i < 3; i++) sum += weight[3 * i + j] * dot(axis[i], add);
+  }
+  return sum;
+}
+
+static double value(const ali3_instance *in, int32_t type, const int32_t *v, const double *real) {
+  const ali3_vectors *now = &in->now;
+  double n[4];
+  switch (type) {
+  case 0:
+  case 1:
+  case 2:
+    return real[0] * signal(in, v[0], type);
+  case 3:
+    return component(in, v + 1, v + 4, v[0]);
+  case 4:
+    return ali3_atan2(signal(in, v[0], 0), signal(in, v[1], 0));
+  case 5:
+    return -ali3_asin(fmax(-1.0, fmin(1.0, signal(in, v[0], 0))));
+  case 6:
+    return real[0] * axial_rate(in, v);
+  case 7:
+    ali3_quaternion(in, v + 1, n);
+    return n[v[0]];
+  case 8:
+    return real[0] * now->out[in->system->el_out_ptr[v[0]] + v[1]];
+  case 9:
+    return reaction(in, v, real);
+  case 10:
+    return energy(in, v[0]);
+  case 11:
+    return now->used[v[0]];
+  case 12:
+    return real[0] * (v[1] == 0 ? now->s : (v[1] == 1 ? now->sd : now->sdd))[v[0]];
+  case 13:
+    return ali3_solver_value(in, v[0]);
+  case 14:
+    return norm(in, v);
+  case 15:
+    return direction(in, v);
+  case 16:
+    return angle_about(in, v);
+  case 17:
+    return quasi_static(in, v, real);
+  case 18:
+    return products(in, v, real);
+  default:
+    return ali3_work_sum(in, v[0], v[1], v + 2);
+  }
+}
+
+void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
+  const ali3_system *S = in->system;
+  for (int32_t i = 0; i < S->size.ns; i++)
+    out[i] = value(in, S->sen_type[i], S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
+}

@@ -1,0 +1,9 @@
+/* Values of the sensors, and their change along in->tangent. */
+#ifndef ALI3_SENSORS_H
+#define ALI3_SENSORS_H
+#include "../instance.h"
+
+void ali3_sensors_evaluate(const ali3_instance *in, double *out);
+void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]);
+void ali3_sensors_tangent(const ali3_instance *in, double *out);
+#endif

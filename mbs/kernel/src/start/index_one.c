@@ -1,0 +1,89 @@
+/* The equations of index one at given positions and velocities: M qdd + Phi_q' lam = Q, Phi_q qdd = -gamma, by the
+ * augmented Lagrangian, which does not ask for independent rows. */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "index_one.h"
+
+enum { SOLVES = 2, ITERATIONS = 60 };
+static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
+
+/* Accelerations and multipliers at q, qd and the guides of v: v->qdd and v->lam are improved from what they hold. */
+ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
+  const ali3_force_call call = {v->q, v->qd, in->now.y, 0.0, 0.0, 0.0, false, in->Q, v->y, v->out, v->potential};
+  ali3_forces(in, &call);
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  if (S->n_flexible > 0) ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+  ali3_rows_square(in, in->J, ALPHA, in->F);
+  const ali3_status status = ali3_factorise(in, in->F);
+  if (status != ALI3_OK) return status;
+  for (int solve = 0; solve < SOLVES; solve++) {
+    ali3_rows_times(S, in->J, v->qdd, in->mu);
+    for (int32_t k = 0; k < nc; k++) in->mu[k] = v->lam[k] + ALPHA * (in->mu[k] + in->gamma[k]);
+    ali3_rows_transposed(S, in->J, in->mu, in->x);
+    ali3_mass_times(in, v->qdd, in->r);
+    for (int32_t i = 0; i < nq; i++) in->x[i] = in->Q[i] - in->r[i] - in->x[i];
+    ali3_solve(in, in->F, in->x);
+    for (int32_t i = 0; i < nq; i++) v->qdd[i] += in->x[i];
+    ali3_rows_times(S, in->J, in->x, v->lam);
+    for (int32_t k = 0; k < nc; k++) v->lam[k] = in->mu[k] + ALPHA * v->lam[k];
+  }
+  in->report.iterations++;
+  return ali3_finite(v->qdd, nq) ? ALI3_OK : ALI3_NOT_FINITE;
+}
+
+/* F = M(q) + ALPHA Phi_q' Phi_q, factorised; Phi_q in in->J. */
+ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q) {
+  ali3_flexible_prepare(in, q);
+  memcpy(in->F, in->system->front_mass, (size_t)in->system->size.front_size * sizeof(double));
+  ali3_rows_square(in, in->J, ALPHA, in->F);
+  ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+  return ali3_factorise(in, in->F);
+}
+
+/* M x + Phi_q' lam = Q, Phi_q x = -b, to the relative tolerance, in corrections with the factorised metric; x and lam
+ * start from zero. */
+ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const double *b, double tolerance, double *x,
+                                 double *lam) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  memset(x, 0, (size_t)nq * sizeof(double));
+  memset(lam, 0, (size_t)nc * sizeof(double));
+  for (int iteration = 0; iteration < ITERATIONS; iteration++) {
+    double force = 0.0, force_scale = 0.0, violation = 0.0, violation_scale = 0.0;
+    ali3_mass_times(in, x, in->r);
+    ali3_rows_transposed(S, in->J, lam, in->x);
+    ali3_rows_times(S, in->J, x, in->mu);
+    for (int32_t i = 0; i < nq; i++) {
+      in->r[i] -= Q[i];
+      force = fmax(force, fabs(in->r[i] + in->x[i]) * S->mass_floor_inverse[i]);
+      force_scale = fmax(force_scale, (fabs(in->r[i]) + fabs(in->x[i])) * S->mass_floor_inverse[i]);
+    }
+    for (int32_t k = 0; k < nc; k++) {
+      violation_scale = fmax(violation_scale, fabs(in->mu[k]) + fabs(b[k]));
+      in->mu[k] += b[k];
+      violation = fmax(violation, fabs(in->mu[k]));
+      in->mu[k] = lam[k] + ALPHA * in->mu[k];
+    }
+    if (force <= tolerance * force_scale && violation <= tolerance * violation_scale) break;
+    ali3_rows_transposed(S, in->J, in->mu, in->x);
+    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
+    ali3_solve(in, in->F, in->x);
+    if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+    for (int32_t i = 0; i < nq; i++) x[i] += in->x[i];
+    ali3_rows_times(S, in->J, in->x, in->Phi);
+    for (int32_t k = 0; k < nc; k++) lam[k] = in->mu[k] + ALPHA * in->Phi[k];
+  }
+  return ALI3_OK;
+}

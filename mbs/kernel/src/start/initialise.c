@@ -1,0 +1,132 @@
+/* Consistent start: nearest position on Phi = 0 in the mass metric, where bending has its price, nearest velocities,
+ * then accelerations and multipliers. All three are proximal augmented Lagrangian iterations, which do not ask for a
+ * full-rank Phi_q. */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/guides.h"
+#include "../rows/velocity_rows.h"
+#include "../rows/violation.h"
+#include "../state/work.h"
+#include "index_one.h"
+#include "initialise.h"
+
+static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
+static const double CLOSED = 1e-12; /* violation that needs no work, m */
+static const double ASSEMBLED = 1e-9; /* violation accepted when nothing better can be had, m */
+static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
+static const double BENDING = 1.0; /* of K beside M when positions are closed, s^2: bodies turn rather than bend */
+static const double ROUND_OFF = 1e-13;
+enum { POSITION_ITERATIONS = 200 };
+
+/* F = M(q) + what massless coordinates lack + BENDING K + ALPHA Phi_q' Phi_q, factorised. */
+static ali3_status factorise_metric(ali3_instance *in, const double *q) {
+  const ali3_system *S = in->system;
+  ali3_flexible_prepare(in, q);
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
+  ali3_rows_square(in, in->J, ALPHA, in->F);
+  ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+  ali3_flexible_stiffen(in, BENDING, in->F);
+  return ali3_factorise(in, in->F);
+}
+
+/* Minimises (q - q_ref)' (M + BENDING K) (q - q_ref) on Phi = 0; q_ref is the position given. */
+static ali3_status close_position(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  double *q = in->next.q, *lam = in->next.lam;
+  memcpy(q, in->now.q, (size_t)nq * sizeof(double));
+  memset(lam, 0, (size_t)nc * sizeof(double));
+  for (int iteration = 0;; iteration++) {
+    ali3_constraints(in, q, in->now.s, in->Phi, in->J);
+    ali3_velocity_release(in, in->J);
+    in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+    if (in->report.violation <= CLOSED) break;
+    if (iteration == POSITION_ITERATIONS) return in->report.violation <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
+    if (!(in->report.violation < 1e300)) return ALI3_NOT_ASSEMBLED;
+    const ali3_status status = factorise_metric(in, q);
+    if (status != ALI3_OK) return status;
+    for (int32_t i = 0; i < nq; i++) in->w[i] = q[i] - in->now.q[i];
+    ali3_mass_times(in, in->w, in->r);
+    ali3_flexible_elastic(in, BENDING, in->w, in->r);
+    for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->Phi[k];
+    ali3_rows_transposed(S, in->J, in->mu, in->x);
+    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + S->mass_missing[i] * in->w[i] + in->x[i]);
+    ali3_solve(in, in->F, in->x);
+    if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+    double longest = 0.0;
+    for (int32_t i = 0; i < nq; i++)
+      if (fabs(in->x[i]) > longest) longest = fabs(in->x[i]);
+    const double part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
+    ali3_rows_times(S, in->J, in->x, in->gamma);
+    for (int32_t k = 0; k < nc; k++) /* a shortened step tells nothing about the multipliers */
+      lam[k] = part < 1.0 ? 0.0 : in->mu[k] + ALPHA * in->gamma[k];
+    for (int32_t i = 0; i < nq; i++) q[i] += part * in->x[i];
+  }
+  memcpy(in->now.q, q, (size_t)nq * sizeof(double));
+  return ALI3_OK;
+}
+
+/* The velocity nearest to the one given in the mass metric: M dv + Phi_q' mu = 0, Phi_q (v + dv) + Phi_t = 0. */
+static ali3_status close_velocity(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  ali3_vectors *v = &in->now;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  ali3_constraint_rate(in, v->q, v, in->Phit);
+  ali3_rows_times(S, in->J, v->qd, in->gamma);
+  for (int32_t k = 0; k < nc; k++) in->gamma[k] += in->Phit[k];
+  memset(in->D, 0, (size_t)nq * sizeof(double));
+  const ali3_status status = ali3_index_one_solve(in, in->D, in->gamma, ROUND_OFF, in->w, in->lam);
+  if (status != ALI3_OK) return status;
+  for (int32_t i = 0; i < nq; i++) v->qd[i] += in->w[i];
+  ali3_rows_times(S, in->J, v->qd, in->gamma);
+  for (int32_t k = 0; k < nc; k++) in->gamma[k] += in->Phit[k];
+  int32_t worst = 0;
+  in->report.velocity_violation = ali3_violation(S, in->gamma, &worst);
+  return ALI3_OK;
+}
+
+/* Velocities of in->now made consistent, then forces, accelerations and multipliers; at a start also discrete states,
+ * such as a gear, that fit it. */
+ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
+  const ali3_system *S = in->system;
+  ali3_vectors *v = &in->now;
+  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  ali3_status status = ali3_index_one_factorise(in, v->q);
+  if (status == ALI3_OK) status = close_velocity(in);
+  if (status != ALI3_OK) return status;
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
+  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
+  memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(v->y_last, v->y, (size_t)S->size.ny * sizeof(double));
+  v->h_last[0] = 0.0;
+  ali3_forces(in, &call);
+  if (start) {
+    ali3_forces_accept(in, &call);
+    memcpy(v->y, in->y_work, (size_t)S->size.ny * sizeof(double));
+    ali3_forces(in, &call);
+  }
+  if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
+  ali3_work_keep(in, v);
+  if (start) ali3_work_start(in, v);
+  if (S->n_flexible > 0) {
+    memcpy(v->mean, v->qd, (size_t)S->size.nq * sizeof(double));
+    memcpy(v->mean_before, v->qd, (size_t)S->size.nq * sizeof(double));
+  }
+  status = ali3_index_one_solve(in, in->Q, in->gamma, ROUND_OFF, v->qdd, v->lam);
+  return status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector) ? ALI3_NOT_FINITE : status;
+}
+
+ali3_status ali3_solve_initial(ali3_instance *in, double t) {
+  ali3_guides_start(in, &in->now, t);
+  const ali3_status status = close_position(in);
+  return status == ALI3_OK ? ali3_solve_rates(in, true) : status;
+}

@@ -1,0 +1,10 @@
+/* States to start from: on the rows, in equilibrium. */
+#ifndef ALI3_INITIALISE_H
+#define ALI3_INITIALISE_H
+#include "../instance.h"
+
+ali3_status ali3_solve_initial(ali3_instance *in, double t);
+ali3_status ali3_solve_rates(ali3_instance *in, bool start);
+ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations);
+ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t);
+#endif

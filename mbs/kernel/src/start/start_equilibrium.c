@@ -1,0 +1,102 @@
+/* The static equilibrium that a scene starts from, solved again where parameters at the start change it: at the place
+ * of the drawing, on the roads of the file, with the inputs' start values and the values that the file has for the
+ * search only (a drive that pushes has no equilibrium). The pose is then that of the new equilibrium. */
+#include <math.h>
+#include <string.h>
+
+#include "../instance.h"
+#include "../state/parameters.h"
+#include "../state/vectors.h"
+#include "initialise.h"
+
+static const double TOLERANCE = 1e-8; /* N, N m */
+static const double SAME = 1e-9; /* m: an equilibrium that close to the file's is the file's */
+enum { ITERATIONS = 400, ROAD = 2 };
+
+static double signal(const ali3_system *S, const double *q, int32_t i) {
+  double sum = S->sig_const[i];
+  for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * q[S->sig_col[k]];
+  return sum;
+}
+
+/* Start of a scene at q, and how a pose moves it: of a horizontal component the other one turns in. */
+static void set_start(ali3_instance *in, const double *q) {
+  const ali3_system *S = in->system;
+  memcpy(in->start_q, q, (size_t)S->size.nq * sizeof(double));
+  for (int32_t i = 0; S->size.has_pose && i < S->size.nq; i++) {
+    const int32_t partner = S->pose_partner[i];
+    if (partner == 0) {
+      in->pose_0[i] = S->pose_0[i] + (q[i] - S->q0[i]); /* spins have no place */
+    } else {
+      in->pose_cos[i] = q[i];
+      in->pose_sin[i] = partner < 0 ? -signal(S, q, -partner - 1) : signal(S, q, partner - 1);
+    }
+  }
+}
+
+/* Whether a parameter that writes to elements or guides is not as in the file. */
+static bool changed(const ali3_instance *in) {
+  const ali3_system *S = in->system;
+  for (int32_t p = 0; p < S->size.np; p++)
+    for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
+      if (S->par_target[k] != ROAD && in->parameter[p] != S->par_value[p]) return true;
+  return false;
+}
+
+/* Roads of the file, the values for the search, the inputs' start values; the instance's own stay in *_work. */
+static ali3_status prepare(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  memcpy(in->parameter_work, in->parameter, (size_t)S->size.np * sizeof(double));
+  memcpy(in->input_work, in->input, (size_t)S->size.nu * sizeof(double));
+  for (int64_t i = 0; i < S->n_static_par; i++) in->parameter[S->static_par[i]] = S->static_value[i];
+  const ali3_status status = ali3_parameters_apply(in);
+  for (int32_t p = 0; p < S->size.np; p++)
+    for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
+      if (S->par_target[k] == ROAD) in->road_real[S->par_index[k]] = S->par_scale[k] * S->par_value[p];
+  memcpy(in->input, S->input_start, (size_t)S->size.nu * sizeof(double));
+  return status;
+}
+
+static void put_back(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  memcpy(in->parameter, in->parameter_work, (size_t)S->size.np * sizeof(double));
+  memcpy(in->input, in->input_work, (size_t)S->size.nu * sizeof(double));
+  ali3_parameters_apply(in);
+}
+
+/* The equilibrium in in->stage (nq), from that of the file. */
+static ali3_status search(ali3_instance *in, double t) {
+  const ali3_system *S = in->system;
+  ali3_vectors_copy(in, &in->whole, &in->now);
+  memcpy(in->now.q, S->q0, (size_t)S->size.nq * sizeof(double));
+  memcpy(in->now.y, S->y0, (size_t)S->size.ny * sizeof(double));
+  const ali3_status status = ali3_solve_static(in, t, TOLERANCE, ITERATIONS);
+  memcpy(in->stage, in->now.q, (size_t)S->size.nq * sizeof(double));
+  ali3_vectors_copy(in, &in->now, &in->whole);
+  if (status == ALI3_OK || status == ALI3_NO_MEMORY) return status;
+  return ALI3_NO_EQUILIBRIUM;
+}
+
+/* Before a start at time t: moves it to the equilibrium of the parameters, unless coordinates were given. */
+ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
+  const ali3_system *S = in->system;
+  if (S->n_static_start == 0 || in->placed == ALI3_PLACED_BY_Q) return ALI3_OK;
+  const bool solve = changed(in);
+  if (!solve && !in->start_moved) return ALI3_OK;
+  ali3_start_of_file(in);
+  in->start_moved = false;
+  if (solve) {
+    ali3_status status = prepare(in);
+    if (status == ALI3_OK) status = search(in, t);
+    put_back(in);
+    if (status != ALI3_OK) return status;
+    double most = 0.0;
+    for (int32_t i = 0; i < S->size.nq; i++) most = fmax(most, fabs(in->stage[i] - S->q0[i]));
+    in->start_moved = most > SAME;
+    if (in->start_moved) set_start(in, in->stage);
+  }
+  if (in->placed == ALI3_PLACED_BY_POSE)
+    return ali3_set_pose(in, in->pose[0], in->pose[1], in->pose[2], in->pose[3], in->pose[4]);
+  memcpy(in->now.q, in->start_q, (size_t)S->size.nq * sizeof(double));
+  return ALI3_OK;
+}

@@ -1,0 +1,130 @@
+/* Static equilibrium by a pseudo-transient Newton iteration: mass / c + stiffness, with c growing while the balance
+ * improves. The mass keeps free directions (position on a plane) where they are. A coordinate that no row, stiffness
+ * or weight touches, such as the spin of a driven wheel, cannot come into balance at rest: it is held. in->w marks
+ * with 0 what may be held, in->d0 what is; both have 1 elsewhere. */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../rows/violation.h"
+#include "../state/vectors.h"
+#include "initialise.h"
+
+static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
+static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 */
+static const double PENALTY = 1e9; /* c alpha, as in a step with eps_rel = 2.5e-10 */
+static const double CLOSED = 1e-10; /* m */
+static const double OPEN = 1e-2; /* m: c does not grow beyond it */
+enum { SLOW = 20 }; /* iterations after which rows that close slowly, c K being large beside PENALTY, make c smaller */
+static const double ROUND_OFF = 1e-12; /* of the forces in balance */
+
+/* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report, what lies above round-off is
+ * returned. */
+static double balance(ali3_instance *in, double c) {
+  const ali3_system *S = in->system;
+  ali3_vectors *v = &in->next;
+  double largest = 0.0, scale = 0.0;
+  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  const ali3_force_call call = {v->q,       v->qd,        in->now.y,         0.0, 0.0, c, true, in->Q,
+                                in->y_work, in->out_work, in->potential_work};
+  ali3_forces(in, &call);
+  ali3_rows_transposed(S, in->J, v->lam, in->r);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    scale = fmax(scale, fabs(in->Q[i]));
+    in->r[i] = in->d0[i] * (in->r[i] - in->Q[i]);
+    if (!(fabs(in->r[i]) <= largest) && largest == largest) { /* a NaN stays */
+      largest = fabs(in->r[i]);
+      in->report.worst_coordinate = i;
+    }
+  }
+  in->report.residual = largest;
+  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+  return largest <= ROUND_OFF * scale ? 0.0 : largest;
+}
+
+/* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T is no way down. */
+static ali3_status factorise(ali3_instance *in, double c) {
+  const ali3_system *S = in->system;
+  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
+  ali3_rows_square(in, in->J, PENALTY, in->F);
+  ali3_geometric(in, in->next.q, in->next.s, in->next.lam, c, in->F);
+  ali3_forces_tangent(in, in->F);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    const int32_t pos = S->diagonal_pos[i];
+    in->d0[i] = in->F[pos] == S->front_mass[pos] + S->mass_missing[i] ? in->w[i] : 1.0;
+    in->r[i] *= in->d0[i];
+  }
+  const ali3_status status = ali3_factorise(in, in->F);
+  return status == ALI3_OK && in->report.negative_pivots > 0 ? ALI3_SINGULAR : status;
+}
+
+/* *part: what was taken of the Newton step. */
+static ali3_status correct(ali3_instance *in, double c, double *part) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  double *lam = in->next.lam, longest = 0.0;
+  for (int32_t k = 0; k < nc; k++) in->mu[k] = PENALTY * in->Phi[k];
+  ali3_rows_transposed(S, in->J, in->mu, in->x);
+  for (int32_t i = 0; i < nq; i++) in->x[i] = -(c * in->r[i] + in->x[i]);
+  ali3_solve(in, in->F, in->x);
+  if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+  for (int32_t i = 0; i < nq; i++)
+    if (fabs(in->x[i]) > longest) longest = fabs(in->x[i]);
+  *part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
+  ali3_rows_times(S, in->J, in->x, in->gamma);
+  for (int32_t k = 0; k < nc; k++) lam[k] += *part * PENALTY / c * (in->Phi[k] + in->gamma[k]);
+  for (int32_t i = 0; i < nq; i++) in->next.q[i] += *part * in->x[i];
+  return ALI3_OK;
+}
+
+static void mark(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    in->w[i] = S->gravity_force[i] == 0.0 ? 0.0 : 1.0;
+    in->d0[i] = 1.0;
+  }
+  for (int32_t k = 0; k < S->size.nnz_rows; k++) in->w[S->row_col[k]] = 1.0;
+}
+
+ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations) {
+  const ali3_system *S = in->system;
+  memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
+  ali3_status status = ali3_solve_initial(in, t);
+  if (status != ALI3_OK) return status;
+  ali3_vectors_copy(in, &in->next, &in->now);
+  memset(in->next.qd, 0, (size_t)S->size.nq * sizeof(double));
+  mark(in);
+  double c = FIRST_C, last = balance(in, c);
+  int32_t iteration = 0;
+  for (; iteration < max_iterations; iteration++) {
+    if (!(last < 1e300) || !(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
+    if (iteration > 0 && last <= tolerance && in->report.violation <= CLOSED) break;
+    while ((status = factorise(in, c)) == ALI3_SINGULAR && c > LEAST_C) {
+      c *= 0.25;
+      balance(in, c);
+    }
+    double part = 1.0;
+    if (status == ALI3_OK) status = correct(in, c, &part);
+    if (status != ALI3_OK) return status;
+    const double previous = last, used = c, open = in->report.violation;
+    last = balance(in, c);
+    const bool closes = in->report.violation <= CLOSED || in->report.violation < 0.5 * open;
+    if (part < 1.0 || last > 4.0 * previous)
+      c = fmax(0.5 * c, LEAST_C);
+    else if (iteration >= SLOW && !closes)
+      c = fmax(0.25 * c, FIRST_C);
+    else if (in->report.violation <= OPEN)
+      c = fmin(4.0 * c, LARGEST_C);
+    if (c != used) last = balance(in, c); /* the element tangents carry c */
+  }
+  in->report.last_iterations = iteration;
+  if (!(last <= tolerance && in->report.violation <= CLOSED)) return ALI3_NOT_CONVERGED;
+  memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
+  memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
+  return ali3_solve_rates(in, true);
+}

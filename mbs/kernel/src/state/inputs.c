@@ -1,0 +1,63 @@
+/* Inputs at the times within a step. Values that the caller has set go straight from those of the last step to the
+ * present ones; a function of time is asked for each of them: behind a jump at the start of the step, before one at
+ * its end. */
+#include <math.h>
+#include <string.h>
+
+#include "../algebra/finite.h"
+#include "../instance.h"
+#include "inputs.h"
+
+static const double ROUND_OFF = 1e-13; /* of a table's value at one of its times, from either side */
+
+/* Inputs of the function at time t to `to` (nu), held in their ranges. */
+static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
+  const ali3_system *S = in->system;
+  memcpy(in->input_work, in->input, (size_t)S->size.nu * sizeof(double));
+  if (in->input_function(in->input_context, t, after ? 1 : 0, in->input_work) != 0) return ALI3_BAD_ARGUMENT;
+  if (!ali3_finite(in->input_work, S->size.nu)) return ALI3_BAD_ARGUMENT;
+  for (int32_t i = 0; i < S->size.nu; i++) to[i] = fmax(S->input_min[i], fmin(S->input_max[i], in->input_work[i]));
+  return ALI3_OK;
+}
+
+/* Inputs at both ends of a step of size h that ends at time t: in->input_begin and in->input. */
+ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
+  in->input_time = in->t_now;
+  in->input_length = h;
+  if (in->input_function == NULL) {
+    memcpy(in->input_begin, in->now.used, (size_t)in->system->size.nu * sizeof(double));
+    return ALI3_OK;
+  }
+  const ali3_status status = ask(in, in->t_now, true, in->input_begin);
+  return status == ALI3_OK ? ask(in, t, false, in->input) : status;
+}
+
+/* in->input_middle becomes the inputs at a share, 0 to 1, of the step that ali3_inputs_begin was told of. */
+ali3_status ali3_inputs_at(ali3_instance *in, double share) {
+  const double *u0 = in->input_begin;
+  const size_t size = (size_t)in->system->size.nu * sizeof(double);
+  if (in->input_function != NULL && share > 0.0 && share < 1.0)
+    return ask(in, in->input_time + share * in->input_length, false, in->input_middle);
+  if (in->input_function != NULL)
+    memcpy(in->input_middle, share > 0.0 ? in->input : u0, size);
+  else
+    for (int32_t i = 0; i < in->system->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
+  return ALI3_OK;
+}
+
+/* Whether the inputs jump at the start of the step: what the last one left of accelerations is then of before. */
+bool ali3_inputs_jump(const ali3_instance *in) {
+  if (in->input_function == NULL) return false;
+  for (int32_t i = 0; i < in->system->size.nu; i++) {
+    const double before = in->now.used[i], behind = in->input_begin[i];
+    if (fabs(behind - before) > ROUND_OFF * (fabs(behind) + fabs(before))) return true;
+  }
+  return false;
+}
+
+ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context) {
+  if (in == NULL) return ALI3_BAD_ARGUMENT;
+  in->input_function = function;
+  in->input_context = context;
+  return ALI3_OK;
+}

@@ -1,0 +1,9 @@
+/* What an instance is set to: parameters, settings, the start. */
+#ifndef ALI3_PARAMETERS_H
+#define ALI3_PARAMETERS_H
+#include "../instance.h"
+
+ali3_status ali3_parameters_apply(ali3_instance *in);
+bool ali3_settings_valid(const ali3_settings *s);
+void ali3_start_of_file(ali3_instance *in);
+#endif

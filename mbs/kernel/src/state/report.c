@@ -1,0 +1,54 @@
+/* What the solver says about itself: its clock, its report, and numbers of it that sensors of type 13 and the FMU
+ * read. */
+#include <float.h>
+
+#include "../instance.h"
+
+double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
+
+ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
+  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
+  *out = in->report;
+  return ALI3_OK;
+}
+
+ali3_status ali3_run_status(const ali3_report *report) {
+  if (report == NULL) return ALI3_BAD_ARGUMENT;
+  const ali3_status last = (ali3_status)report->last_status;
+  return last == ALI3_OK && report->branch_changes > 0 ? ALI3_BRANCH_CHANGED : last;
+}
+
+/* A refused step may leave a residual beyond all numbers. */
+static double told(double value) { return value - value == 0.0 ? value : DBL_MAX; }
+
+double ali3_solver_value(const ali3_instance *in, int32_t kind) {
+  if (in == NULL) return 0.0;
+  const ali3_report *r = &in->report;
+  switch (kind) {
+  case ALI3_SOLVER_ITERATIONS:
+    return r->last_iterations;
+  case ALI3_SOLVER_VIOLATION:
+    return told(r->violation);
+  case ALI3_SOLVER_RESIDUAL:
+    return told(r->residual);
+  case ALI3_SOLVER_FACTORIZATIONS:
+    return (double)r->factorizations;
+  case ALI3_SOLVER_HALVINGS:
+    return (double)r->halvings;
+  case ALI3_SOLVER_STATUS:
+    return (double)ali3_run_status(r);
+  case ALI3_SOLVER_ENERGY_ERROR:
+    return told(r->energy_error);
+  case ALI3_SOLVER_ENERGY_BALANCE:
+    return told(ali3_energy_balance(r));
+  default:
+    return 0.0;
+  }
+}
+
+ali3_doubt ali3_run_doubt(const ali3_report *r) {
+  if (r == NULL || r->steps < ALI3_DOUBT_FROM) return ALI3_DOUBT_NONE;
+  if (ali3_energy_balance(r) > ALI3_BALANCE_WRONG) return ALI3_DOUBT_BALANCE;
+  const bool halved = (double)r->halvings > ALI3_HALVINGS_SUSPECT * (double)r->steps;
+  return halved ? ALI3_DOUBT_HALVINGS : ALI3_DOUBT_NONE;
+}

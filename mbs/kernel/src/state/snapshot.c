@@ -1,0 +1,56 @@
+/* A copy in memory of what inputs, parameters and steps change, for steps that are taken back. It returns to the instance
+ * it was taken of, so it needs no header, checksum or checks of ali3_state_restore. */
+#include <string.h>
+
+#include "../instance.h"
+#include "parameters.h"
+#include "vectors.h"
+
+typedef struct {
+  ali3_report report;
+  double t_base, h_last;
+  int64_t count;
+} ali3_snapshot_head; /* then the vectors, inputs and parameters */
+
+static size_t numbers(const ali3_system *s) {
+  return ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np;
+}
+
+size_t ali3_snapshot_size(const ali3_system *s) {
+  return s != NULL ? sizeof(ali3_snapshot_head) + numbers(s) * sizeof(double) : 0;
+}
+
+static void copy(double *to, const double *from, size_t n) {
+  if (n > 0) memcpy(to, from, n * sizeof(double));
+}
+
+void ali3_snapshot_take(const ali3_instance *in, void *snapshot) {
+  if (in == NULL || snapshot == NULL) return;
+  const size_t nu = (size_t)in->system->size.nu, np = (size_t)in->system->size.np;
+  ali3_snapshot_head *head = snapshot;
+  double *vector = (double *)(head + 1);
+  head->report = in->report;
+  head->t_base = in->t_base;
+  head->h_last = in->h_last;
+  head->count = in->count;
+  copy(vector, in->now.q, in->n_vector);
+  copy(vector + in->n_vector, in->input, nu);
+  copy(vector + in->n_vector + nu, in->parameter, np);
+}
+
+void ali3_snapshot_restore(ali3_instance *in, const void *snapshot) {
+  if (in == NULL || snapshot == NULL) return;
+  const size_t nu = (size_t)in->system->size.nu, np = (size_t)in->system->size.np;
+  const ali3_snapshot_head *head = snapshot;
+  const double *vector = (const double *)(head + 1), *parameter = vector + in->n_vector + nu;
+  in->report = head->report;
+  in->t_base = head->t_base;
+  in->h_last = head->h_last;
+  in->count = head->count;
+  in->mode_known = false; /* the angles are those of a later position */
+  copy(in->now.q, vector, in->n_vector);
+  copy(in->input, vector + in->n_vector, nu);
+  if (np == 0 || memcmp(in->parameter, parameter, np * sizeof(double)) == 0) return;
+  copy(in->parameter, parameter, np);
+  ali3_parameters_apply(in); /* they were accepted before */
+}

@@ -1,0 +1,140 @@
+/* A state as bytes: header with magic, version, System checksum, size and own checksum; then all that continues bit
+ * for bit. */
+#include <string.h>
+
+#include "../instance.h"
+#include "../rows/assembly_mode.h"
+#include "../system/crc32.h"
+#include "parameters.h"
+#include "vectors.h"
+
+typedef struct { /* 40 bytes without holes */
+  char magic[8];
+  uint32_t version, system_crc;
+  uint64_t size;
+  uint32_t crc, initialised;
+  int64_t count;
+} ali3_state_header;
+
+static const char MAGIC[8] = {'A', 'L', 'I', '3', 'S', 'T', 'A', '\n'};
+enum { CHECKED_FROM = 28 }; /* the checksum covers what follows it */
+static const double MOST = 1e60; /* of times, positions, rates, multipliers and element states */
+static const int64_t MOST_COUNTED = (int64_t)1 << 53; /* steps: doubles no longer tell two neighbours apart */
+
+size_t ali3_state_size(const ali3_system *s) {
+  if (s == NULL) return 0;
+  const size_t numbers = 2 + ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np;
+  return sizeof(ali3_state_header) + sizeof(ali3_settings) + sizeof(ali3_report) + numbers * sizeof(double);
+}
+
+static void put(unsigned char **to, const void *from, size_t size) {
+  if (size > 0) memcpy(*to, from, size);
+  *to += size;
+}
+
+ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size) {
+  if (in == NULL || bytes == NULL || size != ali3_state_size(in->system)) return ALI3_BAD_ARGUMENT;
+  const ali3_sizes *z = &in->system->size;
+  ali3_state_header header = {{0}, ALI3_STATE_VERSION, in->system->crc, size, 0, (uint32_t)in->initialised, in->count};
+  memcpy(header.magic, MAGIC, sizeof MAGIC);
+  unsigned char *p = bytes;
+  put(&p, &header, sizeof header);
+  put(&p, &in->settings, sizeof in->settings);
+  put(&p, &in->report, sizeof in->report);
+  put(&p, &in->t_base, sizeof(double));
+  put(&p, &in->h_last, sizeof(double));
+  put(&p, in->now.q, in->n_vector * sizeof(double));
+  put(&p, in->input, (size_t)z->nu * sizeof(double));
+  put(&p, in->parameter, (size_t)z->np * sizeof(double));
+  header.crc = ali3_crc32((unsigned char *)bytes + CHECKED_FROM, size - CHECKED_FROM);
+  memcpy(bytes, &header, sizeof header);
+  return ALI3_OK;
+}
+
+/* Finite, and so small that energies and norms made of them are finite too. */
+static bool numbers_valid(const unsigned char *p, size_t n) {
+  for (size_t i = 0; i < n; i++) {
+    double v;
+    memcpy(&v, p + i * sizeof v, sizeof v);
+    if (!(v >= -MOST && v <= MOST)) return false;
+  }
+  return true;
+}
+
+static bool within(const unsigned char *p, int32_t n, const double *low, const double *high) {
+  for (int32_t i = 0; i < n; i++) {
+    double v;
+    memcpy(&v, p + (size_t)i * sizeof v, sizeof v);
+    if (!(v - v == 0.0 && v >= low[i] && v <= high[i])) return false;
+  }
+  return true;
+}
+
+static bool counted(int64_t n) { return n >= 0 && n < MOST_COUNTED; }
+
+static bool magnitude(double x) { return x >= 0.0 && x - x == 0.0; }
+
+static bool branch_valid(const ali3_system *s, const ali3_report *r) {
+  if (!counted(r->branch_changes) || !(r->branch_time - r->branch_time == 0.0)) return false;
+  return r->branch_changes == 0 ||
+         (r->branch_loop >= 0 && r->branch_loop < ali3_loop_count(s) && r->branch_triad >= 0 &&
+          ALI3_TRIAD_ITEMS * ((int64_t)r->branch_triad + 1) <=
+              s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]);
+}
+
+static bool report_valid(const ali3_system *s, const ali3_report *r) {
+  return branch_valid(s, r) && magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) &&
+         magnitude(r->velocity_path) && magnitude(r->predictor_path) && r->energy - r->energy == 0.0 &&
+         r->open_power - r->open_power == 0.0 && counted(r->steps) && counted(r->iterations) &&
+         counted(r->factorizations) && counted(r->solves) && counted(r->halvings) && counted(r->failures) &&
+         r->energy_error - r->energy_error == 0.0;
+}
+
+static void get(void *to, const unsigned char **from, size_t size) {
+  if (size > 0) memcpy(to, *from, size);
+  *from += size;
+}
+
+ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size) {
+  if (in == NULL || bytes == NULL) return ALI3_BAD_ARGUMENT;
+  const ali3_system *S = in->system;
+  const ali3_sizes *z = &S->size;
+  const size_t fixed = sizeof(ali3_state_header) + sizeof(ali3_settings) + sizeof(ali3_report);
+  ali3_state_header header;
+  ali3_settings settings;
+  ali3_report report;
+  if (size != ali3_state_size(in->system)) return ALI3_BAD_STATE;
+  const unsigned char *p = bytes;
+  get(&header, &p, sizeof header);
+  if (memcmp(header.magic, MAGIC, sizeof MAGIC) != 0 || header.version != ALI3_STATE_VERSION || header.size != size ||
+      header.system_crc != in->system->crc || header.initialised > 1 || !counted(header.count) ||
+      header.crc != ali3_crc32((const unsigned char *)bytes + CHECKED_FROM, size - CHECKED_FROM))
+    return ALI3_BAD_STATE;
+  get(&settings, &p, sizeof settings);
+  get(&report, &p, sizeof report);
+  const unsigned char *numbers = (const unsigned char *)bytes + fixed,
+                      *inputs = numbers + (2 + in->n_vector) * sizeof(double);
+  if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(numbers, 2 + in->n_vector) ||
+      !within(inputs, z->nu, S->input_min, S->input_max) ||
+      !within(inputs + (size_t)z->nu * sizeof(double), z->np, S->par_min, S->par_max))
+    return ALI3_BAD_STATE;
+  double *parameter = in->parameter_work;
+  memcpy(parameter, in->parameter, (size_t)z->np * sizeof(double));
+  memcpy(in->parameter, inputs + (size_t)z->nu * sizeof(double), (size_t)z->np * sizeof(double));
+  if (ali3_parameters_apply(in) != ALI3_OK) {
+    memcpy(in->parameter, parameter, (size_t)z->np * sizeof(double));
+    ali3_parameters_apply(in);
+    return ALI3_BAD_STATE;
+  }
+  in->settings = settings;
+  in->report = report;
+  in->initialised = (int32_t)header.initialised;
+  in->count = header.count;
+  in->mode_known = false;
+  in->placed = ALI3_PLACED_BY_Q; /* a start from here is from these coordinates */
+  get(&in->t_base, &p, sizeof(double));
+  get(&in->h_last, &p, sizeof(double));
+  get(in->now.q, &p, in->n_vector * sizeof(double));
+  get(in->input, &p, (size_t)z->nu * sizeof(double));
+  return ALI3_OK;
+}

@@ -1,0 +1,12 @@
+/* The vectors of a state: their places, copies, the state before a step and after it. */
+#ifndef ALI3_STATE_VECTORS_H
+#define ALI3_STATE_VECTORS_H
+#include "../instance.h"
+
+double *ali3_take(double **pool, size_t n);
+size_t ali3_vector_count(const ali3_system *s); /* doubles in ali3_vectors */
+void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool);
+void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
+void ali3_keep(ali3_instance *in);
+ali3_status ali3_accept(ali3_instance *in);
+#endif

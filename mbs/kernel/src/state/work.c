@@ -1,0 +1,117 @@
+/* Work of force elements on the mechanism, of those that sensors of type 19 name: by the quadrature that the method of a
+ * step itself uses, so that the work of all forces is the change of the energy but for what the method errs by.
+ *
+ * Trapezoidal rule: D'(f0 + f1)/2 with the forces that Newton's loop balanced. Energy-momentum: D'f of the middle, where
+ * f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages. */
+#include <string.h>
+
+#include "../elements/forces.h"
+#include "../instance.h"
+#include "work.h"
+
+static void copy(double *to, const double *from, int32_t n) {
+  if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
+}
+
+/* v has the forces of the last ali3_forces. */
+void ali3_work_keep(const ali3_instance *in, ali3_vectors *v) {
+  copy(v->watched, in->watched, in->system->n_work + in->system->n_work_force);
+}
+
+/* A start, where no work has been done yet; the last ali3_forces was that of v. */
+void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
+  const ali3_system *S = in->system;
+  for (int32_t k = 0; k < S->n_work; k++) {
+    v->work[k] = 0.0;
+    v->stored[k] = v->potential[S->work_element[k]];
+  }
+}
+
+/* Forces at in->now with the inputs of the last step, for a method that did not make that step. */
+void ali3_work_reopen(ali3_instance *in) {
+  ali3_vectors *v = &in->now;
+  if (in->system->n_work == 0) return;
+  const ali3_force_call call = {
+      v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, in->out_work, in->potential_work};
+  in->force_input = v->used;
+  ali3_forces(in, &call);
+  in->force_input = in->input;
+  ali3_work_keep(in, v);
+}
+
+/* Change of a signal along D of a step. */
+static double way(const ali3_instance *in, int32_t signal) {
+  const ali3_system *S = in->system;
+  double sum = 0.0;
+  for (int32_t i = S->sig_ptr[signal]; i < S->sig_ptr[signal + 1]; i++) sum += S->sig_val[i] * in->D[S->sig_col[i]];
+  return sum;
+}
+
+/* A step D from in->now to in->next with the mean of the forces at its ends (share = 1/2) or those of the last
+ * ali3_forces (share = 1). */
+void ali3_work_step(ali3_instance *in, double share) {
+  const ali3_system *S = in->system;
+  const double *force = in->watched + S->n_work, *before = in->now.watched + S->n_work;
+  for (int32_t k = 0; k < S->n_work; k++) {
+    const int32_t *signal = S->el_sig + S->el_sig_ptr[S->work_element[k]];
+    double sum = 0.0;
+    for (int32_t i = S->work_ptr[k]; i < S->work_ptr[k + 1]; i++) {
+      in->next.step_way[i] = way(in, signal[i - S->work_ptr[k]]);
+      in->next.step_force[i] = share * force[i] + (1.0 - share) * before[i];
+      sum += in->next.step_force[i] * in->next.step_way[i];
+    }
+    in->next.work[k] = in->now.work[k] + sum;
+  }
+  ali3_work_keep(in, &in->next);
+}
+
+/* sum (n_work) gets the share of a stage, `weight` in s. */
+void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum) {
+  for (int32_t k = 0; k < in->system->n_work; k++) sum[k] += weight * power[k];
+}
+
+/* The powers at the start of a step that goes on from the last one. */
+void ali3_work_recall(ali3_instance *in) { copy(in->watched, in->now.watched, in->system->n_work); }
+
+/* The first stage, with the powers of the last ali3_forces: in->work_sum begins. */
+void ali3_work_first(ali3_instance *in, double weight) {
+  for (int32_t k = 0; k < in->system->n_work; k++) in->work_sum[k] = weight * in->watched[k];
+}
+
+/* in->next, a little, dt, behind a state whose work it has: the work until there. */
+void ali3_work_beside(ali3_instance *in, double dt) {
+  ali3_vectors *v = &in->next;
+  if (in->system->n_work == 0) return;
+  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, in->out_work, v->potential};
+  ali3_forces(in, &call);
+  ali3_work_stage(in, dt, in->watched, v->work);
+}
+
+/* Sum over the n elements in `element`; kind 1: with the change of their potentials since the start. */
+double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element) {
+  double sum = 0.0;
+  for (int32_t i = 0; i < n; i++) {
+    const int32_t e = element[i], k = in->system->work_of[e];
+    sum += in->now.work[k];
+    if (kind == 1) sum += in->now.potential[e] - in->now.stored[k];
+  }
+  return sum;
+}
+
+/* Its change along in->tangent, of the end of a step by the trapezoidal rule. */
+double ali3_work_change(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element) {
+  const ali3_system *S = in->system;
+  const ali3_vectors *d = &in->tangent;
+  double sum = 0.0;
+  for (int32_t j = 0; j < n; j++) {
+    const int32_t e = element[j], k = S->work_of[e], *signal = S->el_sig + S->el_sig_ptr[e];
+    for (int32_t i = S->work_ptr[k]; i < S->work_ptr[k + 1]; i++) {
+      const int32_t s = signal[i - S->work_ptr[k]];
+      double moved = 0.0;
+      for (int32_t c = S->sig_ptr[s]; c < S->sig_ptr[s + 1]; c++) moved += S->sig_val[c] * d->q[S->sig_col[c]];
+      sum += in->now.step_force[i] * moved + 0.5 * d->watched[S->n_work + i] * in->now.step_way[i];
+    }
+    if (kind == 1) sum += d->potential[e];
+  }
+  return sum;
+}

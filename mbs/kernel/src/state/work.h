@@ -1,0 +1,16 @@
+/* Work of force elements. */
+#ifndef ALI3_WORK_H
+#define ALI3_WORK_H
+#include "../instance.h"
+
+void ali3_work_keep(const ali3_instance *in, ali3_vectors *v);
+void ali3_work_start(const ali3_instance *in, ali3_vectors *v);
+void ali3_work_reopen(ali3_instance *in);
+void ali3_work_step(ali3_instance *in, double share);
+void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum);
+void ali3_work_recall(ali3_instance *in);
+void ali3_work_first(ali3_instance *in, double weight);
+void ali3_work_beside(ali3_instance *in, double dt);
+double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
+double ali3_work_change(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
+#endif

@@ -1,0 +1,121 @@
+/* The loaded System: its arrays, what is derived from them at load. */
+#ifndef ALI3_SYSTEM_H
+#define ALI3_SYSTEM_H
+#include <stdbool.h>
+
+#include "../include/ali3.h"
+
+/* The arrays of a System file: C type, item type number, name. */
+/* clang-format off */
+#define ALI3_SYSTEM_ARRAYS(X) \
+  X(unsigned char, 3, meta) \
+  X(double, 2, q0) X(double, 2, qd0) X(double, 2, y0) \
+  X(int32_t, 1, mass_ptr) X(int32_t, 1, mass_col) X(double, 2, mass_val) X(int32_t, 1, mass_pos) \
+  X(double, 2, gravity_force) X(double, 2, gravity_const) \
+  X(int32_t, 1, row_ptr) X(int32_t, 1, row_col) X(double, 2, row_lin) X(double, 2, row_const) \
+  X(double, 2, row_scale) X(double, 2, row_measure) X(int32_t, 1, row_front) X(int32_t, 1, row_loc) \
+  X(int32_t, 1, quad_ptr) X(int32_t, 1, quad_a) X(int32_t, 1, quad_b) X(double, 2, quad_h) \
+  X(int32_t, 1, angle_row) X(int32_t, 1, angle_theta) X(int32_t, 1, angle_ptr) X(int32_t, 1, angle_a) \
+  X(int32_t, 1, angle_b) X(double, 2, angle_hc) X(double, 2, angle_hs) \
+  X(int32_t, 1, gterm_row) X(int32_t, 1, gterm_guide) X(int32_t, 1, gterm_power) X(int32_t, 1, gterm_a) \
+  X(int32_t, 1, gterm_b) X(double, 2, gterm_h) X(int32_t, 1, row_switch) X(int32_t, 1, switch_start) \
+  X(int32_t, 1, velocity_row) X(int32_t, 1, velocity_ptr) X(int32_t, 1, velocity_a) X(int32_t, 1, velocity_b) \
+  X(double, 2, velocity_h) \
+  X(int32_t, 1, front_col) X(int32_t, 1, front_ptr) X(int32_t, 1, front_idx) X(int32_t, 1, front_parent) \
+  X(int32_t, 1, front_map) X(int32_t, 1, front_off) \
+  X(int32_t, 1, sig_ptr) X(int32_t, 1, sig_col) X(double, 2, sig_val) X(double, 2, sig_const) \
+  X(int32_t, 1, el_type) X(int32_t, 1, el_sig_ptr) X(int32_t, 1, el_sig) X(int32_t, 1, el_real_ptr) \
+  X(double, 2, el_real) X(int32_t, 1, el_int_ptr) X(int32_t, 1, el_int) X(int32_t, 1, el_state_ptr) \
+  X(int32_t, 1, el_out_ptr) X(int32_t, 1, el_front) X(int32_t, 1, el_loc_ptr) X(int32_t, 1, el_loc) \
+  X(double, 2, input_start) X(double, 2, input_min) X(double, 2, input_max) \
+  X(int32_t, 1, guide_type) X(int32_t, 1, guide_input) X(int32_t, 1, guide_real_ptr) X(double, 2, guide_real) \
+  X(int32_t, 1, road_type) X(int32_t, 1, road_real_ptr) X(double, 2, road_real) \
+  X(double, 2, par_value) X(double, 2, par_min) X(double, 2, par_max) X(int32_t, 1, par_ptr) \
+  X(int32_t, 1, par_target) X(int32_t, 1, par_index) X(double, 2, par_scale) \
+  X(double, 2, pose_0) X(double, 2, pose_cos) X(double, 2, pose_sin) X(double, 2, pose_x) X(double, 2, pose_y) \
+  X(double, 2, pose_z) X(double, 2, pose_speed) \
+  X(int32_t, 1, sen_type) X(int32_t, 1, sen_int_ptr) X(int32_t, 1, sen_int) X(int32_t, 1, sen_real_ptr) \
+  X(double, 2, sen_real) \
+  X(int32_t, 1, flex_mode_ptr) X(int32_t, 1, flex_frame) X(int32_t, 1, flex_mode) X(int32_t, 1, flex_front) \
+  X(int32_t, 1, flex_loc) X(double, 2, flex_gravity) X(double, 2, flex_P) X(double, 2, flex_c) X(double, 2, flex_T) \
+  X(double, 2, flex_K) X(double, 2, flex_C) \
+  X(int32_t, 1, tree_parent) X(int32_t, 1, tree_slides) X(double, 2, tree_base) X(double, 2, tree_mass) \
+  X(double, 2, tree_centre) X(double, 2, tree_inertia) X(double, 2, tree_gravity) X(int32_t, 1, tree_frame) \
+  X(int32_t, 1, tree_out_body) X(double, 2, tree_out_local) X(int32_t, 1, tree_out_col) \
+  X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place) \
+  X(int32_t, 1, tree_angle_col) X(int32_t, 1, tree_angle_ptr) X(int32_t, 1, tree_angle_joint) \
+  X(double, 2, tree_angle_sign) X(double, 2, tree_angle_inertia) \
+  X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
+  X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
+  X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner)
+/* clang-format on */
+
+/* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */
+typedef struct {
+  int32_t a, b, ja, jb, pos; /* b = -1: linear term, a = b = -1: constant; pos = -1: no second derivative */
+  double h;
+} ali3_term;
+
+typedef struct {
+  int32_t a, b, ja, jb, pos, pos_a, pos_b; /* pos_a, pos_b: entries with theta */
+  double hc, hs;
+} ali3_angle_term;
+
+typedef struct {
+  ali3_term term;
+  int32_t row, guide, power;
+} ali3_guide_term;
+
+typedef struct ali3_element_type ali3_element_type; /* elements/element.h */
+typedef struct ali3_tree ali3_tree;           /* tree/tree.h: what relative coordinates need of a System */
+
+struct ali3_system {
+#define ALI3_DECLARE(type, number, name) const type *name;
+  ALI3_SYSTEM_ARRAYS(ALI3_DECLARE)
+#undef ALI3_DECLARE
+#define ALI3_DECLARE(type, number, name) int64_t n_##name;
+  ALI3_SYSTEM_ARRAYS(ALI3_DECLARE)
+#undef ALI3_DECLARE
+  ali3_memory memory;
+  unsigned char *bytes; /* the copied file */
+  uint32_t crc;
+  ali3_sizes size;
+  int32_t nr;        /* roads */
+  int32_t max_front; /* largest front */
+  double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
+  int32_t n_flexible, max_modes; /* flexible bodies, most modes of one */
+  bool senses_rows; /* a sensor reads multipliers or violations */
+  /* derived at load, in one block */
+  void *derived;
+  int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q */
+  double *hess_val;
+  double *row_round; /* round-off of the violation at the reference position, m */
+  unsigned char *row_wide; /* 1: the row fills most of its front */
+  ali3_term *quad;             /* as quad_* */
+  ali3_angle_term *angle;      /* as angle_a */
+  int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
+  ali3_guide_term *gterm;
+  ali3_term *velocity;         /* as velocity_a; b is the coordinate whose rate it takes */
+  double *front_mass;          /* front storage holding M, the start of every tangent */
+  double *mass_floor;          /* nq: M_ii, or a typical mass for massless coordinates */
+  double *mass_floor_inverse;  /* nq */
+  double *mass_missing;        /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
+  int32_t *diagonal_pos;       /* nq: front storage index of entry (i, i) */
+  const ali3_element_type **el_kind;
+  int32_t *el_S_off;           /* ne+1: offsets of the elements' signal tangents */
+  int32_t *el_entry_ptr;       /* ne+1: signal entries of the element */
+  int32_t *el_entry_signal,
+      *el_entry_local; /* per entry: signal within the element, its coordinate within the element */
+  double *el_entry_value;
+  int32_t *el_coordinate_ptr;  /* ne+1 */
+  int32_t *el_coordinate_loc;  /* local index in the front, ascending */
+  int32_t *active_signal;      /* signals that elements use */
+  int32_t *flex_square;        /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
+  ali3_tree *tree;             /* NULL: the System has none */
+  int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */
+  int32_t *work_of, *work_element, *work_ptr; /* ne: number among them or -1; which; n_work + 1: offsets of signals */
+  int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
+};
+
+enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 }; /* of mode_triad: 9 signals, kind, ring; of a loop */
+#endif

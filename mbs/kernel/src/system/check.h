@@ -1,0 +1,18 @@
+/* What all checks of a System share: the first thing found wrong ends them. */
+#ifndef ALI3_CHECK_H
+#define ALI3_CHECK_H
+#include "../system.h"
+#include "message.h"
+
+#define CHECK(call)                                                                                                    \
+  do {                                                                                                                 \
+    const ali3_status status_ = (call);                                                                                \
+    if (status_ != ALI3_OK) return status_;                                                                            \
+  } while (0)
+
+ali3_status ali3_check_length(ali3_message m, const char *name, int64_t n, int64_t expected);
+ali3_status ali3_check_pointers(ali3_message m, const char *name, const int32_t *ptr, int64_t n_ptr, int64_t n,
+                                int64_t total);
+ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *v, int64_t n, int64_t low,
+                               int64_t high);
+#endif

@@ -1,0 +1,180 @@
+/* Fronts and rows of a System: every local index must name the coordinate it stands for. */
+#include "../system.h"
+#include "check.h"
+#include "loading.h"
+#include "message.h"
+
+enum { MAX_FRONT = 4096, MAX_FRONT_STORAGE = 1 << 26 };
+
+/* Pivots first, ascending, all below nq; the others must lie in the parent, where front_map says. */
+static ali3_status check_front(const ali3_system *s, int32_t f, ali3_message m) {
+  const int32_t first = s->front_col[f], n_pivot = s->front_col[f + 1] - first, parent = s->front_parent[f];
+  const int32_t *idx = s->front_idx + s->front_ptr[f], *map = s->front_map + s->front_ptr[f];
+  const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f];
+  if (n_pivot < 1 || n < n_pivot || n > MAX_FRONT)
+    return ali3_bad(m, "front %d has %d pivots of %d coordinates", (int)f, (int)n_pivot, (int)n);
+  if ((int64_t)s->front_off[f + 1] - s->front_off[f] < (int64_t)n * n)
+    return ali3_bad(m, "the storage of front %d is too small for %d coordinates", (int)f, (int)n);
+  for (int32_t i = 0; i < n_pivot; i++)
+    if (idx[i] != first + i || map[i] != -1)
+      return ali3_bad(m, "pivot %d of front %d is not in its place", (int)i, (int)f);
+  if (parent == -1 ? n != n_pivot : parent <= f) return ali3_bad(m, "front %d has parent %d", (int)f, (int)parent);
+  for (int32_t i = n_pivot; i < n; i++) {
+    const int32_t *parent_idx = s->front_idx + s->front_ptr[parent];
+    const int32_t parent_n = s->front_ptr[parent + 1] - s->front_ptr[parent];
+    if (idx[i] <= idx[i - 1]) return ali3_bad(m, "the coordinates of front %d do not ascend", (int)f);
+    if (map[i] < 0 || map[i] >= parent_n || parent_idx[map[i]] != idx[i])
+      return ali3_bad(m, "coordinate %d of front %d is not in its parent", (int)i, (int)f);
+  }
+  return ALI3_OK;
+}
+
+ali3_status ali3_check_fronts(ali3_system *s, ali3_message m) {
+  const int32_t nf = s->size.nf, nq = s->size.nq;
+  CHECK(ali3_check_pointers(m, "front_col", s->front_col, s->n_front_col, nf, nq));
+  CHECK(ali3_check_pointers(m, "front_ptr", s->front_ptr, s->n_front_ptr, nf, s->n_front_idx));
+  CHECK(ali3_check_length(m, "front_map", s->n_front_map, s->n_front_idx));
+  CHECK(ali3_check_indices(m, "front_parent", s->front_parent, nf, -1, nf));
+  CHECK(ali3_check_length(m, "front_off", s->n_front_off, nf + 1));
+  CHECK(ali3_check_pointers(m, "front_off", s->front_off, s->n_front_off, nf, s->front_off[nf]));
+  if (s->front_off[nf] > MAX_FRONT_STORAGE) return ali3_bad(m, "the fronts need %d numbers", (int)s->front_off[nf]);
+  for (int32_t f = 0; f < nf; f++) CHECK(check_front(s, f, m));
+  s->size.front_size = s->front_off[nf];
+  CHECK(ali3_check_length(m, "mass_pos", s->n_mass_pos, s->n_mass_col));
+  int32_t f = 0;
+  for (int32_t j = 0; j < nq; j++) { /* column j of the lower triangle lies in the front that eliminates j */
+    while (j >= s->front_col[f + 1]) f++;
+    const int32_t *idx = s->front_idx + s->front_ptr[f], n = s->front_ptr[f + 1] - s->front_ptr[f];
+    if (n > s->max_front) s->max_front = n;
+    for (int32_t k = s->mass_ptr[j]; k < s->mass_ptr[j + 1]; k++) {
+      const int32_t i = s->mass_col[k]; /* entry (i, j) mirrors (j, i) */
+      const int32_t mirror =
+          s->mass_ptr[i] + ali3_find(s->mass_col + s->mass_ptr[i], s->mass_ptr[i + 1] - s->mass_ptr[i], j);
+      if (mirror < s->mass_ptr[i]) return ali3_bad(m, "the mass matrix is not symmetric at (%d, %d)", (int)i, (int)j);
+      if (i < j) continue;
+      const int32_t local = ali3_find(idx, n, i);
+      if (local < 0 || s->mass_pos[mirror] != s->front_off[f] + (j - s->front_col[f]) * n + local)
+        return ali3_bad(m, "mass entry (%d, %d) has no place in front %d", (int)i, (int)j, (int)f);
+      if (i > j && s->mass_pos[k] != -1)
+        return ali3_bad(m, "mass entry (%d, %d) has a place above the diagonal", (int)j, (int)i);
+    }
+  }
+  return ALI3_OK;
+}
+
+static ali3_status check_row_pattern(const ali3_system *s, int32_t k, ali3_message m) {
+  const int32_t begin = s->row_ptr[k], end = s->row_ptr[k + 1], f = s->row_front[k];
+  if (begin == end) return ali3_bad(m, "row %d has no coordinates", (int)k);
+  const int32_t *idx = s->front_idx + s->front_ptr[f], n = s->front_ptr[f + 1] - s->front_ptr[f];
+  for (int32_t i = begin; i < end; i++) {
+    if (i > begin && s->row_col[i] <= s->row_col[i - 1])
+      return ali3_bad(m, "the columns of row %d do not ascend", (int)k);
+    if (s->row_loc[i] < 0 || s->row_loc[i] >= n || idx[s->row_loc[i]] != s->row_col[i])
+      return ali3_bad(m, "coordinate %d of row %d is not in front %d", (int)s->row_col[i], (int)k, (int)f);
+  }
+  return ALI3_OK;
+}
+
+/* A term h q_a q_b: 0 <= b <= a < n, or b = -1 (linear), or a = b = -1 (constant) where these are allowed. */
+static ali3_status check_term(ali3_message m, const char *name, int32_t a, int32_t b, int32_t n, int32_t low) {
+  if (a < low || a >= n || b < low || b > a)
+    return ali3_bad(m, "a term of '%s' multiplies entries %d and %d of a row with %d", name, (int)a, (int)b, (int)n);
+  return ALI3_OK;
+}
+
+static ali3_status check_angles(const ali3_system *s, ali3_message m) {
+  const int64_t na = s->n_angle_row;
+  CHECK(ali3_check_length(m, "angle_theta", s->n_angle_theta, na));
+  CHECK(ali3_check_length(m, "angle_b", s->n_angle_b, s->n_angle_a));
+  CHECK(ali3_check_length(m, "angle_hc", s->n_angle_hc, s->n_angle_a));
+  CHECK(ali3_check_length(m, "angle_hs", s->n_angle_hs, s->n_angle_a));
+  CHECK(ali3_check_pointers(m, "angle_ptr", s->angle_ptr, s->n_angle_ptr, na, s->n_angle_a));
+  CHECK(ali3_check_indices(m, "angle_row", s->angle_row, na, 0, s->size.nc));
+  for (int64_t i = 0; i < na; i++) {
+    const int32_t k = s->angle_row[i], n = s->row_ptr[k + 1] - s->row_ptr[k], theta = s->angle_theta[i];
+    CHECK(ali3_check_indices(m, "angle_theta", &theta, 1, 0, n));
+    for (int32_t t = s->angle_ptr[i]; t < s->angle_ptr[i + 1]; t++) {
+      CHECK(check_term(m, "angle_a", s->angle_a[t], s->angle_b[t], n, -1));
+      if (s->angle_a[t] == theta || s->angle_b[t] == theta)
+        return ali3_bad(m, "the angle of row %d is within its own cosine or sine", (int)k);
+    }
+  }
+  return ALI3_OK;
+}
+
+/* A switched row is a quadratic alone. */
+static ali3_status check_switches(const ali3_system *s, ali3_message m) {
+  CHECK(ali3_check_length(m, "row_switch", s->n_row_switch, s->size.nc));
+  CHECK(ali3_check_indices(m, "row_switch", s->row_switch, s->size.nc, -1, s->n_switch_start));
+  CHECK(ali3_check_indices(m, "switch_start", s->switch_start, s->n_switch_start, 0, 2));
+  for (int32_t i = 0; i < s->n_switch_start; i++) {
+    int32_t k = 0;
+    while (k < s->size.nc && s->row_switch[k] != i) k++;
+    if (k == s->size.nc) return ali3_bad(m, "switch %d has no rows", (int)i);
+  }
+  for (int64_t i = 0; i < s->n_angle_row; i++)
+    if (s->row_switch[s->angle_row[i]] >= 0) return ali3_bad(m, "the angle row %d has a switch", (int)s->angle_row[i]);
+  for (int64_t t = 0; t < s->n_gterm_row; t++)
+    if (s->gterm_row[t] >= 0 && s->gterm_row[t] < s->size.nc && s->row_switch[s->gterm_row[t]] >= 0)
+      return ali3_bad(m, "the guided row %d has a switch", (int)s->gterm_row[t]);
+  return ALI3_OK;
+}
+
+/* A condition on velocities holds nothing else: no constant, no products of positions, no angle, no guide. */
+static ali3_status check_velocities(const ali3_system *s, ali3_message m) {
+  const int64_t n = s->n_velocity_row;
+  CHECK(ali3_check_indices(m, "velocity_row", s->velocity_row, n, 0, s->size.nc));
+  CHECK(ali3_check_pointers(m, "velocity_ptr", s->velocity_ptr, s->n_velocity_ptr, n, s->n_velocity_a));
+  CHECK(ali3_check_length(m, "velocity_b", s->n_velocity_b, s->n_velocity_a));
+  CHECK(ali3_check_length(m, "velocity_h", s->n_velocity_h, s->n_velocity_a));
+  for (int64_t i = 0; i < n; i++) {
+    const int32_t k = s->velocity_row[i], size = s->row_ptr[k + 1] - s->row_ptr[k];
+    bool other = s->row_const[k] != 0.0 || s->quad_ptr[k + 1] > s->quad_ptr[k];
+    if (i > 0 && k <= s->velocity_row[i - 1]) return ali3_bad(m, "'velocity_row' does not ascend at %d", (int)k);
+    for (int64_t j = 0; j < s->n_angle_row; j++) other = other || s->angle_row[j] == k;
+    for (int64_t t = 0; t < s->n_gterm_row; t++) other = other || s->gterm_row[t] == k;
+    if (other) return ali3_bad(m, "the velocity row %d also has a condition on positions", (int)k);
+    for (int32_t t = s->velocity_ptr[i]; t < s->velocity_ptr[i + 1]; t++) {
+      CHECK(ali3_check_indices(m, "velocity_a", s->velocity_a + t, 1, 0, size));
+      CHECK(ali3_check_indices(m, "velocity_b", s->velocity_b + t, 1, 0, size));
+    }
+  }
+  return ALI3_OK;
+}
+
+ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
+  const int32_t nc = s->size.nc;
+  CHECK(ali3_check_length(m, "row_scale", s->n_row_scale, nc));
+  CHECK(ali3_check_length(m, "row_measure", s->n_row_measure, nc));
+  CHECK(ali3_check_length(m, "row_front", s->n_row_front, nc));
+  CHECK(ali3_check_length(m, "row_lin", s->n_row_lin, s->n_row_col));
+  CHECK(ali3_check_length(m, "row_loc", s->n_row_loc, s->n_row_col));
+  CHECK(ali3_check_pointers(m, "row_ptr", s->row_ptr, s->n_row_ptr, nc, s->n_row_col));
+  CHECK(ali3_check_indices(m, "row_col", s->row_col, s->n_row_col, 0, s->size.nq));
+  CHECK(ali3_check_indices(m, "row_front", s->row_front, nc, 0, s->size.nf));
+  CHECK(ali3_check_pointers(m, "quad_ptr", s->quad_ptr, s->n_quad_ptr, nc, s->n_quad_a));
+  CHECK(ali3_check_length(m, "quad_b", s->n_quad_b, s->n_quad_a));
+  CHECK(ali3_check_length(m, "quad_h", s->n_quad_h, s->n_quad_a));
+  for (int32_t k = 0; k < nc; k++) {
+    if (!(s->row_measure[k] > 0.0)) return ali3_bad(m, "the measure of row %d is %g", (int)k, s->row_measure[k]);
+    CHECK(check_row_pattern(s, k, m));
+    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
+      CHECK(check_term(m, "quad_a", s->quad_a[t], s->quad_b[t], s->row_ptr[k + 1] - s->row_ptr[k], 0));
+  }
+  CHECK(check_angles(s, m));
+  CHECK(check_switches(s, m));
+  const int64_t nt = s->n_gterm_row;
+  CHECK(ali3_check_length(m, "gterm_guide", s->n_gterm_guide, nt));
+  CHECK(ali3_check_length(m, "gterm_power", s->n_gterm_power, nt));
+  CHECK(ali3_check_length(m, "gterm_a", s->n_gterm_a, nt));
+  CHECK(ali3_check_length(m, "gterm_b", s->n_gterm_b, nt));
+  CHECK(ali3_check_length(m, "gterm_h", s->n_gterm_h, nt));
+  CHECK(ali3_check_indices(m, "gterm_row", s->gterm_row, nt, 0, nc));
+  CHECK(ali3_check_indices(m, "gterm_guide", s->gterm_guide, nt, 0, s->size.ng));
+  CHECK(ali3_check_indices(m, "gterm_power", s->gterm_power, nt, 1, 3));
+  for (int64_t t = 0; t < nt; t++) {
+    const int32_t k = s->gterm_row[t];
+    CHECK(check_term(m, "gterm_a", s->gterm_a[t], s->gterm_b[t], s->row_ptr[k + 1] - s->row_ptr[k], -1));
+  }
+  return check_velocities(s, m);
+}

@@ -1,0 +1,158 @@
+/* Force elements and sensors of a System. */
+#include "../elements/element.h"
+#include "../system.h"
+#include "check.h"
+#include "loading.h"
+#include "message.h"
+
+static bool fits(int32_t expected, int32_t n) { return expected == -1 || expected == n; }
+
+/* A negative number of states is that of each item, see element.h. */
+static bool states_fit(const ali3_system *s, int32_t e, int32_t expected, int32_t n) {
+  if (expected >= -1) return fits(expected, n);
+  const int32_t last = s->el_int_ptr[e + 1] - 1, items = last < s->el_int_ptr[e] ? 0 : s->el_int[last];
+  return items > 0 && (int64_t)items * -expected == n;
+}
+
+/* Local indices must name the coordinates of the signals in the element's front. */
+static ali3_status check_element_places(const ali3_system *s, int32_t e, int64_t entries, ali3_message m) {
+  const int32_t f = s->el_front[e], n_loc = s->el_loc_ptr[e + 1] - s->el_loc_ptr[e];
+  if (n_loc != entries && !(f == -1 && n_loc == 0))
+    return ali3_bad(m, "element %d has %d local indices for %lld signal entries", (int)e, (int)n_loc,
+                    (long long)entries);
+  if (f == -1) return ALI3_OK;
+  const int32_t *idx = s->front_idx + s->front_ptr[f], n = s->front_ptr[f + 1] - s->front_ptr[f];
+  const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
+  for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
+    const int32_t signal = s->el_sig[i];
+    for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, loc++)
+      if (*loc < 0 || *loc >= n || idx[*loc] != s->sig_col[k])
+        return ali3_bad(m, "coordinate %d of element %d is not in front %d", (int)s->sig_col[k], (int)e, (int)f);
+  }
+  return ALI3_OK;
+}
+
+ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
+  const int32_t ne = s->size.ne;
+  CHECK(ali3_check_pointers(m, "el_sig_ptr", s->el_sig_ptr, s->n_el_sig_ptr, ne, s->n_el_sig));
+  CHECK(ali3_check_indices(m, "el_sig", s->el_sig, s->n_el_sig, 0, s->size.nsig));
+  CHECK(ali3_check_pointers(m, "el_real_ptr", s->el_real_ptr, s->n_el_real_ptr, ne, s->n_el_real));
+  CHECK(ali3_check_pointers(m, "el_int_ptr", s->el_int_ptr, s->n_el_int_ptr, ne, s->n_el_int));
+  CHECK(ali3_check_pointers(m, "el_state_ptr", s->el_state_ptr, s->n_el_state_ptr, ne, s->size.ny));
+  if (s->n_el_out_ptr != ne + 1) return ali3_bad(m, "'el_out_ptr' has %lld items", (long long)s->n_el_out_ptr);
+  CHECK(ali3_check_pointers(m, "el_out_ptr", s->el_out_ptr, s->n_el_out_ptr, ne, s->el_out_ptr[ne]));
+  if (s->n_el_front != ne) return ali3_bad(m, "'el_front' has %lld items", (long long)s->n_el_front);
+  CHECK(ali3_check_indices(m, "el_front", s->el_front, ne, -1, s->size.nf));
+  CHECK(ali3_check_pointers(m, "el_loc_ptr", s->el_loc_ptr, s->n_el_loc_ptr, ne, s->n_el_loc));
+  for (int32_t e = 0; e < ne; e++) {
+    const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
+    const int32_t nsig = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], nreal = s->el_real_ptr[e + 1] - s->el_real_ptr[e],
+                  nint = s->el_int_ptr[e + 1] - s->el_int_ptr[e], nout = s->el_out_ptr[e + 1] - s->el_out_ptr[e],
+                  nstate = s->el_state_ptr[e + 1] - s->el_state_ptr[e];
+    if (type == NULL) return ali3_bad(m, "element %d has the unknown type %d", (int)e, (int)s->el_type[e]);
+    if (nsig > ALI3_MAX_SIGNALS || !fits(type->nsig, nsig) || !fits(type->nreal, nreal) || !fits(type->nint, nint) ||
+        !states_fit(s, e, type->nstate, nstate) || !fits(type->nout, nout))
+      return ali3_bad(m, "element %d of type %d has %d signals, %d reals, %d integers, %d states, %d outputs", (int)e,
+                      (int)s->el_type[e], (int)nsig, (int)nreal, (int)nint, (int)nstate, (int)nout);
+    int64_t entries = 0;
+    for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
+      entries += s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]];
+    CHECK(check_element_places(s, e, entries, m));
+  }
+  return ALI3_OK;
+}
+
+/* What the integers of a sensor mean, one letter each: s signal, e element, o output of it, u input, g guide, d order,
+ * k energy, q quaternion component, h health. Rows (types 9, 17 and 18), norms (type 14) and work (type 19) have their own rule. */
+static const char *const sensor_integers[] = {"s",          "s",          "s",         "dssssss", "ss", "s",  "ssssss",
+                                              "qsssssssss", "eo",         "",          "k",       "u",  "gd", "h",
+                                              "",           "dsssssssss", "sssssssss", "",        "",   ""};
+static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0};
+enum { SENSOR_TYPES = sizeof sensor_reals / sizeof sensor_reals[0] };
+
+/* Type 18: a number of terms, then a row, three signals and a guide (-1: none) a term. */
+static ali3_status check_products(const ali3_system *s, int32_t i, ali3_message m) {
+  const int32_t *v = s->sen_int + s->sen_int_ptr[i], n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i];
+  const int32_t n_real = s->sen_real_ptr[i + 1] - s->sen_real_ptr[i];
+  if (n < 1 || v[0] < 0 || v[0] != n_real || (int64_t)n != 1 + 5 * (int64_t)v[0])
+    return ali3_bad(m, "sensor %d lists %d integers and %d reals", (int)i, (int)n, (int)n_real);
+  for (int32_t k = 0; k < v[0]; k++) {
+    CHECK(ali3_check_indices(m, "sen_int", v + 1 + 5 * k, 1, 0, s->size.nc));
+    CHECK(ali3_check_indices(m, "sen_int", v + 2 + 5 * k, 3, -1, s->size.nsig));
+    CHECK(ali3_check_indices(m, "sen_int", v + 5 + 5 * k, 1, -1, s->size.ng));
+  }
+  return ALI3_OK;
+}
+
+/* Type 19: a kind, a number of elements, then these. */
+static ali3_status check_work(const ali3_system *s, int32_t i, ali3_message m) {
+  const int32_t *v = s->sen_int + s->sen_int_ptr[i], n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i];
+  if (n < 3 || v[0] < 0 || v[0] > 1 || v[1] != n - 2) return ali3_bad(m, "sensor %d lists %d integers", (int)i, (int)n);
+  return ali3_check_indices(m, "sen_int", v + 2, n - 2, 0, s->size.ne);
+}
+
+static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m) {
+  const int32_t type = s->sen_type[i], *v = s->sen_int + s->sen_int_ptr[i];
+  const int32_t n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i], n_real = s->sen_real_ptr[i + 1] - s->sen_real_ptr[i];
+  if (type == 9) {
+    if (n < 1 || v[0] != n - 1 || n_real != n - 1) return ali3_bad(m, "sensor %d lists %d rows", (int)i, (int)n);
+    return ali3_check_indices(m, "sen_int", v + 1, n - 1, 0, s->size.nc);
+  }
+  if (type == 17) {
+    if (n < 13 || v[0] < 0 || v[0] > (n - 13) / 3 || n != 13 + 3 * v[0] || n_real != 15 + 3 * v[0])
+      return ali3_bad(m, "sensor %d lists %d integers and %d reals", (int)i, (int)n, (int)n_real);
+    CHECK(ali3_check_indices(m, "sen_int", v + 1, 12, 0, s->size.nsig));
+    return ali3_check_indices(m, "sen_int", v + 13, n - 13, 0, s->size.nc);
+  }
+  if (type == 18) return check_products(s, i, m);
+  if (sensor_reals[type] != n_real)
+    return ali3_bad(m, "sensor %d of type %d has %d reals", (int)i, (int)type, (int)n_real);
+  if (type == 14) {
+    if (n < 2 || v[0] < 0 || v[0] > 1 || v[1] < 2 || v[1] > 3 || n != 2 + v[1])
+      return ali3_bad(m, "sensor %d is not a norm", (int)i);
+    return ali3_check_indices(m, "sen_int", v + 2, v[1], 0, s->size.nsig);
+  }
+  if (type == 19) return check_work(s, i, m);
+  const char *kind = sensor_integers[type];
+  for (int32_t k = 0; k < n || kind[k] != 0; k++) {
+    if (k >= n || kind[k] == 0) return ali3_bad(m, "sensor %d of type %d has %d integers", (int)i, (int)type, (int)n);
+    int64_t limit = 0;
+    switch (kind[k]) {
+    case 's':
+      limit = s->size.nsig;
+      break;
+    case 'e':
+      limit = s->size.ne;
+      break;
+    case 'o':
+      limit = s->el_out_ptr[v[k - 1] + 1] - s->el_out_ptr[v[k - 1]];
+      break;
+    case 'u':
+      limit = s->size.nu;
+      break;
+    case 'g':
+      limit = s->size.ng;
+      break;
+    case 'd':
+      limit = 3;
+      break;
+    case 'k':
+    case 'q':
+      limit = 4;
+      break;
+    default:
+      limit = ALI3_SOLVER_COUNT;
+      break;
+    }
+    CHECK(ali3_check_indices(m, "sen_int", v + k, 1, 0, limit));
+  }
+  return ALI3_OK;
+}
+
+ali3_status ali3_check_sensors(const ali3_system *s, ali3_message m) {
+  CHECK(ali3_check_indices(m, "sen_type", s->sen_type, s->size.ns, 0, SENSOR_TYPES));
+  CHECK(ali3_check_pointers(m, "sen_int_ptr", s->sen_int_ptr, s->n_sen_int_ptr, s->size.ns, s->n_sen_int));
+  CHECK(ali3_check_pointers(m, "sen_real_ptr", s->sen_real_ptr, s->n_sen_real_ptr, s->size.ns, s->n_sen_real));
+  for (int32_t i = 0; i < s->size.ns; i++) CHECK(check_sensor(s, i, m));
+  return ALI3_OK;
+}

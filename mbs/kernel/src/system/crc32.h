@@ -1,0 +1,8 @@
+/* Checksum. */
+#ifndef ALI3_CRC32_H
+#define ALI3_CRC32_H
+#include <stddef.h>
+#include <stdint.h>
+
+uint32_t ali3_crc32(const void *bytes, size_t size);
+#endif

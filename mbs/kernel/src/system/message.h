@@ -1,0 +1,13 @@
+/* The sentence that a refused System file leaves. */
+#ifndef ALI3_MESSAGE_H
+#define ALI3_MESSAGE_H
+#include <stddef.h>
+
+#include "../../include/ali3.h"
+
+typedef struct {
+  char *text;
+  size_t size;
+} ali3_message;
+ali3_status ali3_bad(ali3_message m, const char *format, ...);
+#endif

@@ -1,0 +1,186 @@
+/* Content of a System: lengths, mass, signals, inputs, guides, roads, parameters, pose. Nothing is indexed before it
+ * is checked. */
+#include <math.h>
+
+#include "../elements/element.h"
+#include "../elements/road.h"
+#include "../rows/guides.h"
+#include "../system.h"
+#include "check.h"
+#include "loading.h"
+#include "message.h"
+
+enum { MAX_COORDINATES = 1 << 20, MAX_OUTPUTS = 1 << 20 };
+
+ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *v, int64_t n, int64_t low,
+                               int64_t high) {
+  for (int64_t i = 0; i < n; i++)
+    if (v[i] < low || v[i] >= high)
+      return ali3_bad(m, "item %lld of '%s' is %d, outside %lld..%lld", (long long)i, name, (int)v[i], (long long)low,
+                      (long long)high - 1);
+  return ALI3_OK;
+}
+
+ali3_status ali3_check_pointers(ali3_message m, const char *name, const int32_t *ptr, int64_t n_ptr, int64_t n,
+                                int64_t total) {
+  if (n_ptr != n + 1)
+    return ali3_bad(m, "'%s' has %lld items instead of %lld", name, (long long)n_ptr, (long long)n + 1);
+  if (ptr[0] != 0 || ptr[n] != total)
+    return ali3_bad(m, "'%s' runs from %d to %d instead of 0 to %lld", name, (int)ptr[0], (int)ptr[n],
+                    (long long)total);
+  for (int64_t i = 0; i < n; i++)
+    if (ptr[i] > ptr[i + 1]) return ali3_bad(m, "'%s' decreases at item %lld", name, (long long)i);
+  return ALI3_OK;
+}
+
+int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value) {
+  int32_t low = 0, high = n;
+  while (low < high) {
+    const int32_t middle = low + (high - low) / 2;
+    if (sorted[middle] < value)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < n && sorted[low] == value ? low : -1;
+}
+
+ali3_status ali3_check_length(ali3_message m, const char *name, int64_t n, int64_t expected) {
+  if (n == expected) return ALI3_OK;
+  return ali3_bad(m, "'%s' has %lld items instead of %lld", name, (long long)n, (long long)expected);
+}
+
+static ali3_status check_sizes(ali3_system *s, ali3_message m) {
+  ali3_sizes *z = &s->size;
+  if (s->n_q0 < 1 || s->n_q0 > MAX_COORDINATES) return ali3_bad(m, "%lld coordinates", (long long)s->n_q0);
+  if (s->n_front_parent < 1) return ali3_bad(m, "there are no fronts");
+  z->nq = (int32_t)s->n_q0;
+  z->nc = (int32_t)s->n_row_const;
+  z->nu = (int32_t)s->n_input_start;
+  z->ng = (int32_t)s->n_guide_type;
+  z->ne = (int32_t)s->n_el_type;
+  z->ny = (int32_t)s->n_y0;
+  z->ns = (int32_t)s->n_sen_type;
+  z->np = (int32_t)s->n_par_value;
+  z->nf = (int32_t)s->n_front_parent;
+  z->nnz_mass = (int32_t)s->n_mass_col;
+  z->nnz_rows = (int32_t)s->n_row_col;
+  z->nsig = (int32_t)s->n_sig_const;
+  z->has_pose = s->n_pose_0 > 0;
+  z->n_switch = (int32_t)s->n_switch_start;
+  s->nr = (int32_t)s->n_road_type;
+  CHECK(ali3_check_length(m, "qd0", s->n_qd0, z->nq));
+  CHECK(ali3_check_length(m, "gravity_force", s->n_gravity_force, z->nq));
+  CHECK(ali3_check_length(m, "gravity_const", s->n_gravity_const, 1));
+  CHECK(ali3_check_length(m, "input_min", s->n_input_min, z->nu));
+  CHECK(ali3_check_length(m, "input_max", s->n_input_max, z->nu));
+  const int64_t n_pose = z->has_pose ? z->nq : 0;
+  CHECK(ali3_check_length(m, "pose_0", s->n_pose_0, n_pose));
+  CHECK(ali3_check_length(m, "pose_cos", s->n_pose_cos, n_pose));
+  CHECK(ali3_check_length(m, "pose_sin", s->n_pose_sin, n_pose));
+  CHECK(ali3_check_length(m, "pose_x", s->n_pose_x, n_pose));
+  CHECK(ali3_check_length(m, "pose_y", s->n_pose_y, n_pose));
+  CHECK(ali3_check_length(m, "pose_z", s->n_pose_z, n_pose));
+  return ali3_check_length(m, "pose_speed", s->n_pose_speed, n_pose);
+}
+
+static ali3_status check_mass(const ali3_system *s, ali3_message m) {
+  const int32_t nq = s->size.nq;
+  CHECK(ali3_check_length(m, "mass_val", s->n_mass_val, s->n_mass_col));
+  CHECK(ali3_check_pointers(m, "mass_ptr", s->mass_ptr, s->n_mass_ptr, nq, s->n_mass_col));
+  CHECK(ali3_check_indices(m, "mass_col", s->mass_col, s->n_mass_col, 0, nq));
+  for (int32_t i = 0; i < nq; i++)
+    for (int32_t k = s->mass_ptr[i]; k < s->mass_ptr[i + 1]; k++) {
+      const int32_t j = s->mass_col[k];
+      if (k > s->mass_ptr[i] && j <= s->mass_col[k - 1])
+        return ali3_bad(m, "columns of mass row %d do not ascend", (int)i);
+      if (i == j && s->mass_val[k] < 0.0) return ali3_bad(m, "the mass of coordinate %d is %g", (int)i, s->mass_val[k]);
+      if (j >= i) continue;
+      const int32_t other = ali3_find(s->mass_col + s->mass_ptr[j], s->mass_ptr[j + 1] - s->mass_ptr[j], i);
+      const double a = s->mass_val[k], b = other < 0 ? 0.0 : s->mass_val[s->mass_ptr[j] + other];
+      if (other < 0 || fabs(a - b) > 1e-9 * (fabs(a) + fabs(b)))
+        return ali3_bad(m, "the mass matrix is not symmetric at (%d, %d)", (int)i, (int)j);
+    }
+  return ALI3_OK;
+}
+
+static ali3_status check_signals(const ali3_system *s, ali3_message m) {
+  CHECK(ali3_check_length(m, "sig_val", s->n_sig_val, s->n_sig_col));
+  CHECK(ali3_check_pointers(m, "sig_ptr", s->sig_ptr, s->n_sig_ptr, s->n_sig_const, s->n_sig_col));
+  CHECK(ali3_check_indices(m, "sig_col", s->sig_col, s->n_sig_col, 0, s->size.nq));
+  for (int64_t i = 0; i < s->size.nu; i++)
+    if (!(s->input_min[i] <= s->input_start[i] && s->input_start[i] <= s->input_max[i]))
+      return ali3_bad(m, "input %lld starts at %g, outside its range", (long long)i, s->input_start[i]);
+  return ALI3_OK;
+}
+
+static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) {
+  const int32_t ng = s->size.ng;
+  CHECK(ali3_check_length(m, "guide_input", s->n_guide_input, ng));
+  CHECK(ali3_check_pointers(m, "guide_real_ptr", s->guide_real_ptr, s->n_guide_real_ptr, ng, s->n_guide_real));
+  CHECK(ali3_check_indices(m, "guide_type", s->guide_type, ng, 0, 2));
+  for (int32_t g = 0; g < ng; g++)
+    if (s->guide_type[g] == 1) CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
+  return ali3_check_pointers(m, "road_real_ptr", s->road_real_ptr, s->n_road_real_ptr, s->nr, s->n_road_real);
+}
+
+static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
+  const int32_t np = s->size.np;
+  const int64_t length[3] = {s->n_el_real, s->n_guide_real, s->n_road_real};
+  CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
+  CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
+  CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
+  CHECK(ali3_check_length(m, "par_scale", s->n_par_scale, s->n_par_target));
+  CHECK(ali3_check_pointers(m, "par_ptr", s->par_ptr, s->n_par_ptr, np, s->n_par_target));
+  CHECK(ali3_check_indices(m, "par_target", s->par_target, s->n_par_target, 0, 3));
+  for (int64_t k = 0; k < s->n_par_target; k++)
+    CHECK(ali3_check_indices(m, "par_index", s->par_index + k, 1, 0, length[s->par_target[k]]));
+  for (int32_t p = 0; p < np; p++)
+    if (!(s->par_min[p] <= s->par_value[p] && s->par_value[p] <= s->par_max[p]))
+      return ali3_bad(m, "parameter %d is %g, outside its range", (int)p, s->par_value[p]);
+  return ALI3_OK;
+}
+
+const char *ali3_check_data(const ali3_system *s, const double *el_real, const double *guide_real,
+                            const double *road_real) {
+  for (int32_t e = 0; e < s->size.ne; e++) {
+    const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
+    const int32_t real = s->el_real_ptr[e], integer = s->el_int_ptr[e];
+    if (type->check == NULL) continue;
+    const char *text =
+        type->check(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], el_real + real, s->el_real_ptr[e + 1] - real,
+                    s->el_int + integer, s->el_int_ptr[e + 1] - integer, s->size.nu, s->nr);
+    if (text != NULL) return text;
+  }
+  for (int32_t g = 0; g < s->size.ng; g++) {
+    const int32_t real = s->guide_real_ptr[g];
+    const char *text = ali3_guide_check(s->guide_type[g], guide_real + real, s->guide_real_ptr[g + 1] - real);
+    if (text != NULL) return text;
+  }
+  for (int32_t k = 0; k < s->nr; k++) {
+    const int32_t real = s->road_real_ptr[k];
+    const char *text = ali3_road_check(s->road_type[k], road_real + real, s->road_real_ptr[k + 1] - real);
+    if (text != NULL) return text;
+  }
+  return NULL;
+}
+
+ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
+  CHECK(check_sizes(s, m));
+  CHECK(check_mass(s, m));
+  CHECK(check_signals(s, m));
+  CHECK(check_guides_and_roads(s, m));
+  CHECK(check_parameters(s, m));
+  CHECK(ali3_check_fronts(s, m));
+  CHECK(ali3_check_rows(s, m));
+  CHECK(ali3_check_flexible(s, m));
+  CHECK(ali3_check_elements(s, m));
+  s->size.nout = s->size.ne > 0 ? s->el_out_ptr[s->size.ne] : 0;
+  if (s->size.nout > MAX_OUTPUTS) return ali3_bad(m, "%d element outputs", (int)s->size.nout);
+  CHECK(ali3_check_sensors(s, m));
+  CHECK(ali3_check_tree(s, m));
+  CHECK(ali3_check_modes(s, m));
+  CHECK(ali3_check_start(s, m));
+  const char *text = ali3_check_data(s, s->el_real, s->guide_real, s->road_real);
+  return text == NULL ? ALI3_OK : ali3_bad(m, "%s", text);
+}

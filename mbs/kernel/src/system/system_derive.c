@@ -1,0 +1,295 @@
+/* What the loops want and the file need not say: terms with their places, the mass matrix in front storage, element
+ * entries. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../elements/element.h"
+#include "../system.h"
+#include "../tree/tree.h"
+#include "loading.h"
+#include "message.h"
+
+enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
+
+/* Hands out aligned pieces of one block; with a NULL block it only counts. */
+typedef struct {
+  char *block;
+  size_t used;
+} ali3_pool;
+
+static void *take(ali3_pool *pool, size_t count, size_t item) {
+  void *piece = pool->block != NULL ? pool->block + pool->used : NULL;
+  pool->used += (count * item + 15u) / 16u * 16u;
+  return piece;
+}
+
+static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
+  const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne, na = (size_t)s->n_angle_row;
+  s->hess_ptr = take(p, (size_t)s->n_row_col + 1, sizeof(int32_t));
+  s->hess_col = take(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
+  s->hess_val = take(p, 2 * (size_t)s->n_quad_a, sizeof(double));
+  s->row_round = take(p, (size_t)s->size.nc, sizeof(double));
+  s->row_wide = take(p, (size_t)s->size.nc, 1);
+  s->quad = take(p, (size_t)s->n_quad_a, sizeof *s->quad);
+  s->angle = take(p, (size_t)s->n_angle_a, sizeof *s->angle);
+  s->angle_theta_col = take(p, na, sizeof(int32_t));
+  s->angle_theta_j = take(p, na, sizeof(int32_t));
+  s->angle_theta_pos = take(p, na, sizeof(int32_t));
+  s->gterm = take(p, (size_t)s->n_gterm_row, sizeof *s->gterm);
+  s->velocity = take(p, (size_t)s->n_velocity_a, sizeof *s->velocity);
+  s->front_mass = take(p, (size_t)s->size.front_size, sizeof(double));
+  s->mass_floor = take(p, nq, sizeof(double));
+  s->mass_floor_inverse = take(p, nq, sizeof(double));
+  s->mass_missing = take(p, nq, sizeof(double));
+  s->diagonal_pos = take(p, nq, sizeof(int32_t));
+  s->el_kind = take(p, ne, sizeof *s->el_kind);
+  s->el_S_off = take(p, ne + 1, sizeof(int32_t));
+  s->work_of = take(p, ne, sizeof(int32_t));
+  s->work_element = take(p, ne, sizeof(int32_t));
+  s->work_ptr = take(p, ne + 1, sizeof(int32_t));
+  s->el_entry_ptr = take(p, ne + 1, sizeof(int32_t));
+  s->el_entry_signal = take(p, n_entry, sizeof(int32_t));
+  s->el_entry_local = take(p, n_entry, sizeof(int32_t));
+  s->el_entry_value = take(p, n_entry, sizeof(double));
+  s->el_coordinate_ptr = take(p, ne + 1, sizeof(int32_t));
+  s->el_coordinate_loc = take(p, n_entry, sizeof(int32_t));
+  s->active_signal = take(p, (size_t)s->size.nsig, sizeof(int32_t));
+  s->flex_square = take(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
+  s->tree = s->n_tree_parent > 0 ? take(p, 1, sizeof *s->tree) : NULL;
+}
+
+/* Front storage index of the product of entries i >= j of the Jacobian in row k. */
+static int32_t row_pos(const ali3_system *s, int32_t k, int32_t i, int32_t j) {
+  const int32_t f = s->row_front[k], n = s->front_ptr[f + 1] - s->front_ptr[f];
+  const int32_t li = s->row_loc[i], lj = s->row_loc[j];
+  return s->front_off[f] + (li > lj ? lj * n + li : li * n + lj);
+}
+
+static ali3_term make_term(const ali3_system *s, int32_t k, int32_t a, int32_t b, double h) {
+  ali3_term t = {-1, -1, -1, -1, -1, h};
+  if (a >= 0) {
+    t.ja = s->row_ptr[k] + a;
+    t.a = s->row_col[t.ja];
+  }
+  if (b >= 0) {
+    t.jb = s->row_ptr[k] + b;
+    t.b = s->row_col[t.jb];
+    t.pos = row_pos(s, k, t.ja, t.jb);
+  }
+  return t;
+}
+
+static void derive_rows(ali3_system *s) {
+  for (int32_t k = 0; k < s->size.nc; k++)
+    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
+      s->quad[t] = make_term(s, k, s->quad_a[t], s->quad_b[t], s->quad_h[t]);
+  for (int64_t t = 0; t < s->n_gterm_row; t++) {
+    const int32_t k = s->gterm_row[t];
+    const ali3_guide_term g = {make_term(s, k, s->gterm_a[t], s->gterm_b[t], s->gterm_h[t]), k, s->gterm_guide[t],
+                               s->gterm_power[t]};
+    s->gterm[t] = g;
+  }
+  for (int64_t i = 0; i < s->n_velocity_row; i++)
+    for (int32_t t = s->velocity_ptr[i]; t < s->velocity_ptr[i + 1]; t++)
+      s->velocity[t] = make_term(s, s->velocity_row[i], s->velocity_a[t], s->velocity_b[t], s->velocity_h[t]);
+  for (int64_t i = 0; i < s->n_angle_row; i++) {
+    const int32_t k = s->angle_row[i], theta = s->row_ptr[k] + s->angle_theta[i];
+    s->angle_theta_j[i] = theta;
+    s->angle_theta_col[i] = s->row_col[theta];
+    s->angle_theta_pos[i] = row_pos(s, k, theta, theta);
+    for (int32_t t = s->angle_ptr[i]; t < s->angle_ptr[i + 1]; t++) {
+      const ali3_term base = make_term(s, k, s->angle_a[t], s->angle_b[t], 0.0);
+      const ali3_angle_term term = {base.a,
+                                    base.b,
+                                    base.ja,
+                                    base.jb,
+                                    base.pos,
+                                    base.ja < 0 ? -1 : row_pos(s, k, theta, base.ja),
+                                    base.jb < 0 ? -1 : row_pos(s, k, theta, base.jb),
+                                    s->angle_hc[t],
+                                    s->angle_hs[t]};
+      s->angle[t] = term;
+    }
+  }
+}
+
+/* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away. */
+static void derive_round(ali3_system *s) {
+  for (int32_t k = 0; k < s->size.nc; k++) {
+    double sum = fabs(s->row_const[k]);
+    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) sum += fabs(s->row_lin[i] * s->q0[s->row_col[i]]);
+    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
+      sum += fabs(s->quad[t].h * s->q0[s->quad[t].a] * s->q0[s->quad[t].b]);
+    s->row_round[k] = 4.0 * DBL_EPSILON * sum * s->row_measure[k];
+  }
+  for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
+}
+
+/* The products of the rows once more, sorted by the entry of Phi_q they add to. */
+static void derive_hessian(ali3_system *s) {
+  memset(s->hess_ptr, 0, ((size_t)s->n_row_col + 1) * sizeof(int32_t));
+  for (int64_t t = 0; t < s->n_quad_a; t++) {
+    s->hess_ptr[s->quad[t].ja + 1]++;
+    if (s->quad[t].a != s->quad[t].b) s->hess_ptr[s->quad[t].jb + 1]++;
+  }
+  for (int64_t i = 0; i < s->n_row_col; i++) s->hess_ptr[i + 1] += s->hess_ptr[i];
+  for (int64_t t = 0; t < s->n_quad_a; t++) { /* hess_ptr[i] moves to the end of entry i, the start of i + 1 */
+    const ali3_term x = s->quad[t];
+    const int32_t at = s->hess_ptr[x.ja]++;
+    s->hess_col[at] = x.b;
+    s->hess_val[at] = x.a == x.b ? 2.0 * x.h : x.h;
+    if (x.a == x.b) continue;
+    const int32_t mirror = s->hess_ptr[x.jb]++;
+    s->hess_col[mirror] = x.a;
+    s->hess_val[mirror] = x.h;
+  }
+  for (int64_t i = s->n_row_col; i > 0; i--) s->hess_ptr[i] = s->hess_ptr[i - 1];
+  s->hess_ptr[0] = 0;
+  for (int32_t k = 0; k < s->size.nc; k++) {
+    const int32_t f = s->row_front[k], n = s->front_ptr[f + 1] - s->front_ptr[f];
+    s->row_wide[k] = 2 * (s->row_ptr[k + 1] - s->row_ptr[k]) > n && n > 8;
+  }
+}
+
+static void derive_mass(ali3_system *s) {
+  const int32_t nq = s->size.nq;
+  double sum = 0.0;
+  int32_t positive = 0, f = 0;
+  memset(s->front_mass, 0, (size_t)s->size.front_size * sizeof(double));
+  for (int64_t k = 0; k < s->n_mass_col; k++)
+    if (s->mass_pos[k] >= 0) s->front_mass[s->mass_pos[k]] = s->mass_val[k];
+  for (int32_t i = 0; i < nq; i++) {
+    while (i >= s->front_col[f + 1]) f++;
+    const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], local = i - s->front_col[f];
+    s->diagonal_pos[i] = s->front_off[f] + local * n + local;
+    s->mass_floor[i] = s->front_mass[s->diagonal_pos[i]];
+    if (s->mass_floor[i] > 0.0) {
+      sum += s->mass_floor[i];
+      positive++;
+    }
+  }
+  const double typical = positive > 0 ? sum / positive : 1.0;
+  for (int32_t i = 0; i < nq; i++) {
+    const bool massless = !(s->mass_floor[i] > 1e-12 * typical);
+    s->mass_missing[i] = massless ? typical : 0.0;
+    if (massless) s->mass_floor[i] = typical;
+    s->mass_floor_inverse[i] = 1.0 / s->mass_floor[i];
+  }
+}
+
+static void derive_flexible(ali3_system *s) {
+  s->flex_square[0] = 0;
+  for (int32_t b = 0; b < s->n_flexible; b++) {
+    const int32_t n = s->flex_mode_ptr[b + 1] - s->flex_mode_ptr[b];
+    s->flex_square[b + 1] = s->flex_square[b] + n * n;
+    if (n > s->max_modes) s->max_modes = n;
+    for (int32_t j = 0; j < n; j++) {
+      const double mass = s->front_mass[s->diagonal_pos[s->flex_mode[s->flex_mode_ptr[b] + j]]];
+      const double rate = mass > 0.0 ? s->flex_K[s->flex_square[b] + (int64_t)j * (n + 1)] / mass : 0.0;
+      if (rate > s->flex_rate) s->flex_rate = rate;
+    }
+  }
+}
+
+static int compare_int32(const void *a, const void *b) {
+  const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+  return (x > y) - (x < y);
+}
+
+/* Entries of element e: signal, value and the coordinate within the element; its coordinates ascend as in the front. */
+static void derive_element(ali3_system *s, int32_t e) {
+  const int32_t first = s->el_entry_ptr[e], start = s->el_coordinate_ptr[e];
+  const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
+  int32_t *coordinate = s->el_coordinate_loc + start;
+  int32_t n = 0, unique = 0;
+  for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
+    const int32_t signal = s->el_sig[i];
+    for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, n++) {
+      s->el_entry_signal[first + n] = i - s->el_sig_ptr[e];
+      s->el_entry_value[first + n] = s->sig_val[k];
+      s->el_entry_local[first + n] = 0;
+    }
+  }
+  if (s->el_front[e] >= 0) {
+    memcpy(coordinate, loc, (size_t)n * sizeof *loc);
+    qsort(coordinate, (size_t)n, sizeof *coordinate, compare_int32);
+    for (int32_t i = 0; i < n; i++)
+      if (unique == 0 || coordinate[i] != coordinate[unique - 1]) coordinate[unique++] = coordinate[i];
+    for (int32_t i = 0; i < n; i++) s->el_entry_local[first + i] = ali3_find(coordinate, unique, loc[i]);
+  }
+  s->el_entry_ptr[e + 1] = first + n;
+  s->el_coordinate_ptr[e + 1] = start + unique;
+}
+
+static void derive_elements(ali3_system *s) {
+  const int32_t ne = s->size.ne;
+  s->el_S_off[0] = s->el_entry_ptr[0] = s->el_coordinate_ptr[0] = 0;
+  for (int32_t e = 0; e < ne; e++) {
+    const int32_t n = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
+    s->el_kind[e] = ali3_element_type_get(s->el_type[e]);
+    s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
+    derive_element(s, e);
+  }
+  memset(s->active_signal, 0, (size_t)s->size.nsig * sizeof(int32_t));
+  for (int64_t i = 0; i < s->n_el_sig; i++) s->active_signal[s->el_sig[i]] = 1;
+  for (int32_t i = 0; i < s->size.nsig; i++)
+    if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
+}
+
+/* Elements that sensors of work name, in their own order. */
+static void derive_work(ali3_system *s) {
+  for (int32_t e = 0; e < s->size.ne; e++) s->work_of[e] = -1;
+  for (int32_t i = 0; i < s->size.ns; i++) {
+    const int32_t *v = s->sen_int + s->sen_int_ptr[i];
+    if (s->sen_type[i] != 19) continue;
+    for (int32_t k = 0; k < v[1]; k++) s->work_of[v[2 + k]] = 0;
+  }
+  s->work_ptr[0] = 0;
+  for (int32_t e = 0; e < s->size.ne; e++) {
+    if (s->work_of[e] < 0) continue;
+    s->work_of[e] = s->n_work;
+    s->work_element[s->n_work++] = e;
+    s->n_work_force += s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
+    s->work_ptr[s->n_work] = s->n_work_force;
+  }
+}
+
+static int32_t first_nonzero(const double *v, int32_t n) {
+  for (int32_t i = 0; i < n; i++)
+    if (v[i] != 0.0) return i;
+  return -1;
+}
+
+ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
+  int64_t n_entry = 0;
+  for (int64_t i = 0; i < s->n_el_sig; i++) n_entry += s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]];
+  if (n_entry > MAX_SIGNAL_ENTRIES || (int64_t)s->size.ne * ALI3_MAX_SIGNALS * ALI3_MAX_SIGNALS > MAX_SIGNAL_ENTRIES)
+    return ali3_bad(m, "the elements have %lld signal entries", (long long)n_entry);
+  ali3_pool pool = {NULL, 0};
+  place(s, &pool, (size_t)n_entry);
+  s->derived = s->memory.allocate(1, pool.used > 0 ? pool.used : 1);
+  if (s->derived == NULL) return ALI3_NO_MEMORY;
+  pool.block = s->derived;
+  pool.used = 0;
+  place(s, &pool, (size_t)n_entry);
+  derive_rows(s);
+  derive_round(s);
+  derive_hessian(s);
+  derive_mass(s);
+  derive_elements(s);
+  derive_flexible(s);
+  derive_work(s);
+  if (s->tree != NULL) ali3_tree_derive(s, s->tree);
+  for (int32_t i = 0; i < s->size.ns; i++)
+    s->senses_rows =
+        s->senses_rows || s->sen_type[i] == 9 || s->sen_type[i] == 13 || s->sen_type[i] == 17 || s->sen_type[i] == 18;
+  s->shift_x = s->shift_y = s->shift_z = -1;
+  if (s->size.has_pose) {
+    s->shift_x = first_nonzero(s->pose_x, s->size.nq);
+    s->shift_y = first_nonzero(s->pose_y, s->size.nq);
+    s->shift_z = first_nonzero(s->pose_z, s->size.nq);
+  }
+  return ALI3_OK;
+}

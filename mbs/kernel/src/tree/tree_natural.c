@@ -1,0 +1,115 @@
+/* Between the relative coordinates of a tree and the natural coordinates of its System. */
+#include "../algebra/elementary.h"
+#include "../elements/element_math.h"
+#include "../instance.h"
+#include "tree.h"
+
+static double signal(const ali3_system *S, int32_t i, const double *x, bool rate) {
+  double sum = rate ? 0.0 : S->sig_const[i];
+  for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
+  return sum;
+}
+
+typedef struct {
+  double origin[3], axis[3][3], velocity[3], spin[3];
+} frame;
+
+/* Of body b, 0 for the ground; the angular velocity is half the sum of axes times their rates. */
+static frame frame_of(const ali3_system *S, int32_t b, const double *q, const double *qd) {
+  frame f = {{0.0}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {0.0}, {0.0}};
+  if (b == 0) return f;
+  const int32_t *number = S->tree_frame + 12 * (int64_t)(b - 1);
+  for (int i = 0; i < 3; i++) {
+    f.origin[i] = signal(S, number[i], q, false);
+    f.velocity[i] = signal(S, number[i], qd, true);
+  }
+  for (int k = 0; k < 3; k++) {
+    double rate[3], part[3];
+    for (int i = 0; i < 3; i++) {
+      f.axis[k][i] = signal(S, number[3 + 3 * k + i], q, false);
+      rate[i] = signal(S, number[3 + 3 * k + i], qd, true);
+    }
+    ali3_cross(f.axis[k], rate, part);
+    for (int i = 0; i < 3; i++) f.spin[i] += 0.5 * part[i];
+  }
+  return f;
+}
+
+void ali3_tree_read(ali3_instance *in, const double *q, const double *qd, double *x) {
+  const ali3_system *S = in->system;
+  const ali3_tree *T = S->tree;
+  for (int32_t b = 1; b <= T->n; b++) {
+    const frame parent = frame_of(S, T->parent[b], q, qd), own = frame_of(S, b, q, qd);
+    double base[3][3], arm[3], moved[3], gap[3];
+    for (int i = 0; i < 3; i++) {
+      arm[i] = 0.0;
+      for (int k = 0; k < 3; k++) {
+        arm[i] += parent.axis[k][i] * T->place[k][b];
+        base[k][i] = 0.0;
+        for (int m = 0; m < 3; m++) base[k][i] += parent.axis[m][i] * T->base[m][k][b];
+      }
+      gap[i] = own.origin[i] - (parent.origin[i] + arm[i]);
+    }
+    if (T->slide[b] != 0.0) {
+      for (int i = 0; i < 3; i++) arm[i] += gap[i];
+      ali3_cross(parent.spin, arm, moved);
+      x[b - 1] = ali3_dot(base[2], gap);
+      for (int i = 0; i < 3; i++) moved[i] = own.velocity[i] - parent.velocity[i] - moved[i];
+      x[T->n + b - 1] = ali3_dot(base[2], moved);
+    } else {
+      x[b - 1] = ali3_atan2(ali3_dot(base[1], own.axis[0]), ali3_dot(base[0], own.axis[0]));
+      for (int i = 0; i < 3; i++) moved[i] = own.spin[i] - parent.spin[i];
+      x[T->n + b - 1] = ali3_dot(base[2], moved);
+    }
+  }
+}
+
+/* At the motion in the work space; qd and qdd may be NULL. */
+void ali3_tree_write(const ali3_instance *in, double *q, double *qd, double *qdd) {
+  const ali3_system *S = in->system;
+  const ali3_tree_work *w = in->tree;
+  ali3_angles_write(S, w, q, qd, qdd);
+  for (int64_t n = 0; n < S->n_tree_out_body; n++) {
+    const int32_t b = S->tree_out_body[n], *column = S->tree_out_col + 3 * n;
+    const double *local = S->tree_out_local + 4 * n, o = local[0];
+    double r[3], spin[3], rate[3], v[3], turned[3], vd[3], bent[3];
+    for (int i = 0; i < 3; i++) {
+      r[i] = o * w->origin[i][b] +
+             (w->frame[b][i][0] * local[1] + w->frame[b][i][1] * local[2] + w->frame[b][i][2] * local[3]);
+      spin[i] = w->spin[i][b];
+      rate[i] = w->spin_rate[i][b];
+    }
+    ali3_cross(spin, r, v);
+    for (int i = 0; i < 3; i++) v[i] += o * w->drift[i][b];
+    ali3_cross(rate, r, vd);
+    ali3_cross(spin, v, turned);
+    for (int i = 0; i < 3; i++) {
+      bent[i] = o * w->drift_rate[i][b] + vd[i] + turned[i];
+      if (column[i] < 0) continue;
+      q[column[i]] = r[i];
+      if (qd != NULL) qd[column[i]] = v[i];
+      if (qdd != NULL) qdd[column[i]] = bent[i];
+    }
+  }
+}
+
+/* Takes generalised forces of the natural coordinates off the inertia forces of the bodies. */
+void ali3_tree_load(const ali3_instance *in, const double *Q) {
+  const ali3_system *S = in->system;
+  ali3_tree_work *w = in->tree;
+  for (int64_t n = 0; n < S->n_tree_out_body; n++) {
+    const int32_t b = S->tree_out_body[n], *column = S->tree_out_col + 3 * n;
+    const double *local = S->tree_out_local + 4 * n, o = local[0];
+    double r[3], force[3], torque[3];
+    for (int i = 0; i < 3; i++) {
+      r[i] = o * w->origin[i][b] +
+             (w->frame[b][i][0] * local[1] + w->frame[b][i][1] * local[2] + w->frame[b][i][2] * local[3]);
+      force[i] = column[i] < 0 ? 0.0 : Q[column[i]];
+    }
+    ali3_cross(r, force, torque);
+    for (int i = 0; i < 3; i++) {
+      w->force[i][b] -= o * force[i];
+      w->torque[i][b] -= torque[i];
+    }
+  }
+}

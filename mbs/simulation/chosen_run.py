@@ -1,0 +1,253 @@
+"""`simulate` with a tolerance, without a step or without a method: it chooses them."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.accuracy import AccuracyWarning
+from mbs.branch_warning import BranchWarning
+from mbs.control import ALLOWED, Control
+from mbs.errors import SimulationError
+from mbs.input_signals import Signal
+from mbs.kernel.binding import KernelError, Status
+from mbs.progress import Progress, progress_for
+from mbs.settings import Settings
+from mbs.simulation.arguments import check_end
+from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
+from mbs.simulation.march import notices_of
+from mbs.simulation.method_choice import choose
+from mbs.simulation.prepared_system import length_of, prepared
+from mbs.simulation.refusal import refusal
+from mbs.simulation.step_choice import StepChoice, choose_step
+from mbs.simulation.stepping import Simulation
+from mbs.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+SHORTER = 0.5
+"""Longest steps of a third run where both others made only these."""
+COARSE, COARSEST = 20.0, 0.05
+"""Tolerance of the first run in those of the last, and at most."""
+FINER = 4.0
+"""How much finer the second run is at least: two of the same tolerance tell no error."""
+AGAIN, MOST_AT_ONCE = 0.5, 1e-3
+"""What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
+MOST_RUNS, LEAST = 4, 1e-13
+DEFAULT_TOLERANCE = 1e-3
+"""Of runs in equal steps that are chosen."""
+RECORDED = 200  # intervals where none is said
+CHECKED = 50  # instants beside those that are recorded at which runs are compared
+
+
+def to_tolerance(
+    start: Callable[[], Simulation],
+    tolerance: float,
+    times: Array,
+    inputs: Mapping[str, Signal],
+    settings: Settings,
+    method: str,
+    bar: Progress,
+) -> Trajectory:
+    """Sensor values at `times` (n,), the first of them the start, with an error of positions of about the tolerance.
+
+    A coarse run and a finer one tell the error of the latter (errors are in proportion to the tolerances, since each
+    step has a share of them). Where it is larger than it should be, since the motion lets errors grow, a third and a
+    fourth run are made with what is then known of that growth.
+    """
+    first = start()
+    t0, t_end = float(times[0]), float(times[-1])
+    if t_end <= t0:
+        return _trajectory(first, times, np.array([list(first.instance.sensors())]), None, 0.0, settings)
+    grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED)
+    grid[-1] = t_end
+    task = Task(t0, t_end, grid, inputs)
+    coarse = min(COARSE * tolerance, COARSEST)
+    aim = min(tolerance, coarse / FINER)
+    reason, wall, runs, before = "", 0.0, 0, None
+    if method == "auto":
+        choice = choose(start, task, settings, aim, coarse)
+        method, reason, before, wall, runs = choice.method, choice.reason, choice.run, choice.wall, choice.runs
+    settings = replace(settings, method=method)
+    if before is None:
+        before = _whole(ControlledRun(start(), task, settings, coarse), tolerance, bar, 0.0, times, first)
+        runs, wall = runs + 1, wall + before.wall
+    error, run, longest = math.inf, None, 1.0
+    for number in range(1, MOST_RUNS):
+        made = ControlledRun(start(), task, settings, aim, longest)
+        try:
+            made = _whole(made, tolerance, bar, min(0.5, 0.3 * number), times, first)
+        except (StalledError, SimulationError):
+            wall += made.wall
+            if run is None:
+                raise
+            break  # a finer run than the last is beyond round-off
+        run = made
+        runs, wall = runs + 1, wall + run.wall
+        finer = before.tolerance / run.tolerance - 1.0
+        error = run.distance(before) / (finer if finer > 0.0 else 1.0)
+        if error == 0.0 and longest == 1.0:
+            # the longest steps were fine enough both times, so the runs are the same and tell no error
+            before, longest = run, SHORTER
+            continue
+        if error <= tolerance or aim <= LEAST:
+            break
+        before = run
+        aim = max(LEAST, aim * max(MOST_AT_ONCE, AGAIN * tolerance / error))
+    assert run is not None
+    c = run.fields
+    control = Control(
+        tolerance, run.length, method, reason, error, None, c.accepted, c.rejected, c.failed, c.forced,
+        c.smallest, c.largest, c.side_steps, runs,
+    )  # fmt: skip
+    _warn(control)
+    if run.simulation.branch_change:
+        warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=3)
+    for t, q in zip(run.task.times, run.positions, strict=True):
+        run.simulation.bending.look(float(t), np.asarray(q))
+    run.simulation.bending.warn(stacklevel=4)
+    values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(grid, times[1:])]])
+    return _trajectory(run.simulation, times, values, control, wall, run.settings)
+
+
+def equal_steps(
+    start: Callable[[float, Settings], Simulation],
+    run: Callable[[float, Settings, bool | None], Trajectory],
+    t0: float,
+    t_end: float,
+    h: float | None,
+    inputs: Mapping[str, Signal],
+    settings: Settings,
+    method: str,
+    estimate_error: bool | None,
+    progress: bool | Callable[[float], None] | None,
+) -> Trajectory:
+    """A run in equal steps whose step, method or both are chosen for the default tolerance.
+
+    `start` makes a Simulation for a step and settings, `run` the run itself.
+    """
+    check_end(t0, t_end)
+    reason, wall, runs, error = "", 0.0, 0, math.nan
+    if method == "auto" and t_end > t0:
+        grid = t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED
+        task = Task(t0, t_end, grid, inputs)
+        choice = choose(lambda: start(0.0, settings), task, settings, DEFAULT_TOLERANCE, COARSEST)
+        method, reason, wall, runs = choice.method, choice.reason, choice.wall, choice.runs
+    settings = replace(settings, method="ali3p" if method == "auto" else method)
+    given = h is not None
+    if h is None:
+        step = StepChoice(1.0, 0.0, 0.0, 0)
+        if t_end > t0:
+            with progress_for(progress) as bar:
+                step = choose_step(lambda: start(0.0, settings), t_end, DEFAULT_TOLERANCE, inputs, bar)
+        h, error, runs = step.h, step.error, runs + step.runs
+    found = run(h, settings, estimate_error if given or estimate_error else False)
+    assert found.report is not None
+    length = length_of(start(h, settings).system)
+    n = found.report.steps
+    found.control = Control(
+        DEFAULT_TOLERANCE, length, settings.method, reason, error, h, n, 0, 0, 0, h, h, 0, runs + 1
+    )  # fmt: skip
+    _warn(found.control)
+    found.wall_s += wall
+    return found
+
+
+def record_times(t0: float, t_end: float, h: float | None, every: int, times: ArrayLike | None) -> Array:
+    """Instants of the record, the first of them t0."""
+    check_end(t0, t_end)
+    if times is not None and h is not None:
+        raise ValueError("Both times and h are given; one of them says where to record.")
+    if times is None:
+        if t_end == t0:
+            return np.array([t0])
+        interval = (t_end - t0) / RECORDED if h is None else h * every
+        return t0 + interval * np.arange(math.floor((t_end - t0) / interval + 1e-6) + 1, dtype=float)
+    try:
+        wanted = np.asarray(times, float).reshape(-1)
+    except (TypeError, ValueError):
+        wanted = np.array([math.nan])
+    if not (np.all(np.isfinite(wanted)) and np.all(np.diff(wanted) > 0.0)):
+        raise ValueError("The times must be finite numbers that ascend.")
+    if len(wanted) and not (wanted[0] >= t0 and wanted[-1] <= t_end):
+        raise ValueError(
+            f"The times must lie between {t0:g} and {t_end:g} s; they go from {wanted[0]:g} to {wanted[-1]:g}."
+        )
+    return np.concatenate([[t0], wanted[wanted > t0]])
+
+
+def _whole(
+    run: ControlledRun, wanted: float, bar: Progress, from_share: float, times: Array, first: Simulation
+) -> ControlledRun:
+    try:
+        run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
+    except KernelError as error:
+        raise _refused(run, wanted, times, first, error) from error
+    except StalledError:
+        raise _stalled(run, wanted, times, first) from None
+    return run
+
+
+def _so_far(run: ControlledRun, times: Array, first: Simulation) -> Trajectory:
+    done = run.task.times[: run.done]
+    good = times[1:][times[1:] <= (done[-1] if len(done) else run.task.t0)]
+    values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(run.task.times, good)]])
+    return _trajectory(run.simulation, times[: len(good) + 1], values, None, run.wall, run.settings)
+
+
+def _run_at(run: ControlledRun, wanted: float) -> str:
+    """The tolerance of a run beside the one that was asked for."""
+    return f"{wanted:g}" if run.tolerance == wanted else f"{run.tolerance:g} (in a run on the way to {wanted:g})"
+
+
+def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation) -> SimulationError:
+    time = run.simulation.time
+    return SimulationError(
+        f"A tolerance of {_run_at(run, wanted)} cannot be held by {run.settings.method!r}: until t = {time:g} s "
+        f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share, as short "
+        f"as {run.fields.smallest:.1e} s; a larger tolerance or another method will do.",
+        time,
+        Status.NOT_CONVERGED,
+        _so_far(run, times, first),
+    )
+
+
+def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation, error: KernelError) -> SimulationError:
+    """The failure with what was recorded until then."""
+    simulation = run.simulation
+    if error.status in (Status.NO_TREE, Status.WRONG_METHOD):
+        return refusal(simulation, "The run was refused", error, _so_far(run, times, first))
+    what = (
+        f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "
+        f"{run.fields.h:.2g} s long in the end"
+    )
+    return refusal(simulation, what, error, _so_far(run, times, first))
+
+
+def _warn(control: Control) -> None:
+    if control.kept:
+        return
+    forced = f", {control.forced} steps erred more than their share however short they were" if control.forced else ""
+    warnings.warn(
+        f"The error of this run is about {control.error:.1e} of the model's length, more than {ALLOWED:g} times the "
+        f"tolerance of {control.tolerance:g}, after {control.runs} runs{forced}. Small errors grow in this motion, or "
+        f"round-off is reached: shorten the time, accept a larger tolerance or name another method than "
+        f"{control.method!r}.",
+        AccuracyWarning,
+        stacklevel=4,
+    )
+
+
+def _trajectory(
+    ended: Simulation, times: Array, values: Array, control: Control | None, wall: float, settings: Settings
+) -> Trajectory:
+    sensors = prepared(ended.system)[1]["sensors"]
+    names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
+    notices = notices_of(sensors, times, values)
+    return Trajectory(
+        times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control
+    )

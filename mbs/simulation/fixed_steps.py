@@ -1,0 +1,60 @@
+"""A run in equal steps, with a repeat where its accuracy asks for one."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+
+from mbs import accuracy
+from mbs.branch_warning import BranchWarning
+from mbs.errors import SimulationError
+from mbs.input_signals import Signal
+from mbs.progress import progress_for
+from mbs.simulation import repeat
+from mbs.simulation.march import count_steps, march
+from mbs.simulation.stepping import Simulation
+from mbs.system import System
+from mbs.trajectory import Trajectory
+
+
+def fixed_step_run(
+    system: System,
+    start: Callable[[float], Simulation],
+    t0: float,
+    t_end: float,
+    h: float,
+    inputs: Mapping[str, Signal] | None,
+    every: int,
+    progress: bool | Callable[[float], None] | None,
+    estimate_error: bool | None,
+) -> Trajectory:
+    """A run in steps of h, with a repeat where its accuracy asks for one."""
+    made: list[Simulation] = []
+
+    def march_from_start(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
+        simulation = start(step)
+        made.append(simulation)
+        return march(simulation, t_end, step, inputs, every, progress, look)
+
+    checked = estimate_error is not False
+    look = checked and not accuracy.has_motion_sensor(system)
+    often = accuracy.recorded_every(every, count_steps(t0, t_end, h)) if checked else every
+    try:
+        with progress_for(progress) as bar:
+            first = 1.0 / 3.0 if estimate_error else 1.0
+            run = march_from_start(h, often, lambda share: bar.update(first * share), look)
+            found = run[0].accuracy
+            if checked:
+                found = repeat.check(system, run, march_from_start, h, often, bar.update, estimate_error is True)
+    except SimulationError as error:
+        if error.trajectory is not None:
+            error.trajectory = error.trajectory.thinned(every // often)
+        raise
+    finally:  # of the run that was asked for, also when it failed
+        if made and made[0].branch_change:
+            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
+        if made:
+            made[0].bending.warn(stacklevel=5)
+    trajectory = run[0].thinned(every // often)
+    trajectory.accuracy = found
+    return trajectory

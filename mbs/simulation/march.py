@@ -1,0 +1,158 @@
+"""The loop of a run: steps in chunks, with inputs, a record and a progress bar."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs import accuracy
+from mbs.input_signals import InputSignals, Signal
+from mbs.kernel.binding import KernelError
+from mbs.progress import progress_for
+from mbs.run_report import Report
+from mbs.simulation.arguments import check_end, check_every, check_step
+from mbs.simulation.prepared_system import prepared
+from mbs.simulation.refusal import refusal
+from mbs.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from mbs.simulation.stepping import Simulation
+
+Array = NDArray[np.float64]
+CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
+
+
+def march(
+    simulation: Simulation,
+    t_end: float,
+    h: float,
+    inputs: Mapping[str, Signal] | None,
+    every: int,
+    progress: bool | Callable[[float], None] | None,
+    look: bool = False,
+) -> tuple[Trajectory, list[Array]]:
+    """The steps of `Simulation.run`.
+
+    Returns
+    -------
+    trajectory : Trajectory
+    seen : list of ndarray, shape (nq,)
+        With `look` the coordinates at the instants where two runs are compared.
+    """
+    check_step(h)
+    t0 = simulation.time
+    steps = count_steps(t0, t_end, h)
+    check_every(every)
+    simulation.step_tried = h
+    meta, instance = prepared(simulation.system)[1], simulation.instance
+    signals = InputSignals(inputs or {}, meta["inputs"])
+    values = np.empty((steps // every + 1, len(meta["sensors"])))
+    values[0] = list(instance.sensors())
+    instants = [int(k) * every for k in accuracy.instants(len(values))]
+    looks = instants if look or simulation.bending.watches else []
+    seen = [simulation.state.q] if look else []
+    done, wall, chunk, before = 0, 0.0, every, simulation.report
+    with progress_for(progress) as bar, _inputs(simulation, signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
+        while done < steps:
+            ahead = [k - done for k in looks if k > done]
+            n = min(chunk, steps - done, *ahead[:1])
+            table = table_of(t0 + h * np.arange(done + 1, done + n + 1, dtype=float))
+            part = values[done // every + 1 : (done + n) // every + 1]
+            begin = time.perf_counter()
+            try:
+                instance.run(h, n, table, every, part)
+            except KernelError as error:
+                good = round((simulation.time - t0) / h) // every + 1
+                wall += time.perf_counter() - begin
+                recorded = _trajectory(simulation, t0, h * every, values[:good], wall, before)
+                what = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
+                raise refusal(simulation, what, error, recorded) from error
+            spent = time.perf_counter() - begin
+            wall += spent
+            done += n
+            if ahead and n == ahead[0]:
+                q = simulation.state.q
+                simulation.bending.look(simulation.time, q)
+                if look:
+                    seen.append(q)
+            bar.update(done / steps)
+            chunk = _next_chunk(chunk, spent, every)
+    return _trajectory(simulation, t0, h * every, values, wall, before), seen
+
+
+def count_steps(t0: float, t_end: float, h: float) -> int:
+    """Number of whole steps that end not after `t_end`, give or take round-off."""
+    check_end(t0, t_end)
+    return math.floor((t_end - t0) / h + 1e-6)
+
+
+def notices_of(sensors: list[dict[str, str]], t: Array, values: Array) -> list[str]:
+    """What sensors with a notice want told of their columns, `values` (n, ns) at `t` (n,)."""
+    told = []
+    for k, sensor in enumerate(sensors):
+        there = np.flatnonzero(values[:, k] if "notice" in sensor else ())
+        if len(there):
+            most = values[np.argmax(np.abs(values[:, k])), k]
+            told.append(
+                f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[there[0]]:g} s, "
+                f"at most {most:g} {sensor['unit']}."
+            )
+    return told
+
+
+@contextmanager
+def _inputs(
+    simulation: Simulation, signals: InputSignals, t0: float, t_end: float, tolerance: float
+) -> Iterator[Callable[[Array], Array | None]]:
+    """Inputs of a run: a table at the ends of its steps, or the kernel asks at the times of its stages."""
+    if simulation.settings.looks_at_ends:
+        yield lambda t: _input_table(simulation, signals, t, tolerance)
+        return
+    signals.attach(simulation.instance, t0, t_end, tolerance)
+    try:
+        yield lambda t: None
+    finally:
+        simulation.instance.set_input_function(None)
+
+
+def _input_table(simulation: Simulation, signals: InputSignals, t: Array, tolerance: float) -> Array | None:
+    """Values (n, nu) of all inputs at the ends of the steps; None keeps them as they are."""
+    columns = signals.columns()
+    if not columns:
+        return None
+    count = len(prepared(simulation.system)[1]["inputs"])
+    table = np.tile([simulation.instance.get_input(i) for i in range(count)], (len(t), 1))
+    table[:, columns] = signals.at(t, tolerance)
+    return table
+
+
+def _trajectory(
+    simulation: Simulation, t0: float, interval: float, values: Array, wall: float, before: Report
+) -> Trajectory:
+    """What was recorded, with the counters since `before`."""
+    sensors, report = prepared(simulation.system)[1]["sensors"], simulation.report
+    t = t0 + interval * np.arange(len(values), dtype=float)
+    return Trajectory(
+        t,
+        values,
+        [s["name"] for s in sensors],
+        [s["unit"] for s in sensors],
+        report,
+        simulation.settings,
+        wall,
+        accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
+        notices=notices_of(sensors, t, values),
+        branch_change=simulation.branch_change,
+    )
+
+
+def _next_chunk(chunk: int, spent: float, every: int) -> int:
+    """Steps of the next call, a multiple of `every`, for about CHUNK_SECONDS."""
+    factor = min(8.0, CHUNK_SECONDS / max(spent, 1e-9))
+    return max(1, int(chunk * factor / every)) * every

@@ -1,0 +1,117 @@
+"""Which method to use: what the System is leaves a few, and coarse runs of these show the fastest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbs.errors import SimulationError
+from mbs.kernel.binding import KernelError, Status
+from mbs.settings import Settings
+from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
+from mbs.simulation.prepared_system import prepared
+from mbs.simulation.stepping import Simulation
+from mbs.system import System
+
+ORDERS = {
+    "ali3p": 2,
+    "ali3p_no_projection": 2,
+    "ali3p_generalised_alpha": 1,
+    "energy_momentum": 2,
+    "energy_momentum_4": 3,
+    "runge_kutta_8": 8,
+    "semi_recursive": 8,
+    "semi_recursive_4": 4,
+    "radau_5": 5,
+}
+"""Orders with steps that change."""
+FINE = 2e-3  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
+FIRST_BUDGET, MORE, STEPS = 100.0, 2.0, 0.002
+LOOSE = 1e-3  # tolerance from which on ALi3-P, of order two, is tried too: it is the cheapest one for what is stiff
+FEWEST = 10  # steps of one call, which itself costs a few evaluations
+LOST = 1.1  # times the price of the one that ended first
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A method, why, and its coarse run."""
+
+    method: str
+    reason: str
+    run: ControlledRun | None
+    wall: float
+    runs: int
+
+
+def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
+    """Methods that may be the fastest for a System, and what of it leaves no others."""
+    if len(system.arrays["y0"]) > 0:
+        return ["ali3p"], "elements with states"
+    if np.any(system.arrays["guide_type"] == 1):
+        return ["ali3p"], "guides through a filter"
+    coarse = ["ali3p"] if tolerance >= LOOSE else []
+    if not prepared(system)[1]["report"]["no_tree"]:
+        return ["semi_recursive" if tolerance < FINE else "semi_recursive_4", "radau_5", *coarse], "a tree of joints"
+    if len(system.arrays["velocity_row"]) > 0:
+        return ["runge_kutta_8", *coarse], "wheels that roll"
+    return ["runge_kutta_8", "radau_5", *coarse], "no tree of joints"
+
+
+def cost(method: str) -> float:
+    """Of one unit of work of a run (`ControlledRun.work`), in evaluations of Runge and Kutta's rule.
+
+    Measured: three stages in one tangent are three times as wide; relative coordinates save the factorization of the
+    natural ones.
+    """
+    if method == "radau_5":
+        return 5.5
+    return 0.2 if method.startswith("semi_recursive") else 1.0
+
+
+def choose(start: Callable[[], Simulation], task: Task, settings: Settings, tolerance: float, coarse: float) -> Choice:
+    """The method for a tolerance, by runs of all candidates at a coarse one, each as long as it can still win."""
+    system = start().system
+    names, what = candidates(system, tolerance)
+    if len(names) == 1:
+        return Choice(names[0], f"chosen: {what}", None, 0.0, 0)
+    growth = coarse / tolerance
+    runs = {name: ControlledRun(start(), task, replace(settings, method=name), coarse) for name in names}
+    weights = {name: cost(name) * growth ** (1.0 / ORDERS[name]) for name in names}
+    failed = _race(runs, weights)
+    ended = {name: run.work * weights[name] for name, run in runs.items() if run.finished}
+    best = min(ended, key=lambda name: ended[name], default="")
+    wall = sum(run.wall for run in runs.values())
+    if not best:
+        raise SimulationError(
+            f"None of {', '.join(runs)} gets from t = {task.t0:g} to {task.t_end:g} s at a tolerance of {coarse:g}; "
+            "name a method to see where it stops.",
+            task.t0,
+            Status.NOT_CONVERGED,
+        )
+    lost = [f"{name} {'does not get through' if name in failed else 'is slower'}" for name in runs if name != best]
+    return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs))
+
+
+def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:
+    """Runs all until one ends, the others until they are dearer; returns those that failed. Prices of work are those
+    that the tolerance will ask for, not the coarse one.
+    """
+    failed: set[str] = set()
+    budget = FIRST_BUDGET
+    while len(failed) < len(runs):
+        for name, run in runs.items():
+            while name not in failed and not run.finished and run.work * price[name] < budget:
+                try:
+                    run.advance(FEWEST + int(STEPS * budget / price[name]))
+                except (KernelError, StalledError):
+                    failed.add(name)
+        ended = [run.work * price[name] for name, run in runs.items() if run.finished]
+        if ended:
+            if budget >= LOST * min(ended):
+                break
+            budget = LOST * min(ended)
+            continue
+        budget *= MORE
+    return failed

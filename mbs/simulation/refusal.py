@@ -1,0 +1,82 @@
+"""What the kernel refused, in a sentence for people."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from mbs.errors import SimulationError
+from mbs.kernel.binding import KernelError, Status, open_row
+from mbs.simulation.prepared_system import prepared
+from mbs.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from mbs.simulation.stepping import Simulation
+
+STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
+
+
+def refusal(
+    simulation: Simulation, what: str, error: KernelError, trajectory: Trajectory | None = None
+) -> SimulationError:
+    """An error of the kernel as a SimulationError.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        In the last good state.
+    what : str
+        The beginning of the sentence: what was tried.
+    error : KernelError
+        What the kernel said.
+    trajectory : Trajectory, optional
+        What was recorded until then.
+
+    Returns
+    -------
+    SimulationError
+        Status, reason and remedy; of a step that did not converge also the worst row and the worst balance.
+    """
+    message = f"{what}: {error.message}{_remedy(simulation, error.status)}"
+    report = simulation.instance.report()
+    # neither row nor balance is at fault where nothing was solved yet, or all was but did work
+    unsolved = not report["factorizations"]
+    if not unsolved and error.status not in (
+        Status.WRONG_METHOD,
+        Status.NO_TREE,
+        Status.BELOW_ROAD,
+        Status.UNRESOLVED,
+        Status.TOO_STIFF,
+        Status.TOO_FAR,
+    ):
+        message += _worst_equations(simulation, report)
+    return SimulationError(message, simulation.time, error.status, trajectory)
+
+
+def _remedy(simulation: Simulation, status: int) -> str:
+    """What the status alone tells."""
+    if status in (Status.WRONG_METHOD, Status.NO_TREE):
+        tree = f" Here {prepared(simulation.system)[1]['report']['no_tree']}." if status == Status.NO_TREE else ""
+        return f"{tree} The method is {simulation.settings.method!r}; 'ali3p' takes every System."
+    if status == Status.BELOW_ROAD:
+        return f" {simulation.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
+    rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
+    if rate > 0.0:
+        h = simulation.step_tried
+        return (
+            f" Its rate here is {rate:.3g} 1/s, which times the step of {h:g} s is {rate * h:.3g}; that should be "
+            f"below about {STIFF_STEP:g}. Implicit methods ('ali3p', 'radau_5') need not follow it."
+        )
+    return ""
+
+
+def _worst_equations(simulation: Simulation, report: dict[str, float]) -> str:
+    """The constraint row and the balance that are farthest from zero."""
+    meta, said = prepared(simulation.system)[1], ""
+    worst = open_row(report, [row["name"] for row in meta["rows"]])
+    if worst:
+        said += f" Worst constraint: {worst}."
+    if simulation.settings.tolerance_r < report["residual"] < math.inf:
+        name = meta["coordinates"][int(report["worst_coordinate"])]
+        said += f" Worst balance: {name!r}, residual {report['residual']:.3g}."
+    return said

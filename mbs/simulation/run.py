@@ -1,0 +1,158 @@
+"""`simulate`: a whole run, in equal steps or to a tolerance."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.accuracy import AccuracyWarning
+from mbs.control import checked_tolerance
+from mbs.input_signals import InputSignals, Signal
+from mbs.progress import progress_for
+from mbs.settings import Settings
+from mbs.simulation import chosen_run
+from mbs.simulation.arguments import check_every, check_step
+from mbs.simulation.fixed_steps import fixed_step_run
+from mbs.simulation.prepared_system import prepared
+from mbs.simulation.state import Pose
+from mbs.simulation.stepping import Simulation
+from mbs.system import System
+from mbs.trajectory import Trajectory
+
+
+def simulate(
+    system: System,
+    t_end: float,
+    h: float | None = None,
+    inputs: Mapping[str, Signal] | None = None,
+    settings: Settings | None = None,
+    parameters: Mapping[str, float] | None = None,
+    *,
+    every: int = 1,
+    progress: bool | Callable[[float], None] | None = None,
+    t0: float = 0.0,
+    pose: Pose | None = None,
+    method: str | None = None,
+    estimate_error: bool | None = None,
+    tolerance: float | None = None,
+    times: ArrayLike | None = None,
+) -> Trajectory:
+    """Run a System from `t0` to `t_end`, in equal steps or to a tolerance, and warn where the result is not what was
+    asked for.
+
+    Parameters
+    ----------
+    system : System
+        What `compile` made.
+    t_end : float
+        Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
+    h : float, optional
+        Step, s. With a tolerance: interval of the record, by default a 200th of the run. Without h and tolerance a step
+        is chosen whose run errs by less than 1e-3 of the model's length (`Trajectory.control` says which).
+    inputs : mapping of str to signal, optional
+        Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
+        use the value at the end of a step, the other methods those at the times of their stages; where a table jumps,
+        a step that begins there the value behind the jump, one that ends there the value before it. With a
+        tolerance the points of tables are ends of steps; a function is taken as smooth.
+    settings : Settings, optional
+        How steps are solved. With a tolerance `tolerance_r` and `tolerance_phi` are tightened as far as it needs.
+    parameters : mapping of str to float, optional
+        Values that differ from their declaration.
+    every : int
+        Record the state after every that many steps, or intervals of the record.
+    progress : bool or callable, optional
+        None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives the
+        share that is done. A repeat belongs to the run: where it becomes necessary the share goes back once.
+    t0 : float
+        First time, s.
+    pose : Pose, optional
+        Start of a scene that is not tied to the ground.
+    method : str, optional
+        Name of the method, see `Settings`; in place of the one that `settings` names. "auto" takes the one that suits
+        System and tolerance best; so does a tolerance without a method.
+    estimate_error : bool, optional
+        Whether to repeat the run with half the step, from which `Trajectory.accuracy` has the error of the sensors.
+        None repeats what the books of energy, halvings or predictors make suspect; the others cost nothing more. False
+        checks nothing. Functions among `inputs` are called anew in a repeat, so they must depend on time alone.
+    tolerance : float, optional
+        Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
+        the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
+        chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` says what was done.
+    times : array_like, optional
+        Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
+
+    Returns
+    -------
+    Trajectory
+        Sensor values at t0, t0 + every h, ...; of the steps asked for, also after a repeat.
+
+    Raises
+    ------
+    SimulationError
+        When a step fails; its `trajectory` holds what was recorded.
+
+    Warns
+    -----
+    AccuracyWarning
+        When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
+        lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit; with a
+        tolerance, when the error is estimated to be more than ten times that.
+    BendingWarning
+        When a flexible body bends more within its floating frame than its modes hold for.
+    BranchWarning
+        When a closed loop changed its assembly mode; once, with the names of its joints and the time.
+    """
+    if h is not None:
+        check_step(h)
+    if estimate_error not in (None, True, False):
+        raise ValueError(f"estimate_error = {estimate_error!r}; it must be True, False or None (suspects only).")
+    check_every(every)
+    if times is not None and tolerance is None:
+        raise ValueError("times need a tolerance: equal steps are recorded where they end.")
+    wanted = None if tolerance is None else checked_tolerance(tolerance)
+    settings = settings or Settings()
+    named = method is not None or settings.method != Settings().method
+    chosen = method if method is not None else settings.method if named or wanted is None else "auto"
+    if chosen not in ("auto", settings.method):
+        settings = replace(settings, method=chosen)
+    given = inputs or {}
+    declared = prepared(system)[1]["inputs"]
+    signals = InputSignals(given, declared)
+    names = [declared[i]["name"] for i in signals.columns()]
+
+    def start(step: float = 0.0, used: Settings = settings) -> Simulation:
+        first = signals.at(np.array([t0]), 1e-6 * step, after_jump=True)[0]
+        return Simulation(
+            system,
+            settings=used,
+            inputs=dict(zip(names, first.tolist(), strict=True)),
+            parameters=parameters,
+            pose=pose,
+            t0=t0,
+        )
+
+    def equal_steps(step: float, used: Settings, estimate: bool | None) -> Trajectory:
+        return fixed_step_run(system, lambda h: start(h, used), t0, t_end, step, inputs, every, progress, estimate)
+
+    if wanted is None and h is not None and chosen != "auto":
+        run = equal_steps(h, settings, estimate_error)
+        _warn_of(run)
+        return run
+    if wanted is None:
+        run = chosen_run.equal_steps(
+            start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress
+        )
+        _warn_of(run)
+        return run
+    with progress_for(progress) as bar:
+        record = chosen_run.record_times(t0, t_end, h, every, times)
+        return chosen_run.to_tolerance(start, wanted, record, given, settings, chosen, bar)
+
+
+def _warn_of(run: Trajectory) -> None:
+    if run.accuracy is not None and run.accuracy.message:
+        warnings.warn(run.accuracy.message, AccuracyWarning, stacklevel=3)

@@ -1,0 +1,47 @@
+"""Where a run starts and where it is: pose and state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where a scene that is not tied to the ground starts.
+
+    Parameters
+    ----------
+    x, y, z : float
+        Shift from the reference configuration, earth axes, m.
+    yaw : float
+        Turn about the vertical, rad.
+    speed : float
+        Along the turned forward direction, m/s.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    yaw: float = 0.0
+    speed: float = 0.0
+
+
+@dataclass(frozen=True)
+class State:
+    """Position, velocity, acceleration (nq,), multipliers of the stored rows (nc,) and element states (ny,).
+
+    Multipliers have one sign, that of ``M qdd + Phi_q' lam = Q``: a row Phi puts the force -Phi_q' lam on its
+    coordinates. ``lam_user = row_scale * lam`` belongs to the row as the model writes it. The row of a drive is
+    coordinate minus guide, so the drive pushes the coordinate with -lam_user; the rows of a port and of a node of a
+    flexible body are free point minus point of the body, so the body feels +lam_user; a distance of length L has the
+    tension L lam_user. Sensors have the signs that their docstrings say.
+    """
+
+    q: NDArray[np.float64]
+    qd: NDArray[np.float64]
+    qdd: NDArray[np.float64]
+    lam: NDArray[np.float64]
+    y: NDArray[np.float64]

@@ -1,0 +1,114 @@
+"""A fixed step for `simulate` without one: runs with half the step each until their difference shows that the error is
+within the tolerance.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.errors import SimulationError
+from mbs.input_signals import Signal
+from mbs.progress import Progress
+from mbs.simulation.method_choice import ORDERS
+from mbs.simulation.prepared_system import length_of, prepared
+from mbs.simulation.stepping import Simulation
+from mbs.system import System
+
+Array = NDArray[np.float64]
+CHECKED = 50  # instants at which runs are compared, and steps of the first run
+MOST_STEPS = 3_000_000  # of a run
+LEAST_ORDER = 0.5  # measured: below, differences do not yet tell the error
+EXACT = 1e-3  # of the tolerance: below it, twice, differences are round-off of what every step gives right
+
+
+@dataclass(frozen=True)
+class StepChoice:
+    """A step (s), the estimated error of its run in parts of the length, its measured order, and the runs made."""
+
+    h: float
+    error: float
+    order: float
+    runs: int
+
+
+def choose_step(
+    start: Callable[[], Simulation],
+    t_end: float,
+    tolerance: float,
+    inputs: Mapping[str, Signal],
+    bar: Progress,
+) -> StepChoice:
+    """The largest of the steps duration / (50 2^k) whose run errs by less than the tolerance.
+
+    The error is the difference from the run with twice the step over 2^p - 1, p the order measured with the one before
+    (at most that of the method).
+    """
+    simulation = start()
+    system, method = simulation.system, simulation.settings.method
+    h = (t_end - simulation.time) / CHECKED
+    runs: list[Array | None] = []
+    differences: list[float] = []
+    last: tuple[float, float] | None = None
+    while True:
+        positions = _positions(start, t_end, h, inputs)
+        previous = runs[-1] if runs else None
+        runs.append(positions)
+        if positions is None or previous is None:
+            differences.clear()
+        else:
+            differences.append(_distance(system, positions, previous))
+        if len(differences) >= 2:
+            order = _order(differences, ORDERS[method])
+            error = differences[-1] / (2.0**order - 1.0)
+            last = error, order
+            exact = max(differences[-2:]) <= EXACT * tolerance
+            if error <= tolerance and (order > LEAST_ORDER or exact):
+                return StepChoice(h, error, order, len(runs))
+        if (t_end - simulation.time) / h > MOST_STEPS / 2:
+            break
+        h *= 0.5
+        bar.update(min(0.5, 0.05 * len(runs)))
+    if last is None:
+        _positions(start, t_end, h, inputs, strict=True)
+        last = math.inf, 0.0
+    return StepChoice(h, *last, len(runs))
+
+
+def _order(differences: list[float], most: int) -> float:
+    if differences[-1] <= 0.0:
+        return float(most)
+    ratio = differences[-2] / differences[-1]
+    return min(float(most), max(0.1, math.log2(ratio))) if ratio > 0.0 else 0.1
+
+
+def _positions(
+    start: Callable[[], Simulation],
+    t_end: float,
+    h: float,
+    inputs: Mapping[str, Signal],
+    strict: bool = False,
+) -> Array | None:
+    """Coordinates at 50 instants by steps of h; None where a step fails."""
+    simulation = start()
+    t0 = simulation.time
+    found = []
+    for k in range(1, CHECKED + 1):
+        try:
+            simulation.march(t0 + (t_end - t0) * k / CHECKED, h, inputs=inputs)
+        except SimulationError:
+            if strict:
+                raise
+            return None
+        found.append(simulation.state.q)
+    return np.array(found)
+
+
+def _distance(system: System, a: Array, b: Array) -> float:
+    meta = prepared(system)[1]
+    lengths = np.array(meta.get("coordinate_lengths", [1.0] * system.nq), float)
+    return float(np.max(np.abs(a - b) * lengths, initial=0.0)) / length_of(system)

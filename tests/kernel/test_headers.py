@@ -1,0 +1,68 @@
+"""What stands in C headers and in Python: one source, and a library of other sources is refused."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+
+import pytest
+
+from mbs import accuracy
+from mbs.kernel import header, read_headers
+from mbs.kernel.binding import library, load_library
+from mbs.kernel.header import STRUCTURES, Doubt, SolverValue, Status
+
+
+def test_the_python_side_is_what_the_headers_say():
+    assert read_headers.header() == read_headers.HEADER.read_text(encoding="utf-8"), (
+        "run: python mbs/kernel/read_headers.py"
+    )
+
+
+def test_numbers_known_from_the_documents():
+    assert (Status.OK, Status.BAD_ARGUMENT, Status.BRANCH_CHANGED) == (0, 1, 17)
+    assert (SolverValue.ITERATIONS, SolverValue.STATUS, SolverValue.ENERGY_BALANCE) == (0, 5, 7)
+    assert list(Doubt) == [Doubt.NONE, Doubt.HALVINGS, Doubt.BALANCE]
+    assert (header.OPEN, header.FARTHEST, header.FASTEST) == (1e-9, 1e8, 1e6)
+    assert accuracy.WRONG_BALANCE == header.BALANCE_WRONG == 0.036
+    assert accuracy.SUSPECT_HALVINGS == header.HALVINGS_SUSPECT == 0.1
+
+
+def test_every_status_has_a_sentence_of_its_own():
+    texts = [load_library().ali3_status_text(status).decode() for status in Status]
+    assert len(set(texts)) == len(texts)
+    assert "unknown status" not in texts
+    assert load_library().ali3_status_text(len(Status)) == load_library().ali3_status_text(-1) == b"unknown status"
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_the_kernel_has_the_same_structures(name):
+    assert load_library().ali3_structure_size(name.encode()) == ctypes.sizeof(STRUCTURES[name])
+
+
+def test_a_library_with_another_structure_is_refused(monkeypatch, tmp_path):
+    class Other(ctypes.Structure):
+        _fields_ = (*STRUCTURES["ali3_report"]._fields_, ("more", ctypes.c_double))
+
+    copy = shutil.copy(library.library_path(), tmp_path)
+    monkeypatch.setitem(STRUCTURES, "ali3_report", Other)
+    with pytest.raises(OSError, match=r"ali3_report has \d+ bytes, in this package \d+: .*mbs\.kernel\.build"):
+        load_library(copy)
+    monkeypatch.undo()
+    monkeypatch.setitem(library._SIGNATURES, "ali3_of_tomorrow", (None, []))
+    with pytest.raises(OSError, match=r"has no function ali3_of_tomorrow: .*mbs\.kernel\.build"):
+        load_library(copy)
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("enum { ALI3_ONE = 0, OTHER };", "OTHER"),
+        ("enum { ALI3_TWO = 0 };", "no enumeration that starts with ALI3_ONE"),
+    ],
+)
+def test_a_header_that_cannot_be_read_is_refused(monkeypatch, tmp_path, text, what):
+    monkeypatch.setattr(read_headers, "KERNEL", tmp_path)
+    (tmp_path / "some.h").write_text(text)
+    with pytest.raises(ValueError, match=what):
+        read_headers.enumeration("some.h", "ALI3_ONE", "ALI3_")
