@@ -35,18 +35,16 @@ SOURCES = (
     "elements/contact_points",
     "elements/automatic_drive",
     "elements/spin_torque",
-    "elements/road",
     "algebra/elementary",
 )
 
 
-@cache
-def library() -> ctypes.CDLL:
-    """The elements as a small library of their own, compiled once per process."""
+def compiled(road: Path) -> ctypes.CDLL:
+    """The elements as a small library of their own, over the roads of a C file."""
     folder = Path(tempfile.mkdtemp(prefix="ali3_elements_"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     target = folder / ("elements.dll" if sys.platform == "win32" else "elements.so")
-    files = [str(KERNEL / f"{name}.c") for name in SOURCES]
+    files = [str(KERNEL / f"{name}.c") for name in SOURCES] + [str(road)]
     flags = ["-std=c11", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{KERNEL}"]
     command = [sys.executable, "-m", "ziglang", "cc", *flags, str(Path(__file__).with_name("harness.c")), *files]
     subprocess.run([*command, "-lm", "-o", str(target)], check=True, capture_output=True, text=True)
@@ -55,6 +53,12 @@ def library() -> ctypes.CDLL:
     lib.harness_check.restype = ctypes.c_char_p
     lib.harness_road_check.restype = ctypes.c_char_p
     return lib
+
+
+@cache
+def library() -> ctypes.CDLL:
+    """With the roads of the kernel, compiled once per process."""
+    return compiled(KERNEL / "elements" / "road.c")
 
 
 def _doubles(values: ArrayLike) -> ctypes.Array[ctypes.c_double]:

@@ -66,7 +66,7 @@ def test_steps_of_other_sizes_do_not_mislead_it(loop):
 
 
 def test_a_step_ten_times_as_long_leaves_the_past_aside():
-    """A parabola through steps of 10 ms, extrapolated over 100 ms, costs a swinging chain 13 iterations in place of 5."""
+    """A parabola through steps of 10 ms, extrapolated over 100 ms, costs a swinging chain 13 iterations for 5."""
     simulation = Simulation(compile(spatial_chain.build()))
     for _ in range(20):
         simulation.step(0.01, n=8)
