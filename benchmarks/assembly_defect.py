@@ -8,23 +8,17 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 import mbs
-from benchmarks.command import parser_of, pyplot, save_chart, save_rows, watched
-from benchmarks.common import describe, median_wall, print_table, wrong_on_purpose
-from mbs.errors import ModelError
+from benchmarks.paper.assembly_defect import STEP, draw, measure, refusal
+from benchmarks.references.assembly_defect import ORIGIN, reference
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from benchmarks.shared.warned import wrong_on_purpose
 from mbs.scenes import assembly_defect_four_bar as scene
 
-REFERENCE = Path(__file__).with_name("assembly_defect_reference.csv")
-ORIGIN = "Exudyn 1.13.6, ObjectBeamGeometricallyExact, 16 elements per 0.12 m, h = 2.5 ms (benchmarks/exudyn_beams.py)"
-COMPONENTS = ("T", "My", "Mz")
-STEP = 0.01  # s, as the reference is stored
-GOAL = 0.03  # of the peak
 # bodies per bar, elements per body, dynamic modes per body
 CASES = ((1, 2, 0), (1, 4, 2), (1, 8, 6), (2, 2, 0), (2, 4, 2), (4, 2, 0), (4, 4, 2), (8, 2, 0))
 FEW = CASES[:1]
@@ -43,64 +37,6 @@ TABLE = {
     "wall_s": ".3g",
     "realtime_factor": ".1f",
 }
-
-
-def reference() -> dict[str, NDArray[np.float64]]:
-    """Time, s, and the three moments, N m, each shape (n,)."""
-    data = np.loadtxt(REFERENCE, delimiter=",", skiprows=2)
-    return dict(zip(("t", *COMPONENTS), data.T, strict=True))
-
-
-def measure(
-    case: tuple[int, int, int], expected: dict[str, NDArray[np.float64]], repeats: int
-) -> tuple[dict[str, Any], mbs.Trajectory]:
-    """One row, and the run it comes from."""
-    parts, elements, dynamic = case
-    system = mbs.compile(scene.build(parts, elements, dynamic))
-    run = mbs.simulate(system, scene.DURATION, STEP, progress=False)
-    wall = median_wall(
-        lambda: mbs.simulate(system, scene.DURATION, STEP, every=1000, progress=False).wall_s, repeats, warm_up=0
-    )
-    gaps = {c: float(np.max(np.abs(run[f"coupler.{c}"] - expected[c]))) for c in COMPONENTS}
-    largest = max(np.max(np.abs(expected[c])) for c in COMPONENTS)
-    row = {
-        "bodies_per_bar": parts,
-        "elements": elements,
-        "modes": 12 + dynamic,
-        "coordinates": system.nq,
-        "rows": system.nc,
-        **{f"{c}_error": gaps[c] / float(np.max(np.abs(expected[c]))) for c in COMPONENTS},
-        "largest_of_moment": max(gaps.values()) / float(largest),
-        "iterations_mean": run.report.iterations / run.report.steps,
-        "iterations_max": run.report.max_iterations,
-        "wall_s": wall,
-        "realtime_factor": scene.DURATION / wall,
-    }
-    return row, run
-
-
-def refusal() -> str:
-    """What `compile` says to rigid bars."""
-    try:
-        mbs.compile(scene.build(flexible=False))
-    except ModelError as error:
-        return str(error)
-    raise RuntimeError("The four-bar with rigid bars and a tilted axis was not recognised as locked.")
-
-
-def draw(run: mbs.Trajectory, expected: dict[str, NDArray[np.float64]], bodies: int, file: Path) -> None:
-    """The three moments over time as in the paper's Figure 5, the reference dashed; colours of Okabe and Ito."""
-    plt = pyplot()
-    figure, ax = plt.subplots(figsize=(8.0, 4.2), layout="constrained")
-    for c, colour in zip(COMPONENTS, ("#0072B2", "#D55E00", "#009E73"), strict=True):
-        ax.plot(run.t, run[f"coupler.{c}"], color=colour, linewidth=1.6, label=f"{c}, ALi3, {bodies} bodies per bar")
-        ax.plot(expected["t"], expected[c], color="black", linewidth=1.0, dashes=(4, 4))
-    ax.plot([], [], color="black", linewidth=1.0, dashes=(4, 4), label="geometrically exact beams (Exudyn)")
-    ax.set_xlabel("time, s")
-    ax.set_ylabel("moment in the middle of the coupler, N m")
-    ax.grid(True, alpha=0.35)
-    ax.legend(fontsize=8)
-    save_chart(figure, file)
 
 
 @wrong_on_purpose()

@@ -8,124 +8,24 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
-from benchmarks import car_manoeuvres
-from benchmarks.command import parser_of, watched
-from mbs import Settings, Trajectory
-
-FOLDER = Path(__file__).parents[1] / "tests" / "data" / "car"
-STEP = 1e-4  # s
-CHECKS = (1e-3, 5e-4, 2.5e-4)  # s, steps that show the order
-TIGHT = Settings(tolerance_r=1e-12)
-POSITION = ("chassis.x", "chassis.y", "chassis.z")
-WHEELS = ("FL", "FR", "RL", "RR")
-LOADS = tuple(f"wheel_{w}.Fz" for w in WHEELS)
-SENSORS = (
-    *POSITION,
-    *(f"chassis.{name}" for name in ("yaw", "pitch", "roll", "vx", "vy", "wz", "ay")),
-    "speed",
-    *LOADS,
-    *(f"wheel_{w}.travel" for w in WHEELS),
-)
-
-
-def read(name: str) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], float]:
-    """A stored reference.
-
-    Returns
-    -------
-    t : ndarray of shape (n,)
-        s.
-    values : dict of str to ndarray of shape (n,)
-        By sensor.
-    length : float
-        Of the path of the reference point, m.
-    """
-    file = FOLDER / f"{name}.csv"
-    lines = file.read_text(encoding="utf-8").splitlines()
-    head = [line for line in lines if line.startswith("#")]
-    length = float(next(line for line in head if line.startswith("# path_length_m:")).partition(":")[2])
-    names = lines[len(head)].split(",")
-    table = np.array([[float(v) for v in line.split(",")] for line in lines[len(head) + 1 :]])
-    return table[:, 0], dict(zip(names[1:], table[:, 1:].T, strict=True)), length
-
-
-def path_error(found: Trajectory, values: dict[str, NDArray[np.float64]]) -> float:
-    """Largest distance of the reference point from where it is in the reference at the same time, m."""
-    gap = np.array([found[s] - values[s] for s in POSITION])
-    return float(np.max(np.linalg.norm(gap, axis=0)))
-
-
-def load_error(found: Trajectory, values: dict[str, NDArray[np.float64]]) -> float:
-    """Largest error of a wheel load over the largest wheel load."""
-    peak = max(float(values[s].max()) for s in LOADS)
-    return max(float(np.abs(found[s] - values[s]).max()) for s in LOADS) / peak
-
-
-def write(name: str) -> str:
-    """Run a manoeuvre with the small step, write its file and return one line about it."""
-    interval = car_manoeuvres.sampling(name)
-    fine = car_manoeuvres.run(name, STEP, every=1, settings=TIGHT)
-    every = round(interval / STEP)
-    length = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
-    values = {s: fine[s][::every] for s in SENSORS}
-    errors, loads = [], []
-    for h in CHECKS:
-        coarse = car_manoeuvres.run(name, h, every=round(interval / h), settings=TIGHT)
-        errors.append(path_error(coarse, values))
-        loads.append(load_error(coarse, values))
-    order = np.log2(errors[0] / errors[1])
-    own = errors[-1] / ((CHECKS[-1] / STEP) ** 2 - 1.0)
-    report = fine.report
-    assert report is not None
-    lines = [
-        f"# Prototype car, {name.replace('_', ' ')}: this engine with steps of {STEP:g} s, tolerance_r = "
-        f"{TIGHT.tolerance_r:g}; made by python -m benchmarks.car_references",
-        f"# path_length_m: {length:.9g}",
-        "# path error and relative wheel load error of larger steps: "
-        + "; ".join(f"{h:g} s {e:.2e} m, {w:.1e}" for h, e, w in zip(CHECKS, errors, loads, strict=True)),
-        f"# order in the step {order:.2f}; error of this path if it is 2: {own:.1e} m",
-        ",".join(["time", *SENSORS]),
-    ]
-    table = np.column_stack([fine.t[::every], *values.values()])
-    lines += [",".join(f"{v:.8g}" for v in row) for row in table]
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    (FOLDER / f"{name}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return (
-        f"{name:<26} path {length:8.3f} m, order {order:5.2f}, own error {own:.1e} m, "
-        f"iterations {report.mean_iterations:.2f} (at most {report.max_iterations}), {report.halvings} halvings"
-    )
-
-
-def write_replay() -> None:
-    """The driver's acts in the double lane change as a manoeuvre file, and its start values."""
-    closed = car_manoeuvres.load(car_manoeuvres.CLOSED_LOOP)
-    rows = car_manoeuvres.record_driver()
-    head = ",".join(f'"{n}"' for n in ("time", "steering", "throttle", "brake"))
-    lines = [head, *(",".join(f"{v:.6g}" for v in row) for row in rows)]
-    name = car_manoeuvres.OWN[0]
-    (car_manoeuvres.FOLDER / f"{name}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    text = "# What the host's driver did in the double lane change; made by python -m benchmarks.car_references\n"
-    text += "[start]\n" + "".join(f"{k} = {v:g}\n" for k, v in closed.start.items())
-    (car_manoeuvres.FOLDER / f"{name}.ini").write_text(text, encoding="utf-8")
+from benchmarks.car import manoeuvres
+from benchmarks.car.trajectories import write, write_replay
+from benchmarks.shared.command import parser_of, watched
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Write all references, or those named."""
     parser = parser_of("car_references", __doc__, json=False)
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"out of: {', '.join(car_manoeuvres.NAMES)}")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"out of: {', '.join(manoeuvres.NAMES)}")
     parser.add_argument("--keep-replay", action="store_true", help="do not drive the double lane change anew")
     options = parser.parse_args(arguments)
-    unknown = set(options.names) - set(car_manoeuvres.NAMES)
+    unknown = set(options.names) - set(manoeuvres.NAMES)
     if unknown:
         parser.error(f"there is no manoeuvre {', '.join(sorted(unknown))}")
     if not options.keep_replay and not options.names:
         write_replay()
-    lines = [write(name) for name in watched(options.names or car_manoeuvres.NAMES)]
+    lines = [write(name) for name in watched(options.names or manoeuvres.NAMES)]
     print("\n".join(lines))
     return 0
 

@@ -7,25 +7,16 @@ smaller step, or a balance. Every method of the kernel over a few steps: fine, w
 from __future__ import annotations
 
 import sys
-import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
-from typing import Any
-
-import numpy as np
+from collections.abc import Sequence
 
 import mbs
-from benchmarks import assembly_defect, ladder_runs
-from benchmarks.command import parser_of, save_rows, watched
-from benchmarks.common import describe, print_table, wrong_on_purpose
-from benchmarks.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TITLES, TREE_ONLY
-from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
-from mbs.scenes.prototype_car.car_data import GRAVITY, TOTAL_MASS
+from benchmarks.methods.dissipative import SCENES, measure
+from benchmarks.methods.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TREE_ONLY
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from benchmarks.shared.warned import wrong_on_purpose
 
-SPIN_UP = Path(__file__).parents[1] / "tests" / "data" / "reference" / "spin_up_beam.csv"
-Found = tuple[float, mbs.Trajectory]
 TABLE = {
     "scene": "",
     "method": "",
@@ -38,117 +29,8 @@ TABLE = {
     "wall_s": ".2g",
     "reason": "",
 }
-
-
-@dataclass(frozen=True)
-class Scene:
-    """What is run, and from which error on a run is wrong."""
-
-    quantity: str
-    run: Callable[[mbs.Settings, float], Found]
-    limit: float
-    steps: tuple[float, ...]
-
-
-@cache
-def _system(name: str) -> mbs.System:
-    builders = {
-        "car": prototype_car.build,
-        "beam": spinning_beam.build,
-        "four-bar": lambda: assembly_defect_four_bar.build(parts=4, elements=2, dynamic_modes=0),
-    }
-    return mbs.compile(builders[name]())
-
-
-def beam(settings: mbs.Settings, h: float) -> Found:
-    """Deflection of the tip against geometrically exact beams."""
-    t = mbs.simulate(
-        _system("beam"),
-        spinning_beam.DURATION,
-        h,
-        settings=settings,
-        every=round(0.02 / h),
-        progress=False,
-        estimate_error=False,
-    )
-    time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
-    _, found = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
-    return float(np.abs(np.interp(time_ref, t.t, found) - expected).max() / np.abs(expected).max()), t
-
-
-def four_bar(settings: mbs.Settings, h: float) -> Found:
-    """Moments in the coupler against geometrically exact beams."""
-    end, every = assembly_defect_four_bar.DURATION, round(assembly_defect.STEP / h)
-    t = mbs.simulate(_system("four-bar"), end, h, settings=settings, every=every, progress=False, estimate_error=False)
-    expected = assembly_defect.reference()
-    gap = max(np.abs(t[f"coupler.{c}"] - expected[c]).max() for c in assembly_defect.COMPONENTS)
-    return float(gap / max(np.abs(expected[c]).max() for c in assembly_defect.COMPONENTS)), t
-
-
-def rest(settings: mbs.Settings, h: float) -> Found:
-    """How far the braked car moves in 100 s."""
-    t = mbs.simulate(
-        _system("car"),
-        100.0,
-        h,
-        {"brake": 1.0},
-        settings,
-        every=max(1, round(0.1 / h)),
-        progress=False,
-        estimate_error=False,
-    )
-    place = np.array([t[f"chassis.{c}"] for c in "xyz"])
-    return float(np.linalg.norm(place - place[:, :1], axis=0).max()), t
-
-
-def kerb(settings: mbs.Settings, h: float) -> Found:
-    """Moments of the flexible frame, after the low-pass, against much smaller steps."""
-    t = ladder_runs.run("kerb_test", 3, h, settings)
-    return ladder_runs.errors(ladder_runs.sampled(t, h), ladder_runs.read_reference("kerb_test"))["moment"], t
-
-
-def drive(settings: mbs.Settings, h: float) -> Found:
-    """Wheel loads, mean over 1000 s of gentle bends under power, against the weight."""
-    when = np.arange(0.0, 1001.0, 1.0)
-    inputs = {"throttle": 0.2, "steering": (when, 0.02 * np.sin(2.0 * np.pi * when / 40.0))}
-    t = mbs.simulate(
-        _system("car"), 1000.0, h, inputs, settings, every=max(1, round(0.1 / h)), progress=False, estimate_error=False
-    )
-    loads = sum(np.asarray(t[f"wheel_{w}.Fz"]) for w in ("FL", "FR", "RL", "RR"))
-    return float(abs(np.mean(loads) / (TOTAL_MASS * GRAVITY) - 1.0)), t
-
-
 METHODS = [method for method in KERNEL if method not in (*CONSERVATIVE_ONLY, *TREE_ONLY)]
-SCENES = {
-    "spinning_beam": Scene("deflection, of the largest", beam, 0.05, (0.02, 0.01, 0.005)),
-    "assembly_defect_four_bar": Scene("moment, of the largest", four_bar, 0.05, (0.01, 0.005, 0.002)),
-    "car_at_rest_100s": Scene("way, m", rest, 1e-3, (0.05, 0.02, 0.01, 0.005)),
-    "flexible_car_over_the_kerb": Scene("moment, of the largest change", kerb, 0.05, (0.01, 0.005, 0.002)),
-    "car_drives_1000s": Scene("mean load, of the weight", drive, 1e-3, (0.02, 0.01)),
-}
 QUICK = ("spinning_beam", "car_at_rest_100s")
-
-
-def measure(name: str, method: str, h: float) -> dict[str, Any]:
-    """One row."""
-    scene = SCENES[name]
-    row: dict[str, Any] = {"scene": name, "method": TITLES.get(method, method), "h_s": h, "quantity": scene.quantity}
-    row |= {"outcome": "refused", "limit": scene.limit, "reason": ""}
-    row |= dict.fromkeys(("error", "iterations", "halvings", "violation_m", "wall_s"))
-    begin = time.perf_counter()
-    try:
-        error, t = scene.run(mbs.Settings(method=method), h)
-    except mbs.SimulationError as stopped:
-        return row | {"reason": str(stopped), "wall_s": time.perf_counter() - begin}
-    assert t.report is not None
-    return row | {
-        "outcome": "fine" if error < scene.limit else "wrong",
-        "error": error,
-        "iterations": t.report.mean_iterations,
-        "halvings": t.report.halvings,
-        "violation_m": t.report.violation,
-        "wall_s": t.wall_s,
-    }
 
 
 @wrong_on_purpose()

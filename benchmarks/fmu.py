@@ -2,39 +2,22 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 import tempfile
-import time
-import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import fmpy
-from fmpy.fmi2 import FMU2Slave, fmi2Real, fmi2ValueReference
 
-from benchmarks.command import parser_of, save_rows, watched
-from benchmarks.common import describe, median_wall, print_table
+from benchmarks.car.fmu_calls import QUANTITIES, measure
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
 from fmu_src.build import build_fmu
-from fmu_src.native.sources import HERE as FMI_HEADERS
 from fmu_src.scene_registry import load_scene
 from hosts.errors import HostError
-from mbs.kernel import build
 
 KINDS = ("native", "python")
-QUANTITIES = {
-    "step": "us per fmi2DoStep of one inner step",
-    "get_all": "us per fmi2GetReal of all outputs after a step",
-    "get_again": "us per fmi2GetReal of all outputs, nothing changed",
-    "set_one": "us per fmi2SetReal of one input",
-    "save_restore_free": "us per get, set and free of the FMU state",
-    "instantiate_to_initialised": "us from fmi2Instantiate to the end of initialisation",
-    "many_start_s": "s to start all instances",
-    "many_step": "us per step, all instances in turn",
-    "memory_per_instance_kB": "kB the FMU asks its host for",
-}
-SOURCE = Path(__file__).parent / "c" / "time_fmu.c"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -74,129 +57,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     save_rows(options.json, meta, rows)
     return 0
-
-
-def measure(
-    fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instances: int
-) -> list[dict[str, str | float | None]]:
-    """All figures of one FMU.
-
-    Parameters
-    ----------
-    fmu : Path
-    kind : str
-        ``native`` or ``python``.
-    folder : Path
-        To unpack it in.
-    steps, repeats, instances : int
-        Calls per timed run, timed runs per figure, instances at once.
-
-    Returns
-    -------
-    list of dict
-        ``quantity``, ``kind``, ``host``, ``value``; None where the C host cannot run it.
-    """
-    with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(folder)
-    rows: list[dict[str, str | float | None]] = [
-        {"quantity": "file_MB", "kind": kind, "host": "C", "value": fmu.stat().st_size / 1e6}
-    ]
-    from_c = time_from_c(folder, steps, repeats, instances if kind == "native" else 30)
-    from_fmpy = time_from_fmpy(folder, steps, repeats)
-    for quantity in QUANTITIES:
-        if kind == "python" and quantity.startswith(("many", "memory")):
-            continue
-        rows.append({"quantity": quantity, "kind": kind, "host": "C", "value": from_c.get(quantity)})
-        if quantity in from_fmpy:
-            rows.append({"quantity": quantity, "kind": kind, "host": "FMPy", "value": from_fmpy[quantity]})
-    return rows
-
-
-def time_from_c(folder: Path, steps: int, repeats: int, instances: int) -> dict[str, float]:
-    """Figures of the C program by quantity; empty if it cannot run the FMU."""
-    description = fmpy.read_model_description(str(folder))
-    outputs = [v.valueReference for v in description.modelVariables if v.causality == "output"]
-    program = folder / ("time_fmu.exe" if sys.platform == "win32" else "time_fmu")
-    build.compile_c([SOURCE], build.host_target(), program, include=(FMI_HEADERS,), what="the timer", shared=False)
-    library = (
-        folder / "binaries" / fmpy.platform / (description.coSimulation.modelIdentifier + fmpy.sharedLibraryExtension)
-    )
-    numbers = (float(description.defaultExperiment.stepSize), steps, repeats, len(outputs), outputs[0], instances)
-    command = [str(program), str(library), folder.joinpath("resources").as_uri(), description.guid, *map(str, numbers)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        print(f"the C host cannot run it: {done.stderr.strip()}", file=sys.stderr)
-    pairs = (line.split() for line in done.stdout.splitlines())
-    return {name: float(value) for name, value in pairs}
-
-
-def time_from_fmpy(folder: Path, steps: int, repeats: int) -> dict[str, float]:
-    """Figures through FMPy by quantity, us; references are prepared."""
-    description = fmpy.read_model_description(str(folder))
-    outputs = [v.valueReference for v in description.modelVariables if v.causality == "output"]
-    h = float(description.defaultExperiment.stepSize)
-    references, values = (fmi2ValueReference * len(outputs))(*outputs), (fmi2Real * len(outputs))()
-    one, value = (fmi2ValueReference * 1)(0), (fmi2Real * 1)(0.1)
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="timed",
-    )
-
-    def start() -> None:
-        slave.instantiate()
-        slave.setupExperiment(startTime=0.0)
-        slave.enterInitializationMode()
-        slave.exitInitializationMode()
-
-    def renewed() -> float:
-        begin = time.perf_counter()
-        start()
-        wall = time.perf_counter() - begin
-        slave.fmi2FreeInstance(slave.component)
-        return wall
-
-    found = {"instantiate_to_initialised": 1e6 * median_wall(renewed, repeats)}
-    start()
-    clock = [0]
-
-    def step() -> None:
-        slave.doStep(clock[0] * h, h)
-        clock[0] += 1
-
-    def state() -> None:
-        saved = slave.getFMUstate()
-        slave.setFMUstate(saved)
-        slave.freeFMUstate(saved)
-
-    actions: dict[str, Callable[[], Any]] = {
-        "step": step,
-        "get_again": lambda: slave.fmi2GetReal(slave.component, references, len(outputs), values),
-        "set_one": lambda: slave.fmi2SetReal(slave.component, one, 1, value),
-        "save_restore_free": state,
-    }
-    for quantity, action in actions.items():
-        found[quantity] = 1e6 * median_wall(lambda action=action: _repeat(action, steps), repeats) / steps
-    get = actions["get_again"]
-
-    def get_after_steps() -> float:
-        wall = 0.0
-        for _ in range(steps):
-            step()
-            begin = time.perf_counter()
-            get()
-            wall += time.perf_counter() - begin
-        return wall
-
-    found["get_all"] = 1e6 * median_wall(get_after_steps, repeats) / steps
-    slave.fmi2FreeInstance(slave.component)
-    return found
-
-
-def _repeat(action: Callable[[], Any], count: int) -> None:
-    for _ in range(count):
-        action()
 
 
 def _value(rows: Sequence[dict[str, str | float | None]], quantity: str, kind: str, host: str) -> float | None:

@@ -7,26 +7,14 @@ equation a row, rods as bodies, wheels as bodies on hinges, planar mechanisms in
 from __future__ import annotations
 
 import sys
-import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from typing import Any
+from collections.abc import Sequence
 
-import numpy as np
+from benchmarks.methods.naive import DURATION, ROD_MASS, SCENES, H, measure
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from mbs import Settings
 
-from benchmarks.command import parser_of, save_rows, watched
-from benchmarks.common import describe, print_table
-from benchmarks.step_time import step_time
-from mbs import Model, Settings, Simulation, compile
-from mbs.model.body import Body
-from mbs.model.checks import direction, perpendicular
-from mbs.model.joints.joint import Joint
-from mbs.model.slide import SlidingPoint
-from mbs.model.spin import Spin
-from mbs.scenes import double_four_bar, prototype_car
-
-ROD_MASS = 0.5  # kg
-H, DURATION = 0.01, 3.0  # s
 COLUMNS = {
     "scene": "",
     "bodies": "d",
@@ -40,127 +28,6 @@ COLUMNS = {
     "factor": ".1f",
     "difference": ".1e",
 }
-
-
-class WholeJoint(Joint):
-    """A joint all of whose equations stay rows."""
-
-    @property
-    def force_equations(self) -> list[int]:
-        """All of them."""
-        return list(range(len(self.equations)))
-
-
-class NaiveModel(Model):
-    """The vocabulary without savings."""
-
-    def _join(self, joint: Joint) -> Joint:
-        whole = WholeJoint(joint.name, joint.type, joint.equations, joint.rows_weight)
-        whole.keep = True
-        return super()._join(whole)
-
-    def distance(self, name: str, end_1: Any, end_2: Any, *, length: float | None = None) -> Joint:
-        """A rod as a body between two ball joints; one with a sliding end stays a distance."""
-        if any(isinstance(end, SlidingPoint) for end in (end_1, end_2)):
-            return super().distance(name, end_1, end_2, length=length)
-        (first, p), (second, q) = end_1, end_2
-        way = np.subtract(q, p)
-        inertia = ROD_MASS * (way @ way * np.eye(3) - np.outer(way, way)) / 12.0 + 1e-4 * np.eye(3)
-        rod = self.body(name, mass=ROD_MASS, com=0.5 * np.add(p, q), inertia=inertia)
-        self.spherical(f"{name} first end", first, rod, point=p)
-        return self.spherical(f"{name} second end", rod, second, point=q)
-
-    def spin(self, name: str, **data: Any) -> Spin:
-        """A wheel as a body on a hinge with its angle as a coordinate."""
-        carrier, centre, axis = data["carrier"], data["centre"], direction(data["axis"], 3, "the axis of a wheel")
-        across = data["diametral_inertia"] * (np.eye(3) - np.outer(axis, axis))
-        inertia = across + data["spin_inertia"] * np.outer(axis, axis)
-        wheel = self.body(name, mass=data["mass"], com=centre, inertia=inertia)
-        self.revolute(f"{name} hinge", carrier, wheel, point=centre, axis=axis)
-        angle = self.relative_angle(f"{name} angle", carrier, wheel, axis=axis)
-        x, y = perpendicular(axis)
-        vectors = [carrier.vector(v) for v in (axis, x, y)]
-        return Spin(angle.name, angle.index, "rad", carrier, wheel.point(centre), *vectors, 0.0, 0.0, tuple(axis))
-
-
-def spatial_four_bars(windows: int) -> Model:
-    """The planar chain of four-bars (scene double_four_bar) with bodies in space."""
-    m = NaiveModel("four-bars in space", gravity=(0.0, -9.81, 0.0))
-    rods: list[Body] = []
-
-    def rod(name: str, a: tuple[float, ...], b: tuple[float, ...]) -> Body:
-        way = np.subtract(b, a)
-        inertia = (way @ way * np.eye(3) - np.outer(way, way)) / 12.0 + 1e-3 * np.eye(3)
-        rods.append(m.body(name, mass=1.0, com=0.5 * np.add(a, b), inertia=inertia))
-        return rods[-1]
-
-    z = (0.0, 0.0, 1.0)
-    cranks = [rod(f"crank {k}", (k, 0.0, 0.0), (k, 1.0, 0.0)) for k in range(windows + 1)]
-    couplers = [rod(f"coupler {k}", (k, 1.0, 0.0), (k + 1, 1.0, 0.0)) for k in range(windows)]
-    for k, crank in enumerate(cranks):
-        m.revolute(f"foot {k}", m.ground, crank, point=(k, 0.0, 0.0), axis=z)
-        m.initial_velocity(crank, (0.5, 0.0, 0.0), (0.0, 0.0, -1.0))
-    for k, coupler in enumerate(couplers):
-        m.revolute(f"top {k}", cranks[k], coupler, point=(k, 1.0, 0.0), axis=z)
-        m.revolute(f"end {k}", coupler, cranks[k + 1], point=(k + 1, 1.0, 0.0), axis=z)
-        m.initial_velocity(coupler, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    m.sense_position("B0.position.x", cranks[0], (0.0, 1.0, 0.0), "x")
-    return m
-
-
-@contextmanager
-def _naive(module: Any) -> Iterator[None]:
-    """A scene's module with the vocabulary without savings."""
-    before = module.Model
-    module.Model = NaiveModel
-    try:
-        yield
-    finally:
-        module.Model = before
-
-
-def naive_car() -> Model:
-    """The rigid car: twelve bodies more than it needs."""
-    with _naive(prototype_car):
-        m = prototype_car.build()
-    m.start_in_equilibrium = False
-    return m
-
-
-SCENES: dict[str, tuple[Callable[[], Model], Callable[[], Model], str]] = {
-    "double four-bar": (lambda: double_four_bar.build(2), lambda: spatial_four_bars(2), "B0.position.x"),
-    "40 four-bars": (lambda: double_four_bar.build(40), lambda: spatial_four_bars(40), "B0.position.x"),
-    "prototype car": (prototype_car.build, naive_car, "chassis.z"),
-}
-
-
-def measure(scene: str, repeats: int) -> dict[str, Any]:
-    """One row."""
-    good, naive, output = SCENES[scene]
-    models = good(), naive()
-    systems = [compile(m) for m in models]
-    ends = []
-    for system in systems:
-        simulation = Simulation(system)
-        simulation.step(H, round(DURATION / H))
-        ends.append(simulation.sensors[output])
-    walls = [step_time(s, DURATION, H, repeats, time.perf_counter) * H / DURATION for s in systems]
-    sizes = [
-        (len(m.bodies), len(s.arrays["q0"]), len(s.arrays["row_const"])) for m, s in zip(models, systems, strict=True)
-    ]
-    return {
-        "scene": scene,
-        "bodies": sizes[0][0],
-        "naive_bodies": sizes[1][0],
-        "coordinates": sizes[0][1],
-        "naive_coordinates": sizes[1][1],
-        "rows": sizes[0][2],
-        "naive_rows": sizes[1][2],
-        "us_per_step": 1e6 * walls[0],
-        "naive_us_per_step": 1e6 * walls[1],
-        "factor": walls[1] / walls[0],
-        "difference": abs(ends[1] - ends[0]),
-    }
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

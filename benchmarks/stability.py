@@ -5,39 +5,32 @@ A map over step and penalty (or its counterpart) for each method and scene: fine
 
 from __future__ import annotations
 
-import dataclasses
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 import mbs
-from benchmarks.baselines.run import METHODS as CLASSICAL
-from benchmarks.baselines.run import run
-from benchmarks.cases import CASES, exact_of, size_of, system_of
-from benchmarks.command import parser_of, save_rows, watched
-from benchmarks.common import describe, print_table, wrong_on_purpose
-from benchmarks.kernel_methods import TITLES, TREE_ONLY, suits
-from benchmarks.stability_chart import draw
-from benchmarks.stability_margins import SQUEEZED, margins
-from mbs.settings import METHODS as KERNEL
+from benchmarks.methods.stability import (
+    ENERGY,
+    FEW_CLASSICAL,
+    MOST_CLASSICAL,
+    MOST_STEPS,
+    OUTCOMES,
+    WRONG,
+    explain,
+    measure,
+)
+from benchmarks.methods.stability_chart import draw
+from benchmarks.methods.stability_margins import margins
+from benchmarks.references.cases import CASES
+from benchmarks.shared.command import parser_of, save_rows
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from benchmarks.shared.warned import wrong_on_purpose
 
-SAMPLES = 10  # instants of a run at which it is compared
-KERNEL_STEPS = 10.0 ** np.arange(-6.0, -0.6, 0.5)
-LARGE_STEPS = (0.05, 0.1, 0.2)
-CLASSICAL_STEPS = (1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.2)
-EPS = 10.0 ** -np.arange(3.0, 13.0)  # alpha = 1/(eps h^2): what the kernel's penalty is given by
-PENALTIES = (1e3, 1e5, 1e7, 1e9)  # mass-normalised, 1/s2
-BAUMGARTE = (0.0, 10.0, 100.0, 1000.0)  # 1/s
-MOST_STEPS, COORDINATE_STEPS = 10000, 120000  # a run at a small step ends earlier: steps, steps times coordinates
-MOST_CLASSICAL, FEW_CLASSICAL = 1000, 200  # in Python; the second below a millisecond
-WRONG = 0.05  # of the extent of the motion over the window (at least a hundredth of the whole)
-ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
 QUICK = ("double_four_bar",)
-OUTCOMES = ("fine", "wrong", "refused", "diverged")
 WHY = {  # one line a classical method; the table adds rank and time as found
     "index-1 augmented Lagrangian, projected": "explicit Runge-Kutta on accelerations: the penalised rows are met only "
     "in the limit, and stiff constraint oscillators bound the step; passes singular and redundant positions",
@@ -51,165 +44,6 @@ WHY = {  # one line a classical method; the table adds rank and time as found
     "penalty": "rows are springs: soft ones let the mechanism leave its branch at singular positions, stiff ones are "
     "beyond the stability limit of the explicit rule",
 }
-PARAMETER = {
-    "index-1 Lagrange, Baumgarte": "Baumgarte factor, 1/s",
-    "index-1 minimum norm, Baumgarte": "Baumgarte factor, 1/s",
-    "velocity transformation": "none",
-}
-
-
-@dataclasses.dataclass(frozen=True)
-class Window:
-    """How far a run of a scene goes at a step: whole samples, at most so many steps."""
-
-    end: float
-    every: int
-
-    @classmethod
-    def of(cls, scene: str, h: float, most: int) -> Window:
-        """The window: `SAMPLES` intervals of `every` steps."""
-        full = CASES[scene].map_end
-        every = max(1, min(round(full / SAMPLES / h), most // SAMPLES))
-        return cls(SAMPLES * every * h, every)
-
-
-def judge(scene: str, window: Window, positions: np.ndarray, energy: np.ndarray) -> tuple[str, dict[str, Any]]:
-    """Fine or wrong, and the figures."""
-    case = CASES[scene]
-    exact = exact_of(scene, window.end, SAMPLES)
-    extent = max(float(np.linalg.norm(np.ptp(exact, axis=0))), 0.01 * size_of(scene))
-    error = float(np.linalg.norm(positions - exact, axis=1).max())
-    figures = {"error_share": error / extent, "energy_deviation_J": float(np.abs(energy - energy[0]).max())}
-    if not np.isfinite(error):
-        return "diverged", figures
-    good = error < WRONG * extent
-    if case.energy_stays:
-        good = good and figures["energy_deviation_J"] < ENERGY * _energy_scale(scene)
-    return ("fine" if good else "wrong"), figures
-
-
-_SCALES: dict[str, float] = {}
-
-
-def _energy_scale(scene: str) -> float:
-    """Largest kinetic energy of the motion, J: measured on a fine run."""
-    if scene not in _SCALES:
-        system = system_of(scene)
-        settings = mbs.Settings(max_halvings=16)  # the light cart needs them
-        simulation, case = mbs.Simulation(system, settings=settings), CASES[scene]
-        mass = _mass(system)
-        found, h = 0.0, case.end / 5000.0
-        for _ in range(200):
-            qd = simulation.state.qd
-            found = max(found, 0.5 * float(qd @ mass @ qd))
-            simulation.step(h, n=25)
-        _SCALES[scene] = found
-    return _SCALES[scene]
-
-
-def _mass(system: mbs.System) -> np.ndarray:
-    dense = np.zeros((system.nq, system.nq))
-    a = system.arrays
-    dense[np.repeat(np.arange(system.nq), np.diff(a["mass_ptr"])), a["mass_col"]] = a["mass_val"]
-    return dense
-
-
-def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[str, Any]:
-    """One run of the kernel; eps None takes the default settings."""
-    case = CASES[scene]
-    affordable = case.most_steps * COORDINATE_STEPS // (MOST_STEPS * system_of(scene).nq)
-    window = Window.of(scene, h, max(1000, min(case.most_steps, affordable)))
-    settings = mbs.Settings(method=method) if eps is None else mbs.Settings(method=method, alpha=1.0 / (eps * h * h))
-    row = _row(scene, TITLES.get(method, method), h, "eps = 1/(alpha h^2)", eps, window)
-    try:
-        t = mbs.simulate(
-            system_of(scene), window.end, h, settings=settings, every=window.every, progress=False, estimate_error=False
-        )
-    except mbs.SimulationError as error:
-        return row | {"outcome": "refused", "reason": str(error), "stopped_at_s": error.time}
-    outcome, figures = judge(scene, window, np.column_stack([t[s] for s in case.sensors]), t["energy.total"])
-    assert t.report is not None
-    return row | figures | {"outcome": outcome, "halvings": t.report.halvings}
-
-
-def classical_point(scene: str, method: str, h: float, penalty: float | None) -> dict[str, Any]:
-    """One run of a classical method."""
-    case, window = (
-        CASES[scene],
-        Window.of(scene, h, MOST_CLASSICAL if h > 9e-4 * SQUEEZED.get(scene, 1.0) else FEW_CLASSICAL),
-    )
-    row = _row(scene, method, h, PARAMETER.get(method, "penalty, 1/s2"), penalty, window)
-    r = run(system_of(scene), window.end, h, method, case.sensors, penalty=penalty, every=window.every)
-    if r.status != "finished":
-        return row | {"outcome": r.status, "reason": r.reason, "stopped_at_s": r.stopped_at}
-    outcome, figures = judge(scene, window, r.positions, r.energy)
-    return row | figures | {"outcome": outcome}
-
-
-def _row(scene: str, method: str, h: float, name: str, value: float | None, window: Window) -> dict[str, Any]:
-    return {
-        "scene": scene,
-        "method": method,
-        "h_s": h,
-        "parameter": name,
-        "value": value,
-        "window_s": window.end,
-        "outcome": "",
-        "error_share": None,
-        "energy_deviation_J": None,
-        "stopped_at_s": None,
-        "halvings": 0,
-        "reason": "",
-    }
-
-
-def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
-    """All points of a scene."""
-    case, factor = CASES[scene], SQUEEZED.get(scene, 1.0)
-    steps = factor * np.unique(np.concatenate([KERNEL_STEPS, LARGE_STEPS]))
-    eps, classical = EPS, np.array(CLASSICAL_STEPS) * factor
-    penalties, factors = PENALTIES, BAUMGARTE
-    if quick:
-        steps, eps, classical, penalties, factors = (
-            steps[-6:-1:2],
-            EPS[2::4],
-            classical[4:6],
-            PENALTIES[2:3],
-            BAUMGARTE[1:2],
-        )
-    todo: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
-    values: list[float | None]
-    system = system_of(scene)
-    for method in KERNEL:
-        if not suits(method, case.conservative, system):
-            continue
-        tried = () if method in TREE_ONLY else map(float, eps)  # relative coordinates have no penalty
-        values = [None, *tried]
-        todo += [(kernel_point, method, float(h), e) for h in steps for e in values]
-    for method in CLASSICAL if case.classical else ():
-        values = list(penalties)
-        if method in PARAMETER:
-            values = [None] if PARAMETER[method] == "none" else list(factors)
-        todo += [(classical_point, method, float(h), v) for h in classical for v in values]
-    return [point(scene, method, h, value) for point, method, h, value in watched(todo)]
-
-
-def explain(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """A line for each classical method and scene: how often it was fine, and the first reason of each kind."""
-    lines = []
-    for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows if r["method"] in CLASSICAL):
-        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
-        counts = {o: sum(r["outcome"] == o for r in part) for o in OUTCOMES}
-        first = []
-        for outcome in ("refused", "diverged"):
-            stopped = [r for r in part if r["outcome"] == outcome and r["reason"]]
-            if stopped:
-                r = min(stopped, key=lambda row: row["stopped_at_s"])
-                value = "" if r["value"] is None else f", {r['value']:g}"
-                first.append(f"{outcome} at {r['stopped_at_s']:.4g} s (h = {r['h_s']:g}{value}): {r['reason']}")
-        said = "; ".join(first) or "-"
-        lines.append({"scene": scene, "method": method} | counts | {"first stop": said})
-    return lines
 
 
 @wrong_on_purpose()

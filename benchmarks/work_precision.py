@@ -7,35 +7,23 @@ they are installed, and the ratio of our time to the best of theirs at equal err
 
 from __future__ import annotations
 
-import statistics
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 import mbs
 from benchmarks import peers
-from benchmarks.baselines.run import LANGUAGE, run
-from benchmarks.baselines.run import METHODS as CLASSICAL
-from benchmarks.cases import CASES, SAMPLES, SHARED, exact_of, size_of, system_of
-from benchmarks.command import parser_of, save_rows, watched
-from benchmarks.common import describe, print_table, wrong_on_purpose
-from benchmarks.kernel_methods import TITLES, all_settings, controlled, suits
-from benchmarks.work_precision_chart import draw
-from mbs.kernel.binding import KernelError
-from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
-from mbs.simulation.method_choice import ORDERS
+from benchmarks.baselines.run import LANGUAGE
+from benchmarks.methods.work_precision import QUICK_SCENES, ROUNDS, compare, measure
+from benchmarks.methods.work_precision_chart import draw
+from benchmarks.references.cases import CASES, SHARED, size_of
+from benchmarks.shared.command import parser_of, save_rows
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from benchmarks.shared.warned import wrong_on_purpose
 
-ROUNDS, FEW_ROUNDS = 7, 2
-LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few rounds, or the first run, must do
-SCIPY = {"method": "index-1 minimum norm, Baumgarte", "solver": "DOP853"}
-SCIPY_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9)
-CLASSICAL_STEPS = 4000  # a slow method in Python is not run longer
 LOST = 0.5  # of the motion's extent: beyond it the run has no point on the chart
-LEVELS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of position error, m
-QUICK_DIVISIONS, QUICK_SCENES = 2, ("double_four_bar", "spatial_slider_crank")
 TABLE = {
     "scene": "",
     "family": "",
@@ -49,200 +37,6 @@ TABLE = {
     "evaluations": "d",
     "ended": "",
 }
-CONTROLLED = ("ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive", "semi_recursive_4", "radau_5")
-CONTROLLED_TOLERANCES, ORDER_TWO_ENDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8), 1e-5
-Action = Callable[[], tuple[float, dict[str, Any]]]
-
-
-def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
-    """A run of the kernel: wall time of its step loop, and what to put in the row."""
-    case, system = CASES[scene], system_of(scene)
-    every = round(case.end / SAMPLES / h)
-
-    def act() -> tuple[float, dict[str, Any]]:
-        try:
-            t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False)
-        except mbs.SimulationError as error:
-            return 0.0, {"ended": f"refused at {error.time:.4g} s"}
-        energy = t["energy.total"]
-        report = t.report
-        assert report is not None
-        return t.wall_s, {
-            "ended": "finished",
-            "position_error_m": _error(np.column_stack([t[s] for s in case.sensors]), scene),
-            "energy_deviation_J": float(np.abs(energy - energy[0]).max()) if case.energy_stays else None,
-            "factorizations": report.factorizations,
-            "evaluations": report.iterations + report.steps,
-        }
-
-    return act
-
-
-def controlled_action(scene: str, method: str, tolerance: float) -> Action:
-    """A run under error control, without those that `simulate` makes to estimate the error."""
-    case, system = CASES[scene], system_of(scene)
-    task = Task(0.0, case.end, np.linspace(0.0, case.end, SAMPLES + 1)[1:], {})
-    columns = [[s["name"] for s in system.meta["sensors"]].index(name) for name in case.sensors]
-
-    def act() -> tuple[float, dict[str, Any]]:
-        settings = mbs.Settings(method=method)
-        run = ControlledRun(mbs.Simulation(system, settings=settings), task, settings, tolerance)
-        try:
-            run.finish(lambda share: None)
-        except (KernelError, StalledError):
-            return 0.0, {"ended": f"refused at {run.simulation.time:.4g} s"}
-        report = run.simulation.report
-        error = float(np.linalg.norm(run.values[:, columns] - exact_of(scene)[1:], axis=1).max())
-        return run.wall, {
-            "ended": "finished",
-            "position_error_m": error,
-            "energy_deviation_J": None,
-            "factorizations": report.factorizations,
-            "evaluations": report.iterations + report.steps,
-        }
-
-    return act
-
-
-def classical_action(scene: str, method: str, h: float, solver: str = "RK4", rtol: float = 1e-8) -> Action:
-    """A run of a method in Python, by Runge and Kutta's rule at a fixed step or by a solver of scipy's."""
-    case, system = CASES[scene], system_of(scene)
-
-    def act() -> tuple[float, dict[str, Any]]:
-        every = round(case.end / SAMPLES / h)
-        r = run(system, case.end, h, method, case.sensors, every=every, solver=solver, rtol=rtol)
-        if r.status != "finished":
-            return 0.0, {"ended": f"{r.status} at {r.stopped_at:.4g} s: {r.reason}"}
-        return r.wall_s, {
-            "ended": "finished",
-            "position_error_m": _error(r.positions, scene),
-            "energy_deviation_J": float(np.abs(r.energy - r.energy[0]).max()) if case.energy_stays else None,
-            "factorizations": r.factorizations,
-            "evaluations": r.evaluations,
-        }
-
-    return act
-
-
-def peer_action(scene: str, engine: Any, integrator: str, h: float) -> Action:
-    """A run of another engine."""
-
-    def act() -> tuple[float, dict[str, Any]]:
-        r = engine.run(scene, h, CASES[scene].end, SAMPLES, integrator)
-        if not r.finished:
-            return 0.0, {"ended": f"gave up at {r.t[-1]:.4g} s"}
-        return r.wall_s, {
-            "ended": "finished",
-            "position_error_m": _error(r.positions, scene),
-            "energy_deviation_J": None if r.energy is None else float(np.abs(r.energy - r.energy[0]).max()),
-        }
-
-    return act
-
-
-def _error(positions: np.ndarray, scene: str) -> float:
-    return float(np.linalg.norm(positions - exact_of(scene), axis=1).max())
-
-
-def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[str, Any], Action]]:
-    """Rows without figures, and what measures them."""
-    case = CASES[scene]
-    divisions = case.divisions[3 : 3 + QUICK_DIVISIONS] if quick else case.divisions
-    system = system_of(scene)
-    todo: list[tuple[dict[str, Any], Action]] = []
-
-    def add(family: str, method: str, h: float | None, action: Action, rtol: float | None = None) -> None:
-        row = {"scene": scene, "family": family, "method": method, "h_s": h, "rtol": rtol, "position_error_m": None}
-        empty = dict.fromkeys(("energy_deviation_J", "wall_s", "factorizations", "evaluations"))
-        todo.append((row | empty | {"ended": ""}, action))
-
-    for d in divisions:
-        h = case.end / (SAMPLES * d)
-        for title, settings in all_settings(case.conservative, system).items():
-            add("kernel", title, h, kernel_action(scene, settings, h))
-        if case.classical and SAMPLES * d <= CLASSICAL_STEPS:
-            for method in CLASSICAL:
-                add("classical", method, h, classical_action(scene, method, h))
-        if scene in SHARED:
-            for name, engine in engines.items():
-                for integrator in engine.integrators(scene):
-                    add(name, f"{name}, {integrator}", h, peer_action(scene, engine, integrator, h))
-    for method in (m for m in CONTROLLED if suits(m, case.conservative, system)):
-        for tolerance in CONTROLLED_TOLERANCES[1 : 1 + QUICK_DIVISIONS] if quick else CONTROLLED_TOLERANCES:
-            if ORDERS[method] > 2 or tolerance >= ORDER_TWO_ENDS:
-                add("kernel", controlled(TITLES[method]), None, controlled_action(scene, method, tolerance), tolerance)
-    for rtol in SCIPY_TOLERANCES[: 1 if quick else None] if case.classical else ():
-        action = classical_action(scene, SCIPY["method"], case.end / SAMPLES, SCIPY["solver"], rtol)
-        add("classical", f"index-1 minimum norm, scipy {SCIPY['solver']}", None, action, rtol)
-    return todo
-
-
-def measure(scene: str, quick: bool, engines: dict[str, Any], rounds: int) -> list[dict[str, Any]]:
-    """All rows of a scene; times are medians over rounds through all of them, so that a disturbance is shared."""
-    todo = plan(scene, quick, engines)
-    for row, action in watched(todo):
-        wall, found = action()
-        row |= found
-        row["wall_s"] = wall if found["ended"] == "finished" else None
-    walls: list[list[float]] = [[] for _ in todo]
-    for turn in watched(range(rounds)):
-        for k, (row, action) in enumerate(todo):
-            wall = row["wall_s"]
-            if wall is not None and (wall < LONG or (turn < FEW_ROUNDS and wall < VERY_LONG)):
-                walls[k].append(action()[0])
-    for (row, _), times in zip(todo, walls, strict=True):
-        if times:
-            row["wall_s"] = statistics.median(times)
-    return [row for row, _ in todo]
-
-
-def time_at_error(rows: Sequence[dict[str, Any]], method: str, level: float) -> float | None:
-    """Time from which on a method stays within an error, along its curve (log-log); None where it does not.
-
-    Every finished run with a smaller step must be as good: a lucky step does not count. A run that is better than
-    asked for counts at its own time: no curve is extended.
-    """
-    found = [r for r in rows if r["method"] == method and None not in (r["wall_s"], r["position_error_m"])]
-    found.sort(key=lambda r: r["h_s"] if r["h_s"] is not None else r["rtol"], reverse=True)
-    points = [(r["wall_s"], r["position_error_m"]) for r in found]
-    first = next((k + 1 for k in reversed(range(len(points))) if points[k][1] > level), 0)
-    if first == len(points):
-        return None
-    best = min(wall for wall, _ in points[first:])
-    if first and points[first][1] > 0.0:
-        (w0, e0), (w1, e1) = points[first - 1 : first + 1]
-        share = np.log(e0 / level) / np.log(e0 / e1)
-        best = min(best, float(np.exp(np.log(w0) + share * np.log(w1 / w0))))
-    return float(best)
-
-
-def compare(rows: Sequence[dict[str, Any]], scene: str) -> list[dict[str, Any]]:
-    """Our best time over the best peer's at each level of error."""
-    part = [r for r in rows if r["scene"] == scene]
-    lines = []
-    for level in LEVELS:
-        best: dict[bool, tuple[float, str] | None] = {True: None, False: None}
-        for ours, families in ((True, ("kernel",)), (False, tuple(peers.NAMES))):
-            for method in dict.fromkeys(r["method"] for r in part if r["family"] in families):
-                wall = time_at_error(part, method, level)
-                found = best[ours]
-                if wall is not None and (found is None or wall < found[0]):
-                    best[ours] = (wall, method)
-        we, they = best[True], best[False]
-        ratio = we[0] / they[0] if we and they else None
-        lines.append(
-            {
-                "scene": scene,
-                "error_m": level,
-                "ours": we[1] if we else "not reached",
-                "ours_ms": 1e3 * we[0] if we else None,
-                "peer": they[1] if they else "not reached",
-                "peer_ms": 1e3 * they[0] if they else None,
-                "ratio": ratio,
-                "ahead": "-" if not (we or they) else "yes" if we and (ratio is None or ratio < 1.0) else "NO",
-            }
-        )
-    return lines
 
 
 @wrong_on_purpose()

@@ -10,6 +10,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ali3.files import whole_file
+
 # The earliest time a zip can carry.
 _ZIP_DATE = (1980, 1, 1, 0, 0, 0)
 
@@ -50,10 +52,8 @@ def licence(distribution: str) -> bytes:
 
 def write_zip(files: Mapping[str, bytes], file: Path) -> None:
     """Write an archive; an older file is replaced only when the new one is whole."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    partial = file.with_suffix(".part")
     # One level for all: the same content gives the same bytes with the same zlib; the identity is of the content alone.
-    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+    with whole_file(file) as made, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         # The description first: readers that stream find it at once.
         for name in sorted(files, key=lambda n: (n != "modelDescription.xml", n)):
             info = zipfile.ZipInfo(name, _ZIP_DATE)
@@ -61,4 +61,3 @@ def write_zip(files: Mapping[str, bytes], file: Path) -> None:
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
             archive.writestr(info, files[name], compresslevel=9)
-    partial.replace(file)

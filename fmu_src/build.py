@@ -10,13 +10,16 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import mbs
+from ali3.files import check_writable
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
-from fmu_src.native.package import NativeContents, Telling, pack_native
+from fmu_src.native.package import NativeContents, Telling, first_time, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.probe import probe, with_nominal
+from fmu_src.texts import check_texts
 from fmu_src.variables import check_variants, variable_table
 from mbs.kernel import build
 
@@ -89,36 +92,84 @@ def build_fmu(
     unknown = sorted(set(chosen) - set(able))
     if unknown or not chosen:
         raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
+    file = out / f"{fmu_name(name, kind)}.fmu"
+    check_writable(file)
     systems = (system,) if isinstance(system, mbs.System) else tuple(system)
-    check_variants([s.meta for s in systems])
-    meta = systems[fidelity].meta
-    table = variable_table(
-        meta,
-        pose=bool(meta["floating"]),
-        step_size=float(meta["experiment"]["step_s"]),
-        fidelities=len(systems),
-        fidelity=fidelity,
-    )
-    told = functools.partial(_told, say)
-    with told("finding what depends on what"):
-        reach = probe(systems, table)
-    contents = NativeContents(
-        fmu_name(name, kind),
-        meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3",
-        importlib.metadata.version("ali3"),
-        systems,
-        with_nominal(table, reach),
-        reach,
-        fidelity,
-        *(author, copyright, licence),
-    )
-    file = out / f"{contents.model_name}.fmu"
+    builder = FmuBuilder(systems, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
+    return builder.build(kind, chosen, file)
 
-    if kind == "python":
-        _pack_python(contents, chosen, file, told)
-    else:
-        pack_native(contents, _FACES[kind], chosen, file, told)
-    return file
+
+class FmuBuilder:
+    """Builds the kinds of FMU of one scene; what they share is made once.
+
+    Parameters
+    ----------
+    systems : sequence of mbs.System
+        One per fidelity.
+    name : str
+        Of the scene.
+    fidelity : int
+        The default among several Systems.
+    rights : tuple of str
+        Author, copyright and licence of the model; empty: the solver's.
+    told : callable
+        ``told(what, note)`` makes a context in which `what` is done.
+    """
+
+    def __init__(
+        self, systems: Sequence[mbs.System], name: str, fidelity: int, rights: tuple[str, str, str], told: Telling
+    ) -> None:
+        check_variants([s.meta for s in systems])
+        meta = systems[fidelity].meta
+        table = variable_table(
+            meta,
+            pose=bool(meta["floating"]),
+            step_size=float(meta["experiment"]["step_s"]),
+            fidelities=len(systems),
+            fidelity=fidelity,
+        )
+        description = meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
+        check_texts(description, rights, table)
+        self._name, self._told = name, told
+        with told("finding what depends on what"):
+            reach = probe(systems, table)
+        version = importlib.metadata.version("ali3")
+        self._contents = NativeContents(
+            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights
+        )
+        self._libraries: dict[tuple[str, str], bytes] = {}
+
+    def pieces(self, kind: str, platforms: Sequence[str]) -> int:
+        """How many pieces of work `told` is going to be asked for by `build`."""
+        if kind == "python":
+            return len(platforms) + 1
+        made = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
+        folders = [folder for platform in platforms for folder in _FACES[kind].binaries[platform]]
+        return 2 + len([folder for folder in folders if folder not in made])
+
+    def build(self, kind: str, platforms: Sequence[str], file: Path) -> Path:
+        """Build the FMU of a kind.
+
+        Parameters
+        ----------
+        kind : str
+            One of `KINDS`.
+        platforms : sequence of str
+            Those that the kind can have.
+        file : Path
+            Replaced at once when all is done.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
+        contents = replace(self._contents, model_name=fmu_name(self._name, kind))
+        if kind == "python":
+            _pack_python(contents, platforms, file, self._told)
+        else:
+            pack_native(contents, _FACES[kind], platforms, file, self._told, self._libraries)
+        return file
 
 
 def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, told: Telling) -> None:
@@ -131,11 +182,11 @@ def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path,
         for platform in platforms:
             place = Path(folder, platform)
             place.mkdir()
-            with told(f"compiling for {platform}", "the first time for Windows takes two minutes"):
+            with told(f"python: compiling for {platform}", first_time(platform)):
                 library = place / f"kernel{SUFFIXES[platform]}"
                 kernels[platform] = build.compile_library(TARGETS[platform][0], library)
                 shells[platform] = compile_shell(platform, place)
-        with told("packing"):
+        with told("python: packing"):
             pack(contents, kernels, shells, file)
 
 

@@ -256,7 +256,7 @@ def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Depe
         group = ElementTree.Element(tag)
         for i, v in enumerate(table):
             if v.causality == "output":
-                ElementTree.SubElement(group, "Unknown", index=str(i + 1), **dependency_attributes(of[i], 1))
+                ElementTree.SubElement(group, "Unknown", {"index": str(i + 1)} | dependency_attributes(of[i], 1))
         if len(group):
             structure.append(group)
 

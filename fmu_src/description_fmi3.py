@@ -153,4 +153,4 @@ def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Depend
         for i, a in enumerate(arrays):
             if a.of.causality == "output":
                 known = sorted({array_of[k] for item in a.items for k in of[item]})
-                ElementTree.SubElement(structure, tag, valueReference=str(i), **dependency_attributes(known))
+                ElementTree.SubElement(structure, tag, {"valueReference": str(i)} | dependency_attributes(known))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import platform
+import sys
+
 TARGETS = {
     "linux64": ("x86_64-linux-gnu.2.17",),
     "win64": ("x86_64-windows-gnu",),
@@ -25,3 +28,15 @@ FMI3_FOLDERS = {
     "aarch64-linux-gnu.2.17": "aarch64-linux",
 }
 """Folders of binaries in FMI 3.0, one per target."""
+
+
+def this_platform() -> str | None:
+    """The platform of this machine, None if no FMU is built for it."""
+    machine = {"amd64": "x86_64", "arm64": "aarch64"}.get(platform.machine().lower(), platform.machine().lower())
+    if sys.platform == "darwin":
+        return "darwin64"
+    return {
+        ("linux", "x86_64"): "linux64",
+        ("linux", "aarch64"): "aarch64-linux",
+        ("win32", "x86_64"): "win64",
+    }.get((sys.platform, machine))

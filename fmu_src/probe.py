@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import mbs
 from fmu_src.variables import Variable
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.header import SENSOR_READS, SensorReads, SensorType
 
 _SEED = 20_261_120
 _INITIAL_TRIES = 6
@@ -27,8 +28,7 @@ _OPEN_RANGE = 10.0
 # Shares of the ranges in turn: a mechanism may not bear all of them.
 _SHARES = (1.0, 0.1, 0.01)
 # Types of sensors, see docs/system_file.md.
-_SECOND, _COMPONENT = 2, 3  # order two; a component
-_ECHOES, _MOTIONS = (11, 12), (0, 1, 3, 4, 5, 6, 7, 13, 14, 15, 16)
+_WITH_ORDER, _SECOND = (SensorType.COMPONENT, SensorType.DIRECTION), 2  # second rates need accelerations
 _ECHO, _MOTION, _FORCE = "echo", "motion", "force"
 
 
@@ -195,11 +195,12 @@ class _Tries:
 
 def _kind(system: mbs.System, sensor: int) -> str:
     """Whether a sensor repeats inputs, reads positions and velocities, or forces and accelerations."""
-    kind, first = int(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
-    if kind in _ECHOES:
+    kind, first = SensorType(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
+    reads = SENSOR_READS[kind]
+    if reads == SensorReads.INPUTS:
         return _ECHO
-    second = kind == _COMPONENT and int(system.arrays["sen_int"][first]) == _SECOND
-    return _MOTION if kind in _MOTIONS and not second else _FORCE
+    second = kind in _WITH_ORDER and int(system.arrays["sen_int"][first]) == _SECOND
+    return _MOTION if reads in (SensorReads.MOTION, SensorReads.SOLVER) and not second else _FORCE
 
 
 def with_nominal(table: Sequence[Variable], reach: Dependencies) -> tuple[Variable, ...]:

@@ -7,13 +7,19 @@ import importlib.util
 import inspect
 import pkgutil
 import sys
-from collections.abc import Callable
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import mbs
 import mbs.scenes
+
+_ENGINE = Path(mbs.__file__).parent
 
 
 class SceneError(ValueError):
@@ -48,7 +54,38 @@ def load_scene(scene: str) -> tuple[str, mbs.System]:
     SceneError
         If there is no such scene, it asks for arguments or returns something else than a Model or System.
     """
-    name, build = _from_file(scene) if _is_path(scene) else _from_package(scene)
+    with _scene(scene) as (name, build):
+        return name, _system(scene, build)
+
+
+def load_variants(scene: str) -> tuple[str, list[mbs.System], int]:
+    """Build and compile a scene in all the fidelities it offers.
+
+    A scene offers them by a function `variants` beside its `build`: it returns functions that make a model by number,
+    0 and on. The one of `build` is the default of its argument `fidelity`.
+
+    Returns
+    -------
+    name : str
+    systems : list of mbs.System
+        By fidelity; one if there is no choice.
+    default : int
+        The fidelity of `build`.
+    """
+    with _scene(scene) as (name, build):
+        variants = getattr(sys.modules[build.__module__], "variants", None)
+        if not callable(variants) or build.__name__ != "build":
+            return name, [_system(scene, build)], 0
+        makers = variants()
+        if sorted(makers) != list(range(len(makers))):
+            raise SceneError(
+                f"The variants of scene '{scene}' are numbered {sorted(makers)}; they must be 0, 1, 2 and on."
+            )
+        default = inspect.signature(build).parameters["fidelity"].default
+        return name, [mbs.compile(makers[k]()) for k in range(len(makers))], int(default)
+
+
+def _system(scene: str, build: Callable[..., Any]) -> mbs.System:
     missing = [
         p.name
         for p in inspect.signature(build).parameters.values()
@@ -66,32 +103,70 @@ def load_scene(scene: str) -> tuple[str, mbs.System]:
         raise SceneError(
             f"Scene '{scene}' returned a {type(result).__name__}; it must return an mbs.Model or mbs.System."
         )
-    return name, result
+    return result
 
 
-def load_variants(scene: str) -> tuple[str, list[mbs.System], int]:
-    """Build and compile a scene in all the fidelities it offers.
+@contextmanager
+def _scene(scene: str) -> Iterator[tuple[str, Callable[..., Any]]]:
+    """Name and function of a scene, in a context in which a file finds its neighbours and its errors are told."""
+    if not _is_path(scene):
+        yield _from_package(scene)
+        return
+    file, separator, function = scene.rpartition(":")
+    if not separator or not file.endswith(".py"):
+        file, function = scene, "build"
+    path = Path(file)
+    if not path.is_file():
+        raise SceneError(f"There is no file {path}; a scene of your own is given as path/to/file.py:function.")
+    path = path.resolve()
+    with _neighbours(path.parent):
+        try:
+            yield _from_file(path, function)
+        except SceneError:
+            raise
+        except Exception as error:
+            raise _own_words(error, path) from error
 
-    A scene offers them by a function `variants` beside its `build`: it returns functions that make a model by number,
-    0 and on. The one of `build` is the default of its argument `fidelity`.
 
-    Returns
-    -------
-    name : str
-    systems : list of mbs.System
-        By fidelity; one if there is no choice.
-    default : int
-        The fidelity of `build`.
+class _Neighbours(MetaPathFinder):
+    """Finds the files beside a scene before installed packages, but not in place of the standard library.
+
+    What is imported already, this package and the engine with all they need among them, is not looked for again: a
+    file that is called numpy.py by chance stands in nobody's way.
     """
-    name, build = _from_file(scene) if _is_path(scene) else _from_package(scene)
-    variants = getattr(sys.modules[build.__module__], "variants", None)
-    if not callable(variants) or build.__name__ != "build":
-        return name, [load_scene(scene)[1]], 0
-    makers = variants()
-    if sorted(makers) != list(range(len(makers))):
-        raise SceneError(f"The variants of scene '{scene}' are numbered {sorted(makers)}; they must be 0, 1, 2 and on.")
-    default = inspect.signature(build).parameters["fidelity"].default
-    return name, [mbs.compile(makers[k]()) for k in range(len(makers))], int(default)
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = str(folder)
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        if path is not None or fullname in sys.stdlib_module_names:
+            return None
+        return PathFinder.find_spec(fullname, [self._folder], target)
+
+
+@contextmanager
+def _neighbours(folder: Path) -> Iterator[None]:
+    """Let a scene import the files beside it."""
+    finder = _Neighbours(folder)
+    sys.meta_path.insert(0, finder)
+    try:
+        yield
+    finally:
+        sys.meta_path.remove(finder)
+
+
+def _own_words(error: Exception, path: Path) -> Exception:
+    """The error as it is where the engine refused the model in a sentence; else with its place in the user's files."""
+    if isinstance(error, SyntaxError):
+        return SceneError(f"{error.filename}, line {error.lineno}: {error.msg}.")
+    frames = traceback.extract_tb(error.__traceback__)
+    if isinstance(error, (ValueError, RuntimeError)) and _ENGINE in Path(frames[-1].filename).parents:
+        return error
+    own = [frame for frame in frames if Path(frame.filename).parent == path.parent]
+    place = own[-1] if own else frames[-1]
+    return SceneError(f"{place.filename}, line {place.lineno}: {type(error).__name__}: {error}")
 
 
 def _is_path(scene: str) -> bool:
@@ -112,13 +187,7 @@ def _from_package(scene: str) -> tuple[str, Callable[..., Any]]:
     return scene, _scene_module(scene).build
 
 
-def _from_file(scene: str) -> tuple[str, Callable[..., Any]]:
-    file, separator, function = scene.rpartition(":")
-    if not separator or not file.endswith(".py"):
-        file, function = scene, "build"
-    path = Path(file)
-    if not path.is_file():
-        raise SceneError(f"There is no file {path}; a scene of your own is given as path/to/file.py:function.")
+def _from_file(path: Path, function: str) -> tuple[str, Callable[..., Any]]:
     spec = importlib.util.spec_from_file_location(f"_ali3_scene_{path.stem}", path)
     if spec is None or spec.loader is None:
         raise SceneError(f"{path} is not a Python file.")

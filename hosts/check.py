@@ -1,63 +1,79 @@
-"""Checks a co-simulation FMU (FMI 2.0 or 3.0) and prints a verdict: ``python -m hosts.check FMU``."""
+"""Checks a co-simulation FMU (FMI 2.0 or 3.0) and prints a verdict: ``ali3 check FMU``."""
 
 from __future__ import annotations
 
 import argparse
+import signal
 import subprocess
 import sys
 import tempfile
 import zipfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from hosts.check_details import DETAIL_CHECKS
-from hosts.check_run import RUNNING_CHECKS
-from hosts.check_text import TEXT_CHECKS
-from hosts.checking import Finding, Subject, open_subject
+from ali3.running import INTERRUPTED, module_command, run_command
 from hosts.errors import HostError
+
+if TYPE_CHECKING:
+    from hosts.fmu_checks.instance import Finding, Subject
 
 _MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
 _WIDTH = 22
+_MOST_STEPS = 100_000
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; 0 if nothing bad was found."""
-    parser = argparse.ArgumentParser(prog="python -m hosts.check", description="Check an FMU and print a verdict.")
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.check") -> int:
+    """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
+    parser = argparse.ArgumentParser(prog=prog, description="Check an FMU and print a verdict.")
     parser.add_argument("fmu", type=Path, metavar="FMU")
     parser.add_argument("--steps", type=int, default=50, metavar="N", help="communication steps per run; default: 50")
-    parser.add_argument("--inside", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--inside", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
-    if options.steps < 1:
-        parser.error("the number of steps is positive")
-    if not options.inside:
-        return _outside(options.fmu, options.steps)
-    try:
-        findings = check(options.fmu, options.steps, print_finding)
-    except HostError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+    if not 1 <= options.steps <= _MOST_STEPS:
+        parser.error(f"the number of steps is {options.steps}; it must be from 1 to {_MOST_STEPS}")
+    if options.inside is None:
+        return run_command(lambda: _outside(options.fmu, options.steps))
+    # Ctrl-C reaches both processes: the outer one says so and ends this one.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    return run_command(lambda: _inside(options.fmu, options.steps, options.inside))
+
+
+def _inside(fmu: Path, steps: int, folder: Path) -> int:
+    findings = check(fmu, folder, steps, print_finding)
     bad = sum(f.verdict == "bad" for f in findings)
-    print(f"\n{options.fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
+    print(f"\n{fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
     return 1 if bad else 0
 
 
 def _outside(fmu: Path, steps: int) -> int:
     """The checks in a process of their own, which a broken FMU may take down."""
-    command = [sys.executable, "-m", "hosts.check", str(fmu), "--steps", str(steps), "--inside"]
-    status = subprocess.run(command, check=False).returncode
+    if not fmu.is_file():
+        raise HostError(f"There is no file {fmu}.")
+    if not zipfile.is_zipfile(fmu):
+        raise HostError(f"{fmu} is not an FMU (not a zip archive).")
+    with tempfile.TemporaryDirectory(prefix="fmu_", ignore_cleanup_errors=True) as folder:
+        command = module_command("hosts.check", str(fmu), "--steps", str(steps), "--inside", folder)
+        status = subprocess.run(command, check=False).returncode
     if status in (0, 1, 2):
         return status
-    print_finding(Finding("stays alive", "bad", f"the process that ran the next check ended with {status}"))
+    if status == INTERRUPTED:
+        raise KeyboardInterrupt
+    print(f"{_MARKS['bad']:>4}  {'stays alive':<{_WIDTH}}  the process that ran the next check ended with {status}")
     print(f"\n{fmu}: bad")
     return 1
 
 
-def check(fmu: Path, steps: int = 50, say: Callable[[Finding], None] = lambda finding: None) -> list[Finding]:
+def check(
+    fmu: Path, folder: Path, steps: int = 50, say: Callable[[Finding], None] = lambda finding: None
+) -> list[Finding]:
     """All checks.
 
     Parameters
     ----------
     fmu : Path
+    folder : Path
+        Where it is unpacked.
     steps : int
         Communication steps per run.
     say : callable
@@ -68,16 +84,16 @@ def check(fmu: Path, steps: int = 50, say: Callable[[Finding], None] = lambda fi
     list of Finding
         In the order of the checks.
     """
-    if not fmu.is_file():
-        raise HostError(f"There is no file {fmu}.")
-    if not zipfile.is_zipfile(fmu):
-        raise HostError(f"{fmu} is not an FMU (not a zip archive).")
+    from hosts.fmu_checks.behaviour import BEHAVIOUR_CHECKS
+    from hosts.fmu_checks.documents import DOCUMENT_CHECKS
+    from hosts.fmu_checks.instance import open_subject
+    from hosts.fmu_checks.portability import PORTABILITY_CHECKS
+
     findings: list[Finding] = []
-    with tempfile.TemporaryDirectory(prefix="fmu_", ignore_cleanup_errors=True) as folder:
-        subject = open_subject(fmu, Path(folder), steps)
-        for name, function in (*TEXT_CHECKS, *RUNNING_CHECKS, *DETAIL_CHECKS):
-            findings.append(_one(name, function, subject))
-            say(findings[-1])
+    subject = open_subject(fmu, folder, steps)
+    for name, function in (*DOCUMENT_CHECKS, *BEHAVIOUR_CHECKS, *PORTABILITY_CHECKS):
+        findings.append(_one(name, function, subject))
+        say(findings[-1])
     return findings
 
 
@@ -87,6 +103,8 @@ def print_finding(finding: Finding) -> None:
 
 
 def _one(name: str, function: Callable[[Subject], Finding], subject: Subject) -> Finding:
+    from hosts.fmu_checks.instance import Finding
+
     try:
         return function(subject)
     except Exception as error:

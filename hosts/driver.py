@@ -8,8 +8,10 @@ from dataclasses import dataclass, fields
 
 from hosts.course import Course, course_of
 from hosts.errors import HostError
+from hosts.numbers import parse_number
 
 SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
+_POSITIVE = ("speed", "wheelbase", "wheel_angle_max", "vehicle_length", "vehicle_width")
 ACTS = ("steering", "throttle", "brake")
 
 
@@ -119,9 +121,12 @@ def make_driver(settings: Mapping[str, str]) -> Driver:
         if name not in known:
             raise HostError(f"[driver] has '{name}'; known are course, {', '.join(sorted(known))}.")
         try:
-            numbers[name] = float(text)
-        except ValueError:
-            raise HostError(f"[driver] {name} = {text} is not a number.") from None
+            numbers[name] = parse_number(text)
+        except ValueError as error:
+            raise HostError(f"[driver] {name}: {error}.") from None
+        if numbers[name] < 0.0 or (numbers[name] == 0.0 and name in _POSITIVE):
+            sign = "positive" if name in _POSITIVE else "zero or positive"
+            raise HostError(f"[driver] {name} is {numbers[name]:g}; it must be {sign}.")
     if "speed" not in numbers or "course" not in settings:
         raise HostError("[driver] needs a course and a speed.")
     values = DriverSettings(**numbers)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from ali3.errors import UserError
 
-class HostError(Exception):
+
+class HostError(UserError):
     """Something the user can put right; the message says what."""

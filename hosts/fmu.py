@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import sys
 import tempfile
@@ -27,6 +28,7 @@ from fmpy.fmi2 import (
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
+from ali3.running import command_name
 from hosts.errors import HostError
 
 
@@ -52,7 +54,7 @@ class Fmu:
 
     def __init__(self, path: Path) -> None:
         if not path.is_file():
-            hint = " Build it with: python build_fmu.py" if path.parent.name == "dist" else ""
+            hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
             raise HostError(f"There is no file {path}.{hint}")
         if not zipfile.is_zipfile(path):
             raise HostError(f"{path} is not an FMU (not a zip archive).")
@@ -83,8 +85,10 @@ class Fmu:
                 instanceName=path.stem,
             )
             self._slave.instantiate(callbacks=self._callbacks)
-        except Exception as error:
+        except BaseException as error:
             shutil.rmtree(self._folder, ignore_errors=True)
+            if not isinstance(error, Exception):
+                raise
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {self._last_message() or error}") from None
 
     def __enter__(self) -> Fmu:
@@ -123,7 +127,7 @@ class Fmu:
         real = {n: float(x) for n, x in values.items() if self.variables[n].type != "Integer"}
         whole = {n: x for n, x in values.items() if n not in real}
         for name, value in whole.items():
-            if value != int(value):
+            if not math.isfinite(value) or value != int(value):
                 raise HostError(f"'{name}' was set to {value:g}; it must be a whole number.")
         if real:
             self._slave.setReal(self.references(real), list(real.values()))
@@ -156,10 +160,11 @@ class Fmu:
 
         def get_values() -> list[float]:
             slave.fmi2GetReal(slave.component, reals, len(real), buffer)
+            values: list[float] = buffer[:]
             if not whole:
-                return buffer[:]
+                return values
             slave.fmi2GetInteger(slave.component, wholes, len(whole), counts)
-            values = [*buffer, *map(float, counts)]
+            values += map(float, counts)
             return [values[k] for k in order]
 
         return get_values

@@ -1,4 +1,4 @@
-"""The paper's test in one picture: ``python -m hosts.kerb [FMU] [--fidelity N] [--step H] [--out DIR]``.
+"""The paper's test in one picture: ``ali3 kerb [FMU] [--fidelity N] [--step H] [--out DIR]``.
 
 Runs the FMU of the scene kerb_test for 15 s and draws the bending moments at the gauges, unfiltered and after a
 low-pass of 10 Hz, with the three intervals of the paper's Figure 8 marked. All through FMI.
@@ -10,20 +10,14 @@ import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import matplotlib
-import numpy as np
-
-matplotlib.use("Agg")
-from matplotlib import pyplot as plt
-
-from hosts.drive import make_folder, write_csv
+from ali3.running import command_name, run_command
 from hosts.errors import HostError
-from hosts.fmu import Fmu
-from hosts.low_pass import low_pass
-from hosts.manoeuvre import Manoeuvre
-from hosts.plot_page import BLACK, BLUE, RED
-from hosts.run import Result, run
+from hosts.numbers import number
+
+if TYPE_CHECKING:
+    from hosts.co_simulation import Result
 
 DEFAULT_FMU = Path("dist", "KerbTest.fmu")
 DURATION = 15.0  # s
@@ -33,38 +27,41 @@ PLACES = {"SG1": "front left", "SG2": "front right", "SG3": "rear left", "SG4": 
 FREQUENCY = 10.0  # Hz
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; 0 if every step was accepted."""
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.kerb") -> int:
+    """Run the command, which the user typed as `prog`; 0 if every step was accepted."""
     parser = argparse.ArgumentParser(
-        prog="python -m hosts.kerb", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("fmu", nargs="?", type=Path, default=DEFAULT_FMU, metavar="FMU", help=f"default: {DEFAULT_FMU}")
-    parser.add_argument("--fidelity", type=float, metavar="N", help="1 to 3; default: that of the FMU")
-    parser.add_argument("--step", type=float, default=0.01, metavar="H", help="communication step, s; default: 0.01")
+    parser.add_argument("--fidelity", type=number, metavar="N", help="1 to 3; default: that of the FMU")
+    parser.add_argument("--step", type=number, default=0.01, metavar="H", help="communication step, s; default: 0.01")
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
     options = parser.parse_args(arguments)
-    try:
-        return _kerb(options.fmu, options.fidelity, options.step, options.out)
-    except HostError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+    return run_command(lambda: _kerb(options.fmu, options.fidelity, options.step, options.out))
 
 
 def _kerb(path: Path, fidelity: float | None, step: float, out: Path) -> int:
+    import numpy as np
+
+    from hosts.co_simulation import communication_step, run_with_bar
+    from hosts.fmu import Fmu
+    from hosts.manoeuvre import Manoeuvre
+    from hosts.result_files import print_result, result_paths, write_csv
+
     if not 0.0 < step < 0.5 / FREQUENCY:
-        raise HostError(f"The step is {step} s; it must be positive and below {0.5 / FREQUENCY:g} s for the filter.")
+        raise HostError(f"The step is {step:g} s; it must be positive and below {0.5 / FREQUENCY:g} s for the filter.")
+    build = f"{command_name('build')} --scene kerb_test"
     if not path.is_file() and path == DEFAULT_FMU:
-        raise HostError(f"There is no file {path}. Build it with: python build_fmu.py --scene kerb_test")
-    start = {} if fidelity is None else {"fidelity": fidelity}
+        raise HostError(f"There is no file {path}. Build it with: {build}")
+    manoeuvre = Manoeuvre("kerb_test", np.zeros(0), {}, DURATION, {} if fidelity is None else {"fidelity": fidelity})
     with Fmu(path) as fmu:
         missing = [f"bending_moment.{g}" for g in GAUGES if f"bending_moment.{g}" not in fmu.variables]
         if missing:
-            raise HostError(f"{path} has no {missing[0]}; build the scene of this test: build_fmu.py --scene kerb_test")
-        result = run(fmu, Manoeuvre("kerb_test", np.zeros(0), {}, DURATION, start), step)
+            raise HostError(f"{path} has no {missing[0]}; build the scene of this test: {build}")
+        table, picture = result_paths(out, "kerb_test")
+        result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, step))
     if result["stress.computed"][0] != 1.0:
         raise HostError("At this fidelity the moments are not computed (stress.computed is 0); take 1, 2 or 3.")
-    make_folder(out)
-    table, picture = out / "kerb_test.csv", out / "kerb_test.png"
     write_csv(result, table)
     rows = moments(result, step)
     draw(result, step, picture)
@@ -78,14 +75,13 @@ def _kerb(path: Path, fidelity: float | None, step: float, out: Path) -> int:
     print(
         f"Newton iterations {n.mean():.2f} a step, {n.max():.0f} at most; real-time factor {DURATION / result.wall:.1f}"
     )
-    for message in dict.fromkeys(result.messages):
-        print(f"FMU: {message}")
-    print(f"written: {table}, {picture}")
-    return 1 if result.failed_steps else 0
+    return print_result((), result, (table, picture))
 
 
 def moments(result: Result, step: float) -> list[dict[str, float | str]]:
     """Per gauge: value at rest, range before and after the filter as differences from it, what is left at the end."""
+    from hosts.low_pass import low_pass
+
     rows: list[dict[str, float | str]] = []
     for gauge in GAUGES:
         x = result[f"bending_moment.{gauge}"]
@@ -107,6 +103,11 @@ def moments(result: Result, step: float) -> list[dict[str, float | str]]:
 
 def draw(result: Result, step: float, file: Path) -> None:
     """Moments as differences from rest, as gauges measure them."""
+    from matplotlib import pyplot as plt
+
+    from hosts.low_pass import low_pass
+    from hosts.result_plots import BLACK, BLUE, RED, save_picture
+
     figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")
     for axes, gauge in zip(panels.T.flat, GAUGES, strict=True):
         x = result[f"bending_moment.{gauge}"]
@@ -125,8 +126,7 @@ def draw(result: Result, step: float, file: Path) -> None:
     for axes in panels[-1]:
         axes.set_xlabel("time, s")
     figure.suptitle("Prototype car down a kerb of 8 cm: the setting of the paper's Figure 8", fontsize=14)
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    save_picture(figure, file)
 
 
 if __name__ == "__main__":

@@ -12,9 +12,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.files import reason
 from hosts.errors import HostError
+from hosts.manoeuvres import FOLDER, manoeuvre_names
+from hosts.numbers import parse_number
 
-FOLDER = Path(__file__).parent / "manoeuvres"
+_LONGEST_CELL = 1000
 
 
 @dataclass(frozen=True)
@@ -57,11 +60,6 @@ class Manoeuvre:
         return {name: float(v[k - 1] + s * (v[k] - v[k - 1])) for name, v in self.inputs.items()}
 
 
-def manoeuvre_names() -> list[str]:
-    """Names of the manoeuvres that come with the host."""
-    return sorted({p.stem for p in FOLDER.iterdir() if p.suffix in (".csv", ".ini")})
-
-
 def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     """Read a manoeuvre by name or path.
 
@@ -96,8 +94,14 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
         sections = _read_settings(settings)
         start |= {k: _number(v, f"{settings}: {k}") for k, v in sections.get("start", {}).items()}
         driver = sections.get("driver", {})
-        if "stop_time" in sections.get("run", {}):
-            stop_time = _number(sections["run"]["stop_time"], f"{settings}: stop_time")
+        run = sections.get("run", {})
+        unknown = sorted(set(run) - {"stop_time"})
+        if unknown:
+            raise HostError(f"{settings}: [run] has '{unknown[0]}'; known is stop_time.")
+        if "stop_time" in run:
+            stop_time = _number(run["stop_time"], f"{settings}: stop_time")
+            if stop_time <= 0.0:
+                raise HostError(f"{settings}: stop_time is {stop_time:g} s; it must be positive.")
     if not stop_time > 0.0:
         raise HostError(f"{path} does not say how long it lasts; give a later time in the table or stop_time in [run].")
     return Manoeuvre(path.stem, time, inputs, stop_time, start, driver)
@@ -107,10 +111,7 @@ def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.f
     start: dict[str, float] = {}
     names: list[str] = []
     rows: list[list[float]] = []
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise HostError(f"{path} cannot be read as text: {error}.") from None
+    lines = _read_text(path).splitlines()
     for number, line in enumerate(lines, start=1):
         where = f"{path}, line {number}"
         if line.lstrip().startswith("#"):
@@ -120,13 +121,13 @@ def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.f
         elif not line.strip():
             continue
         elif not names:
-            names = [name.strip() for name in next(csv.reader([line]))]
+            names = [name.strip() for name in _cells(line, where)]
             if names[0] != "time" or len(names) < 2 or len(set(names)) < len(names):
                 raise HostError(
                     f'{where}: the heading is {line.strip()!r}; it must be "time" and the names of inputs, each once.'
                 )
         else:
-            cells = next(csv.reader([line]))
+            cells = _cells(line, where)
             if len(cells) != len(names):
                 raise HostError(f"{where}: {len(cells)} values where the heading has {len(names)} columns.")
             row = [_number(cell, f"{where}, column '{name}'") for cell, name in zip(cells, names, strict=True)]
@@ -139,13 +140,33 @@ def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.f
     return values[:, 0], {name: values[:, k] for k, name in enumerate(names) if k}, start
 
 
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise HostError(f"{path} cannot be read: {reason(error)}.") from None
+    except UnicodeDecodeError as error:
+        raise HostError(f"{path} cannot be read as text: {error}.") from None
+
+
+def _cells(line: str, where: str) -> list[str]:
+    longest = max(map(len, line.split(",")))
+    if longest > _LONGEST_CELL:
+        raise HostError(f"{where}: a cell has {longest} characters; a number or a name has at most {_LONGEST_CELL}.")
+    try:
+        return next(csv.reader([line]))
+    except csv.Error as error:
+        raise HostError(f"{where}: this is no line of a CSV file: {error}.") from None
+
+
 def _read_settings(path: Path) -> dict[str, dict[str, str]]:
-    parser = configparser.ConfigParser(interpolation=None)
+    # A section [DEFAULT], whose keys configparser would give to all others, is one that is not known.
+    parser = configparser.ConfigParser(interpolation=None, default_section="")
     parser.optionxform = str  # type: ignore[assignment,method-assign]
     try:
-        parser.read(path, encoding="utf-8")
-    except (configparser.Error, UnicodeDecodeError) as error:
-        raise HostError(f"{path} is not understood: {error}") from None
+        parser.read_string(_read_text(path), str(path))
+    except configparser.Error as error:
+        raise HostError(f"{path} is not understood: {' '.join(str(error).split())}") from None
     unknown = set(parser.sections()) - {"run", "start", "driver"}
     if unknown:
         raise HostError(f"{path} has a section [{sorted(unknown)[0]}]; known are [run], [start] and [driver].")
@@ -164,9 +185,6 @@ def _assignments(parts: Iterable[str], where: str) -> dict[str, float]:
 
 def _number(text: str, where: str) -> float:
     try:
-        value = float(text)
-    except ValueError:
-        raise HostError(f"{where}: {text.strip()!r} is not a number.") from None
-    if not math.isfinite(value):
-        raise HostError(f"{where}: the value is {text.strip()}; only finite numbers can be used.")
-    return value
+        return parse_number(text)
+    except ValueError as error:
+        raise HostError(f"{where}: {error}.") from None

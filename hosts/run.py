@@ -1,144 +1,60 @@
-"""The co-simulation loop: inputs in, a communication step, outputs out."""
+"""Runs an FMU with the values that are set: ``ali3 run FMU [--set NAME=VALUE ...] [--stop-time T]``."""
 
 from __future__ import annotations
 
-import time as clock
-from collections.abc import Callable
-from dataclasses import dataclass
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
-from hosts.driver import ACTS, SENSES, Driver
-from hosts.errors import HostError
-from hosts.fmu import Fmu, StepRefusedError
-from hosts.manoeuvre import Manoeuvre
+from ali3.running import run_command
+from hosts.numbers import assignment, number
 
 
-@dataclass(frozen=True)
-class Result:
-    """What a run recorded.
-
-    Parameters
-    ----------
-    names : list of str
-        Inputs and outputs.
-    units : dict of str to str
-        By name.
-    time : ndarray of shape (n,)
-        s.
-    values : ndarray of shape (n, len(names))
-        In the units of the model description; inputs are those of the step that ends there.
-    wall : float
-        Time spent in the loop, s.
-    simulated : float
-        s.
-    failed_steps : int
-        Communication steps the FMU refused; the run ends with the first.
-    messages : list of str
-        What the FMU logged at warning or above.
-    """
-
-    names: list[str]
-    units: dict[str, str]
-    time: NDArray[np.float64]
-    values: NDArray[np.float64]
-    wall: float
-    simulated: float
-    failed_steps: int
-    messages: list[str]
-
-    def __contains__(self, name: str) -> bool:
-        return name in self.names
-
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        return np.asarray(self.values[:, self.names.index(name)])
-
-
-def run(
-    fmu: Fmu,
-    manoeuvre: Manoeuvre,
-    step: float,
-    driver: Driver | None = None,
-    progress: Callable[[int], None] = lambda done: None,
-) -> Result:
-    """Drive an FMU through a manoeuvre.
-
-    Parameters
-    ----------
-    fmu : Fmu
-        Not yet initialised.
-    manoeuvre : Manoeuvre
-    step : float
-        Communication step, s.
-    driver : Driver, optional
-        Overrules the inputs it acts on.
-    progress : callable
-        Is told the number of finished steps, now and then.
-
-    Returns
-    -------
-    Result
-        Up to the first refused step.
-    """
-    inputs, outputs = fmu.names("input"), fmu.names("output")
-    for name in manoeuvre.inputs:
-        if name not in inputs:
-            raise HostError(
-                f"The manoeuvre '{manoeuvre.name}' has a column '{name}', which is no input of {fmu.path.name}; "
-                f"its inputs are: {', '.join(inputs) or 'none'}."
-            )
-    if driver is not None:
-        missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
-        if missing:
-            raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
-    used = list(dict.fromkeys([*manoeuvre.inputs, *(ACTS if driver is not None else ())]))
-    set_inputs, get_outputs = fmu.setter(used), fmu.getter(outputs)
-    senses = [outputs.index(n) for n in SENSES] if driver is not None else []
-
-    first = manoeuvre.at(0.0)
-    fmu.initialise(manoeuvre.start | first)
-    steps = max(1, round(manoeuvre.stop_time / step))
-    values = np.empty((steps + 1, len(inputs) + len(outputs)))
-    columns = [inputs.index(n) for n in used]
-    held = fmu.start_values(inputs)
-    for name, value in {**manoeuvre.start, **first}.items():
-        if name in inputs:
-            held[inputs.index(name)] = value
-    row = get_outputs()
-    values[0] = [*held, *row]
-    done, failed = 0, 0
-    begin = clock.perf_counter()
-    for k in range(steps):
-        t = k * step
-        wanted = manoeuvre.at(t)
-        if driver is not None:
-            wanted |= driver.act(t, {n: row[j] for n, j in zip(SENSES, senses, strict=True)})
-        now = [wanted[n] for n in used]
-        if used:
-            set_inputs(now)
-            held[columns] = now
-        try:
-            fmu.step(t, step)
-        except StepRefusedError:
-            failed = 1
-            break
-        done = k + 1
-        row = get_outputs()
-        values[done, : len(inputs)] = held
-        values[done, len(inputs) :] = row
-        if done % 50 == 0:
-            progress(done)
-    wall = clock.perf_counter() - begin
-    progress(done)
-    names = inputs + outputs
-    return Result(
-        names,
-        {n: fmu.variables[n].unit or "1" for n in names},
-        step * np.arange(done + 1),
-        values[: done + 1],
-        wall,
-        done * step,
-        failed,
-        list(fmu.messages),
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run") -> int:
+    """Run the command, which the user typed as `prog`; 0 if every step was accepted."""
+    parser = argparse.ArgumentParser(
+        prog=prog, description="Run any FMU of FMI 2.0 co-simulation, write its outputs as a table and plot them."
     )
+    parser.add_argument("fmu", type=Path, metavar="FMU")
+    parser.add_argument(
+        "--set",
+        type=assignment,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="start value of a parameter or input, which keeps it; may be given several times",
+    )
+    parser.add_argument("--stop-time", type=number, metavar="T", help="how long, s; default: that of the FMU")
+    parser.add_argument("--step", type=number, metavar="H", help="communication step in s; default: that of the FMU")
+    parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
+    options = parser.parse_args(arguments)
+    return run_command(lambda: _run(options.fmu, dict(options.set), options.stop_time, options.step, options.out))
+
+
+def _run(path: Path, start: dict[str, float], stop_time: float | None, step: float | None, out: Path) -> int:
+    import numpy as np
+
+    from hosts.co_simulation import communication_step, run_with_bar
+    from hosts.fmu import Fmu
+    from hosts.manoeuvre import Manoeuvre
+    from hosts.result_files import print_result, result_paths, write_csv
+    from hosts.result_plots import plot_page
+    from hosts.run_summary import summary
+
+    with Fmu(path) as fmu:
+        table, picture = result_paths(out, path.stem)
+        experiment = fmu.description.defaultExperiment
+        if stop_time is None:
+            stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0
+        manoeuvre = Manoeuvre("run", np.zeros(0), {}, stop_time, start)
+        step = communication_step(fmu, manoeuvre, step)
+        result = run_with_bar(fmu, manoeuvre, step)
+    rows = summary(result, step)
+    write_csv(result, table)
+    plot_page(result, picture, path.stem, rows)
+    return print_result((rows,), result, (table, picture))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.input_signals import unit_text
-from mbs.kernel.header import BALANCE_WRONG, HALVINGS_SUSPECT
+from mbs.kernel.header import BALANCE_WRONG, HALVINGS_SUSPECT, GuideType, SensorType
 from mbs.run_report import Report
 from mbs.system import System
 
@@ -46,7 +46,7 @@ LONG_MISS, LONG = 0.05, 30.0
 """The same of motions that have turned by more radians than the second: unstable ones double an error every few."""
 BOOKS_DECIDE = ("ali3p", "ali3p_generalised_alpha")  # the quadrature of runge_kutta_8 errs where it is stiff
 COORDINATES = "1"
-POSITION, FIRST_RATE, COMPONENT, AXIAL_RATE, OUTPUT, NORM = 0, 1, 3, 6, 8, 14  # types of sensors: system_file.md
+WITH_ORDER = (SensorType.COMPONENT, SensorType.NORM)  # their first integer
 LENGTHS, RATES = ("m", "rad", "N"), ("m/s", "rad/s")
 
 
@@ -115,12 +115,16 @@ def judged_sensors(system: System) -> dict[str, list[str]]:
     arrays = system.arrays
     found: dict[str, list[str]] = {}
     for i, sensor in enumerate(system.meta["sensors"]):
-        kind, unit = int(arrays["sen_type"][i]), sensor["unit"]
+        kind, unit = SensorType(arrays["sen_type"][i]), sensor["unit"]
         first, last = arrays["sen_int_ptr"][i : i + 2]
-        order = int(arrays["sen_int"][first]) if kind in (COMPONENT, NORM) and last > first else 0
-        place = kind == POSITION or (kind in (COMPONENT, NORM) and order == 0)
-        rate = kind in (FIRST_RATE, AXIAL_RATE) or (kind in (COMPONENT, NORM) and order == 1)
-        if (place and unit in ("m", "rad")) or (kind == OUTPUT and unit in ("m", "N")) or (rate and unit in RATES):
+        order = int(arrays["sen_int"][first]) if kind in WITH_ORDER and last > first else 0
+        place = kind == SensorType.SIGNAL or (kind in WITH_ORDER and order == 0)
+        rate = kind in (SensorType.SIGNAL_RATE, SensorType.ANGULAR_RATE) or (kind in WITH_ORDER and order == 1)
+        if (
+            (place and unit in ("m", "rad"))
+            or (kind == SensorType.ELEMENT_OUTPUT and unit in ("m", "N"))
+            or (rate and unit in RATES)
+        ):
             found.setdefault(unit, []).append(sensor["name"])
     kept = LENGTHS if any(unit in found for unit in ("m", "rad")) else (*RATES, *LENGTHS)
     return {unit: names for unit, names in found.items() if unit in kept}
@@ -270,7 +274,7 @@ def error_text(accuracy: Accuracy, ranges: Mapping[str, float], groups: Mapping[
 def _higher_orders(system: System, method: str) -> list[str]:
     """Methods of higher order that take the System, for a method of order two."""
     arrays = system.arrays
-    if ORDER.get(method, 2) > 2 or len(arrays["y0"]) or (np.asarray(arrays["guide_type"]) == 1).any():
+    if ORDER.get(method, 2) > 2 or len(arrays["y0"]) or (np.asarray(arrays["guide_type"]) == GuideType.OF_INPUT).any():
         return []
     open_tree = not system.report["no_tree"] and len(arrays["tree_cut_body"]) == 0
     explicit = "semi_recursive" if open_tree else "runge_kutta_8"

@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
+from mbs.elements import ElementType
+from mbs.kernel.header import SensorType
 
 Array = NDArray[np.float64]
-SPRING = 1  # element type whose energy is counted
+SPRING = ElementType.SPRING_DAMPER  # whose energy is counted
 
 
 class RefusedError(Exception):
@@ -75,7 +77,7 @@ class Mechanism:
         columns = []
         for sensor in sensors:
             k = names.index(sensor)
-            if a["sen_type"][k] != 0:
+            if a["sen_type"][k] != SensorType.SIGNAL:
                 raise ValueError(f"The sensor {sensor!r} is not a position.")
             signal = int(a["sen_int"][a["sen_int_ptr"][k]])
             columns.append(a["sen_real"][a["sen_real_ptr"][k]] * self._signal(signal, q))

@@ -138,7 +138,14 @@ class Face:
     documents: Callable[[Description, NativeContents], dict[str, bytes]]
 
 
-def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], file: Path, told: Telling) -> str:
+def pack_native(
+    contents: NativeContents,
+    face: Face,
+    platforms: Sequence[str],
+    file: Path,
+    told: Telling,
+    libraries: dict[tuple[str, str], bytes],
+) -> str:
     """Compile and write the FMU.
 
     Parameters
@@ -151,6 +158,8 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
         Where to.
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
+    libraries : dict
+        Libraries by model and folder that were compiled before; those compiled here are added.
 
     Returns
     -------
@@ -161,7 +170,7 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
     identity, guid = contents.identity(face.name)
     table_c = face.tables(contents, identity, guid)
     sources = packed_sources(face.name, table_c)
-    with told("running the default experiment"):
+    with told(f"{face.name}: running the default experiment"):
         run = reference_run(contents.system)
     files = {
         **{f"sources/{path}": data for path, data in sources.items()},
@@ -176,9 +185,11 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
         for platform in platforms:
             library = name + SUFFIXES[platform]
             for folder, targets in face.binaries[platform].items():
-                with told(f"compiling for {folder}", "the first time takes up to two minutes"):
-                    made = compile_library(targets, face.name, table, Path(temporary), library)
-                files[f"binaries/{folder}/{library}"] = made
+                if (name, folder) not in libraries:
+                    with told(f"{face.name}: compiling for {folder}", first_time(platform)):
+                        made = compile_library(targets, face.name, table, Path(temporary), library)
+                    libraries[name, folder] = made
+                files[f"binaries/{folder}/{library}"] = libraries[name, folder]
     head = contents.description_head(
         guid,
         tool=f"ALi3 {contents.version}",
@@ -186,9 +197,14 @@ def pack_native(contents: NativeContents, face: Face, platforms: Sequence[str], 
         capable=True,
         sources=[path for path in sources if path.endswith(".c")],
     )
-    with told("packing"):
+    with told(f"{face.name}: packing"):
         write_zip(files | face.documents(head, contents), file)
     return guid
+
+
+def first_time(platform: str) -> str:
+    """What a person should know who waits for the compiler."""
+    return "the first time, Windows' C runtime is compiled too: some minutes" if platform == "win64" else ""
 
 
 def _page(contents: NativeContents, words: Sequence[str]) -> bytes:

@@ -13,7 +13,7 @@ from mbs.compiler.full_coordinates import full_mass, symmetric
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
-from mbs.model.guides import TIME
+from mbs.kernel.header import GuideType
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
@@ -42,7 +42,7 @@ def guide_start(model: Model) -> tuple[Array, Array]:
     values = np.array([g.start for g in model.guides], dtype=float)
     rates = np.zeros(len(model.guides))
     for g in model.guides:
-        if g.type == TIME:
+        if g.type == GuideType.OF_TIME:
             n = int(g.reals[0])
             breaks, c = np.array(g.reals[1 : n + 2]), np.array(g.reals[n + 2 :]).reshape(n, 6)
             if breaks[0] <= 0.0 < breaks[-1]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.elements.checks import not_negative, number, positive
+from mbs.kernel.header import RoadType
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class PlaneRoad:
     grade_x: float = 0.0
     grade_y: float = 0.0
     friction: float = 0.9
-    type: ClassVar[int] = 0
+    type: ClassVar[RoadType] = RoadType.PLANE
     real_names: ClassVar[tuple[str, ...]] = ("height", "grade_x", "grade_y", "friction")
 
     @property
@@ -67,7 +68,7 @@ class KerbRoad:
     lower_height: float = 0.0
     upper: Literal["before", "after"] = "before"
     friction: float = 0.9
-    type: ClassVar[int] = 1
+    type: ClassVar[RoadType] = RoadType.KERB
     real_names: ClassVar[tuple[str, ...]] = ("position", "lower_height", "step", "side", "friction")
 
     @property
@@ -107,7 +108,7 @@ class GridRoad:
     heights: ArrayLike
     frictions: ArrayLike = 0.9
     friction_factor: float = 1.0
-    type: ClassVar[int] = 2
+    type: ClassVar[RoadType] = RoadType.GRID
     real_names: ClassVar[tuple[str, ...]] = ("nx", "ny", "x0", "y0", "dx", "dy", "friction")
 
     @property

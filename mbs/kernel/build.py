@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import atexit
+import functools
 import importlib.util
 import os
 import platform
@@ -52,17 +54,51 @@ def library_name(target: str) -> str:
     return "libali3.dylib" if "macos" in target else "libali3.so"
 
 
+@functools.cache
 def cache_directory() -> Path:
-    """Where the compiler keeps what it built, outside the source tree: `ZIG_GLOBAL_CACHE_DIR`, else the home folder."""
+    """Where the compiler keeps what it built, outside the source tree.
+
+    `ZIG_GLOBAL_CACHE_DIR`, else a folder in the home folder, else one that goes when this process ends.
+
+    Raises
+    ------
+    RuntimeError
+        If `ZIG_GLOBAL_CACHE_DIR` is not a folder that can be written to.
+    """
     given = os.environ.get("ZIG_GLOBAL_CACHE_DIR")
-    if given:
-        return Path(given)
     try:
-        home = Path.home() / ".cache" / "ali3-zig"
-        home.mkdir(parents=True, exist_ok=True)
-        return home
-    except (OSError, RuntimeError):  # no home folder, or none to write to
-        return Path(tempfile.mkdtemp(prefix="ali3-zig-"))
+        folder = Path(given) if given else Path.home() / ".cache" / "ali3-zig"
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except (OSError, RuntimeError) as error:  # no home folder, or none to write to
+        if given:
+            words = getattr(error, "strerror", None) or error
+            raise RuntimeError(
+                f"ZIG_GLOBAL_CACHE_DIR is '{given}', which the compiler cannot write to: {words}."
+            ) from None
+    temporary = tempfile.TemporaryDirectory(prefix="ali3-zig-", ignore_cleanup_errors=True)
+    atexit.register(temporary.cleanup)
+    return Path(temporary.name)
+
+
+def compiler() -> str:
+    """The program `zig` that the package `ziglang` brings.
+
+    It is called by its path: ``python -m ziglang`` would look into the current folder first.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        If the package is not installed.
+    """
+    found = importlib.util.find_spec("ziglang")
+    if found is None or not found.submodule_search_locations:
+        raise ModuleNotFoundError(
+            "The package ziglang, which compiles C, is not installed; run: python -m pip install ziglang",
+            name="ziglang",
+        )
+    return str(Path(found.submodule_search_locations[0], "zig.exe" if os.name == "nt" else "zig"))
 
 
 def compile_library(target: str | None = None, out: str | Path | None = None) -> Path:
@@ -120,14 +156,12 @@ def compile_c(
     RuntimeError
         With the compiler's words.
     """
-    if importlib.util.find_spec("ziglang") is None:
-        raise RuntimeError(f"{what} needs the compiler of the package 'ziglang': python -m pip install ziglang")
     path.parent.mkdir(parents=True, exist_ok=True)
     cache = str(cache_directory())
     environment = os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache}
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         made = Path(folder) / path.name
-        command = [sys.executable, "-m", "ziglang", "cc", "-target", target, *FLAGS]
+        command = [compiler(), "cc", "-target", target, *FLAGS]
         if not shared:
             command = [part for part in command if part not in ("-shared", "-fPIC")]
         elif "macos" in target:
@@ -142,14 +176,21 @@ def compile_c(
         made.replace(path)  # at once, so that a program that has the old library loaded keeps it whole
 
 
-def main() -> None:
-    """Command line: `python -m mbs.kernel.build [--target TRIPLE] [--out FILE]`."""
-    parser = argparse.ArgumentParser(description="Compile the ALi3 kernel.")
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.kernel.build") -> int:
+    """Run the command, which the user typed as `prog`."""
+    from ali3.running import run_command
+
+    parser = argparse.ArgumentParser(prog=prog, description="Compile the ALi3 kernel.")
     parser.add_argument("--target", help="zig target triple; default: this platform")
     parser.add_argument("--out", help="library to write; default: lib/ beside this file")
-    arguments = parser.parse_args()
-    print(compile_library(arguments.target, arguments.out))
+    options = parser.parse_args(arguments)
+
+    def work() -> int:
+        print(compile_library(options.target, options.out))
+        return 0
+
+    return run_command(work, (RuntimeError,))
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

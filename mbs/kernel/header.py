@@ -75,12 +75,86 @@ class SolverValue(IntEnum):
     ENERGY_BALANCE = 7
 
 
+class GuideType(IntEnum):
+    """Types of guides."""
+
+    OF_TIME = 0
+    OF_INPUT = 1
+
+
+class RoadType(IntEnum):
+    """Types of roads."""
+
+    PLANE = 0
+    KERB = 1
+    GRID = 2
+
+
+class SensorReads(IntEnum):
+    """What the value of a sensor comes from."""
+
+    MOTION = 0
+    INPUTS = 1
+    FORCES = 2
+    SOLVER = 3
+    ROWS = 4
+
+
 class Doubt(IntEnum):
     """`ali3_doubt`: what a run says against itself."""
 
     NONE = 0
     HALVINGS = 1
     BALANCE = 2
+
+
+class SensorType(IntEnum):
+    """Types of sensors."""
+
+    SIGNAL = 0
+    SIGNAL_RATE = 1
+    SIGNAL_SECOND_RATE = 2
+    COMPONENT = 3
+    ANGLE = 4
+    PITCH = 5
+    ANGULAR_RATE = 6
+    QUATERNION = 7
+    ELEMENT_OUTPUT = 8
+    REACTION = 9
+    ENERGY = 10
+    INPUT = 11
+    GUIDE = 12
+    SOLVER = 13
+    NORM = 14
+    DIRECTION = 15
+    ANGLE_ABOUT = 16
+    QUASI_STATIC = 17
+    REACTION_PRODUCTS = 18
+    WORK = 19
+
+
+SENSOR_READS = {
+    SensorType.SIGNAL: SensorReads.MOTION,
+    SensorType.SIGNAL_RATE: SensorReads.MOTION,
+    SensorType.SIGNAL_SECOND_RATE: SensorReads.FORCES,
+    SensorType.COMPONENT: SensorReads.MOTION,
+    SensorType.ANGLE: SensorReads.MOTION,
+    SensorType.PITCH: SensorReads.MOTION,
+    SensorType.ANGULAR_RATE: SensorReads.MOTION,
+    SensorType.QUATERNION: SensorReads.MOTION,
+    SensorType.ELEMENT_OUTPUT: SensorReads.FORCES,
+    SensorType.REACTION: SensorReads.ROWS,
+    SensorType.ENERGY: SensorReads.FORCES,
+    SensorType.INPUT: SensorReads.INPUTS,
+    SensorType.GUIDE: SensorReads.INPUTS,
+    SensorType.SOLVER: SensorReads.SOLVER,
+    SensorType.NORM: SensorReads.MOTION,
+    SensorType.DIRECTION: SensorReads.MOTION,
+    SensorType.ANGLE_ABOUT: SensorReads.MOTION,
+    SensorType.QUASI_STATIC: SensorReads.ROWS,
+    SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
+    SensorType.WORK: SensorReads.FORCES,
+}
 
 
 class SettingsFields(Structure):

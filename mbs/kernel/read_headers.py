@@ -1,4 +1,5 @@
-"""Writes `header.py` from the C headers: the numbers and the structures that the kernel and Python share.
+"""Writes what the C headers say into Python and the documents: `header.py` with the numbers and structures that the
+kernel and Python share, and the table of sensors of `docs/system_file.md`.
 
 The headers are the source. After a change of theirs:
 
@@ -11,10 +12,12 @@ import ast
 import re
 from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
 KERNEL = Path(__file__).resolve().parent
 HEADER = KERNEL / "header.py"
-PUBLIC = "include/ali3.h"
+PAGE = KERNEL.parents[1] / "docs" / "system_file.md"
+PUBLIC, SENSORS = "include/ali3.h", "src/system/sensor_types.h"
 
 ENUMERATIONS = {
     "Status": (PUBLIC, "ALI3_OK", "ALI3_", "Codes of `ali3_status`: how a call of the kernel ended."),
@@ -22,6 +25,9 @@ ENUMERATIONS = {
     "Predictor": (PUBLIC, "ALI3_PREDICTOR_PARABOLA", "ALI3_PREDICTOR_", "`ali3_settings.predictor`."),
     "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
     "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "What the solver says about itself."),
+    "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
+    "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
+    "SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "What the value of a sensor comes from."),
     "Doubt": (PUBLIC, "ALI3_DOUBT_NONE", "ALI3_DOUBT_", "`ali3_doubt`: what a run says against itself."),
 }
 """Per Python name: header, first item, what its items begin with, docstring."""
@@ -95,6 +101,42 @@ def table(file: str, name: str) -> list[list[str]]:
     return entries
 
 
+class SensorEntry(NamedTuple):
+    """An entry of ALI3_SENSOR_TYPES; what the letters of `integers` mean is said there."""
+
+    number: int
+    name: str
+    integers: str
+    reads: str
+    words: tuple[str, str, str]
+
+
+def sensor_types() -> list[SensorEntry]:
+    """The types of sensors in their order."""
+    entries = [
+        SensorEntry(int(number), name, integers, reads, (words[0], words[1], words[2]))
+        for number, name, _, integers, _, _, _, reads, *words in table(SENSORS, "ALI3_SENSOR_TYPES")
+    ]
+    if [entry.number for entry in entries] != list(range(len(entries))):
+        raise ValueError(f"the numbers of ALI3_SENSOR_TYPES in {SENSORS} do not run from 0.")
+    return entries
+
+
+def sensor_page() -> str:
+    """The table of sensors in `docs/system_file.md`."""
+    rows = (f"| {t.number} | {t.name} | {' | '.join(t.words)} |" for t in sensor_types())
+    return "\n".join(["| type | name | ints | reals | value |", "| --- | --- | --- | --- | --- |", *rows])
+
+
+def page(text: str) -> str:
+    """The page with its table as the headers say."""
+    before, begin, rest = text.partition("<!-- begin sensors -->\n")
+    _, end, after = rest.partition("\n<!-- end sensors -->")
+    if not begin or not end:
+        raise ValueError(f"{PAGE.name} has no marks for the table of sensors.")
+    return before + begin + sensor_page() + end + after
+
+
 def structure(name: str) -> list[tuple[str, str]]:
     """Fields of ``ali3_name`` and their ctypes."""
     found = re.search(rf"typedef struct \{{([^{{}}]*)\}} ali3_{name};", text_of(PUBLIC))
@@ -124,8 +166,13 @@ def header() -> str:
         limits.append(f'{name.removeprefix("ALI3_")} = {found[1]}\n"""{text}"""')
     parts.append("\n".join(limits))
     for name, (file, first, prefix, text) in ENUMERATIONS.items():
-        items = enumeration(file, first, prefix).items()
-        parts.append(_class(name, "IntEnum", text, (f"{item} = {value}" for item, value in items)))
+        values = (f"{item} = {value}" for item, value in enumeration(file, first, prefix).items())
+        parts.append(_class(name, "IntEnum", text, values))
+    types = sensor_types()
+    items = (f"{t.name} = {t.number}" for t in types)
+    parts.append(_class("SensorType", "IntEnum", "Types of sensors.", items))
+    reads = "\n".join(f"    SensorType.{t.name}: SensorReads.{t.reads}," for t in types)
+    parts.append(f"\nSENSOR_READS = {{\n{reads}\n}}")
     for c_name, name in STRUCTURES.items():
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")
@@ -141,8 +188,9 @@ def _class(name: str, base: str, text: str, body: Iterable[str]) -> str:
 
 
 def main() -> None:
-    """Write `header.py`."""
+    """Write `header.py` and the table of the page."""
     HEADER.write_text(header(), encoding="utf-8", newline="\n")
+    PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":

@@ -11,11 +11,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline, PPoly
 
 from mbs.errors import ModelError
+from mbs.kernel.header import GuideType
 from mbs.model.checks import number, positive
 from mbs.model.core import ModelCore
 from mbs.model.inputs import Input, owned_input
-
-TIME, INPUT = 0, 1  # guide_type of the System file
 
 
 @dataclass(frozen=True)
@@ -24,7 +23,7 @@ class Guide:
 
     name: str
     index: int
-    type: int
+    type: GuideType
     input: int
     reals: tuple[float, ...]
     start: float
@@ -38,7 +37,7 @@ def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequenc
     owned_input(model, input, f"The guide '{name}'")
     w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
     k = number(gain, f"The gain of guide '{name}'")
-    return _register(model, name, INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
+    return _register(model, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
 
 
 def guide_time(model: ModelCore, name: str, motion: Any, unit: str) -> Guide:
@@ -64,7 +63,7 @@ def guide_time(model: ModelCore, name: str, motion: Any, unit: str) -> Guide:
     ascending[:, : c.shape[0]] = c[::-1].T
     reals = [float(c.shape[1]), *b, *ascending.ravel()]
     start = float(pieces(min(max(0.0, b[0]), b[-1])))
-    return _register(model, name, TIME, -1, reals, start, unit)
+    return _register(model, name, GuideType.OF_TIME, -1, reals, start, unit)
 
 
 def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
@@ -74,7 +73,9 @@ def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
     return guide
 
 
-def _register(model: ModelCore, name: str, type: int, input: int, reals: list[float], start: float, unit: str) -> Guide:
+def _register(
+    model: ModelCore, name: str, type: GuideType, input: int, reals: list[float], start: float, unit: str
+) -> Guide:
     model.unique("guide", name)
     guide = Guide(name, len(model.guides), type, input, tuple(float(r) for r in reals), start, unit)
     model.guides.append(guide)

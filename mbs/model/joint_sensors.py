@@ -9,12 +9,11 @@ from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
 from mbs.errors import ModelError
+from mbs.kernel.header import SensorType
 from mbs.model.body import Body
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.reactions import Term, folded, force_on_first, moment_terms
 from mbs.model.sensors import Sensor, SensorVocabulary, component_number
-
-ROWS, TERMS = 9, 18  # sensor types of the System file
 
 
 class JointSensorVocabulary(SensorVocabulary):
@@ -28,7 +27,7 @@ class JointSensorVocabulary(SensorVocabulary):
 
     def _sense_terms(self, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
         joint.keep = joint.keep or any(term.equation in joint.force_equations for term in terms)
-        return self._sense(name, unit, description, TERMS, joint=joint, terms=terms)
+        return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
 
     def sense_joint_force(
         self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
@@ -66,7 +65,7 @@ class JointSensorVocabulary(SensorVocabulary):
             k = component_number(component, self.dimension, f"sensor '{name}'")
             rows, weights = rows[k : k + 1], [-found.rows_weight]
         found.keep = True
-        return self._sense(name, unit, description, ROWS, integers=rows, reals=weights, joint=found)
+        return self._sense(name, unit, description, SensorType.REACTION, integers=rows, reals=weights, joint=found)
 
     def _driven_distance(self, name: str, joint: Joint, component: str, unit: str, description: str) -> Sensor:
         """(|p1 - p2|^2 - s^2)/2 = 0: the multiplier times the length s is the tension."""

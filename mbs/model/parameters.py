@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mbs.errors import ModelError
+from mbs.kernel.header import GuideType
 from mbs.model.checks import number
 from mbs.model.core import ModelCore
 
@@ -68,7 +69,7 @@ def _target(model: ModelCore, name: str, owner: Any, real: Any, scale: float) ->
                 )
             return ELEMENT, index, list(element.real_names).index(real), factor
     for guide in model.guides:
-        if guide.name == owner_name and guide.type == 1 and real in GUIDE_REALS:
+        if guide.name == owner_name and guide.type == GuideType.OF_INPUT and real in GUIDE_REALS:
             return GUIDE, guide.index, GUIDE_REALS.index(real), factor
     raise ModelError(
         f"The parameter '{name}' writes '{real}' of '{owner_name}', but the model has no such element or guide."

@@ -13,6 +13,7 @@ from mbs.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
 from mbs.flexible.inertia_relief import InertiaRelief
+from mbs.kernel.header import SensorType, SolverValue
 from mbs.model.body import Body
 from mbs.model.core import Coordinate, ModelCore
 from mbs.model.flexible import FlexibleBody
@@ -23,12 +24,10 @@ from mbs.model.reactions import Term
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 WORKS = ("work", "nonconservative")
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
-SOLVER = (
-    *("iterations", "violation", "residual", "factorizations", "halvings", "status"),
-    *("energy_error", "energy_balance"),
-)
-SOLVER_UNITS = ("1", "m", "m", "1", "1", "1", "J", "1")
-SOLVER_WHOLE = ("iterations", "factorizations", "halvings", "status")
+SOLVER = tuple(value.name.lower() for value in SolverValue)
+SOLVER_UNITS = {SolverValue.VIOLATION: "m", SolverValue.RESIDUAL: "m", SolverValue.ENERGY_ERROR: "J"}
+SOLVER_WHOLE = (SolverValue.ITERATIONS, SolverValue.FACTORIZATIONS, SolverValue.HALVINGS, SolverValue.STATUS)
+SIGNALS = (SensorType.SIGNAL, SensorType.SIGNAL_RATE, SensorType.SIGNAL_SECOND_RATE)
 RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
 
 
@@ -38,7 +37,7 @@ class Sensor:
 
     Parameters
     ----------
-    type : int
+    type : SensorType
         Sensor type of the System file.
     signals : sequence of Affine
         Its signals; their numbers are put after `integers`.
@@ -61,7 +60,7 @@ class Sensor:
     name: str
     unit: str
     description: str
-    type: int
+    type: SensorType
     signals: Sequence[Affine] = ()
     integers: Sequence[int] = ()
     reals: Sequence[float] = ()
@@ -95,7 +94,7 @@ class SensorVocabulary(ModelCore):
         name: str,
         unit: str,
         description: str,
-        type: int,
+        type: SensorType,
         signals: Sequence[Affine] = (),
         integers: Sequence[int] = (),
         reals: Sequence[float] = (),
@@ -135,11 +134,13 @@ class SensorVocabulary(ModelCore):
             if axes not in ("earth", "body"):
                 raise ModelError(f"The axes of sensor '{name}' are {axes!r}; they must be 'earth', 'body' or a body.")
             if axes == "earth":
-                return self._sense(name, unit, description, order, [p[k]], reals=[1.0])
+                return self._sense(name, unit, description, SIGNALS[order], [p[k]], reals=[1.0])
             axes = body
         self.owned(axes, f"The sensor '{name}'")
         axis = axes.vector(np.eye(self.dimension)[k])
-        return self._sense(name, unit, description, 3, [*spatial(p), *spatial(axis)], integers=[order])
+        return self._sense(
+            name, unit, description, SensorType.COMPONENT, [*spatial(p), *spatial(axis)], integers=[order]
+        )
 
     def sense_position(
         self,
@@ -191,7 +192,9 @@ class SensorVocabulary(ModelCore):
         if order not in (0, 1, 2):
             raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0, 1 or 2.")
         signals = [*spatial(vector), *spatial(axis)]
-        return self._sense(name, unit or RATE_UNITS["m"][order], description, 3, signals, integers=[order])
+        return self._sense(
+            name, unit or RATE_UNITS["m"][order], description, SensorType.COMPONENT, signals, integers=[order]
+        )
 
     def sense_coordinate(
         self,
@@ -209,7 +212,9 @@ class SensorVocabulary(ModelCore):
         expression = self.expression(coordinate, f"The sensor '{name}'")
         if not unit:
             unit = RATE_UNITS[coordinate.unit][order] if isinstance(coordinate, Coordinate) else "1"
-        return self._sense(name, unit, description, order, [expression], reals=[scale], display_unit=display_unit)
+        return self._sense(
+            name, unit, description, SIGNALS[order], [expression], reals=[scale], display_unit=display_unit
+        )
 
     def notice(self, sensor: Sensor, text: str) -> Sensor:
         """Let a run say `text` when a sensor is not zero: what a user should hear of without looking at every output.
@@ -236,7 +241,7 @@ class SensorVocabulary(ModelCore):
         """
         if not isinstance(self.owned(body, f"The sensor '{name}'"), FlexibleBody):
             raise ModelError(f"The sensor '{name}' needs a flexible body, not '{body.name}'.")
-        return self._sense(name, unit, description, 0, [body.combination(weights)], reals=[1.0])
+        return self._sense(name, unit, description, SensorType.SIGNAL, [body.combination(weights)], reals=[1.0])
 
     def sense_angular_rate(
         self, name: str, body: Body, component: str = "z", unit: str = "rad/s", description: str = ""
@@ -248,23 +253,27 @@ class SensorVocabulary(ModelCore):
         k = COMPONENTS["z"] if self.dimension == 2 else component_number(component, 3, f"sensor '{name}'")
         e = np.eye(self.dimension)
         a, b = body.vector(e[(k + 1) % 3]), body.vector(e[(k + 2) % 3])
-        return self._sense(name, unit, description, 6, [*spatial(a), *spatial(b)], reals=[1.0])
+        return self._sense(name, unit, description, SensorType.ANGULAR_RATE, [*spatial(a), *spatial(b)], reals=[1.0])
 
     def sense_yaw(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
         """Angle of the body's x axis in the earth's x-y plane, rad (planar: its rotation)."""
         a = body.vector(np.eye(self.dimension)[0])
-        return self._sense(name, unit, description, 4, [a[1], a[0]])
+        return self._sense(name, unit, description, SensorType.ANGLE, [a[1], a[0]])
 
     def sense_pitch(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
         """-asin of the z component of the body's x axis, rad: positive nose down."""
         self._spatial_only(name)
-        return self._sense(name, unit, description, 5, [body.vector((1.0, 0.0, 0.0))[2]])
+        return self._sense(name, unit, description, SensorType.PITCH, [body.vector((1.0, 0.0, 0.0))[2]])
 
     def sense_roll(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
         """atan2 of the z components of the body's y and z axes, rad: positive left side up."""
         self._spatial_only(name)
         return self._sense(
-            name, unit, description, 4, [body.vector((0.0, 1.0, 0.0))[2], body.vector((0.0, 0.0, 1.0))[2]]
+            name,
+            unit,
+            description,
+            SensorType.ANGLE,
+            [body.vector((0.0, 1.0, 0.0))[2], body.vector((0.0, 0.0, 1.0))[2]],
         )
 
     def sense_quaternion(
@@ -275,7 +284,7 @@ class SensorVocabulary(ModelCore):
         if component not in ("w", "x", "y", "z"):
             raise ModelError(f"The component of sensor '{name}' is {component!r}; it must be 'w', 'x', 'y' or 'z'.")
         axes = [s for e in np.eye(3) for s in body.vector(e).components]
-        return self._sense(name, unit, description, 7, axes, integers=["wxyz".index(component)])
+        return self._sense(name, unit, description, SensorType.QUATERNION, axes, integers=["wxyz".index(component)])
 
     def sense_norm(
         self, name: str, vector: AffineVector, order: int = 0, unit: str = "", description: str = ""
@@ -284,7 +293,9 @@ class SensorVocabulary(ModelCore):
         if order not in (0, 1):
             raise ModelError(f"The order of sensor '{name}' is {order!r}; it must be 0 or 1.")
         unit = unit or RATE_UNITS["m"][order]
-        return self._sense(name, unit, description, 14, list(vector.components), integers=[order, len(vector)])
+        return self._sense(
+            name, unit, description, SensorType.NORM, list(vector.components), integers=[order, len(vector)]
+        )
 
     def sense_direction(
         self,
@@ -298,13 +309,13 @@ class SensorVocabulary(ModelCore):
     ) -> Sensor:
         """Direction of the velocity of a point in moving axes, atan2(axis_2 . v, axis_1 . v), rad (side-slip angle)."""
         signals = [*spatial(point), *spatial(axis_1), *spatial(axis_2)]
-        return self._sense(name, unit, description, 15, signals, integers=[order])
+        return self._sense(name, unit, description, SensorType.DIRECTION, signals, integers=[order])
 
     def sense_angle_between(
         self, name: str, a: AffineVector, b: AffineVector, c: AffineVector, unit: str = "rad", description: str = ""
     ) -> Sensor:
         """Angle from b to a about c, atan2((b x a) . c, a . b), rad."""
-        return self._sense(name, unit, description, 16, [*spatial(a), *spatial(b), *spatial(c)])
+        return self._sense(name, unit, description, SensorType.ANGLE_ABOUT, [*spatial(a), *spatial(b), *spatial(c)])
 
     def sense_element(
         self, name: str, element: Any, output: str, scale: float = 1.0, unit: str = "", description: str = ""
@@ -319,7 +330,7 @@ class SensorVocabulary(ModelCore):
                             name,
                             unit or out.unit,
                             description or out.description,
-                            8,
+                            SensorType.ELEMENT_OUTPUT,
                             integers=[index, k],
                             reals=[scale],
                             whole=out.whole and scale == 1.0,
@@ -375,7 +386,9 @@ class SensorVocabulary(ModelCore):
         if not names or len(set(names)) < len(names):
             raise ModelError(f"The sensor '{name}' needs at least one element and each once, got {names}.")
         numbers = [known[element] for element in names]
-        return self._sense(name, unit, description, 19, integers=[WORKS.index(kind), len(numbers), *numbers])
+        return self._sense(
+            name, unit, description, SensorType.WORK, integers=[WORKS.index(kind), len(numbers), *numbers]
+        )
 
     def sense_quasi_static(
         self,
@@ -409,25 +422,29 @@ class SensorVocabulary(ModelCore):
         signals = [*body.point(origin).components, *(s for e in np.eye(3) for s in body.vector(e).components)]
         weights = np.concatenate([relief.forces[output], relief.acceleration[output], relief.rotation[output]])
         reals = [*self.gravity, *weights]
-        return self._sense(name, unit, description, 17, signals, [n], reals, joints=list(body.ports.values()))
+        return self._sense(
+            name, unit, description, SensorType.QUASI_STATIC, signals, [n], reals, joints=list(body.ports.values())
+        )
 
     def sense_constant(
         self, name: str, value: float, unit: str = "1", description: str = "", whole: bool = False
     ) -> Sensor:
         """A number that does not change; `whole`: an integer for an FMU."""
-        return self._sense(name, unit, description, 0, [Affine({}, 1.0)], reals=[float(value)], whole=whole)
+        return self._sense(
+            name, unit, description, SensorType.SIGNAL, [Affine({}, 1.0)], reals=[float(value)], whole=whole
+        )
 
     def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
         """ "kinetic", "gravity", "elastic" or "total" energy, J."""
         if kind not in ENERGIES:
             raise ModelError(f"The energy of sensor '{name}' is {kind!r}; it must be one of {', '.join(ENERGIES)}.")
-        return self._sense(name, unit, description, 10, integers=[ENERGIES.index(kind)])
+        return self._sense(name, unit, description, SensorType.ENERGY, integers=[ENERGIES.index(kind)])
 
     def sense_input(self, name: str, input: Any, unit: str = "", description: str = "") -> Sensor:
         """An input as used (clamped)."""
         if input not in self.inputs:
             raise ModelError(f"The sensor '{name}' needs an input of model '{self.name}', got {input!r}.")
-        return self._sense(name, unit or input.unit, description, 11, integers=[input.index])
+        return self._sense(name, unit or input.unit, description, SensorType.INPUT, integers=[input.index])
 
     def sense_guide(
         self, name: str, guide: Any, order: int = 0, scale: float = 1.0, unit: str = "", description: str = ""
@@ -435,7 +452,9 @@ class SensorVocabulary(ModelCore):
         """A guide or its rates."""
         if guide not in self.guides or order not in (0, 1, 2):
             raise ModelError(f"The sensor '{name}' needs a guide of model '{self.name}' and an order 0, 1 or 2.")
-        return self._sense(name, unit or guide.unit, description, 12, integers=[guide.index, order], reals=[scale])
+        return self._sense(
+            name, unit or guide.unit, description, SensorType.GUIDE, integers=[guide.index, order], reals=[scale]
+        )
 
     def sense_solver(self, name: str, kind: str, description: str = "") -> Sensor:
         """What the solver says about itself.
@@ -451,8 +470,15 @@ class SensorVocabulary(ModelCore):
         """
         if kind not in SOLVER:
             raise ModelError(f"The solver sensor '{name}' asks for {kind!r}; it must be one of {', '.join(SOLVER)}.")
-        k = SOLVER.index(kind)
-        return self._sense(name, SOLVER_UNITS[k], description, 13, integers=[k], whole=kind in SOLVER_WHOLE)
+        value = SolverValue[kind.upper()]
+        return self._sense(
+            name,
+            SOLVER_UNITS.get(value, "1"),
+            description,
+            SensorType.SOLVER,
+            integers=[value],
+            whole=value in SOLVER_WHOLE,
+        )
 
     def _spatial_only(self, name: str) -> None:
         if self.dimension == 2:

@@ -9,6 +9,7 @@ import numpy as np
 
 from mbs.errors import SimulationError
 from mbs.kernel.binding import KernelError, Status
+from mbs.kernel.header import GuideType
 from mbs.settings import Settings
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.prepared_system import prepared
@@ -49,7 +50,7 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
     """Methods that may be the fastest for a System, and what of it leaves no others."""
     if len(system.arrays["y0"]) > 0:
         return ["ali3p"], "elements with states"
-    if np.any(system.arrays["guide_type"] == 1):
+    if np.any(system.arrays["guide_type"] == GuideType.OF_INPUT):
         return ["ali3p"], "guides through a filter"
     coarse = ["ali3p"] if tolerance >= LOOSE else []
     if not prepared(system)[1]["report"]["no_tree"]:

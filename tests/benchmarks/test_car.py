@@ -6,7 +6,8 @@ import json
 
 import pytest
 
-from benchmarks import car
+from benchmarks.car import __main__ as car
+from benchmarks.car.accuracy import verdict
 
 KEYS = {
     "manoeuvre", "h_s", "path_error_m", "path_error_rel", "wheel_load_error_rel", "iterations_mean", "iterations_max",
@@ -47,8 +48,8 @@ def test_verdict_takes_the_largest_step_within_both_bounds():
         {"manoeuvre": "a", "h_s": h, "path_error_rel": path, "wheel_load_error_rel": load, "realtime_factor": factor}
         for h, path, load, factor in ((0.01, 0.02, 0.0, 100.0), (0.005, 0.001, 0.04, 80.0), (0.002, 0.001, 0.01, 60.0))
     ]
-    assert car.verdict(rows) == [
+    assert verdict(rows) == [
         "a: 2 ms, 60 times real time",
         "all: 2 ms, at least 60 times real time (aim 50: reached)",
     ]
-    assert car.verdict(rows[:2]) == ["a: no step stays within the bounds"]
+    assert verdict(rows[:2]) == ["a: no step stays within the bounds"]

@@ -7,11 +7,16 @@ import json
 import numpy as np
 import pytest
 
-from benchmarks import dissipative, growth, honesty, pages, puma, stability, work_precision
+from benchmarks import dissipative, growth, honesty, puma, stability, work_precision
 from benchmarks.baselines.run import METHODS as CLASSICAL
-from benchmarks.kernel_methods import TITLES, TREE_ONLY
-from benchmarks.stability_margins import margins
-from benchmarks.work_precision_chart import KERNEL as COLOURED
+from benchmarks.methods import pages
+from benchmarks.methods.arithmetic import operations
+from benchmarks.methods.honesty import VERDICTS
+from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY
+from benchmarks.methods.stability_margins import margins
+from benchmarks.methods.work_precision import time_at_error
+from benchmarks.methods.work_precision_chart import KERNEL as COLOURED
+from benchmarks.shared.pages import replace, table
 from mbs import Settings, compile
 from mbs.scenes import double_four_bar
 from mbs.settings import METHODS as KERNEL
@@ -106,7 +111,7 @@ def test_the_default_says_where_it_is_wrong_and_is_quiet_where_it_is_right(tmp_p
 def test_what_goes_against_the_rule_is_counted_and_named():
     def row(error, told, said):
         wrong = error > 0.05
-        verdict = honesty.VERDICTS[2 * wrong + (said != wrong if wrong else said)]
+        verdict = VERDICTS[2 * wrong + (said != wrong if wrong else said)]
         return {"scene": "s", "method": "radau_5", "h_s": error, "ended": "finished", "error": error, "told": told} | {
             "repeated": "yes" if told else "no",
             "balance": None,
@@ -135,7 +140,7 @@ def test_growth_counts_arithmetic_and_finds_the_non_zeros_linear(tmp_path):
     assert {"growth", "exponents", "chassis growth"} == set(pages.growth_blocks({"meta": meta, "rows": rows}))
     assert all(0.0 < r["of_dgemm"] < 1.0 for r in rows)
     assert (tmp_path / "growth.png").read_bytes().startswith(PNG)
-    counts = [growth.operations(compile(double_four_bar.build(n)), 2.0, 2.0, 4.0) for n in (50, 100, 200)]
+    counts = [operations(compile(double_four_bar.build(n)), 2.0, 2.0, 4.0) for n in (50, 100, 200)]
     assert counts[2] - counts[1] == pytest.approx(2.0 * (counts[1] - counts[0]), rel=0.02)
 
 
@@ -144,7 +149,7 @@ def test_the_arithmetic_of_a_dense_front_is_a_third_of_its_cube():
     system = compile(double_four_bar.build(2))
     m = system.nq
     assert system.report["factor_nonzeros"] == m * (m + 1) // 2  # one front
-    with_, without = (growth.operations(system, 0.0, f, 0.0) for f in (1.0, 0.0))
+    with_, without = (operations(system, 0.0, f, 0.0) for f in (1.0, 0.0))
     in_row = np.diff(system.arrays["row_ptr"])
     assembly = np.sum(in_row * (in_row + 1)) + 3 * len(system.arrays["quad_h"])
     assert with_ - without - assembly == pytest.approx(m**3 / 3.0, rel=0.35)  # and lower powers of m
@@ -155,18 +160,18 @@ def test_time_at_equal_error_lies_on_the_curve_and_no_curve_is_extended():
         return {"method": "m", "h_s": 1.0 / wall, "wall_s": wall, "position_error_m": error}
 
     rows = [row(1.0, 1e-2), row(10.0, 1e-4), row(100.0, 1e-6)]
-    assert work_precision.time_at_error(rows, "m", 1e-3) == pytest.approx(np.sqrt(10.0))
-    assert work_precision.time_at_error(rows, "m", 1.0) == 1.0
-    assert work_precision.time_at_error(rows, "m", 1e-7) is None
-    assert work_precision.time_at_error(rows, "other", 1e-3) is None
+    assert time_at_error(rows, "m", 1e-3) == pytest.approx(np.sqrt(10.0))
+    assert time_at_error(rows, "m", 1.0) == 1.0
+    assert time_at_error(rows, "m", 1e-7) is None
+    assert time_at_error(rows, "other", 1e-3) is None
 
 
 def test_a_lucky_step_does_not_count():
     errors = {1.0: 1e-2, 10.0: 1e-5, 100.0: 1e-3, 1000.0: 1e-5, 10000.0: None}
     rows = [{"method": "m", "h_s": 1.0 / w, "wall_s": w, "position_error_m": e} for w, e in errors.items()]
-    assert work_precision.time_at_error(rows, "m", 1e-4) == pytest.approx(np.sqrt(100.0 * 1000.0))
-    assert work_precision.time_at_error(rows, "m", 2e-3) < 10.0
-    assert work_precision.time_at_error(rows[:3], "m", 1e-4) is None
+    assert time_at_error(rows, "m", 1e-4) == pytest.approx(np.sqrt(100.0 * 1000.0))
+    assert time_at_error(rows, "m", 2e-3) < 10.0
+    assert time_at_error(rows[:3], "m", 1e-4) is None
 
 
 def test_margins_count_decades_around_the_default_and_stop_at_the_first_gap():
@@ -229,5 +234,5 @@ def test_the_puma_table_has_the_paper_beside_it(tmp_path):
 
 def test_tables_go_between_their_marks_and_nothing_else_changes():
     page = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n<!-- begin y -->\nkept\n<!-- end y -->\n"
-    new = pages.replace(page, {"x": pages.table([{"h_s": 0.01, "e": None}], {"h_s": "g", "e": ".1f"}), "z": "nowhere"})
+    new = replace(page, {"x": table([{"h_s": 0.01, "e": None}], {"h_s": "g", "e": ".1f"}), "z": "nowhere"})
     assert new == page.replace("old", "| h s | e |\n| --- | --- |\n| 0.01 | – |")

@@ -9,29 +9,29 @@ import time
 import numpy as np
 import pytest
 
-from benchmarks import car_manoeuvres
-from benchmarks.command import parser_of, pyplot, save_chart, save_rows, watched
-from benchmarks.step_time import step_time
+from benchmarks.car import manoeuvres
+from benchmarks.shared.command import parser_of, pyplot, save_chart, save_rows, watched
+from benchmarks.shared.timing import step_time
 
 H, DURATION = 0.01, 0.05  # s
 
 
 def test_only_the_steps_are_between_two_looks_at_the_clock():
     ticks = itertools.count()
-    system = car_manoeuvres.system_of("drop")
+    system = manoeuvres.system_of("drop")
     assert step_time(system, DURATION, H, 3, lambda: float(next(ticks))) == 1.0
     assert next(ticks) == 2 * 4
 
 
 def test_inputs_have_their_first_values_before_the_start():
-    system = car_manoeuvres.system_of("drop")
+    system = manoeuvres.system_of("drop")
     falls = {"throttle": (np.array([0.0, 0.0, 1.0]), np.array([0.0, 2.0, 0.5]))}
     with pytest.raises(ValueError, match=r"throttle.* is 2 .* t = 0 s"):
         step_time(system, DURATION, H, 1, time.perf_counter, falls)
 
 
 def test_the_bar_shows_itself_during_a_first_item_that_takes_long(capsys, monkeypatch):
-    monkeypatch.setattr("benchmarks.command.DELAY", 0.05)
+    monkeypatch.setattr("benchmarks.shared.command.DELAY", 0.05)
     monkeypatch.setattr("mbs.progress.DELAY", 0.05)
     for k in watched(range(2)):
         if k == 0:

@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 from benchmarks import error_control
+from benchmarks.methods.error_control import MOST_ERROR, compare, misses
 
 
 def test_the_table_holds_every_method_and_the_choice(tmp_path: Path) -> None:
@@ -17,7 +18,7 @@ def test_the_table_holds_every_method_and_the_choice(tmp_path: Path) -> None:
     assert methods[3] == "auto: runge_kutta_8"
     for row in rows:
         assert row["ended"] == "finished"
-        assert row["error_over_tolerance"] < error_control.MOST_ERROR
+        assert row["error_over_tolerance"] < MOST_ERROR
         assert 0.0 < row["told_over_tolerance"] < 1.5
     assert rows[0]["steps"] > 20 * rows[2]["steps"]
 
@@ -29,9 +30,9 @@ def row(method: str, cpu: float, error: float, warned: str = "") -> dict[str, ob
 
 def test_misses_are_dear_choices_and_silent_errors() -> None:
     rows = [row("radau_5", 1.0, 30.0), row("ali3p", 2.0, 1.0), row("auto: ali3p", 3.0, 1.0)]
-    error_control.compare(rows)
+    compare(rows)
     assert [r["ratio"] for r in rows] == [0.5, 1.0, 1.5]  # the wrong one is no yardstick
-    assert error_control.misses(rows) == rows[:1]
+    assert misses(rows) == rows[:1]
     rows = [row("radau_5", 1.0, 30.0, "yes"), row("ali3p", 2.0, 1.0), row("auto: ali3p", 5.0, 1.0)]
-    error_control.compare(rows)
-    assert error_control.misses(rows) == rows[2:]
+    compare(rows)
+    assert misses(rows) == rows[2:]

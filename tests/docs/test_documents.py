@@ -11,7 +11,8 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from benchmarks.cases import CASES
+import mbs
+from benchmarks.references.cases import CASES
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
 from fmu_src.variables import variable_table
@@ -143,3 +144,11 @@ def test_theory_has_all_equations_from_1_to_25():
     table = THEORY.partition("## Equation of the paper")[2].partition("\n## ")[0]
     first_cells = " ".join(line.split("|")[1] for line in table.splitlines() if line.startswith("| ("))
     assert {int(n) for n in re.findall(r"\((\d+)\)", first_cells)} == set(range(1, 26))
+
+
+def test_the_reference_has_every_public_name():
+    pages = "\n".join(f.read_text(encoding="utf-8") for f in (ROOT / "docs" / "reference").glob("*.rst"))
+    named = set(re.findall(r"^\.\. auto\w+:: mbs\.(\w+)$", pages, re.MULTILINE))
+    assert set(mbs.__all__) - named == set()
+    for module in ("elements", "flexible"):
+        assert f".. automodule:: mbs.{module}\n   :imported-members:" in pages

@@ -10,8 +10,8 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-from benchmarks import calculix
-from benchmarks.car_statics import interface_forces
+from benchmarks.car import calculix
+from benchmarks.car.statics import interface_forces
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.inertia_relief import inertia_relief
 from mbs.flexible.recovery import gauge_rows

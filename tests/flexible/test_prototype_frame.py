@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from scipy.linalg import eigh
 from scipy.sparse.linalg import spsolve
 
-from benchmarks.car_statics import interface_forces
+from benchmarks.car.statics import interface_forces
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes

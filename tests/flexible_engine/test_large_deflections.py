@@ -1,6 +1,7 @@
 """What linear elasticity in the floating frame costs, and how welded parts buy it back: spinning and falling beams.
 
-References: geometrically exact beams of an independent program (`benchmarks/exudyn_beams.py`) and closed forms.
+References: geometrically exact beams of an independent program (`benchmarks/references/exudyn_beams.py`) and closed
+forms.
 """
 
 from __future__ import annotations

@@ -121,6 +121,46 @@ def test_bad_files_are_named(fmus: dict[str, Path], turn: Path, tmp_path: Path) 
     assert "driver needs variables" in drive(fmus["motor_pendulum"], "-m", "double_lane_change").stderr
 
 
+def test_runs_that_no_memory_holds_are_refused(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+    done = drive(fmus["sledge"], "-m", turn, "--step", 1e-9, "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert "3 s in steps of 1e-09 s are 3e+09 rows of" in done.stderr
+    assert "take a step of at least" in done.stderr
+    turn.with_suffix(".ini").write_text("[run]\nstop_time = 1e12\n")
+    done = drive(fmus["sledge"], "-m", turn, "--out", tmp_path / "out")
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "1e+12 s in steps of" in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_results_that_cannot_be_written_are_told_before_the_drive(
+    fmus: dict[str, Path], turn: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "out" / "sledge_turn.csv").mkdir(parents=True)
+    done = drive(fmus["sledge"], "-m", turn, "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert done.stderr == f"error: {tmp_path}/out/sledge_turn.csv is a folder; a file is to be written there.\n"
+    if sys.platform == "linux":
+        done = drive(fmus["sledge"], "-m", turn, "--out", "/proc/out")
+        assert done.returncode == 2
+        assert done.stderr.startswith("error: /proc/out/sledge_turn.csv cannot be written: ")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
+def test_a_full_disk_leaves_no_table(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+    start = (
+        "import resource, signal, sys; signal.signal(signal.SIGXFSZ, signal.SIG_IGN);"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (1_000_000, 1_000_000));"
+        "from hosts.drive import main; sys.exit(main())"
+    )
+    out = tmp_path / "out"
+    command = [sys.executable, "-c", start, fmus["sledge"], "-m", turn, "--step", "2e-4", "--out", out]
+    done = subprocess.run(map(str, command), capture_output=True, text=True, check=False, cwd=ROOT)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.splitlines()[-1] == f"error: {out}/sledge_turn.csv cannot be written: file too large."
+    assert list(out.iterdir()) == []
+
+
 def test_the_host_knows_fmi_only() -> None:
     for file in (ROOT / "hosts").rglob("*.py"):
         text = file.read_text(encoding="utf-8")

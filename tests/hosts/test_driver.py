@@ -104,6 +104,10 @@ def test_settings_of_the_manoeuvre_are_those_of_a_driver() -> None:
         ({"course": "iso_3888_1", "speed": "fast"}, "not a number"),
         ({"course": "iso_3888_1"}, "needs a course and a speed"),
         ({"course": "iso_3888_1", "speed": "1", "mood": "2"}, "'mood'"),
+        ({"course": "iso_3888_1", "speed": "-20"}, r"speed is -20; it must be positive"),
+        ({"course": "iso_3888_1", "speed": "1_0"}, r"speed: '1_0' is not a number"),
+        ({"course": "iso_3888_1", "speed": "nan"}, r"speed: the value is nan"),
+        ({"course": "iso_3888_1", "speed": "9", "lateral_gain": "-1"}, r"lateral_gain is -1; it must be zero or"),
     ],
 )
 def test_bad_settings_are_refused(settings: dict[str, str], message: str) -> None:

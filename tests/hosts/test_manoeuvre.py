@@ -15,7 +15,7 @@ GOOD = '"time","steering","throttle"\n0,0,0\n1,0,0\n1,0.5,1\n2,0.5,0\n'
 
 
 def written(folder: Path, text: str, settings: str = "") -> str:
-    (folder / "m.csv").write_text(text)
+    (folder / "m.csv").write_text(text, encoding="utf-8")
     if settings:
         (folder / "m.ini").write_text(settings)
     return str(folder / "m.csv")
@@ -51,6 +51,10 @@ def test_start_values_from_a_comment_and_from_the_file_beside(tmp_path: Path) ->
         ('"time","u"\n0,0\n1,nan\n', r"line 3, column 'u': the value is nan"),
         ('"time","u"\n0,0\ninf,1\n', r"line 3, column 'time': the value is inf"),
         ('"time","u"\n0,zero\n', r"line 2, column 'u': 'zero' is not a number"),
+        ('"time","u"\n0,1_0\n1,1\n', r"line 2, column 'u': '1_0' is not a number"),
+        ('"time","u"\n0,\uff11\n1,1\n', r"line 2, column 'u': '\uff11' is not a number"),
+        ('"time","u"\n0,1e999\n1,1\n', r"line 2, column 'u': '1e999' is too large"),
+        (f'"time","u"\n0,{140_000 * "1"}\n1,1\n', r"line 2: a cell has 140000 characters"),
         ('"time","u"\n0,0,0\n', r"line 2: 3 values where the heading has 2 columns"),
         ('"u","time"\n0,0\n', r"line 1: the heading is"),
         ('"time","u","u"\n0,0,0\n', r"line 1: the heading is"),
@@ -78,6 +82,11 @@ def test_binary_tables_are_refused(tmp_path: Path) -> None:
         ("[begin]\nx = 1\n", r"section \[begin\]"),
         ("[start]\nx = fast\n", "'fast' is not a number"),
         ("x\n", "not understood"),
+        ("[run]\nstop_tme = 7\n", r"m\.ini: \[run\] has 'stop_tme'; known is stop_time"),
+        ("[run]\nstop_time = -3\n", r"stop_time is -3 s; it must be positive"),
+        ("[run]\nstop_time = 1_0\n", r"m\.ini: stop_time: '1_0' is not a number"),
+        ("[DEFAULT]\nstop_time = 7\n", r"section \[DEFAULT\]"),
+        ("[run]\nstop_time = 7\nstop_time = 8\n", r"not understood: .*already exists"),
     ],
 )
 def test_bad_settings_are_refused(tmp_path: Path, settings: str, message: str) -> None:

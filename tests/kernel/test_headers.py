@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import re
 import shutil
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from mbs import accuracy
 from mbs.kernel import header, read_headers
 from mbs.kernel.binding import library, load_library
-from mbs.kernel.header import STRUCTURES, Doubt, SolverValue, Status
+from mbs.kernel.header import STRUCTURES, Doubt, GuideType, RoadType, SensorType, SolverValue, Status
 
 
 def test_the_python_side_is_what_the_headers_say():
@@ -19,9 +20,19 @@ def test_the_python_side_is_what_the_headers_say():
     )
 
 
+def test_the_page_of_the_system_file_is_what_the_headers_say():
+    text = read_headers.PAGE.read_text(encoding="utf-8")
+    assert read_headers.page(text) == text, "run: python mbs/kernel/read_headers.py"
+    assert len(re.findall(r"^\| \d+ \| [A-Z_]+ \|", text, re.MULTILINE)) == len(SensorType)
+    with pytest.raises(ValueError, match=r"system_file\.md has no marks"):
+        read_headers.page("# The System file\n")
+
+
 def test_numbers_known_from_the_documents():
     assert (Status.OK, Status.BAD_ARGUMENT, Status.BRANCH_CHANGED) == (0, 1, 17)
     assert (SolverValue.ITERATIONS, SolverValue.STATUS, SolverValue.ENERGY_BALANCE) == (0, 5, 7)
+    assert (SensorType.SIGNAL, SensorType.ELEMENT_OUTPUT, SensorType.WORK) == (0, 8, 19)
+    assert (GuideType.OF_TIME, GuideType.OF_INPUT, RoadType.PLANE, RoadType.GRID) == (0, 1, 0, 2)
     assert list(Doubt) == [Doubt.NONE, Doubt.HALVINGS, Doubt.BALANCE]
     assert (header.OPEN, header.FARTHEST, header.FASTEST) == (1e-9, 1e8, 1e6)
     assert accuracy.WRONG_BALANCE == header.BALANCE_WRONG == 0.036

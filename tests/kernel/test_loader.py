@@ -10,6 +10,8 @@ import pytest
 from mbs import Model, compile
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.header import SolverValue
+from mbs.kernel.read_headers import SensorEntry, sensor_types
 from mbs.scenes import bricard, spatial_chain
 from mbs.settings import METHODS
 from tests.methods.models import hinge
@@ -61,6 +63,47 @@ def test_sensors_of_work_name_elements(integers: list[int]) -> None:
     assert "sen" in refused(builder.to_bytes())
     builder.sensors[-1] = (19, [0, 1, 0], [1.0])
     assert "sensor 6 of type 19 has 1 reals" in refused(builder.to_bytes())
+
+
+GOOD = dict.fromkeys("sSeougGrdbkqhnN", 0) | {"S": -1, "G": -1, "n": 2, "N": 2, "P": 3}
+"""An integer that each letter of the list of sensor types allows."""
+LIMITS = {"s": "nsig", "S": "nsig", "e": "ne", "u": "nu", "g": "ng", "G": "ng", "r": "nc"}
+ORDERS = {"d": 3, "b": 2, "k": 4, "q": 4, "P": 4, "h": len(SolverValue)}
+LEAST = {"S": -1, "G": -1, "N": 1, "P": 2}
+REALS_OF = {"REACTION": 2, "REACTION_PRODUCTS": 2, "QUASI_STATIC": 21}
+SCALED = ("SIGNAL", "SIGNAL_RATE", "SIGNAL_SECOND_RATE", "ANGULAR_RATE", "ELEMENT_OUTPUT", "GUIDE")
+
+
+def letters_of(entry: SensorEntry) -> str:
+    """A letter for each integer of a sensor with the good numbers of items."""
+    head, _, items = entry.integers.partition("(")
+    count = next((GOOD[letter] for letter in head if letter in "nNP"), 0)
+    return head + items.rstrip(")") * count
+
+
+@pytest.mark.parametrize("entry", sensor_types(), ids=lambda entry: entry.name)
+def test_integers_and_reals_of_each_sensor_type_are_checked(entry: SensorEntry) -> None:
+    builder, letters = everything(), letters_of(entry)
+    sizes = LoadedSystem(builder.to_bytes()).sizes
+    good = [GOOD[letter] for letter in letters]
+    reals = [1.0] * REALS_OF.get(entry.name, int(entry.name in SCALED))
+
+    def with_sensor(integers: list[int], reals: list[float]) -> bytes:
+        builder.sensors[-1] = (entry.number, integers, reals)
+        return builder.to_bytes()
+
+    Instance(LoadedSystem(with_sensor(good, reals)))
+    for wrong in ([*good, 0], good[:-1]):
+        assert "sen" in refused(with_sensor(wrong, reals))
+    for n in {len(reals) + 1, max(len(reals) - 1, 0)} - {len(reals)}:
+        assert f"sensor 6 of type {entry.number} has {n} reals" in refused(with_sensor(good, [1.0] * n))
+    for k, letter in enumerate(letters):
+        too_small = LEAST.get(letter, 0) - 1
+        too_large = (
+            [getattr(sizes, LIMITS[letter])] if letter in LIMITS else [ORDERS[letter]] if letter in ORDERS else []
+        )
+        for wrong_value in (too_small, *too_large):
+            refused(with_sensor([*good[:k], wrong_value, *good[k + 1 :]], reals))
 
 
 def test_every_truncation_is_refused() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.kernel_methods import POSITIONS_ONLY, TREE_ONLY
+from benchmarks.methods.kernel_methods import POSITIONS_ONLY, TREE_ONLY
 from mbs import Model
 from mbs.settings import METHODS
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from benchmarks.cases import CASES, system_of
-from benchmarks.honesty_scenes import printed_model
+from benchmarks.methods.honesty_scenes import printed_model
+from benchmarks.references.cases import CASES, system_of
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import cart_pole
 from mbs.settings import METHODS

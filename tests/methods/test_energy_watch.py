@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from benchmarks import references
-from benchmarks.cases import CASES, system_of
-from benchmarks.honesty_scenes import printed_model
+from benchmarks.methods.honesty_scenes import printed_model
+from benchmarks.references.cases import CASES, system_of
 from mbs import AccuracyWarning, Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.binding import Status, open_row
 from mbs.scenes import cart_pole

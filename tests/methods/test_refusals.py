@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from benchmarks.cases import system_of
-from benchmarks.honesty_scenes import printed_model
+from benchmarks.methods.honesty_scenes import printed_model
+from benchmarks.references.cases import system_of
 from mbs import Model, Pose, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.binding import FARTHEST, Instance, KernelError, LoadedSystem, Status, open_row
 from mbs.scenes import cart_pole, prototype_car

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.kernel_methods import TREE_ONLY
+from benchmarks.methods.kernel_methods import TREE_ONLY
 from mbs import Model, ModelError, Settings, Simulation, compile
 from mbs.scenes import puma
 from mbs.settings import METHODS

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.assembly_defect import COMPONENTS, reference
+from benchmarks.references.assembly_defect import COMPONENTS, reference
 from mbs import simulate
 from mbs.compiler import compile
 from mbs.errors import ModelError

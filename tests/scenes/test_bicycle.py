@@ -4,16 +4,14 @@ and the run of the library at 4.6 m/s against that model.
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
 
 import mbs
 from benchmarks import references
-from benchmarks.bicycle import AT_FIVE, CAPSIZE, WEAVE, eigenvalues, main, stable_speeds
-from benchmarks.cases import exact_of, system_of
-from benchmarks.rolling import RollingBicycle
+from benchmarks.references.bicycle import AT_FIVE, CAPSIZE, WEAVE, eigenvalues, stable_speeds
+from benchmarks.references.cases import exact_of, system_of
+from benchmarks.references.rolling import RollingBicycle
 from mbs.scenes import bicycle
 
 PRINTED = 1e-8  # 1/s: of the published eigenvalues
@@ -101,15 +99,3 @@ def test_the_steps_of_the_default_cost_few_iterations_and_lose_energy_at_second_
     # flying, with its gyroscopic forces alone, it needs 3.3
     assert runs[1].report.mean_iterations < 4.0
     assert sum(r.report.halvings for r in runs) == 0
-
-
-def test_the_command_prints_all_three_and_every_method(tmp_path, capsys):
-    assert main(["--quick", "--json", str(tmp_path / "b.json")]) == 0
-    data = json.loads((tmp_path / "b.json").read_text(encoding="utf-8"))
-    for row in data["meta"]["linear"]:
-        assert row["system"] == pytest.approx(row["published"], abs=1e-6)
-        assert row["outside"] == pytest.approx(row["published"], rel=DIFFERENCES, abs=DIFFERENCES)
-    assert all(row["error"] < 1e-4 for row in data["rows"])
-    printed = capsys.readouterr().out
-    assert "capsize begins" in printed
-    assert "runge_kutta_8" in printed

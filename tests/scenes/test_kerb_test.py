@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from benchmarks import ladder_runs
+from benchmarks.car import fidelity_runs
 from hosts.low_pass import low_pass
 from mbs import Simulation, compile
 from mbs.scenes import kerb_test
@@ -65,7 +65,7 @@ def test_newton_iterations(fidelity):
 
 @pytest.mark.parametrize("fidelity", [1, 2, 3, 4])
 def test_moments_follow_the_reference(fidelity):
-    error = ladder_runs.errors(ladder_runs.sampled(run(fidelity)[1], H), ladder_runs.read_reference("kerb_test"))
+    error = fidelity_runs.errors(fidelity_runs.sampled(run(fidelity)[1], H), fidelity_runs.read_reference("kerb_test"))
     assert error["moment"] < BOUNDS[fidelity]
     assert error["motion"] < 2e-3  # m; the frame sags by 0.35 mm, the kerb is met within a step
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks import car_manoeuvres
+from benchmarks.car import manoeuvres
 from mbs import Pose, Simulation
 from mbs.scenes.prototype_car import car_data
 from mbs.scenes.prototype_car.tyre_data import FRICTION, RADIUS, tyre
@@ -63,7 +63,7 @@ def test_a_start_finds_the_gear_that_fits(speed, gear):
 
 def test_full_lock_at_15_m_s():
     """The front slides: the car turns at what its tyres hold, upright, and not at what the wheels point to."""
-    t = car_manoeuvres.run("full_lock", H)
+    t = manoeuvres.run("full_lock", H)
     assert t.report.failures == 0
     assert t.report.halvings == 0
     assert 6.0 < np.abs(t["chassis.ay"]).max() < 11.0

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks import car_manoeuvres
+from benchmarks.car import manoeuvres
 from mbs import Pose, Simulation, SimulationError, compile
 from mbs.elements.road import KerbRoad, PlaneRoad
 from mbs.scenes import prototype_car
@@ -25,7 +25,7 @@ PEAK, REBOUND, BUMP, ACCELERATION = 0.05, 0.12, 0.4, 0.35  # relative
 
 @pytest.fixture(scope="module")
 def kerb():
-    return car_manoeuvres.run("kerb_drop", H)
+    return manoeuvres.run("kerb_drop", H)
 
 
 def test_kerb_passes_without_failed_or_halved_steps(kerb):
@@ -37,7 +37,7 @@ def test_kerb_passes_without_failed_or_halved_steps(kerb):
 
 @pytest.mark.parametrize("axle", ["F", "R"])
 def test_kerb_response_is_of_the_expected_size(axle):
-    t = car_manoeuvres.run("kerb_drop", 0.001)
+    t = manoeuvres.run("kerb_drop", 0.001)
     expected, w = EXPECTED[axle], f"{axle}L"
     load, travel = t[f"wheel_{w}.Fz"], t[f"wheel_{w}.travel"]
     assert np.count_nonzero(load < 1.0) * 0.001 == pytest.approx(expected["air"], abs=AIR_TIME)

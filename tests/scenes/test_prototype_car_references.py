@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks import car_manoeuvres, car_references
+from benchmarks.car import manoeuvres, trajectories
 
 # per manoeuvre: largest path error over the length of the path, largest wheel load error over the largest load,
 # both at 5 ms; about three times what was measured
-BOUNDS = dict.fromkeys(car_manoeuvres.NAMES, (6e-5, 0.003)) | {
+BOUNDS = dict.fromkeys(manoeuvres.NAMES, (6e-5, 0.003)) | {
     "drop": (6e-4, 0.02),
     "kerb_drop": (1e-4, 0.025),
     "kerb_lock_brake": (3e-4, 0.15),  # a wheel leaves the kerb within a step; at 2 ms it holds, below
@@ -18,14 +18,14 @@ SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay
 
 
 def error(name, h):
-    t, values, length = car_references.read(name)
-    found = car_manoeuvres.run(name, h, every=round(car_manoeuvres.sampling(name) / h))
+    t, values, length = trajectories.read(name)
+    found = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
     np.testing.assert_allclose(found.t, t, rtol=0, atol=1e-6)
     assert found.report.failures == 0
-    return car_references.path_error(found, values), car_references.load_error(found, values), length
+    return trajectories.path_error(found, values), trajectories.load_error(found, values), length
 
 
-@pytest.mark.parametrize("name", car_manoeuvres.NAMES)
+@pytest.mark.parametrize("name", manoeuvres.NAMES)
 def test_manoeuvre_follows_its_reference(name):
     path, load, length = error(name, 0.005)
     assert path / length < BOUNDS[name][0]

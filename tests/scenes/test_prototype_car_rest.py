@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.car_manoeuvres import rise
+from benchmarks.car.manoeuvres import rise
 from mbs import Pose, Settings, compile, simulate
 from mbs.elements.road import PlaneRoad
 from mbs.scenes import prototype_car

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import mbs
-from benchmarks.cases import CASES, exact_of, system_of
-from benchmarks.honesty_scenes import CRANK_ANGLE, SCENES, printed_model
+from benchmarks.methods.honesty_scenes import CRANK_ANGLE, SCENES, printed_model
+from benchmarks.references.cases import CASES, exact_of, system_of
 from mbs import AccuracyWarning, Model, Pose, Settings, Simulation, SimulationError, compile, simulate
 from mbs.accuracy import Accuracy, divisor, judged_sensors
 from mbs.scenes import prototype_car

@@ -11,10 +11,10 @@ from scipy.integrate import solve_ivp
 
 import mbs
 from benchmarks import references
-from benchmarks.car_manoeuvres import inputs_of, load, start_of
-from benchmarks.car_manoeuvres import system_of as car_of
-from benchmarks.cases import CASES, exact_of, system_of
-from benchmarks.honesty_scenes import CRANK_ANGLE, printed_model
+from benchmarks.car.manoeuvres import inputs_of, load, start_of
+from benchmarks.car.manoeuvres import system_of as car_of
+from benchmarks.methods.honesty_scenes import CRANK_ANGLE, printed_model
+from benchmarks.references.cases import CASES, exact_of, system_of
 from mbs.accuracy import AccuracyWarning
 
 ALLOWED = 10.0

@@ -14,6 +14,7 @@
 #include "../instance.h"
 #include "../methods/newton.h"
 #include "../rows/constraints.h"
+#include "../rows/guides.h"
 #include "../rows/velocity_rows.h"
 #include "../sensors/sensors.h"
 
@@ -90,7 +91,7 @@ static void guides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   ali3_vectors *d = &in->tangent;
   for (int32_t g = 0; g < S->size.ng; g++) {
-    if (S->guide_type[g] == 0) continue;
+    if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
     const double *real = in->guide_real + S->guide_real_ptr[g];
     const double w = real[0], target = real[1] * d->used[S->guide_input[g]], slope = target / h, lag = 2.0 * slope / w;
     const double rate = w * lag - slope, decay = ali3_exp(-w * h);

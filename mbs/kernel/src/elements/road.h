@@ -9,12 +9,12 @@ struct ali3_road { /* typedef in element.h */
 };
 typedef struct ali3_road ali3_road;
 
-enum { /* equal to mbs/elements/road.py */
+enum { /* `RoadType` in Python is read from here */
        ALI3_ROAD_PLANE = 0, /* [height at the origin, grade dz/dx, grade dz/dy, friction] */
        ALI3_ROAD_KERB, /* [x of the edge, lower height, step height, side, friction]; the upper part is at smaller x for
                           side 1, at larger x for -1 */
        ALI3_ROAD_GRID, /* [nx, ny, x0, y0, dx, dy, friction factor, nx*ny heights, nx*ny frictions], y runs fastest */
-       ALI3_ROAD_END
+       ALI3_ROAD_COUNT
 };
 
 typedef struct {

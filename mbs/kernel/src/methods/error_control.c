@@ -44,7 +44,7 @@ static bool valid(const ali3_control *c) {
 static double next_break(const ali3_instance *in, double t, double end) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
-    if (S->guide_type[g] != 0) continue;
+    if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
     const double *real = in->guide_real + S->guide_real_ptr[g];
     for (int32_t i = 0; i <= (int32_t)real[0]; i++)
       if (real[1 + i] > t && real[1 + i] < end) end = real[1 + i];

@@ -7,7 +7,7 @@
 #include "guides.h"
 
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {
-  if (type == 1) {
+  if (type == ALI3_GUIDE_OF_INPUT) {
     if (nreal != 3) return "a filtered guide has three numbers: frequency, gain, start";
     return real[0] > 0.0 ? NULL : "the frequency of a filtered guide must be positive";
   }
@@ -43,13 +43,14 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
 void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++)
-    if (S->guide_type[g] == 0) guide_of_time(in->guide_real + S->guide_real_ptr[g], t, &v->s[g], &v->sd[g], &v->sdd[g]);
+    if (S->guide_type[g] == ALI3_GUIDE_OF_TIME)
+      guide_of_time(in->guide_real + S->guide_real_ptr[g], t, &v->s[g], &v->sd[g], &v->sdd[g]);
 }
 
 void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
-    if (S->guide_type[g] == 0) continue;
+    if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
     v->s[g] =
         in->guide_real[S->guide_real_ptr[g] + 1] * in->input[S->guide_input[g]]; /* at rest where its input holds it */
     v->sd[g] = v->sdd[g] = 0.0;
@@ -61,7 +62,7 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
   const ali3_system *S = in->system;
   ali3_guides_time(in, to, t);
   for (int32_t g = 0; g < S->size.ng; g++) {
-    if (S->guide_type[g] == 0) continue;
+    if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
     /* exact solution of s'' = w^2 (gain u - s) - 2 w s' for an input that goes straight from its last value to this
      * one; held over the step it would lead by h/2, which is an error of first order */
     const double *real = in->guide_real + S->guide_real_ptr[g];

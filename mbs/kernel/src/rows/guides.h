@@ -3,6 +3,12 @@
 #define ALI3_GUIDES_H
 #include "../instance.h"
 
+enum { /* guide_type of a System file; `GuideType` in Python is read from here */
+       ALI3_GUIDE_OF_TIME = 0, /* polynomial pieces of time */
+       ALI3_GUIDE_OF_INPUT,    /* an input through a critically damped filter, with a state of its own */
+       ALI3_GUIDE_TYPE_COUNT
+};
+
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal);
 void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t);
 void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t);

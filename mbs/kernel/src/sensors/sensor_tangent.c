@@ -1,4 +1,4 @@
-/* Change of the sensor values along in->tangent, a direction in the space of states; type numbers as in sensors.c.
+/* Change of the sensor values along in->tangent, a direction in the space of states: a function for each type.
  * Along (qd, qdd, ...) it is the rate of a sensor. */
 #include <math.h>
 #include <string.h>
@@ -7,13 +7,12 @@
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../state/work.h"
+#include "../system/sensor_types.h"
 #include "sensors.h"
 
 typedef struct {
   double v[3], d[3]; /* value and change */
 } moving;
-
-static const double SLOWEST = 0.1; /* m/s, as in sensors.c */
 
 /* Signal i (order 0) or its first or second rate, of a state, without the constant. */
 static double signal(const ali3_system *S, const ali3_vectors *x, int32_t i, int32_t order) {
@@ -47,28 +46,51 @@ static double angle_change(double y, double x, double dy, double dx) {
   return square > 0.0 ? (x * dy - y * dx) / square : 0.0;
 }
 
-static double component(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
-  const moving p = vector(in, points, order, 3), a = vector(in, axis, 0, 3);
+static double change_signal(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * signal(in->system, &in->tangent, v[0], 0);
+}
+
+static double change_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * signal(in->system, &in->tangent, v[0], 1);
+}
+
+static double change_signal_second_rate(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * signal(in->system, &in->tangent, v[0], 2);
+}
+
+static double change_component(const ali3_instance *in, const int32_t *v, const double *real) {
+  const moving p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3);
+  (void)real;
   return dot_change(&p, &a);
 }
 
-static double pitch(const ali3_instance *in, int32_t i) {
-  const moving u = vector(in, &i, 0, 1);
+static double change_angle(const ali3_instance *in, const int32_t *v, const double *real) {
+  const moving y = vector(in, v, 0, 1), x = vector(in, v + 1, 0, 1);
+  (void)real;
+  return angle_change(y.v[0], x.v[0], y.d[0], x.d[0]);
+}
+
+static double change_pitch(const ali3_instance *in, const int32_t *v, const double *real) {
+  const moving u = vector(in, v, 0, 1);
+  (void)real;
   const double rest = 1.0 - u.v[0] * u.v[0];
   return rest > 0.0 ? -u.d[0] / sqrt(rest) : 0.0;
 }
 
-static double axial_rate(const ali3_instance *in, const int32_t *v) {
+static double change_angular_rate(const ali3_instance *in, const int32_t *v, const double *real) {
   const moving a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3);
   const moving ad = vector(in, v, 1, 3), bd = vector(in, v + 3, 1, 3);
-  return 0.5 * (dot_change(&ad, &b) - dot_change(&bd, &a));
+  return real[0] * (0.5 * (dot_change(&ad, &b) - dot_change(&bd, &a)));
 }
 
 /* dp = 1/2 w p with the turn w = 1/2 sum a x da of the axes, both in earth axes. */
-static double quaternion(const ali3_instance *in, int32_t wanted, const int32_t *v, const double p[4]) {
-  double w[3] = {0.0, 0.0, 0.0}, one[3];
+static double change_quaternion(const ali3_instance *in, const int32_t *v, const double *real) {
+  double w[3] = {0.0, 0.0, 0.0}, one[3], p[4];
+  const int32_t wanted = v[0];
+  (void)real;
+  ali3_quaternion(in, v + 1, p);
   for (int32_t i = 0; i < 3; i++) {
-    const moving a = vector(in, v + 3 * i, 0, 3);
+    const moving a = vector(in, v + 1 + 3 * i, 0, 3);
     cross(a.v, a.d, one);
     for (int32_t j = 0; j < 3; j++) w[j] += 0.5 * one[j];
   }
@@ -94,7 +116,12 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
   }
 }
 
-static double energy(const ali3_instance *in, int32_t kind) {
+static double change_element_output(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * in->tangent.out[in->system->el_out_ptr[v[0]] + v[1]];
+}
+
+static double change_energy(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = 0.0, elastic = 0.0;
   if (S->n_flexible > 0) flexible_energy(in, &kinetic, &gravity, &elastic);
@@ -106,17 +133,17 @@ static double energy(const ali3_instance *in, int32_t kind) {
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->tangent.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
-  return kinds[kind];
+  return kinds[v[0]];
 }
 
-static double reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
+static double change_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
   for (int32_t i = 0; i < v[0]; i++) sum += weight[i] * in->system->row_scale[v[1 + i]] * in->tangent.lam[v[1 + i]];
   return sum;
 }
 
 /* The product rule, factor by factor. */
-static double products(const ali3_instance *in, const int32_t *v, const double *weight) {
+static double change_reaction_products(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
   for (int32_t k = 0; k < v[0]; k++) {
     const int32_t *term = v + 1 + 5 * k, row = term[0], guide = term[4];
@@ -134,20 +161,23 @@ static double products(const ali3_instance *in, const int32_t *v, const double *
   return sum;
 }
 
-static double norm(const ali3_instance *in, const int32_t *v) {
+static double change_norm(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
   const moving p = vector(in, v + 2, v[0], v[1]);
   const double length = sqrt(dot(p.v, p.v));
   return length > 0.0 ? dot(p.v, p.d) / length : 0.0;
 }
 
-static double direction(const ali3_instance *in, const int32_t *v) {
+static double change_direction(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
   const moving p = vector(in, v + 1, v[0], 3), a = vector(in, v + 4, 0, 3), b = vector(in, v + 7, 0, 3);
   const double along = dot(p.v, a.v), across = dot(p.v, b.v);
-  if (v[0] == 1 && along * along + across * across < SLOWEST * SLOWEST) return 0.0;
+  if (v[0] == 1 && along * along + across * across < ALI3_SLOWEST_DIRECTION * ALI3_SLOWEST_DIRECTION) return 0.0;
   return angle_change(across, along, dot_change(&p, &b), dot_change(&p, &a));
 }
 
-static double angle_about(const ali3_instance *in, const int32_t *v) {
+static double change_angle_about(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
   const moving a = vector(in, v, 0, 3), b = vector(in, v + 3, 0, 3), c = vector(in, v + 6, 0, 3);
   double one[3], two[3];
   moving turn;
@@ -159,7 +189,7 @@ static double angle_about(const ali3_instance *in, const int32_t *v) {
 }
 
 /* Products of axes with forces at ports and accelerations, as in sensors.c. */
-static double quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
+static double change_quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
   const int32_t n = v[0], *row = v + 13;
   const double *gravity = real, *weight = real + 3;
   moving axis[3], rdd = vector(in, v + 1, 2, 3);
@@ -183,80 +213,48 @@ static double quasi_static(const ali3_instance *in, const int32_t *v, const doub
   return sum;
 }
 
-static double change(const ali3_instance *in, int32_t type, const int32_t *v, const double *real, const double *p) {
-  const ali3_vectors *d = &in->tangent;
-  switch (type) {
-  case 0:
-  case 1:
-  case 2:
-    return real[0] * signal(in->system, d, v[0], type);
-  case 3:
-    return component(in, v + 1, v + 4, v[0]);
-  case 4: {
-    const moving y = vector(in, v, 0, 1), x = vector(in, v + 1, 0, 1);
-    return angle_change(y.v[0], x.v[0], y.d[0], x.d[0]);
-  }
-  case 5:
-    return pitch(in, v[0]);
-  case 6:
-    return real[0] * axial_rate(in, v);
-  case 7:
-    return quaternion(in, v[0], v + 1, p);
-  case 8:
-    return real[0] * d->out[in->system->el_out_ptr[v[0]] + v[1]];
-  case 9:
-    return reaction(in, v, real);
-  case 10:
-    return energy(in, v[0]);
-  case 11:
-    return d->used[v[0]];
-  case 12:
-    return real[0] * (v[1] == 0 ? d->s : (v[1] == 1 ? d->sd : d->sdd))[v[0]];
-  case 13:
-    return 0.0; /* counts and residuals */
-  case 14:
-    return norm(in, v);
-  case 15:
-    return direction(in, v);
-  case 16:
-    return angle_about(in, v);
-  case 17:
-    return quasi_static(in, v, real);
-  case 18:
-    return products(in, v, real);
-  default:
-    return ali3_work_change(in, v[0], v[1], v + 2);
-  }
+static double change_input(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return in->tangent.used[v[0]];
 }
+
+static double change_guide(const ali3_instance *in, const int32_t *v, const double *real) {
+  const double *of_order[3] = {in->tangent.s, in->tangent.sd, in->tangent.sdd};
+  return real[0] * of_order[v[1]][v[0]];
+}
+
+/* Counts and residuals. */
+static double change_solver(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)in, (void)v, (void)real;
+  return 0.0;
+}
+
+static double change_work(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return ali3_work_change(in, v[0], v[1], v + 2);
+}
+
+typedef double sensor_function(const ali3_instance *in, const int32_t *v, const double *real);
+static sensor_function *const change_of[ALI3_SENSOR_TYPE_COUNT] = {
+#define ALI3_SENSOR_TYPE(number, NAME, name, ...) [number] = change_##name,
+    ALI3_SENSOR_TYPES(ALI3_SENSOR_TYPE)
+#undef ALI3_SENSOR_TYPE
+};
 
 void ali3_sensors_tangent(const ali3_instance *in, double *out) {
   const ali3_system *S = in->system;
-  double p[4] = {1.0, 0.0, 0.0, 0.0};
-  for (int32_t i = 0; i < S->size.ns; i++) {
-    const int32_t *v = S->sen_int + S->sen_int_ptr[i];
-    if (S->sen_type[i] == 7) ali3_quaternion(in, v + 1, p);
-    out[i] = change(in, S->sen_type[i], v, S->sen_real + S->sen_real_ptr[i], p);
-  }
+  for (int32_t i = 0; i < S->size.ns; i++)
+    out[i] = change_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
 }
 
-/* Whether positions and velocities are all that a sensor's rate asks for: accelerations have no known rates. */
+/* Accelerations have no known rates. */
 static unsigned char rate_known(int32_t type, const int32_t *v) {
-  switch (type) {
-  case 0:
-  case 1:
-  case 4:
-  case 5:
-  case 6:
-  case 7:
-  case 16:
+  switch (ali3_sensor_types[type].rate) {
+  case ALI3_RATE_ALWAYS:
     return 1;
-  case 3:
-  case 14:
-  case 15:
+  case ALI3_RATE_BY_FIRST:
     return v[0] < 2;
-  case 10:
-    return v[0] < 2;
-  case 12:
+  case ALI3_RATE_BY_SECOND:
     return v[1] < 2;
   default:
     return 0;

@@ -1,4 +1,4 @@
-/* Sensor values of the present state. Type numbers and integers: docs/system_file.md. */
+/* Sensor values of the present state: a function for each type of sensor_types.h, of its integers and reals. */
 #include <math.h>
 
 #include "../algebra/elementary.h"
@@ -6,6 +6,7 @@
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../state/work.h"
+#include "../system/sensor_types.h"
 #include "sensors.h"
 
 /* Signal i (order 0) or its first or second rate. */
@@ -23,20 +24,48 @@ static void vector(const ali3_instance *in, const int32_t *v, int32_t order, dou
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-static double component(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
+/* Of a vector (order 0) or its rates along a moving axis. */
+static double along(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
   double p[3], a[3];
   vector(in, points, order, p);
   vector(in, axis, 0, a);
   return dot(p, a);
 }
 
-static double axial_rate(const ali3_instance *in, const int32_t *v) {
+static double value_signal(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * signal(in, v[0], 0);
+}
+
+static double value_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * signal(in, v[0], 1);
+}
+
+static double value_signal_second_rate(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * signal(in, v[0], 2);
+}
+
+static double value_component(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return along(in, v + 1, v + 4, v[0]);
+}
+
+static double value_angle(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return ali3_atan2(signal(in, v[0], 0), signal(in, v[1], 0));
+}
+
+static double value_pitch(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return -ali3_asin(fmax(-1.0, fmin(1.0, signal(in, v[0], 0))));
+}
+
+static double value_angular_rate(const ali3_instance *in, const int32_t *v, const double *real) {
   double a[3], b[3], ad[3], bd[3];
   vector(in, v, 0, a);
   vector(in, v + 3, 0, b);
   vector(in, v, 1, ad);
   vector(in, v + 3, 1, bd);
-  return 0.5 * (dot(ad, b) - dot(bd, a));
+  return real[0] * (0.5 * (dot(ad, b) - dot(bd, a)));
 }
 
 /* Scalar first, w >= 0; the largest of the four is found from the trace and the others follow from it. */
@@ -72,7 +101,19 @@ void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]) {
   for (int i = 0; i < 4; i++) n[i] = length > 0.0 ? n[i] / size : (i == 0 ? 1.0 : 0.0);
 }
 
-static double energy(const ali3_instance *in, int32_t kind) {
+static double value_quaternion(const ali3_instance *in, const int32_t *v, const double *real) {
+  double n[4];
+  (void)real;
+  ali3_quaternion(in, v + 1, n);
+  return n[v[0]];
+}
+
+static double value_element_output(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * in->now.out[in->system->el_out_ptr[v[0]] + v[1]];
+}
+
+static double value_energy(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = S->gravity_const[0], elastic = 0.0;
   ali3_flexible_prepare(in, in->now.q);
@@ -84,17 +125,17 @@ static double energy(const ali3_instance *in, int32_t kind) {
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->now.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
-  return kinds[kind];
+  return kinds[v[0]];
 }
 
-static double reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
+static double value_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
   for (int32_t i = 0; i < v[0]; i++) sum += weight[i] * in->system->row_scale[v[1 + i]] * in->now.lam[v[1 + i]];
   return sum;
 }
 
 /* Multipliers times constant weights, up to three signals and a guide. */
-static double products(const ali3_instance *in, const int32_t *v, const double *weight) {
+static double value_reaction_products(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
   for (int32_t k = 0; k < v[0]; k++) {
     const int32_t *term = v + 1 + 5 * k;
@@ -106,7 +147,8 @@ static double products(const ali3_instance *in, const int32_t *v, const double *
   return sum;
 }
 
-static double norm(const ali3_instance *in, const int32_t *v) {
+static double value_norm(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
   double sum = 0.0;
   for (int32_t i = 0; i < v[1]; i++) {
     const double x = signal(in, v[2 + i], v[0]);
@@ -115,14 +157,15 @@ static double norm(const ali3_instance *in, const int32_t *v) {
   return sqrt(sum);
 }
 
-static double direction(const ali3_instance *in, const int32_t *v) {
-  static const double SLOWEST = 0.1; /* m/s */
-  const double along = component(in, v + 1, v + 4, v[0]), across = component(in, v + 1, v + 7, v[0]);
-  return v[0] == 1 && along * along + across * across < SLOWEST * SLOWEST ? 0.0 : ali3_atan2(across, along);
+static double value_direction(const ali3_instance *in, const int32_t *v, const double *real) {
+  const double x = along(in, v + 1, v + 4, v[0]), y = along(in, v + 1, v + 7, v[0]);
+  (void)real;
+  return v[0] == 1 && x * x + y * y < ALI3_SLOWEST_DIRECTION * ALI3_SLOWEST_DIRECTION ? 0.0 : ali3_atan2(y, x);
 }
 
-static double angle_about(const ali3_instance *in, const int32_t *v) {
+static double value_angle_about(const ali3_instance *in, const int32_t *v, const double *real) {
   double a[3], b[3], c[3];
+  (void)real;
   vector(in, v, 0, a);
   vector(in, v + 3, 0, b);
   vector(in, v + 6, 0, c);
@@ -131,7 +174,7 @@ static double angle_about(const ali3_instance *in, const int32_t *v) {
 }
 
 /* Forces at the ports, specific acceleration and spin of the origin in body axes, times constant weights. */
-static double quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
+static double value_quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
   const int32_t n = v[0], *row = v + 13;
   const double *gravity = real, *weight = real + 3;
   double axis[3][3], rdd[3], add[3], sum = 0.0;
@@ -152,54 +195,35 @@ static double quasi_static(const ali3_instance *in, const int32_t *v, const doub
   return sum;
 }
 
-static double value(const ali3_instance *in, int32_t type, const int32_t *v, const double *real) {
-  const ali3_vectors *now = &in->now;
-  double n[4];
-  switch (type) {
-  case 0:
-  case 1:
-  case 2:
-    return real[0] * signal(in, v[0], type);
-  case 3:
-    return component(in, v + 1, v + 4, v[0]);
-  case 4:
-    return ali3_atan2(signal(in, v[0], 0), signal(in, v[1], 0));
-  case 5:
-    return -ali3_asin(fmax(-1.0, fmin(1.0, signal(in, v[0], 0))));
-  case 6:
-    return real[0] * axial_rate(in, v);
-  case 7:
-    ali3_quaternion(in, v + 1, n);
-    return n[v[0]];
-  case 8:
-    return real[0] * now->out[in->system->el_out_ptr[v[0]] + v[1]];
-  case 9:
-    return reaction(in, v, real);
-  case 10:
-    return energy(in, v[0]);
-  case 11:
-    return now->used[v[0]];
-  case 12:
-    return real[0] * (v[1] == 0 ? now->s : (v[1] == 1 ? now->sd : now->sdd))[v[0]];
-  case 13:
-    return ali3_solver_value(in, v[0]);
-  case 14:
-    return norm(in, v);
-  case 15:
-    return direction(in, v);
-  case 16:
-    return angle_about(in, v);
-  case 17:
-    return quasi_static(in, v, real);
-  case 18:
-    return products(in, v, real);
-  default:
-    return ali3_work_sum(in, v[0], v[1], v + 2);
-  }
+static double value_input(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return in->now.used[v[0]];
 }
+
+static double value_guide(const ali3_instance *in, const int32_t *v, const double *real) {
+  const double *of_order[3] = {in->now.s, in->now.sd, in->now.sdd};
+  return real[0] * of_order[v[1]][v[0]];
+}
+
+static double value_solver(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return ali3_solver_value(in, v[0]);
+}
+
+static double value_work(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return ali3_work_sum(in, v[0], v[1], v + 2);
+}
+
+typedef double sensor_function(const ali3_instance *in, const int32_t *v, const double *real);
+static sensor_function *const value_of[ALI3_SENSOR_TYPE_COUNT] = {
+#define ALI3_SENSOR_TYPE(number, NAME, name, ...) [number] = value_##name,
+    ALI3_SENSOR_TYPES(ALI3_SENSOR_TYPE)
+#undef ALI3_SENSOR_TYPE
+};
 
 void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
   const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.ns; i++)
-    out[i] = value(in, S->sen_type[i], S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
+    out[i] = value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
 }

@@ -6,4 +6,6 @@
 void ali3_sensors_evaluate(const ali3_instance *in, double *out);
 void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]);
 void ali3_sensors_tangent(const ali3_instance *in, double *out);
+
+#define ALI3_SLOWEST_DIRECTION 0.1 /* m/s: the direction of a slower velocity reads zero */
 #endif

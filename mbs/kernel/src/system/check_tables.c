@@ -1,4 +1,4 @@
-/* Force elements and sensors of a System. */
+/* Force elements of a System. */
 #include "../elements/element.h"
 #include "../system.h"
 #include "check.h"
@@ -59,100 +59,5 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
       entries += s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]];
     CHECK(check_element_places(s, e, entries, m));
   }
-  return ALI3_OK;
-}
-
-/* What the integers of a sensor mean, one letter each: s signal, e element, o output of it, u input, g guide, d order,
- * k energy, q quaternion component, h health. Rows (types 9, 17 and 18), norms (type 14) and work (type 19) have their own rule. */
-static const char *const sensor_integers[] = {"s",          "s",          "s",         "dssssss", "ss", "s",  "ssssss",
-                                              "qsssssssss", "eo",         "",          "k",       "u",  "gd", "h",
-                                              "",           "dsssssssss", "sssssssss", "",        "",   ""};
-static const int32_t sensor_reals[] = {1, 1, 1, 0, 0, 0, 1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0};
-enum { SENSOR_TYPES = sizeof sensor_reals / sizeof sensor_reals[0] };
-
-/* Type 18: a number of terms, then a row, three signals and a guide (-1: none) a term. */
-static ali3_status check_products(const ali3_system *s, int32_t i, ali3_message m) {
-  const int32_t *v = s->sen_int + s->sen_int_ptr[i], n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i];
-  const int32_t n_real = s->sen_real_ptr[i + 1] - s->sen_real_ptr[i];
-  if (n < 1 || v[0] < 0 || v[0] != n_real || (int64_t)n != 1 + 5 * (int64_t)v[0])
-    return ali3_bad(m, "sensor %d lists %d integers and %d reals", (int)i, (int)n, (int)n_real);
-  for (int32_t k = 0; k < v[0]; k++) {
-    CHECK(ali3_check_indices(m, "sen_int", v + 1 + 5 * k, 1, 0, s->size.nc));
-    CHECK(ali3_check_indices(m, "sen_int", v + 2 + 5 * k, 3, -1, s->size.nsig));
-    CHECK(ali3_check_indices(m, "sen_int", v + 5 + 5 * k, 1, -1, s->size.ng));
-  }
-  return ALI3_OK;
-}
-
-/* Type 19: a kind, a number of elements, then these. */
-static ali3_status check_work(const ali3_system *s, int32_t i, ali3_message m) {
-  const int32_t *v = s->sen_int + s->sen_int_ptr[i], n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i];
-  if (n < 3 || v[0] < 0 || v[0] > 1 || v[1] != n - 2) return ali3_bad(m, "sensor %d lists %d integers", (int)i, (int)n);
-  return ali3_check_indices(m, "sen_int", v + 2, n - 2, 0, s->size.ne);
-}
-
-static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m) {
-  const int32_t type = s->sen_type[i], *v = s->sen_int + s->sen_int_ptr[i];
-  const int32_t n = s->sen_int_ptr[i + 1] - s->sen_int_ptr[i], n_real = s->sen_real_ptr[i + 1] - s->sen_real_ptr[i];
-  if (type == 9) {
-    if (n < 1 || v[0] != n - 1 || n_real != n - 1) return ali3_bad(m, "sensor %d lists %d rows", (int)i, (int)n);
-    return ali3_check_indices(m, "sen_int", v + 1, n - 1, 0, s->size.nc);
-  }
-  if (type == 17) {
-    if (n < 13 || v[0] < 0 || v[0] > (n - 13) / 3 || n != 13 + 3 * v[0] || n_real != 15 + 3 * v[0])
-      return ali3_bad(m, "sensor %d lists %d integers and %d reals", (int)i, (int)n, (int)n_real);
-    CHECK(ali3_check_indices(m, "sen_int", v + 1, 12, 0, s->size.nsig));
-    return ali3_check_indices(m, "sen_int", v + 13, n - 13, 0, s->size.nc);
-  }
-  if (type == 18) return check_products(s, i, m);
-  if (sensor_reals[type] != n_real)
-    return ali3_bad(m, "sensor %d of type %d has %d reals", (int)i, (int)type, (int)n_real);
-  if (type == 14) {
-    if (n < 2 || v[0] < 0 || v[0] > 1 || v[1] < 2 || v[1] > 3 || n != 2 + v[1])
-      return ali3_bad(m, "sensor %d is not a norm", (int)i);
-    return ali3_check_indices(m, "sen_int", v + 2, v[1], 0, s->size.nsig);
-  }
-  if (type == 19) return check_work(s, i, m);
-  const char *kind = sensor_integers[type];
-  for (int32_t k = 0; k < n || kind[k] != 0; k++) {
-    if (k >= n || kind[k] == 0) return ali3_bad(m, "sensor %d of type %d has %d integers", (int)i, (int)type, (int)n);
-    int64_t limit = 0;
-    switch (kind[k]) {
-    case 's':
-      limit = s->size.nsig;
-      break;
-    case 'e':
-      limit = s->size.ne;
-      break;
-    case 'o':
-      limit = s->el_out_ptr[v[k - 1] + 1] - s->el_out_ptr[v[k - 1]];
-      break;
-    case 'u':
-      limit = s->size.nu;
-      break;
-    case 'g':
-      limit = s->size.ng;
-      break;
-    case 'd':
-      limit = 3;
-      break;
-    case 'k':
-    case 'q':
-      limit = 4;
-      break;
-    default:
-      limit = ALI3_SOLVER_COUNT;
-      break;
-    }
-    CHECK(ali3_check_indices(m, "sen_int", v + k, 1, 0, limit));
-  }
-  return ALI3_OK;
-}
-
-ali3_status ali3_check_sensors(const ali3_system *s, ali3_message m) {
-  CHECK(ali3_check_indices(m, "sen_type", s->sen_type, s->size.ns, 0, SENSOR_TYPES));
-  CHECK(ali3_check_pointers(m, "sen_int_ptr", s->sen_int_ptr, s->n_sen_int_ptr, s->size.ns, s->n_sen_int));
-  CHECK(ali3_check_pointers(m, "sen_real_ptr", s->sen_real_ptr, s->n_sen_real_ptr, s->size.ns, s->n_sen_real));
-  for (int32_t i = 0; i < s->size.ns; i++) CHECK(check_sensor(s, i, m));
   return ALI3_OK;
 }

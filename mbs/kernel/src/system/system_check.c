@@ -118,9 +118,10 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
   const int32_t ng = s->size.ng;
   CHECK(ali3_check_length(m, "guide_input", s->n_guide_input, ng));
   CHECK(ali3_check_pointers(m, "guide_real_ptr", s->guide_real_ptr, s->n_guide_real_ptr, ng, s->n_guide_real));
-  CHECK(ali3_check_indices(m, "guide_type", s->guide_type, ng, 0, 2));
+  CHECK(ali3_check_indices(m, "guide_type", s->guide_type, ng, 0, ALI3_GUIDE_TYPE_COUNT));
   for (int32_t g = 0; g < ng; g++)
-    if (s->guide_type[g] == 1) CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
+    if (s->guide_type[g] == ALI3_GUIDE_OF_INPUT)
+      CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
   return ali3_check_pointers(m, "road_real_ptr", s->road_real_ptr, s->n_road_real_ptr, s->nr, s->n_road_real);
 }
 

@@ -10,6 +10,7 @@
 #include "../tree/tree.h"
 #include "loading.h"
 #include "message.h"
+#include "sensor_types.h"
 
 enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
 
@@ -243,7 +244,7 @@ static void derive_work(ali3_system *s) {
   for (int32_t e = 0; e < s->size.ne; e++) s->work_of[e] = -1;
   for (int32_t i = 0; i < s->size.ns; i++) {
     const int32_t *v = s->sen_int + s->sen_int_ptr[i];
-    if (s->sen_type[i] != 19) continue;
+    if (s->sen_type[i] != ALI3_SENSOR_WORK) continue;
     for (int32_t k = 0; k < v[1]; k++) s->work_of[v[2 + k]] = 0;
   }
   s->work_ptr[0] = 0;
@@ -282,9 +283,10 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_flexible(s);
   derive_work(s);
   if (s->tree != NULL) ali3_tree_derive(s, s->tree);
-  for (int32_t i = 0; i < s->size.ns; i++)
-    s->senses_rows =
-        s->senses_rows || s->sen_type[i] == 9 || s->sen_type[i] == 13 || s->sen_type[i] == 17 || s->sen_type[i] == 18;
+  for (int32_t i = 0; i < s->size.ns; i++) {
+    const int32_t reads = ali3_sensor_types[s->sen_type[i]].reads;
+    s->senses_rows = s->senses_rows || reads == ALI3_READS_ROWS || reads == ALI3_READS_SOLVER;
+  }
   s->shift_x = s->shift_y = s->shift_z = -1;
   if (s->size.has_pose) {
     s->shift_x = first_nonzero(s->pose_x, s->size.nq);

@@ -1,0 +1,107 @@
+"""The console command ``ali3``: one table of subcommands, each a module with a function ``main``."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import importlib
+import sys
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ali3.running import WRONG_USE, run_command, typed_as
+from ali3.search_path import forget_current_folder
+
+
+class Command(NamedTuple):
+    """A subcommand.
+
+    Parameters
+    ----------
+    name : str
+        As the user types it.
+    module : str
+        Imported when the command runs; its ``main(arguments, prog)`` returns the exit code.
+    text : str
+        One line of help.
+    """
+
+    name: str
+    module: str
+    text: str
+
+
+COMMANDS = (
+    Command("build", "fmu_src.build_command", "build the FMUs of a scene"),
+    Command("drive", "hosts.drive", "drive the FMU of a car through a manoeuvre"),
+    Command("run", "hosts.run", "run any FMU with constant inputs and plot its outputs"),
+    Command("check", "hosts.check", "check an FMU and print a verdict"),
+    Command("kerb", "hosts.kerb", "run the paper's kerb test and draw the moments of the frame"),
+    Command("kernel", "mbs.kernel.build", "compile the C kernel for a platform"),
+)
+
+
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
+    """Run the subcommand that the first argument names.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        By default those of the command line.
+    prog : str
+        How the user typed the command.
+
+    Returns
+    -------
+    int
+        Exit code: 0 done, 1 done and not good, 2 an error of the user's, 130 Ctrl-C.
+    """
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    forget_current_folder()
+    typed_as(prog)
+    if given and not given[0].startswith("-"):
+        command = next((c for c in COMMANDS if c.name == given[0]), None)
+        if command is None:
+            return _unknown(given[0], prog)
+        return run_command(lambda: _run(command, given[1:], prog))
+    parser = _parser(prog)
+    parser.parse_args(given)
+    parser.print_help(sys.stderr)
+    return WRONG_USE
+
+
+def _run(command: Command, arguments: Sequence[str], prog: str) -> int:
+    module = importlib.import_module(command.module)
+    return int(module.main(arguments, f"{prog} {command.name}"))
+
+
+def _parser(prog: str) -> argparse.ArgumentParser:
+    width = max(len(c.name) for c in COMMANDS)
+    parser = argparse.ArgumentParser(
+        prog=prog,
+        usage=f"{prog} COMMAND [...]",
+        description="Real-time multibody dynamics: from a model to an FMU, and programs that run it.",
+        epilog="commands:\n"
+        + "\n".join(f"  {c.name:<{width}}  {c.text}" for c in COMMANDS)
+        + f"\n\n{prog} COMMAND --help describes one.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and stop")
+    return parser
+
+
+class _Version(argparse.Action):
+    """Reads the version only when it is asked for: it costs more than all of the help."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import version
+
+        parser.exit(message=f"ali3 {version('ali3')}\n")
+
+
+def _unknown(name: str, prog: str) -> int:
+    names = [c.name for c in COMMANDS]
+    near = difflib.get_close_matches(name, names, 1)
+    hint = f"Did you mean '{near[0]}'?" if near else f"The commands are {', '.join(names)}."
+    print(f"error: There is no command '{name}'. {hint} {prog} --help describes them.", file=sys.stderr)
+    return WRONG_USE

@@ -1,0 +1,11 @@
+"""Errors that a command shows to its user as one sentence."""
+
+from __future__ import annotations
+
+
+class UserError(Exception):
+    """Something the user can put right; the message says what."""
+
+
+class FileError(UserError, OSError):
+    """A file or folder that cannot be written or read; the message names it."""

@@ -1,0 +1,93 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ali3.errors import FileError
+
+
+@contextmanager
+def whole_file(file: str | os.PathLike[str]) -> Iterator[Path]:
+    """A path to write to; when the block ends without an error, the file there replaces `file` at once.
+
+    Parameters
+    ----------
+    file : path
+        Its folder is made if it is not there. A device or pipe is written to directly.
+
+    Yields
+    ------
+    Path
+        A file of the same name in a temporary folder beside `file`, so that programs that write the same file at the
+        same time do not meet.
+
+    Raises
+    ------
+    FileError
+        With the file and the reason, if it cannot be written. An older file is then unchanged, and nothing is left.
+    """
+    target = Path(os.path.realpath(file))  # a link stays a link
+    if target.is_dir():
+        raise FileError(f"{file} is a folder; a file is to be written there.")
+    if target.exists() and not target.is_file():
+        yield target
+        return
+    folder = ""
+    try:
+        make_folder(target.parent)
+        folder = tempfile.mkdtemp(prefix=".writing-", dir=target.parent)
+        made = Path(folder, target.name)
+        yield made
+        made.replace(target)
+    except FileError:
+        raise
+    except OSError as error:
+        raise FileError(f"{file} cannot be written: {reason(error)}.") from error
+    finally:
+        if folder:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def make_folder(folder: str | os.PathLike[str]) -> Path:
+    """Make a folder and its parents unless they are there.
+
+    Raises
+    ------
+    FileError
+        With the folder and the reason.
+    """
+    path = Path(folder)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise FileError(f"The folder {folder} cannot be made: there is a file of that name.") from None
+    except OSError as error:
+        raise FileError(f"The folder {folder} cannot be made: {reason(error)}.") from None
+    return path
+
+
+def check_writable(file: str | os.PathLike[str]) -> None:
+    """Raise the `FileError` that writing this file would end with, before the work that fills it."""
+    target = Path(os.path.realpath(file))
+    if target.is_dir():
+        raise FileError(f"{file} is a folder; a file is to be written there.")
+    nearest = next(place for place in target.parents if place.exists())
+    if not nearest.is_dir():
+        raise FileError(f"The folder {target.parent} cannot be made: {nearest} is a file.")
+    try:
+        with tempfile.TemporaryFile(dir=nearest):
+            pass
+    except OSError as error:
+        raise FileError(f"{file} cannot be written: {reason(error)}.") from None
+
+
+def reason(error: OSError) -> str:
+    """The words of the operating system without number and file name, such as ``no space left on device``."""
+    text = error.strerror or str(error)
+    return text[:1].lower() + text[1:]

@@ -1,0 +1,108 @@
+"""Runs the work of a command: errors become one sentence, Ctrl-C one line, and the exit code says how it ended."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from ali3.errors import UserError
+
+GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED = 0, 1, 2, 130
+"""Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT)."""
+
+_EXTRAS = {
+    "exudyn": "peers",
+    "fmpy": "hosts",
+    "imageio": "pictures",
+    "matplotlib": "hosts",
+    "meshio": "fem",
+    "mujoco": "peers",
+    "pyNastran": "fem",
+    "pythonfmu": "fmu",
+    "pyvista": "pictures",
+    "tqdm": "hosts",
+    "ziglang": "fmu",
+}
+"""The extra of ``pip install "ali3[...]"`` that brings a package."""
+
+_prefix: str | None = None
+
+
+def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ()) -> int:
+    """Do the work of a command.
+
+    Parameters
+    ----------
+    work : callable
+        Gives the exit code.
+    errors : sequence of exception types
+        Besides `UserError` and `OSError`, what the user can put right: the message is shown, the exit code is 2.
+
+    Returns
+    -------
+    int
+        Exit code.
+    """
+    try:
+        status = work()
+        sys.stdout.flush()
+        return status
+    except KeyboardInterrupt:
+        return _end("stopped by Ctrl-C", INTERRUPTED)
+    except BrokenPipeError:  # the reader of our output has gone: nobody is there to be told
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return NOT_GOOD
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        if package not in _EXTRAS:
+            raise
+        return _end(f"error: {missing_package(package)}", WRONG_USE)
+    except Exception as error:
+        if isinstance(error, (UserError, *errors)):
+            return _end(f"error: {error}", WRONG_USE)
+        if isinstance(error, OSError):
+            return _end(f"error: {_os_words(error)}", WRONG_USE)
+        raise
+
+
+def missing_package(package: str) -> str:
+    """The sentence for a package that is not installed, with the line that installs it."""
+    return f'The package {package} is not installed; run: python -m pip install "ali3[{_EXTRAS[package]}]"'
+
+
+def command_name(name: str) -> str:
+    """How the user of this program types another command, such as ``ali3 build``."""
+    if _prefix is not None:
+        return f"{_prefix} {name}"
+    in_clone = Path(__file__).resolve().parents[1].joinpath("build_fmu.py").is_file()
+    return "python build_fmu.py" if in_clone and name == "build" else f"python -m ali3 {name}"
+
+
+def typed_as(prefix: str) -> None:
+    """Take over how the user typed the command: ``ali3`` or ``python -m ali3``."""
+    global _prefix
+    _prefix = prefix
+
+
+def module_command(module: str, *arguments: str) -> list[str]:
+    """Command line of a module in a new Python with the search path of this one.
+
+    ``python -m`` would look into the current folder first, where files of the user may have any name.
+    """
+    start = (
+        f"import sys; sys.path[:] = {sys.path!r}; import runpy; runpy.run_module({module!r}, None, '__main__', True)"
+    )
+    return [sys.executable, "-c", start, *arguments]
+
+
+def _end(line: str, status: int) -> int:
+    print(line, file=sys.stderr, flush=True)
+    return status
+
+
+def _os_words(error: OSError) -> str:
+    if error.filename is None or error.strerror is None:
+        return str(error)
+    return f"{error.filename}: {error.strerror[:1].lower()}{error.strerror[1:]}."

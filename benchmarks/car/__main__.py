@@ -1,0 +1,77 @@
+"""Accuracy and speed of the prototype car: ``python -m benchmarks.car [--json FILE] [--no-fmu] [--chart FILE]``.
+
+Per manoeuvre and step, against the stored reference (see `benchmarks.car_references`):
+
+- `path_error_m`: largest distance between the car's reference point and its place in the reference at the same time;
+  `path_error_rel`: that over the length of the reference's path.
+- `wheel_load_error_rel`: largest error of a wheel load over the largest wheel load of the manoeuvre.
+- `us_per_step`, `realtime_factor`: median wall time of the kernel. The `_fmpy` ones go through the FMU: FMPy sets the
+  inputs, makes a communication step of the same length and gets four outputs.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from benchmarks.car import manoeuvres, trajectories
+from benchmarks.car.accuracy import LOAD_BOUND, PATH_BOUND, _build_fmu, chart, measure, verdict
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from mbs import Settings
+
+STEPS = (0.01, 0.005, 0.002, 0.001)  # s
+COLUMNS = {
+    "manoeuvre": "",
+    "h_s": ".3f",
+    "path_error_m": ".2e",
+    "path_error_rel": ".1e",
+    "wheel_load_error_rel": ".1e",
+    "iterations_mean": ".2f",
+    "iterations_max": ".0f",
+    "halvings": ".0f",
+    "us_per_step": ".1f",
+    "realtime_factor": ".0f",
+    "us_per_step_fmpy": ".1f",
+    "realtime_factor_fmpy": ".0f",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Measure, print, and write what was asked for."""
+    parser = parser_of("car", __doc__, chart="errors against cost")
+    parser.add_argument("--no-fmu", action="store_true", help="leave the runs through FMPy out")
+    parser.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs per row; default: 5")
+    parser.add_argument("--manoeuvres", nargs="+", default=manoeuvres.NAMES, choices=manoeuvres.NAMES, metavar="NAME")
+    options = parser.parse_args(arguments)
+    todo = [(name, h) for name in options.manoeuvres for h in STEPS]
+    with tempfile.TemporaryDirectory() as folder:
+        fmu = None if options.no_fmu else _build_fmu(Path(folder))
+        rows = [measure(name, h, fmu, options.repeats) for name, h in watched(todo)]
+    print_table(rows, COLUMNS)
+    print()
+    print(
+        f"Largest step within {100 * PATH_BOUND:g} % of the path's length and {100 * LOAD_BOUND:g} % of the largest "
+        "wheel load:"
+    )
+    lines = verdict(rows)
+    print("\n".join(f"  {line}" for line in lines))
+    meta = describe(
+        "car",
+        Settings(),
+        reference=f"own engine, h = {trajectories.STEP:g} s, tests/data/car",
+        repeats=options.repeats,
+        fmpy="set 3 inputs, one communication step of h, get 4 outputs; null: without FMU or another road",
+        verdict=lines,
+    )
+    save_rows(options.json, meta, rows)
+    if options.chart:
+        chart(rows, options.chart)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,140 @@
+"""Accuracy and speed of the car over its manoeuvres: rows, verdict, chart."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.car import manoeuvres, trajectories
+from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.shared.timing import median_wall
+from mbs import Trajectory
+
+PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
+AIM = 50.0  # times real time
+OUTPUTS = (*trajectories.POSITION, "speed")
+
+
+def wall_of_fmu(file: Path, name: str, h: float, repeats: int) -> float:
+    """Median wall time of the communication loop of a manoeuvre through FMPy, s."""
+    from hosts.fmu import Fmu
+
+    manoeuvre = manoeuvres.load(name)
+    steps = round(manoeuvre.stop_time / h)
+    rows = [list(manoeuvre.at(k * h).values()) for k in range(steps)]
+
+    def once() -> float:
+        with Fmu(file) as fmu:
+            set_inputs, get_outputs = fmu.setter(list(manoeuvre.inputs)), fmu.getter(OUTPUTS)
+            fmu.initialise(manoeuvre.start | manoeuvre.at(0.0) | {"step_size": h})
+            begin = time.perf_counter()
+            for k, row in enumerate(rows):
+                set_inputs(row)
+                fmu.step(k * h, h)
+                get_outputs()
+            return time.perf_counter() - begin
+
+    return median_wall(once, repeats)
+
+
+def measure(name: str, h: float, fmu: Path | None, repeats: int) -> dict[str, Any]:
+    """One row: a manoeuvre with one step."""
+    t, values, length = trajectories.read(name)
+    found: Trajectory = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
+    report = found.report
+    assert report is not None
+    if len(found.t) != len(t) or not np.allclose(found.t, t, rtol=0.0, atol=1e-6):
+        raise ValueError(
+            f"The reference of {name} is of another duration; run python -m benchmarks.car_references {name}."
+        )
+    error = trajectories.path_error(found, values)
+    duration = float(found.t[-1])
+    system, manoeuvre = manoeuvres.system_of(name), manoeuvres.load(name)
+    wall = manoeuvres.time_on(system, manoeuvre, h, repeats, time.perf_counter)
+    row: dict[str, Any] = {
+        "manoeuvre": name,
+        "h_s": h,
+        "path_error_m": error,
+        "path_error_rel": error / length,
+        "wheel_load_error_rel": trajectories.load_error(found, values),
+        "iterations_mean": report.mean_iterations,
+        "iterations_max": report.max_iterations,
+        "halvings": report.halvings,
+        "us_per_step": 1e6 * wall * h / duration,
+        "realtime_factor": duration / wall,
+        "us_per_step_fmpy": None,
+        "realtime_factor_fmpy": None,
+    }
+    if fmu is not None and name not in manoeuvres.OTHER_ROAD:
+        wall = wall_of_fmu(fmu, name, h, max(1, repeats // 2))
+        row |= {"us_per_step_fmpy": 1e6 * wall * h / duration, "realtime_factor_fmpy": duration / wall}
+    return row
+
+
+def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
+    """Per manoeuvre and for all: the largest step within the bounds, and its real-time factor."""
+    lines, largest = [], []
+    names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
+    for name in names:
+        good = [
+            row
+            for row in rows
+            if row["manoeuvre"] == name
+            and row["path_error_rel"] <= PATH_BOUND
+            and row["wheel_load_error_rel"] <= LOAD_BOUND
+        ]
+        if not good:
+            lines.append(f"{name}: no step stays within the bounds")
+            continue
+        best = max(good, key=lambda row: row["h_s"])
+        largest.append(best["h_s"])
+        lines.append(f"{name}: {1e3 * best['h_s']:g} ms, {best['realtime_factor']:.0f} times real time")
+    if len(largest) == len(names):
+        h = min(largest)
+        slowest = min(row["realtime_factor"] for row in rows if row["h_s"] == h)
+        word = "reached" if slowest >= AIM else "missed"
+        lines.append(f"all: {1e3 * h:g} ms, at least {slowest:.0f} times real time (aim {AIM:g}: {word})")
+    return lines
+
+
+def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
+    """Errors over wall time of a step, as a picture."""
+    plt = pyplot()
+    figure, axes = plt.subplots(1, 2, figsize=(13, 5.5), layout="constrained", sharex=True)
+    parts = (
+        ("path_error_rel", "path error / path length", PATH_BOUND),
+        ("wheel_load_error_rel", "wheel load error / largest load", LOAD_BOUND),
+    )
+    for ax, (key, label, bound) in zip(axes, parts, strict=True):
+        for number, name in enumerate(dict.fromkeys(row["manoeuvre"] for row in rows)):
+            mine = [row for row in rows if row["manoeuvre"] == name]
+            cost = [1e-3 * row["us_per_step"] / row["h_s"] for row in mine]
+            style = {"marker": "osv^DP*Xd"[number % 9], "markersize": 5, "label": name.replace("_", " ")}
+            ax.loglog(cost, [row[key] for row in mine], **style)
+        ax.axhline(bound, color="0.4", linestyle="--", linewidth=1)
+        ax.text(1.0, bound, f"{100 * bound:g} % ", transform=ax.get_yaxis_transform(), ha="right", va="bottom")
+        ax.set_xlabel("wall time per simulated second, ms (steps 10, 5, 2, 1 ms from the left)")
+        ax.set_ylabel(label)
+        ax.grid(True, which="major", alpha=0.3)
+    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside right center", fontsize="small")
+    figure.suptitle("Prototype car: error against cost")
+    save_chart(figure, file)
+
+
+def _build_fmu(folder: Path) -> Path | None:
+    """The FMU of the car for this platform, or None when it cannot be had."""
+    try:
+        import fmpy
+    except ImportError as error:
+        print(f"{error.name} is not installed; the columns of the FMU stay empty.", file=sys.stderr)
+        return None
+    from fmu_src.build import build_fmu
+
+    say = partial(print, file=sys.stderr, flush=True)
+    return build_fmu(manoeuvres.system_of("drop"), "prototype_car", folder, (fmpy.platform,), say)

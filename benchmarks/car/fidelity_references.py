@@ -1,0 +1,51 @@
+"""The references of the comparison of fidelities, from the finest model with a small step."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from benchmarks.car import fidelity_runs
+from benchmarks.car.fidelity_runs import FILTERED, FOLDER, INTERVAL, LOADS, MOMENTS, POSITION
+from mbs.scenes.prototype_car.chassis import DYNAMIC, REFERENCE_MODES
+
+STEP = 5e-4  # s
+
+
+def write(name: str) -> str:
+    """Run, write and return one line."""
+    fine = fidelity_runs.run(name, REFERENCE_MODES, STEP)
+    values = fidelity_runs.sampled(fine, STEP)
+    checks = {
+        f"step {2 * STEP:g} s": fidelity_runs.sampled(fidelity_runs.run(name, REFERENCE_MODES, 2 * STEP), 2 * STEP),
+        "5 dynamic modes": fidelity_runs.sampled(fidelity_runs.run(name, DYNAMIC, STEP), STEP),
+    }
+    said = []
+    for what, other in checks.items():
+        e = fidelity_runs.errors(other, values)
+        said.append(
+            f"{what}: moments {e['moment']:.1e} after the low-pass and {e['moment_unfiltered']:.1e} before it, "
+            f"place {e['motion']:.1e} m, wheel loads {e['wheel_load']:.1e}"
+        )
+    signals = (*POSITION, *LOADS, *MOMENTS, *(FILTERED + s for s in MOMENTS))
+    lines = [
+        f"# Prototype car, flexible chassis, {name.replace('_', ' ')}: this engine, 106 modes, steps of {STEP:g} s; "
+        "made by python -m benchmarks.fidelity_references",
+        *(f"# differences with {text}" for text in said),
+        ",".join(["time", *signals]),
+    ]
+    t = INTERVAL * np.arange(len(values[POSITION[0]]))
+    for row in np.column_stack([t, *(values[s] for s in signals)]):
+        lines.append(",".join(f"{v:.7g}" for v in row))
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    (FOLDER / f"{name}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    _write_peaks(name, fidelity_runs.peaks(fine, STEP))
+    return f"{name}: " + "; ".join(said)
+
+
+def _write_peaks(name: str, peaks: dict[str, float]) -> None:
+    lines = [
+        f"# Largest changes from the start over all steps of {STEP:g} s of {name}.csv, whose samples miss them, N m",
+        "signal,largest change",
+        *(f"{signal},{value:.7g}" for signal, value in peaks.items()),
+    ]
+    (FOLDER / f"{name}_peaks.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")

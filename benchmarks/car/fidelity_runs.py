@@ -1,0 +1,101 @@
+"""The manoeuvres of the ladder on any rung, their references and the errors against them."""
+
+from __future__ import annotations
+
+import time
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.car import manoeuvres
+from hosts.low_pass import low_pass
+from hosts.manoeuvre import Manoeuvre
+from mbs import Settings, System, Trajectory, compile
+from mbs.scenes import kerb_test, prototype_car
+from mbs.scenes.prototype_car.frame import GAUGES
+
+FOLDER = Path(__file__).parents[2] / "tests" / "data" / "fidelity"
+NAMES = ("kerb_test", "double_lane_change_replay", "drop")
+INTERVAL = 0.01  # s, between the samples of a reference
+FREQUENCY = 10.0  # Hz, of the low-pass
+MOMENTS = tuple(f"bending_moment.{g}" for g in GAUGES)
+POSITION = ("chassis.x", "chassis.y", "chassis.z")
+LOADS = tuple(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR"))
+FILTERED = "filtered."
+OUTPUTS = ("moment", "moment_unfiltered", "motion", "wheel_load")
+"""What has an error: moments after and before the filter and wheel loads as parts of their largest change, the place
+of the reference point in m."""
+
+
+@cache
+def system_of(name: str, rung: int | str) -> System:
+    """The car of a rung on the road of a manoeuvre."""
+    model = kerb_test.build(rung) if name == "kerb_test" else prototype_car.build(fidelity=rung)
+    return compile(model)
+
+
+def manoeuvre_of(name: str) -> Manoeuvre:
+    """The guided one needs no inputs."""
+    if name == "kerb_test":
+        return Manoeuvre(name, np.zeros(0), {}, kerb_test.DURATION)
+    return manoeuvres.load(name)
+
+
+def run(name: str, rung: int | str, h: float, settings: Settings | None = None) -> Trajectory:
+    """Every step is recorded."""
+    return manoeuvres.run_on(system_of(name, rung), manoeuvre_of(name), h, settings=settings)
+
+
+def cpu_time(name: str, rung: int | str, h: float, repeats: int) -> float:
+    """Median processor time of all steps of a run, s; start and input table are made before."""
+    return manoeuvres.time_on(system_of(name, rung), manoeuvre_of(name), h, repeats, time.process_time)
+
+
+def sampled(found: Trajectory, h: float) -> dict[str, NDArray[np.float64]]:
+    """Signals at the times of a reference, moments also filtered (before they are sampled)."""
+    every = round(INTERVAL / h)
+    values = {s: np.asarray(found[s])[::every] for s in (*POSITION, *LOADS, *MOMENTS)}
+    return values | {FILTERED + s: low_pass(found[s], h, FREQUENCY)[::every] for s in MOMENTS}
+
+
+def read_reference(name: str) -> dict[str, NDArray[np.float64]]:
+    """Stored signals by name, with "time"."""
+    lines = (FOLDER / f"{name}.csv").read_text(encoding="utf-8").splitlines()
+    lines = [line for line in lines if not line.startswith("#")]
+    table = np.array([[float(v) for v in line.split(",")] for line in lines[1:]])
+    return dict(zip(lines[0].split(","), table.T, strict=True))
+
+
+def peaks(found: Trajectory, h: float) -> dict[str, float]:
+    """Largest changes of the moments from the start over all steps, before and after the filter, N m."""
+    changes = {}
+    for s in MOMENTS:
+        x = np.asarray(found[s]) - found[s][0]
+        changes[s] = float(np.abs(x).max())
+        changes[FILTERED + s] = float(np.abs(low_pass(x, h, FREQUENCY)).max())
+    return changes
+
+
+def read_peaks(name: str) -> dict[str, float]:
+    """Stored peaks of a reference: between its samples moments go higher than at them."""
+    lines = (FOLDER / f"{name}_peaks.csv").read_text(encoding="utf-8").splitlines()
+    rows = [line.split(",") for line in lines if not line.startswith("#")][1:]
+    return {signal: float(value) for signal, value in rows}
+
+
+def errors(values: dict[str, NDArray[np.float64]], reference: dict[str, NDArray[np.float64]]) -> dict[str, float]:
+    """Errors by `OUTPUTS`."""
+
+    def relative(signals: tuple[str, ...]) -> float:
+        size = max(float(np.abs(reference[s] - reference[s][0]).max()) for s in signals)
+        return max(float(np.abs(values[s] - reference[s]).max()) for s in signals) / size
+
+    gap = np.array([values[s] - reference[s] for s in POSITION])
+    return {
+        "moment": relative(tuple(FILTERED + s for s in MOMENTS)),
+        "moment_unfiltered": relative(MOMENTS),
+        "motion": float(np.linalg.norm(gap, axis=0).max()),
+        "wheel_load": relative(LOADS),
+    }

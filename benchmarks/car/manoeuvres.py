@@ -1,0 +1,132 @@
+"""Manoeuvres of the prototype car: the host's files and some more, run in the kernel without an FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.shared.timing import step_time
+from hosts.driver import make_driver
+from hosts.manoeuvre import Manoeuvre, load_manoeuvre
+from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulate
+from mbs.elements.road import GridRoad
+from mbs.input_signals import Signal
+from mbs.scenes import prototype_car
+from mbs.scenes.prototype_car.tyre_data import FRICTION
+
+FOLDER = Path(__file__).with_name("data")
+HOST = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "steady_cornering")
+OWN = ("double_lane_change_replay", "full_lock", "brake_on_slope", "kerb_lock_brake")
+NAMES = HOST + OWN
+CLOSED_LOOP = "double_lane_change"  # of the host; its replay is OWN[0]
+RISE_BEGINS, RISE_ENDS, GRADE = 20.0, 25.0, 0.1  # m, m, dz/dx behind
+OTHER_ROAD = ("brake_on_slope",)  # not the road of the FMU
+INITIAL = "initial."
+
+
+def load(name: str) -> Manoeuvre:
+    """A manoeuvre by name: one of `NAMES` or any other of the host."""
+    return load_manoeuvre(str(FOLDER / f"{name}.csv") if name in OWN else name)
+
+
+@cache
+def system_of(name: str) -> System:
+    """The car on the road of a manoeuvre; a System may be used by several runs."""
+    if name in OTHER_ROAD:
+        return compile(prototype_car.build(rise()))
+    return _default_system()
+
+
+@cache
+def _default_system() -> System:
+    return compile(prototype_car.build())
+
+
+def rise(grade: float = GRADE) -> GridRoad:
+    """Level road that goes over into a rise dz/dx, with a curvature that begins and ends at zero."""
+    x = np.arange(-20.0, 200.1, 0.5)
+    s = np.clip((x - RISE_BEGINS) / (RISE_ENDS - RISE_BEGINS), 0.0, 1.0)
+    # the slope grows like 3 s^2 - 2 s^3; its integral
+    height = grade * ((RISE_ENDS - RISE_BEGINS) * (s**3 - 0.5 * s**4) + np.clip(x - RISE_ENDS, 0.0, None))
+    return GridRoad((-20.0, -10.0), (0.5, 20.0), np.column_stack([height, height]), FRICTION)
+
+
+def start_of(manoeuvre: Manoeuvre) -> tuple[dict[str, float], Pose | None]:
+    """Parameters and pose at the start."""
+    pose = {k[len(INITIAL) :]: v for k, v in manoeuvre.start.items() if k.startswith(INITIAL)}
+    parameters = {k: v for k, v in manoeuvre.start.items() if not k.startswith(INITIAL)}
+    return parameters, Pose(**pose) if pose else None
+
+
+def inputs_of(manoeuvre: Manoeuvre) -> dict[str, Signal]:
+    """Inputs over time as `mbs.simulate` takes them."""
+    return {name: (manoeuvre.time, values) for name, values in manoeuvre.inputs.items()}
+
+
+def run(
+    name: str, h: float, *, every: int = 1, settings: Settings | None = None, estimate_error: bool | None = False
+) -> Trajectory:
+    """Drive a manoeuvre in the kernel with steps of `h` seconds, recording after every so many."""
+    return run_on(system_of(name), load(name), h, every=every, settings=settings, estimate_error=estimate_error)
+
+
+def run_on(
+    system: System,
+    manoeuvre: Manoeuvre,
+    h: float,
+    *,
+    every: int = 1,
+    settings: Settings | None = None,
+    estimate_error: bool | None = False,
+) -> Trajectory:
+    """The same with any car. Runs that are held against a reference need no estimate of their error."""
+    parameters, pose = start_of(manoeuvre)
+    return simulate(
+        system,
+        manoeuvre.stop_time,
+        h,
+        inputs_of(manoeuvre),
+        settings,
+        parameters,
+        every=every,
+        pose=pose,
+        progress=False,
+        estimate_error=estimate_error,
+    )
+
+
+def time_on(system: System, manoeuvre: Manoeuvre, h: float, repeats: int, clock: Callable[[], float]) -> float:
+    """Median time of all steps of a manoeuvre by a clock, s; start and input table are made before."""
+    parameters, pose = start_of(manoeuvre)
+    return step_time(system, manoeuvre.stop_time, h, repeats, clock, inputs_of(manoeuvre), parameters, pose)
+
+
+def sampling(name: str) -> float:
+    """Interval between the samples of a reference, s: a multiple of 0.01 s, some hundred samples."""
+    return max(1, round(load(name).stop_time / 400.0 / 0.01)) * 0.01
+
+
+def record_driver(h: float = 1e-3, interval: float = 0.02) -> NDArray[np.float64]:
+    """What the host's driver does in the double lane change when it acts every `interval` seconds.
+
+    Returns
+    -------
+    ndarray of shape (n, 4)
+        Time, steering, throttle, brake.
+    """
+    manoeuvre = load(CLOSED_LOOP)
+    driver = make_driver(manoeuvre.driver)
+    parameters, pose = start_of(manoeuvre)
+    car = Simulation(system_of(CLOSED_LOOP), parameters=parameters, pose=pose)
+    rows = []
+    for k in range(round(manoeuvre.stop_time / interval) + 1):
+        acts = driver.act(k * interval, car.sensors)
+        rows.append([k * interval, *acts.values()])
+        for name, value in acts.items():
+            car.set_input(name, value)
+        car.step(h, round(interval / h))
+    return np.array(rows)

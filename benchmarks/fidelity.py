@@ -1,0 +1,57 @@
+"""How much model a car needs: ``python -m benchmarks.fidelity [--json FILE] [--chart FILE] [--repeats N]``.
+
+The same manoeuvres on every rung: 0 rigid, 1 rigid with quasi-static stresses, 2 flexible with the modes of the load
+paths, 3 with static, inertia and 5 dynamic modes, 4 with 40 dynamic modes, and "paper" with 60 static and 5 dynamic
+modes but no inertia modes. Errors are against the stored references (`benchmarks.fidelity_references`).
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from benchmarks.car.fidelity import RUNGS, chart, measure, verdict
+from benchmarks.car.fidelity_runs import NAMES
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from mbs import Settings
+
+STEPS = (0.01, 0.005, 0.002)  # s
+COLUMNS = {
+    "manoeuvre": "",
+    "rung": "",
+    "h_s": ".3f",
+    "coordinates": "d",
+    "rows": "d",
+    "modes": "d",
+    "moment": ".3f",
+    "moment_unfiltered": ".3f",
+    "motion": ".1e",
+    "wheel_load": ".3f",
+    "iterations_mean": ".2f",
+    "iterations_max": "d",
+    "us_per_step": ".0f",
+    "realtime_factor": ".1f",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Measure, print, and write what was asked for."""
+    parser = parser_of("fidelity", __doc__, chart="errors against cost")
+    parser.add_argument("--repeats", type=int, default=3, metavar="N", help="timed runs per row; default: 3")
+    parser.add_argument("--manoeuvres", nargs="+", default=NAMES, choices=NAMES, metavar="NAME")
+    options = parser.parse_args(arguments)
+    todo = [(name, rung, h) for name in options.manoeuvres for rung in RUNGS for h in STEPS]
+    rows = [measure(name, rung, h, options.repeats) for name, rung, h in watched(todo)]
+    print_table(rows, COLUMNS)
+    lines = verdict(rows)
+    print("\n" + "\n".join(lines))
+    save_rows(options.json, describe("fidelity", Settings(), repeats=options.repeats, verdict=lines), rows)
+    if options.chart:
+        chart(rows, options.chart)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

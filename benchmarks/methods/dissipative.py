@@ -1,0 +1,132 @@
+"""Scenes without an exact motion: each with what is right and from where a run counts as wrong."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import mbs
+from benchmarks.car import fidelity_runs
+from benchmarks.methods.kernel_methods import TITLES
+from benchmarks.paper.assembly_defect import STEP
+from benchmarks.references.assembly_defect import COMPONENTS, reference
+from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
+from mbs.scenes.prototype_car.car_data import GRAVITY, TOTAL_MASS
+
+SPIN_UP = Path(__file__).parents[2] / "tests" / "data" / "reference" / "spin_up_beam.csv"
+Found = tuple[float, mbs.Trajectory]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is run, and from which error on a run is wrong."""
+
+    quantity: str
+    run: Callable[[mbs.Settings, float], Found]
+    limit: float
+    steps: tuple[float, ...]
+
+
+@cache
+def _system(name: str) -> mbs.System:
+    builders = {
+        "car": prototype_car.build,
+        "beam": spinning_beam.build,
+        "four-bar": lambda: assembly_defect_four_bar.build(parts=4, elements=2, dynamic_modes=0),
+    }
+    return mbs.compile(builders[name]())
+
+
+def beam(settings: mbs.Settings, h: float) -> Found:
+    """Deflection of the tip against geometrically exact beams."""
+    t = mbs.simulate(
+        _system("beam"),
+        spinning_beam.DURATION,
+        h,
+        settings=settings,
+        every=round(0.02 / h),
+        progress=False,
+        estimate_error=False,
+    )
+    time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
+    _, found = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
+    return float(np.abs(np.interp(time_ref, t.t, found) - expected).max() / np.abs(expected).max()), t
+
+
+def four_bar(settings: mbs.Settings, h: float) -> Found:
+    """Moments in the coupler against geometrically exact beams."""
+    end, every = assembly_defect_four_bar.DURATION, round(STEP / h)
+    t = mbs.simulate(_system("four-bar"), end, h, settings=settings, every=every, progress=False, estimate_error=False)
+    expected = reference()
+    gap = max(np.abs(t[f"coupler.{c}"] - expected[c]).max() for c in COMPONENTS)
+    return float(gap / max(np.abs(expected[c]).max() for c in COMPONENTS)), t
+
+
+def rest(settings: mbs.Settings, h: float) -> Found:
+    """How far the braked car moves in 100 s."""
+    t = mbs.simulate(
+        _system("car"),
+        100.0,
+        h,
+        {"brake": 1.0},
+        settings,
+        every=max(1, round(0.1 / h)),
+        progress=False,
+        estimate_error=False,
+    )
+    place = np.array([t[f"chassis.{c}"] for c in "xyz"])
+    return float(np.linalg.norm(place - place[:, :1], axis=0).max()), t
+
+
+def kerb(settings: mbs.Settings, h: float) -> Found:
+    """Moments of the flexible frame, after the low-pass, against much smaller steps."""
+    t = fidelity_runs.run("kerb_test", 3, h, settings)
+    return fidelity_runs.errors(fidelity_runs.sampled(t, h), fidelity_runs.read_reference("kerb_test"))["moment"], t
+
+
+def drive(settings: mbs.Settings, h: float) -> Found:
+    """Wheel loads, mean over 1000 s of gentle bends under power, against the weight."""
+    when = np.arange(0.0, 1001.0, 1.0)
+    inputs = {"throttle": 0.2, "steering": (when, 0.02 * np.sin(2.0 * np.pi * when / 40.0))}
+    t = mbs.simulate(
+        _system("car"), 1000.0, h, inputs, settings, every=max(1, round(0.1 / h)), progress=False, estimate_error=False
+    )
+    loads = sum(np.asarray(t[f"wheel_{w}.Fz"]) for w in ("FL", "FR", "RL", "RR"))
+    return float(abs(np.mean(loads) / (TOTAL_MASS * GRAVITY) - 1.0)), t
+
+
+SCENES = {
+    "spinning_beam": Scene("deflection, of the largest", beam, 0.05, (0.02, 0.01, 0.005)),
+    "assembly_defect_four_bar": Scene("moment, of the largest", four_bar, 0.05, (0.01, 0.005, 0.002)),
+    "car_at_rest_100s": Scene("way, m", rest, 1e-3, (0.05, 0.02, 0.01, 0.005)),
+    "flexible_car_over_the_kerb": Scene("moment, of the largest change", kerb, 0.05, (0.01, 0.005, 0.002)),
+    "car_drives_1000s": Scene("mean load, of the weight", drive, 1e-3, (0.02, 0.01)),
+}
+
+
+def measure(name: str, method: str, h: float) -> dict[str, Any]:
+    """One row."""
+    scene = SCENES[name]
+    row: dict[str, Any] = {"scene": name, "method": TITLES.get(method, method), "h_s": h, "quantity": scene.quantity}
+    row |= {"outcome": "refused", "limit": scene.limit, "reason": ""}
+    row |= dict.fromkeys(("error", "iterations", "halvings", "violation_m", "wall_s"))
+    begin = time.perf_counter()
+    try:
+        error, t = scene.run(mbs.Settings(method=method), h)
+    except mbs.SimulationError as stopped:
+        return row | {"reason": str(stopped), "wall_s": time.perf_counter() - begin}
+    assert t.report is not None
+    return row | {
+        "outcome": "fine" if error < scene.limit else "wrong",
+        "error": error,
+        "iterations": t.report.mean_iterations,
+        "halvings": t.report.halvings,
+        "violation_m": t.report.violation,
+        "wall_s": t.wall_s,
+    }

@@ -1,0 +1,161 @@
+"""Cost of the N-four-bar and of the car's frame over their size, with fitted exponents."""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import mbs
+from benchmarks.methods.arithmetic import compiled_loop_peak, dgemm_peak, operations, resident
+from benchmarks.shared.command import pyplot, save_chart, watched
+from benchmarks.shared.machine import machine
+from mbs.flexible import craig_bampton
+from mbs.scenes import double_four_bar
+from mbs.scenes.prototype_car.frame import DAMPING, INTERFACES, REFERENCE, prototype_frame
+
+STEP, END = 0.01, 0.6  # s: up to before the first singular position
+CHASSIS_STEP, CHASSIS_STEPS, CHASSIS_ROUNDS = 0.005, 100, 5  # s
+FITTED_FROM = 10  # N: below it the fixed cost of a step shows
+METHODS = ("ali3p", "energy_momentum")
+EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros", "operations_per_step")
+CHASSIS_EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros")
+
+
+def measure(windows: Sequence[int], rounds: int) -> list[dict[str, Any]]:
+    """All rows; times are medians over rounds through all of them."""
+    loop, dgemm = compiled_loop_peak(), dgemm_peak()
+    steps = round(END / STEP)
+    rows: list[dict[str, Any]] = []
+    systems: dict[int, mbs.System] = {}
+    for n in watched(windows):
+        begin = time.perf_counter()
+        system = systems[n] = mbs.compile(double_four_bar.build(n))
+        compiled = time.perf_counter() - begin
+        for method in METHODS:
+            before = resident()
+            simulation = mbs.Simulation(system, settings=mbs.Settings(method=method))
+            after = resident()
+            first = simulation.report
+            simulation.step(STEP, n=steps)
+            report = simulation.report
+            rows.append(
+                {
+                    "N": n,
+                    "method": method,
+                    "coordinates": system.nq,
+                    "rows": system.nc,
+                    "factor_nonzeros": system.report["factor_nonzeros"],
+                    "system_bytes": len(system.to_bytes()),
+                    "state_bytes": simulation.instance.system.state_size,
+                    "resident_bytes": max(after - before, 0),
+                    "compile_s": compiled,
+                    "iterations": report.iterations / steps,
+                    "operations_per_step": operations(
+                        system,
+                        report.iterations / steps,
+                        (report.factorizations - first.factorizations) / steps,
+                        (report.solves - first.solves) / steps,
+                    ),
+                }
+            )
+    walls: list[list[float]] = [[] for _ in rows]
+    for turn, k in watched([(turn, k) for turn in range(rounds + 1) for k in range(len(rows))]):
+        system, settings = systems[rows[k]["N"]], mbs.Settings(method=rows[k]["method"])
+        run = mbs.simulate(system, END, STEP, settings=settings, every=steps, progress=False, estimate_error=False)
+        if turn:
+            walls[k].append(run.wall_s / steps)
+    for row, times in zip(rows, walls, strict=True):
+        wall = statistics.median(times)
+        rate = row["operations_per_step"] / wall
+        row |= {
+            "us_per_step": 1e6 * wall,
+            "us_per_iteration": 1e6 * wall / row["iterations"],
+            "gflops": 1e-9 * rate,
+            "of_compiled_loop": rate / loop if loop else None,
+            "of_dgemm": rate / dgemm,
+            "compiled_loop_gflops": 1e-9 * loop if loop else None,
+            "dgemm_gflops": 1e-9 * dgemm,
+        }
+    return rows
+
+
+def chassis(modes: Sequence[int], rounds: int) -> list[dict[str, Any]]:
+    """Rows of the car's frame alone, thrown and spinning: what its modes cost without the suspension."""
+    frame, _ = prototype_frame()
+    model = frame.finite_element_model()
+    rows: list[dict[str, Any]] = []
+    systems = []
+    for count in watched(modes):
+        m = mbs.Model("thrown chassis", gravity=(0.0, 0.0, -9.81))
+        reduced = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=True, damping=DAMPING)
+        body = m.flexible_body("chassis", reduced)
+        m.initial_velocity(body, (5.0, 0.0, 3.0), (0.3, 0.5, 2.0))
+        m.sense_energy("energy.total", "total")
+        system = mbs.compile(m)
+        simulation = mbs.Simulation(system)
+        simulation.step(CHASSIS_STEP, n=CHASSIS_STEPS)
+        systems.append(system)
+        rows.append(
+            {
+                "dynamic_modes": count,
+                "modes": len(system.arrays["flex_mode"]),
+                "coordinates": system.nq,
+                "factor_nonzeros": system.report["factor_nonzeros"],
+                "system_bytes": len(system.to_bytes()),
+                "state_bytes": simulation.instance.system.state_size,
+                "iterations": simulation.report.mean_iterations,
+            }
+        )
+    walls: list[list[float]] = [[] for _ in rows]
+    for turn, k in watched([(turn, k) for turn in range(rounds + 1) for k in range(len(systems))]):
+        end = CHASSIS_STEPS * CHASSIS_STEP
+        run = mbs.simulate(systems[k], end, CHASSIS_STEP, every=CHASSIS_STEPS, progress=False, estimate_error=False)
+        if turn:
+            walls[k].append(run.wall_s / CHASSIS_STEPS)
+    for row, times in zip(rows, walls, strict=True):
+        wall = 1e6 * statistics.median(times)
+        row |= {"us_per_step": wall, "us_per_iteration": wall / row["iterations"]}
+    return rows
+
+
+def chassis_exponents(rows: Sequence[dict[str, Any]]) -> dict[str, float]:
+    """Fitted b of ``cost = a n^b`` over all modes n, static ones included."""
+    x = np.log([r["modes"] for r in rows])
+    return {key: float(np.polyfit(x, np.log([r[key] for r in rows]), 1)[0]) for key in CHASSIS_EXPONENTS}
+
+
+def exponents(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Fitted b of ``cost = a N^b`` from `FITTED_FROM` on."""
+    lines = []
+    for method in METHODS:
+        part = [r for r in rows if r["method"] == method and r["N"] >= FITTED_FROM]
+        if len(part) > 1:
+            x = np.log([r["N"] for r in part])
+            lines.append(
+                {"method": method}
+                | {key: float(np.polyfit(x, np.log([r[key] for r in part]), 1)[0]) for key in EXPONENTS}
+            )
+    return lines
+
+
+def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
+    """Time per step and non-zeros against N, log-log, with a line of slope one."""
+    plt = pyplot()
+    figure, ax = plt.subplots(figsize=(6.2, 4.4), layout="constrained")
+    for method, colour, marker in zip(METHODS, ("#0072B2", "#CC79A7"), "ov", strict=True):
+        part = [r for r in rows if r["method"] == method]
+        x = [r["N"] for r in part]
+        ax.loglog(x, [r["us_per_step"] for r in part], f"{marker}-", color=colour, label=f"{method}: µs per step")
+    part = [r for r in rows if r["method"] == METHODS[0]]
+    x = np.array([r["N"] for r in part], dtype=float)
+    ax.loglog(x, [r["factor_nonzeros"] for r in part], "s--", color="#009E73", label="non-zeros of the factor")
+    ax.loglog(x, part[-1]["us_per_step"] * x / x[-1], ":", color="black", label="slope 1")
+    ax.set_xlabel(f"N of the N-four-bar ({machine()['processor']})")
+    ax.grid(True, which="major", alpha=0.35)
+    ax.legend(fontsize=8)
+    save_chart(figure, file)

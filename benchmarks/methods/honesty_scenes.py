@@ -1,0 +1,222 @@
+"""What `benchmarks.honesty` runs: each scene with its judged sensors and their true values."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache, partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+import mbs
+from benchmarks.car import manoeuvres
+from benchmarks.methods.kernel_methods import KERNEL, suits
+from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
+from mbs.accuracy import extent, instants, judged_sensors
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
+CLOSE = (
+    1e-3  # of the extent: a run that shall tell the sensors without an exact motion is this near to it where there is
+)
+CRANK_ANGLE = 758.62661  # rad after 2 s: its one degree of freedom under DOP853 at 1e-12
+TUMBLING = np.diag([0.1, 0.2, 0.3]), np.array([0.01, 5.0, 0.01])  # kg m2, rad/s: about the middle axis, slightly off
+TUMBLES = 20.0  # s
+CAR_STEP = 2.5e-4  # s
+BEST = {
+    "pendulum": ("runge_kutta_8", 40),
+    "pendulum_1000s": ("runge_kutta_8", 2000),
+    "double_four_bar": ("semi_recursive_4", 200),
+    "four_bar_40": ("energy_momentum_4", 40),
+    "four_bar_200": ("radau_5", 100),
+    "squeezer": ("runge_kutta_8", 20),
+    "bricard": ("semi_recursive", 20),
+    "flyball": ("radau_5", 40),
+    "slider_crank": ("radau_5", 200),
+    "spatial_slider_crank": ("runge_kutta_8", 100),
+    "bicycle": ("runge_kutta_8", 20),
+    "spatial_chain": ("semi_recursive", 40),
+}
+"""Method and division that come nearest to the exact motion: for sensors that it does not name."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A model with the true values of sensors at equal instants.
+
+    Parameters
+    ----------
+    run : callable
+        Trajectory of a method and a step, recorded at the instants; further arguments as of `mbs.simulate`.
+    truth : callable
+        Values by sensor.
+    units : callable
+        Judged sensors by unit, of those with a truth.
+    methods : callable
+        Names of those that take it.
+    steps : tuple of float
+        From coarse to fine, s.
+    """
+
+    run: Callable[..., mbs.Trajectory]
+    truth: Callable[[], Mapping[str, Array]]
+    units: Callable[[], Mapping[str, list[str]]]
+    methods: Callable[[], list[str]]
+    steps: tuple[float, ...]
+
+    def error(self, found: mbs.Trajectory) -> tuple[float, float]:
+        """Largest error over the largest range of a unit, and the error told of the sensor it is in over that range
+        (nan: none told).
+        """
+        worst, told = 0.0, float("nan")
+        estimate = found.accuracy.sensors if found.accuracy is not None else {}
+        for unit, names in self.units().items():
+            true = self.truth()
+            rows = instants(len(found.t))
+            size = extent(unit, [true[n] for n in names])
+            for name in names:
+                error = float(np.abs(found[name] - true[name])[rows].max()) / size
+                if error >= worst:
+                    worst, told = error, estimate.get(name, float("nan")) / size
+        return worst, told
+
+
+def _case_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:
+    case = CASES[name]
+    every = round(case.end / SAMPLES / h)
+    return mbs.simulate(system_of(name), case.end, h, method=method, every=every, progress=False, **more)
+
+
+@cache
+def _case_truth(name: str) -> dict[str, Array]:
+    case, exact = CASES[name], exact_of(name)
+    known = dict(zip(case.sensors, exact.T, strict=True))
+    if name not in BEST:
+        return known
+    method, division = BEST[name]
+    best = _case_run(name, method, case.end / (SAMPLES * division), estimate_error=False)
+    for sensor, values in known.items():
+        assert np.abs(best[sensor] - values).max() < CLOSE * np.ptp(exact), f"{name}: {sensor}"
+    return {n: best[n] for names in judged_sensors(system_of(name)).values() for n in names} | known
+
+
+def _case_units(name: str) -> dict[str, list[str]]:
+    true = _case_truth(name)
+    groups = {u: [n for n in names if n in true] for u, names in judged_sensors(system_of(name)).items()}
+    return {unit: names for unit, names in groups.items() if names and np.ptp([true[n] for n in names]) > 0.0}
+
+
+def _case(name: str) -> Scene:
+    case = CASES[name]
+    return Scene(
+        partial(_case_run, name),
+        partial(_case_truth, name),
+        partial(_case_units, name),
+        lambda: [m for m in KERNEL if suits(m, case.conservative, system_of(name))],
+        tuple(case.end / (SAMPLES * d) for d in case.divisions),
+    )
+
+
+@cache
+def printed_model() -> mbs.System:
+    """The crank-slider as `docs/modelling.md` prints it."""
+    block = re.search(r"```python\n(.*?)\nsystem = ", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    assert block is not None
+    names: dict[str, Any] = {}
+    exec(block[1], names)
+    return mbs.compile(names["m"])
+
+
+def _crank_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
+    every = round(2.0 / SAMPLES / h)
+    return mbs.simulate(printed_model(), 2.0, h, {"torque": 4.0}, method=method, every=every, progress=False, **more)
+
+
+@cache
+def _crank_truth() -> dict[str, Array]:
+    best = _crank_run("runge_kutta_8", 6.25e-5, estimate_error=False)
+    assert abs(best["crank.angle"][-1] - CRANK_ANGLE) < 1e-4
+    return {n: best[n] for n in ("crank.angle", "piston.x")}
+
+
+@cache
+def tumbling_body() -> mbs.System:
+    """A free body about its middle axis of inertia, which turns over at times that hang on the smallest error."""
+    m = mbs.Model("tumbling body", gravity=(0.0, 0.0, 0.0))
+    body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=TUMBLING[0])
+    m.initial_velocity(body, linear=(0.0, 0.0, 0.0), angular=TUMBLING[1])
+    for c in "xyz":
+        m.sense_angular_rate(f"rate.{c}", body, c)
+        m.sense_position(f"tip.{c}", body, (0.0, 1.0, 0.0), c)
+    return mbs.compile(m)
+
+
+def _tumbling_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
+    every = max(1, round(TUMBLES / SAMPLES / h))
+    return mbs.simulate(tumbling_body(), TUMBLES, h, method=method, every=every, progress=False, **more)
+
+
+@cache
+def _tumbling_truth() -> dict[str, Array]:
+    """Euler's equations and the rotation matrix under DOP853."""
+    inertia, rate = TUMBLING
+
+    def rates(_: float, x: Array) -> Array:
+        w, axes = x[:3], x[3:].reshape(3, 3)
+        turn = np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+        return np.concatenate([np.linalg.solve(inertia, -np.cross(w, inertia @ w)), (axes @ turn).ravel()])
+
+    start = np.concatenate([rate, np.eye(3).ravel()])
+    t = np.linspace(0.0, TUMBLES, SAMPLES + 1)
+    x = solve_ivp(rates, (0.0, TUMBLES), start, t_eval=t, method="DOP853", rtol=1e-12, atol=1e-13).y
+    return {f"tip.{c}": x[4 + 3 * k] for k, c in enumerate("xyz")}
+
+
+def _car_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:
+    every = round(manoeuvres.sampling(name) / h)
+    more.setdefault("estimate_error", None)
+    return manoeuvres.run(name, h, every=every, settings=mbs.Settings(method=method), **more)
+
+
+@cache
+def _car_truth(name: str) -> dict[str, Array]:
+    """The default with a step at which it differs from the stored references by 1e-4 of what is judged, or less."""
+    every = round(manoeuvres.sampling(name) / CAR_STEP)
+    fine = manoeuvres.run(name, CAR_STEP, every=every)
+    return {n: fine[n] for names in judged_sensors(manoeuvres.system_of(name)).values() for n in names}
+
+
+def _car(name: str) -> Scene:
+    sampling = manoeuvres.sampling(name)
+    steps = tuple(h for h in (0.02, 0.01, 0.005, 0.002, 0.001) if abs(round(sampling / h) * h - sampling) < 1e-9 * h)
+    return Scene(
+        partial(_car_run, name),
+        partial(_car_truth, name),
+        lambda: judged_sensors(manoeuvres.system_of(name)),
+        lambda: ["ali3p", "ali3p_no_projection", "ali3p_generalised_alpha", "energy_momentum"],
+        steps,
+    )
+
+
+SCENES: dict[str, Scene] = {
+    **{name: _case(name) for name in CASES},
+    "printed_crank_slider": Scene(
+        _crank_run,
+        _crank_truth,
+        lambda: {"rad": ["crank.angle"], "m": ["piston.x"]},
+        lambda: [m for m in KERNEL if suits(m, True, printed_model())],
+        (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5, 2e-5),
+    ),
+    "tumbling_body": Scene(
+        _tumbling_run,
+        _tumbling_truth,
+        lambda: {"m": [f"tip.{c}" for c in "xyz"]},
+        lambda: [m for m in KERNEL if suits(m, True, tumbling_body())],
+        (0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005, 0.0002),
+    ),
+    **{f"car, {name}": _car(name) for name in manoeuvres.NAMES},
+}
+"""Scenes by name."""

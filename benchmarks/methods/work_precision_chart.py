@@ -1,0 +1,85 @@
+"""The chart of `benchmarks.work_precision`: error against wall time and against factorizations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from benchmarks.methods.kernel_methods import TITLES, controlled
+from benchmarks.references.cases import Case
+from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.shared.machine import machine
+
+KERNEL = {
+    TITLES["ali3p"]: ("#0072B2", "o"),
+    TITLES["ali3p_generalised_alpha"]: ("#56B4E9", "s"),
+    TITLES["energy_momentum"]: ("#D55E00", "D"),
+    TITLES["energy_momentum_4"]: ("#E69F00", "^"),
+    TITLES["runge_kutta_8"]: ("#000000", "v"),
+    TITLES["semi_recursive"]: ("#882255", "P"),
+    TITLES["semi_recursive_4"]: ("#CC79A7", "X"),
+    TITLES["radau_5"]: ("#009E73", "*"),
+}
+"""Colours of Okabe and Ito, and wine of Tol, the same in every chart; methods that are not here are in the tables."""
+OTHERS = {"classical": ("#777777", ":"), "exudyn": ("#444444", "--"), "mujoco": ("#999999", "--")}
+MARKERS = "osD^vPX"
+CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
+"""Runs to a tolerance: the same colours, dash-dotted with open marks."""
+PANELS = {"wall_s": ("kernel", "exudyn", "mujoco"), "factorizations": ("kernel", "classical")}
+"""What is compared: times of compiled programs, factorizations of the methods that count them."""
+
+
+def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) -> None:
+    """Left: wall time of the kernel and of other engines; right: factorizations of the kernel and of methods in Python.
+    Runs that lost the motion are left out.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Of one scene.
+    case : Case
+    lost : float
+        Error, in the unit of the case, from which a run has no point.
+    file : Path
+        PNG.
+    """
+    plt = pyplot()
+    from matplotlib.ticker import NullFormatter
+
+    figure, axes = plt.subplots(1, 2, figsize=(11.0, 4.6), sharey=True, layout="constrained")
+    for ax, (key, families) in zip(axes, PANELS.items(), strict=True):
+        for family in families:
+            for k, method in enumerate(dict.fromkeys(r["method"] for r in rows if r["family"] == family)):
+                points = [
+                    (r[key], r["position_error_m"])
+                    for r in rows
+                    if r["method"] == method and r["wall_s"] and r[key] and r["position_error_m"] < lost
+                ]
+                if not points or (family == "kernel" and method not in KERNEL | CONTROLLED):
+                    continue
+                colour, line = OTHERS.get(family, ("", "-." if method in CONTROLLED else "-"))
+                colour, marker = (KERNEL | CONTROLLED).get(method, (colour, MARKERS[k % len(MARKERS)]))
+                ax.loglog(
+                    *zip(*points, strict=True),
+                    line,
+                    marker=marker,
+                    color=colour,
+                    fillstyle="full" if method in KERNEL else "none",
+                    linewidth=1.8 if method in KERNEL else 1.1,
+                    markersize=5.5,
+                    label=method,
+                )
+        ax.grid(True, which="major", alpha=0.35)
+        ax.xaxis.set_minor_formatter(NullFormatter())
+    axes[0].set_xlabel(f"wall time of the steps, s ({machine()['processor']})")
+    axes[1].set_xlabel("factorizations")
+    axes[0].set_ylabel(f"largest error of the output point, {case.unit}")
+    handles = {label: handle for ax in axes for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)}
+    figure.legend(handles.values(), handles.keys(), loc="outside right center", fontsize=7.5, frameon=False)
+    figure.suptitle(
+        f"{case.title}   (solid: kernel, C, equal steps; dash-dotted: to a tolerance; dotted: Python; "
+        "dashed: other engines, C++)",
+        fontsize=10,
+    )
+    save_chart(figure, file)

@@ -1,0 +1,81 @@
+"""The paper's test on the kerb: peaks of the bending moments, what is left of them at the end, cost."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from benchmarks.car import fidelity_runs
+from benchmarks.car.fidelity import size_of
+from mbs import Simulation, Trajectory
+from mbs.scenes import kerb_test
+from mbs.scenes.prototype_car.chassis import RIGID
+
+GAUGES = ("SG1", "SG3")
+RELEASE = 13.0  # s: tyres let go
+COLUMNS = {
+    "rung": "",
+    "h_s": ".3f",
+    "coordinates": "d",
+    "rows": "d",
+    "modes": "d",
+    "iterations_mean": ".2f",
+    "iterations_max": "d",
+    "seconds": ".2f",
+    "realtime_factor": ".1f",
+    **{f"{what}_{g}": ".2f" for g in GAUGES for what in ("peak", "filtered")},
+    "peak_error": ".1e",
+    "filtered_error": ".1e",
+    "left_held": ".1e",
+    "left_free": ".1e",
+}
+
+
+def changes(t: Trajectory, h: float) -> dict[str, float]:
+    """Largest changes from rest, N m."""
+    found = fidelity_runs.peaks(t, h)
+    shown = {f"peak_{g}": found[f"bending_moment.{g}"] for g in GAUGES}
+    return shown | {f"filtered_{g}": found[f"{fidelity_runs.FILTERED}bending_moment.{g}"] for g in GAUGES}
+
+
+def left_at_the_end(rung: int | str, h: float) -> tuple[float, float]:
+    """Largest change of a moment that stays, over its peak: as the car stands, and with its tyres let go."""
+    car = Simulation(fidelity_runs.system_of("kerb_test", rung))
+    names = [f"bending_moment.{g}" for g in GAUGES]
+    t = car.run(RELEASE, h, progress=False)
+    peaks = {n: float(np.abs(t[n] - t[n][0]).max()) for n in names}
+    held = car.sensors
+    car.set_parameter("road.friction", 0.0)
+    car.run(kerb_test.DURATION, h, progress=False)
+    free = car.sensors
+    one, other = (max(abs(s[n] - float(t[n][0])) / peaks[n] for n in names) for s in (held, free))
+    return one, other
+
+
+def measure(rung: int | str, h: float, repeats: int) -> dict[str, Any]:
+    """One row; on the rigid rung there are no moments."""
+    found = fidelity_runs.run("kerb_test", rung, h)
+    report = found.report
+    assert report is not None
+    spent = fidelity_runs.cpu_time("kerb_test", rung, h, repeats)
+    row: dict[str, Any] = {
+        "rung": str(rung),
+        "h_s": h,
+        **size_of("kerb_test", rung),
+        "iterations_mean": report.mean_iterations,
+        "iterations_max": report.max_iterations,
+        "seconds": spent,
+        "realtime_factor": kerb_test.DURATION / spent,
+    }
+    if rung == RIGID:
+        return row | {name: None for name in COLUMNS if name not in row}
+    reference = fidelity_runs.read_peaks("kerb_test")
+    peaks = changes(found, h)
+    errors = {"peak": 0.0, "filtered": 0.0}
+    for g in GAUGES:
+        for what, prefix in (("peak", ""), ("filtered", fidelity_runs.FILTERED)):
+            size = reference[f"{prefix}bending_moment.{g}"]
+            errors[what] = max(errors[what], abs(peaks[f"{what}_{g}"] - size) / size)
+    held, free = left_at_the_end(rung, h)
+    return row | peaks | {f"{k}_error": v for k, v in errors.items()} | {"left_held": held, "left_free": free}

@@ -1,0 +1,1 @@
+"""What the commands share: arguments, progress, the machine, timing, tables, charts and files."""

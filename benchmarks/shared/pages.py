@@ -1,0 +1,41 @@
+"""Tables in the text of a page: between ``<!-- begin NAME -->`` and ``<!-- end NAME -->``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+Row = Mapping[str, Any]
+
+
+def table(rows: Sequence[Row], columns: Mapping[str, str]) -> str:
+    """A Markdown table; `columns` maps the keys to formats, None prints as "–"."""
+
+    def cell(value: Any, form: str) -> str:
+        if value is None:
+            return "–"
+        return str(value).replace("|", "\\|") if isinstance(value, str) else format(value, form)
+
+    head = [key.replace("_", " ") for key in columns]
+    lines = [head, ["---"] * len(head)] + [[cell(r.get(k), f) for k, f in columns.items()] for r in rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def machine(meta: Row) -> str:
+    """Where and when, one line."""
+    m = meta["machine"]
+    versions = ", ".join(f"{k} {v}" for k, v in m["versions"].items())
+    return (
+        f"{m['processor']}, {m['cores']} cores, {m['system']}, Python {m['python']}; {versions}; {meta['time'][:10]}."
+    )
+
+
+def replace(text: str, blocks: Mapping[str, str]) -> str:
+    """The page with its tables exchanged; what was not measured stays."""
+    for name, content in blocks.items():
+        mark = re.compile(rf"(<!-- begin {re.escape(name)} -->\n).*?(<!-- end {re.escape(name)} -->)", re.DOTALL)
+        text = mark.sub(lambda m, content=content: f"{m[1]}{content.strip()}\n{m[2]}", text)
+    return text

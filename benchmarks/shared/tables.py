@@ -1,0 +1,59 @@
+"""Rows as aligned columns on the terminal and as JSON files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+
+def print_table(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str] | None = None) -> None:
+    """Print rows as aligned columns.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        All with the same keys; None prints as "-".
+    columns : mapping of str to str, optional
+        Which keys, and how their values are formatted (".3g"); by default all, as ".4g".
+    """
+    if not rows:
+        return
+    formats = dict(columns) if columns is not None else dict.fromkeys(rows[0], ".4g")
+    lines = [list(formats)] + [[_cell(row[key], form) for key, form in formats.items()] for row in rows]
+    widths = [max(len(line[k]) for line in lines) for k in range(len(formats))]
+    left = [isinstance(rows[0][key], str) for key in formats]
+    for number, line in enumerate(lines):
+        cells = [c.ljust(w) if is_left else c.rjust(w) for c, w, is_left in zip(line, widths, left, strict=True)]
+        print("  ".join(cells).rstrip())
+        if number == 0:
+            print("  ".join("-" * w for w in widths))
+
+
+def write_json(file: Path, meta: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write ``{"meta": ..., "rows": [...]}``; numbers that are not finite become null."""
+    text = json.dumps({"meta": _plain(meta), "rows": _plain(rows)}, indent=1, allow_nan=False)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text + "\n", encoding="utf-8")
+
+
+def _cell(value: Any, form: str) -> str:
+    if value is None:
+        return "-"
+    return value if isinstance(value, str) else format(value, form)
+
+
+def _plain(value: Any) -> Any:
+    """Values that JSON knows."""
+    if isinstance(value, Mapping):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple | np.ndarray):
+        return [_plain(v) for v in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not np.isfinite(value):
+        return None
+    return value

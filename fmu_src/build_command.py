@@ -1,0 +1,113 @@
+"""Builds the FMUs of a scene: ``ali3 build [--scene NAME or path/to/file.py:function] [--kind LIST]``."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+from collections.abc import Sequence
+from pathlib import Path
+
+from ali3.errors import UserError
+from ali3.running import missing_package, run_command
+
+_KINDS = "native,fmi3,python"
+
+
+def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
+    """Run the command; `prog` is how the user typed it."""
+    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a scene.")
+    parser.add_argument(
+        "--scene",
+        default="prototype_car",
+        metavar="NAME",
+        help="a scene of mbs.scenes, or path/to/file.py:function (a function that returns an mbs.Model or mbs.System); "
+        "default: prototype_car",
+    )
+    parser.add_argument("--out", type=Path, default=Path("dist"), metavar="DIR", help="default: dist")
+    parser.add_argument(
+        "--kind",
+        "--only",
+        default=_KINDS,
+        metavar="LIST",
+        help="native (FMI 2.0 in C), fmi3 (FMI 3.0 in C), python (FMI 2.0, runs in the host's Python); default: these; "
+        "fmi3_scalar: FMI 3.0 without arrays, for hosts that read them as zeros",
+    )
+    parser.add_argument(
+        "--platforms",
+        metavar="LIST",
+        help="out of linux64, win64, darwin64 and aarch64-linux, or this: the one of this machine; default: all that "
+        "the kind can have, that of this machine first",
+    )
+    parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
+    parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
+    parser.add_argument("--license", default="", help="of the model; default: the solver's")
+    options = parser.parse_args(arguments)
+    return run_command(lambda: _build(options), (ValueError, RuntimeError))
+
+
+def _build(options: argparse.Namespace) -> int:
+    from ali3.files import check_writable
+    from fmu_src.build import KINDS, FmuBuilder, fmu_name
+    from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, this_platform
+    from fmu_src.progress_line import ProgressLine
+    from fmu_src.scene_registry import load_variants
+
+    kinds = list(dict.fromkeys(options.kind.split(",")))
+    if set(kinds) - set(KINDS):
+        raise UserError(f"There is no kind of FMU '{options.kind}'; the kinds are {', '.join(KINDS)}.")
+    here = this_platform()
+    platforms = _platforms(options.platforms, here)
+    if "python" in kinds:
+        _need("pythonfmu")
+    _need("ziglang")
+
+    line = ProgressLine()
+    print(f"scene {options.scene} ...", flush=True)
+    with line.told("compiling the scene"):
+        name, systems, fidelity = load_variants(options.scene)
+    files = {kind: options.out / f"{fmu_name(name, kind)}.fmu" for kind in kinds}
+    for file in files.values():
+        check_writable(file)
+    rights = (options.author, options.copyright, options.license)
+    builder = FmuBuilder(systems, name, fidelity, rights, line.told)
+    able = {kind: [p for p in platforms if kind != "python" or p in PYTHON_PLATFORMS] for kind in kinds}
+    for kind in [k for k in kinds if not able[k]]:
+        print(f"{kind}: left out, it runs on {', '.join(PYTHON_PLATFORMS)} only", flush=True)
+        del able[kind]
+    # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
+    first = {kind: [here] for kind in able if here in able[kind] and len(able[kind]) > 1}
+    meta = systems[fidelity].meta
+    for chosen in (first, able):
+        line.expect(sum(builder.pieces(kind, places) for kind, places in chosen.items()))
+        for kind, places in chosen.items():
+            file = builder.build(kind, places, files[kind])
+            print(
+                f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(meta['inputs'])} inputs, "
+                f"{len(meta['sensors'])} sensors; for {', '.join(places)}",
+                flush=True,
+            )
+        if chosen is first and first:
+            rest = [p for p in PLATFORMS if p in platforms and p != here]
+            print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
+    return 0
+
+
+def _platforms(text: str | None, here: str | None) -> list[str]:
+    from fmu_src.platforms import PLATFORMS
+
+    if text is None:
+        return list(PLATFORMS)
+    chosen = list(dict.fromkeys(text.split(",")))
+    if "this" in chosen:
+        if here is None:
+            raise UserError(f"No FMU runs on this machine; the platforms are {', '.join(PLATFORMS)}.")
+        chosen[chosen.index("this")] = here
+    if set(chosen) - set(PLATFORMS):
+        raise UserError(f"Platform '{text}' is not known; the platforms are {', '.join(PLATFORMS)} and this.")
+    return list(dict.fromkeys(chosen))
+
+
+def _need(package: str) -> None:
+    if importlib.util.find_spec(package) is None:
+        more = ", or leave out --kind python" if package == "pythonfmu" else ""
+        raise UserError(missing_package(package) + more)

@@ -1,0 +1,68 @@
+"""One line on the terminal that says what a long build is doing."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TextIO
+
+PATIENCE = 2.0
+"""What takes longer is told, s."""
+_REDRAWN, _REPEATED = 0.5, 30.0
+
+
+class ProgressLine:
+    """Says what goes on once it takes longer than two seconds.
+
+    On a terminal it is one line that is drawn again and again; in a file it is a line at the beginning, every half a
+    minute and at the end.
+
+    Parameters
+    ----------
+    stream : text stream, optional
+        The standard error stream by default.
+    """
+
+    def __init__(self, stream: TextIO | None = None) -> None:
+        self._stream = sys.stderr if stream is None else stream
+        self._drawn = self._stream.isatty()
+        self._done, self._total = 0, 0
+
+    def expect(self, total: int) -> None:
+        """Count from here on: so many pieces of work will come."""
+        self._done, self._total = 0, total
+
+    @contextmanager
+    def told(self, what: str, note: str = "") -> Iterator[None]:
+        """A context in which `what` is done; `note` says why it may take long."""
+        begin, finished = time.perf_counter(), threading.Event()
+        watcher = threading.Thread(target=self._watch, args=(what, note, begin, finished), daemon=True)
+        watcher.start()
+        try:
+            yield
+        finally:
+            finished.set()
+            watcher.join()
+            took = time.perf_counter() - begin
+            self._done += 1
+            if self._drawn:
+                self._say("\r\033[K")
+            elif took > PATIENCE:
+                self._say(f"{self._count()}{what}: {took:.0f} s\n")
+
+    def _watch(self, what: str, note: str, begin: float, finished: threading.Event) -> None:
+        wait, words = PATIENCE, f" ({note})" if note else ""
+        while not finished.wait(wait):
+            wait = _REDRAWN if self._drawn else _REPEATED
+            line = f"{self._count(1)}{what}, {time.perf_counter() - begin:.0f} s{words} ..."
+            self._say(f"\r\033[K{line}" if self._drawn else line + "\n")
+
+    def _count(self, more: int = 0) -> str:
+        return f"[{self._done + more}/{self._total}] " if self._total else ""
+
+    def _say(self, text: str) -> None:
+        self._stream.write(text)
+        self._stream.flush()

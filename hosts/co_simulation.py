@@ -1,0 +1,189 @@
+"""The co-simulation loop: inputs in, a communication step, outputs out."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.driver import ACTS, SENSES, Driver
+from hosts.errors import HostError
+from hosts.fmu import Fmu, StepRefusedError
+from hosts.manoeuvre import Manoeuvre
+
+# Bytes a run may record: more would fill the memory before the disk.
+_LARGEST_RECORD = 4e9
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run recorded.
+
+    Parameters
+    ----------
+    names : list of str
+        Inputs and outputs.
+    units : dict of str to str
+        By name.
+    time : ndarray of shape (n,)
+        s.
+    values : ndarray of shape (n, len(names))
+        In the units of the model description; inputs are those of the step that ends there.
+    wall : float
+        Time spent in the loop, s.
+    simulated : float
+        s.
+    failed_steps : int
+        Communication steps the FMU refused; the run ends with the first.
+    messages : list of str
+        What the FMU logged at warning or above.
+    """
+
+    names: list[str]
+    units: dict[str, str]
+    time: NDArray[np.float64]
+    values: NDArray[np.float64]
+    wall: float
+    simulated: float
+    failed_steps: int
+    messages: list[str]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.names
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        return np.asarray(self.values[:, self.names.index(name)])
+
+
+def communication_step(fmu: Fmu, manoeuvre: Manoeuvre, step: float | None) -> float:
+    """The step of a run: the one that was asked for, else that of the FMU.
+
+    Parameters
+    ----------
+    fmu : Fmu
+    manoeuvre : Manoeuvre
+    step : float, optional
+        s.
+
+    Raises
+    ------
+    HostError
+        If it is not positive, longer than the manoeuvre, or so short that the record would not fit into the memory.
+    """
+    experiment = fmu.description.defaultExperiment
+    if step is None:
+        step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+    stop = manoeuvre.stop_time
+    if not 0.0 < step <= stop:
+        raise HostError(f"The step is {step:g} s; it must be positive and not longer than {stop:g} s.")
+    columns = len(fmu.names("input")) + len(fmu.names("output")) + 1
+    record = 8.0 * columns * (stop / step + 1.0)
+    if record > _LARGEST_RECORD:
+        shortest = stop * 8.0 * columns / (_LARGEST_RECORD - 8.0 * columns)
+        raise HostError(
+            f"{stop:g} s in steps of {step:g} s are {stop / step:.3g} rows of {columns} values: {1e-9 * record:.3g} GB "
+            f"where at most {1e-9 * _LARGEST_RECORD:g} GB can be recorded; take a step of at least {shortest:.2g} s, "
+            "or a shorter time."
+        )
+    return step
+
+
+def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | None = None) -> Result:
+    """`run` with a progress bar on the terminal."""
+    from tqdm import tqdm
+
+    steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
+    with tqdm(total=steps, desc=what, unit="step", delay=2.0) as bar:
+        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
+
+
+def run(
+    fmu: Fmu,
+    manoeuvre: Manoeuvre,
+    step: float,
+    driver: Driver | None = None,
+    progress: Callable[[int], None] = lambda done: None,
+) -> Result:
+    """Drive an FMU through a manoeuvre.
+
+    Parameters
+    ----------
+    fmu : Fmu
+        Not yet initialised.
+    manoeuvre : Manoeuvre
+    step : float
+        Communication step, s.
+    driver : Driver, optional
+        Overrules the inputs it acts on.
+    progress : callable
+        Is told the number of finished steps, now and then.
+
+    Returns
+    -------
+    Result
+        Up to the first refused step.
+    """
+    inputs, outputs = fmu.names("input"), fmu.names("output")
+    for name in manoeuvre.inputs:
+        if name not in inputs:
+            raise HostError(
+                f"The manoeuvre '{manoeuvre.name}' has a column '{name}', which is no input of {fmu.path.name}; "
+                f"its inputs are: {', '.join(inputs) or 'none'}."
+            )
+    if driver is not None:
+        missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
+        if missing:
+            raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+    used = list(dict.fromkeys([*manoeuvre.inputs, *(ACTS if driver is not None else ())]))
+    set_inputs, get_outputs = fmu.setter(used), fmu.getter(outputs)
+    senses = [outputs.index(n) for n in SENSES] if driver is not None else []
+
+    first = manoeuvre.at(0.0)
+    fmu.initialise(manoeuvre.start | first)
+    steps = max(1, round(manoeuvre.stop_time / step))
+    values = np.empty((steps + 1, len(inputs) + len(outputs)))
+    columns = [inputs.index(n) for n in used]
+    held = fmu.start_values(inputs)
+    for name, value in {**manoeuvre.start, **first}.items():
+        if name in inputs:
+            held[inputs.index(name)] = value
+    row = get_outputs()
+    values[0] = [*held, *row]
+    done, failed = 0, 0
+    begin = clock.perf_counter()
+    for k in range(steps):
+        t = k * step
+        wanted = manoeuvre.at(t)
+        if driver is not None:
+            wanted |= driver.act(t, {n: row[j] for n, j in zip(SENSES, senses, strict=True)})
+        now = [wanted[n] for n in used]
+        if used:
+            set_inputs(now)
+            held[columns] = now
+        try:
+            fmu.step(t, step)
+        except StepRefusedError:
+            failed = 1
+            break
+        done = k + 1
+        row = get_outputs()
+        values[done, : len(inputs)] = held
+        values[done, len(inputs) :] = row
+        if done % 50 == 0:
+            progress(done)
+    wall = clock.perf_counter() - begin
+    progress(done)
+    names = inputs + outputs
+    return Result(
+        names,
+        {n: fmu.variables[n].unit or "1" for n in names},
+        step * np.arange(done + 1, dtype=np.float64),
+        values[: done + 1],
+        wall,
+        done * step,
+        failed,
+        list(fmu.messages),
+    )

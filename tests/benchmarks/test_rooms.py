@@ -1,0 +1,82 @@
+"""The rooms of `benchmarks/`: who may import whom, and the list of commands."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import benchmarks
+from benchmarks.__main__ import commands, main
+
+ROOT = Path(__file__).parents[2]
+FOLDER = ROOT / "benchmarks"
+ROOMS = benchmarks.ROOMS
+COMMANDS = {"benchmarks.car.__main__", *(f"benchmarks.{name}" for name in commands())} - {"benchmarks.car"}
+
+
+def imports(file: Path) -> Iterator[str]:
+    """Names of the modules of `benchmarks` that a file imports."""
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module is not None:
+            yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def files(folder: Path) -> list[Path]:
+    return [file for file in folder.rglob("*.py") if "__pycache__" not in file.parts]
+
+
+def test_every_folder_is_a_room_and_says_what_it_holds() -> None:
+    packages = {file.parent.name: file for file in FOLDER.glob("*/__init__.py")}
+    assert set(packages) == set(ROOMS)
+    assert all(ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) for file in packages.values())
+    assert all(f"`{room}`" in (benchmarks.__doc__ or "") for room in ROOMS)
+
+
+def test_nothing_imports_a_command() -> None:
+    wrong = {(str(f.relative_to(FOLDER)), name) for f in files(FOLDER) for name in imports(f) if name in COMMANDS}
+    assert not wrong
+
+
+def test_tests_other_than_those_of_the_commands_import_no_command() -> None:
+    tests = [f for f in files(ROOT / "tests") if "benchmarks" not in f.relative_to(ROOT).parts]
+    found = {(f.name, name) for f in tests for name in imports(f) if name.startswith("benchmarks")}
+    assert found, "no test uses the references: look here again"
+    assert not {pair for pair in found if pair[1] in COMMANDS}
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_imports_only_those_before_it(room: str) -> None:
+    allowed = {*ROOMS[: ROOMS.index(room) + 1]}
+    inside = [f for f in files(FOLDER / room) if f.name != "__main__.py"]
+    used = {name.split(".")[1] for f in inside for name in imports(f) if name.startswith("benchmarks.")}
+    assert used <= allowed
+
+
+def test_the_list_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main() == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(commands()) >= 20
+    assert {line.split()[2].removeprefix("benchmarks.") for line in lines} == set(commands())
+    assert all(len(line.split()) > 4 for line in lines)
+
+
+@pytest.mark.parametrize("name", sorted(commands()))
+def test_a_command_names_itself(name: str) -> None:
+    tree = ast.parse(commands()[name].read_text(encoding="utf-8"))
+    assert f"python -m benchmarks.{name}" in (ast.get_docstring(tree) or "")
+
+
+@pytest.mark.parametrize("name", sorted(commands()))
+def test_a_command_explains_its_arguments(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    module = importlib.import_module("benchmarks.car.__main__" if name == "car" else f"benchmarks.{name}")
+    with pytest.raises(SystemExit) as ended:
+        module.main(["--help"])
+    assert ended.value.code == 0
+    assert f"usage: python -m benchmarks.{name} " in capsys.readouterr().out

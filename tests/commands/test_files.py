@@ -1,0 +1,128 @@
+"""Files are written whole or not at all; two writers of one file do not meet; a disk that is full is told."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from ali3.files import FileError, check_writable, whole_file
+from fmu_src.archive import write_zip
+
+FULL = """
+import resource, signal, sys
+from pathlib import Path
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+from ali3.files import FileError
+from fmu_src.archive import write_zip
+import random
+try:
+    write_zip({"modelDescription.xml": random.Random(1).randbytes(100_000)}, Path(sys.argv[1]))
+except FileError as error:
+    print(error)
+"""
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(p.name for p in folder.iterdir())
+
+
+def fail_half_way(file: Path, error: type[BaseException]) -> None:
+    with whole_file(file) as made:
+        made.write_text("half")
+        raise error
+
+
+def test_a_file_is_replaced_when_the_new_one_is_whole(tmp_path: Path) -> None:
+    file = tmp_path / "a" / "table.csv"
+    with whole_file(file) as made:
+        made.write_text("one")
+        assert not file.exists()
+    with whole_file(file) as made:
+        made.write_text("two")
+        assert made.suffix == ".csv"
+        assert file.read_text() == "one"
+    assert file.read_text() == "two"
+    assert names(file.parent) == ["table.csv"]
+
+
+def test_an_error_inside_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
+    file = tmp_path / "table.csv"
+    file.write_text("old")
+    for error in (ValueError, KeyboardInterrupt):
+        with pytest.raises(error):
+            fail_half_way(file, error)
+    assert file.read_text() == "old"
+    assert names(tmp_path) == ["table.csv"]
+
+
+def test_the_mode_is_that_of_any_new_file(tmp_path: Path) -> None:
+    (tmp_path / "plain").write_text("")
+    with whole_file(tmp_path / "whole") as made:
+        made.write_text("")
+    assert (tmp_path / "whole").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_a_link_stays_a_link(tmp_path: Path) -> None:
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "real" / "file")
+    with whole_file(tmp_path / "link") as made:
+        made.write_text("x")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "real" / "file").read_text() == "x"
+
+
+@pytest.mark.parametrize("write", [check_writable, lambda f: whole_file(f).__enter__()], ids=["check", "write"])
+def test_what_cannot_be_written_is_named(write: object, tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileError, match=r"folder is a folder; a file is to be written there\.$"):
+        write(tmp_path / "folder")
+    with pytest.raises(FileError, match=r"^The folder .*in cannot be made"):
+        write(tmp_path / "file" / "in" / "x.csv")
+    if sys.platform == "linux":
+        with pytest.raises(FileError, match=r"^/proc/x\.csv cannot be written: "):
+            write(Path("/proc/x.csv"))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
+def test_a_full_disk_names_the_file_and_leaves_nothing(tmp_path: Path) -> None:
+    file = tmp_path / "Some.fmu"
+    file.write_text("old")
+    done = subprocess.run([sys.executable, "-c", FULL, str(file)], capture_output=True, text=True, check=True)
+    assert done.stdout == f"{file} cannot be written: file too large.\n"
+    assert done.stderr == ""
+    assert file.read_text() == "old"
+    assert names(tmp_path) == ["Some.fmu"]
+
+
+def test_two_writers_of_one_archive_do_not_meet(tmp_path: Path) -> None:
+    file, errors = tmp_path / "Some.fmu", []
+    parts = [{f"{k}.bin": bytes([k]) * 300_000, "modelDescription.xml": b"%d" % k} for k in range(2)]
+
+    def write(k: int, start: threading.Barrier) -> None:
+        try:
+            start.wait()
+            write_zip(parts[k], file)
+        except Exception as error:
+            errors.append(error)
+
+    for _ in range(30):
+        start = threading.Barrier(2)
+        writers = [threading.Thread(target=write, args=(k, start)) for k in range(2)]
+        for writer in writers:
+            writer.start()
+        for writer in writers:
+            writer.join()
+        assert not errors
+        with zipfile.ZipFile(file) as archive:
+            assert archive.testzip() is None
+            k = int(archive.read("modelDescription.xml"))
+            assert archive.read(f"{k}.bin") == parts[k][f"{k}.bin"]
+        assert names(tmp_path) == ["Some.fmu"]

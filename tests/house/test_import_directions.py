@@ -1,0 +1,147 @@
+"""Who may know whom: rooms of the kernel and C files of the others here, Python packages in `import_directions.ini`."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+import subprocess
+import sys
+from collections.abc import Iterable, Mapping
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+DIRECTIONS = Path(__file__).with_name("import_directions.ini")
+"""Contracts of the Python packages; new packages and rooms get their line there."""
+KERNEL = ROOT / "mbs" / "kernel" / "src"
+ROOMS = (
+    "api",
+    "methods",
+    "start",
+    "sensors",
+    "state",
+    "system",
+    "tree",
+    "rows",
+    "elements",
+    "flexible",
+    "algebra",
+)
+"""Rooms of the kernel; each may include headers of those behind it."""
+SHARED = ("instance.h", "system.h")
+"""Data that all rooms share: each header may include those behind it, and none of a room."""
+PUBLIC = "../include/ali3.h"
+STANDARD = ("fmi2.h", "fmi3.h")
+"""Headers of the FMI standard, for whoever speaks it."""
+C_FOLDERS = {
+    "fmu_src/native/src": ("ali3.h",),
+    "fmu_src/python_slave": STANDARD,
+    "hosts/c": STANDARD,
+    "benchmarks/c": STANDARD,
+}
+"""C files outside the kernel: besides headers of their own folder they may include these."""
+
+
+def sources(folder: Path) -> dict[str, str]:
+    """Texts of C files and headers by path from `folder`."""
+    files = (f for pattern in ("*.c", "*.h") for f in folder.rglob(pattern))
+    return {f.relative_to(folder).as_posix(): f.read_text(encoding="utf-8") for f in sorted(files)}
+
+
+def includes(texts: Mapping[str, str]) -> dict[str, list[str]]:
+    """Included files by including file, both as paths from the folder of `texts`."""
+    return {
+        file: [
+            posixpath.normpath(posixpath.join(posixpath.dirname(file), name))
+            for name in re.findall(r'^\s*#\s*include\s*"([^"]+)"', text, re.MULTILINE)
+        ]
+        for file, text in texts.items()
+    }
+
+
+def layer(file: str) -> int:
+    """Place of a file of the kernel in the order of includes; -1: it lies nowhere."""
+    order = (*ROOMS, *SHARED, PUBLIC)
+    name = file if file in order else file.split("/")[0]
+    return order.index(name) if name in order else -1
+
+
+def wrong_in_kernel(texts: Mapping[str, str]) -> list[str]:
+    """Sentences about files without a room, includes of nothing, includes against the order, and circles."""
+    found = [f"{file} lies in no room" for file in texts if layer(file) < 0]
+    graph = includes(texts)
+    for file, names in graph.items():
+        for name in names:
+            if name not in texts and name != PUBLIC:
+                found.append(f"{file} includes {name}, which is not there")
+            elif layer(name) < layer(file):
+                found.append(f"{file} includes {name}: against the order of the rooms")
+    return found + circles(graph)
+
+
+def circles(graph: Mapping[str, Iterable[str]]) -> list[str]:
+    """The first circle of includes, in words."""
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        return ["circle of includes: " + " includes ".join(reversed(error.args[1]))]
+    return []
+
+
+def test_the_kernel_includes_in_one_direction():
+    texts = sources(KERNEL)
+    assert {file.split("/")[0] for file in texts} == {*ROOMS, *SHARED}
+    assert wrong_in_kernel(texts) == []
+
+
+@pytest.mark.parametrize(
+    ("file", "line", "said"),
+    [
+        ("algebra/fronts.c", '#include "../rows/constraints.h"', "against the order"),
+        ("elements/tyre.c", '#include "../instance.h"\n  # include "../api/run.h"', "api/run.h, which is not there"),
+        ("system.h", '#include "rows/constraints.h"', "against the order"),
+        ("rows/guides.h", '#include "../tree/tree.h"', "against the order"),
+        ("system/message.h", '#include "loading.h"', "circle of includes"),
+        ("more.c", "", "more.c lies in no room"),
+    ],
+)
+def test_a_direction_turned_round_is_seen(file, line, said):
+    texts = sources(KERNEL)
+    texts[file] = f"{texts.get(file, '')}\n{line}\n"
+    assert any(said in sentence for sentence in wrong_in_kernel(texts))
+
+
+@pytest.mark.parametrize("folder", C_FOLDERS)
+def test_other_c_files_include_their_own_headers_and_public_ones(folder):
+    texts = sources(ROOT / folder)
+    assert texts
+    graph = includes(texts)
+    foreign = {n for names in graph.values() for n in names if n not in texts} - set(C_FOLDERS[folder])
+    assert not foreign
+    assert circles(graph) == []
+
+
+def lint(configuration: Path) -> subprocess.CompletedProcess[str]:
+    """Check the directions of imports that a file of import-linter asks for."""
+    call = "from importlinter.cli import lint_imports_command; lint_imports_command()"
+    command = [sys.executable, "-c", call, "--no-cache", "--no-logo", "--config", str(configuration)]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, encoding="utf-8", check=False)
+
+
+def test_python_packages_import_in_one_direction():
+    done = lint(DIRECTIONS)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(("above", "below"), [("simulation", "scenes"), ("model", "compiler")])
+def test_a_python_direction_turned_round_is_seen(tmp_path, above, below):
+    text = DIRECTIONS.read_text(encoding="utf-8")
+    turned = re.sub(rf"\b({above}|{below})$", lambda m: below if m[1] == above else above, text, flags=re.MULTILINE)
+    assert turned != text
+    configuration = tmp_path / "turned.ini"
+    configuration.write_text(turned, encoding="utf-8")
+    done = lint(configuration)
+    assert done.returncode == 1
+    assert f"mbs.{below} is not allowed to import mbs.{above}" in done.stdout
