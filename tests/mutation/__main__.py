@@ -8,11 +8,12 @@ The score is the share of mutants that a test notices. The tree itself is not to
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import json
+import multiprocessing
 import os
 import queue
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
@@ -20,15 +21,48 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
 
+import pytest
 from tqdm import tqdm
 
 from tests.mutation.table import ROOT, SOURCES, Mutant, all_mutants
 
 KILLED, SURVIVED, BROKEN = "killed", "survived", "broken"
-TIMEOUT = 300.0  # s: a mutant whose tests take longer runs for ever, which a test has noticed
-PYTEST = ("-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:randomly", "--hypothesis-seed=0")
-COMPILE = "from mbs.kernel import build; build.FLAGS.append('-Wno-error'); build.compile_library()"
+NOT_BUILT = 99
+TIMEOUT = 600.0  # s: a mutant whose tests take longer runs for ever, which a test has noticed
+OPTIONS = ("-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0")
 IGNORED = shutil.ignore_patterns("__pycache__", "*.so", "*.dylib", "*.dll", ".hypothesis")
+WARM = ("pytest", "numpy", "hypothesis", "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.spatial.transform")
+"""What a process imports once, for all mutants."""
+
+
+def build_kernel(root: Path) -> None:
+    """Compile the kernel of a copy, without the package around `build.py`."""
+    spec = importlib.util.spec_from_file_location("kernel_build", root / "mbs" / "kernel" / "build.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.compile_library()
+
+
+def build_and_test(root: Path, tests: tuple[str, ...], build: bool, words: Path) -> None:
+    """In a process of its own: what is said goes to a file, the outcome is the exit code."""
+    with words.open("w") as stream:
+        os.dup2(stream.fileno(), 1)
+        os.dup2(stream.fileno(), 2)
+    sys.dont_write_bytecode = True
+    os.chdir(root)
+    sys.path.insert(0, str(root))
+    os.environ |= {"ZIG_GLOBAL_CACHE_DIR": str(root.parent / "zig"), "PYTHONPATH": str(root)}
+    if build:
+        try:
+            build_kernel(root)
+        except RuntimeError as error:
+            print(error, flush=True)
+            os._exit(NOT_BUILT)
+    code = pytest.main([*OPTIONS, *tests]) if tests else 0
+    sys.stdout.flush()
+    os._exit(int(code))
 
 
 class Scratch:
@@ -42,36 +76,27 @@ class Scratch:
         for path in ROOT.glob("*.*"):
             if path.is_file():
                 shutil.copy(path, place)
-        cache = str(place.parent / "zig")
-        self._environment = os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "PYTHONPATH": str(place)}
+        methods = multiprocessing.get_all_start_methods()
+        self._context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
+        if "forkserver" in methods:
+            self._context.set_forkserver_preload(list(WARM))
 
-    def run(self, *command: str, timeout: float = TIMEOUT) -> subprocess.CompletedProcess[str]:
-        """Python with these arguments, in the copy."""
-        return subprocess.run(
-            [sys.executable, *command],
-            cwd=self.root,
-            env=self._environment | {"PYTHONDONTWRITEBYTECODE": "1"},
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=timeout,
-        )
-
-    def build(self) -> str:
-        """Compile the kernel; the words of the compiler where it refuses."""
-        result = self.run("-c", COMPILE, timeout=900.0)
-        return "" if result.returncode == 0 else result.stderr
-
-    def test(self, tests: tuple[str, ...]) -> tuple[str, str]:
-        """What the tests say, and the last line of it."""
-        try:
-            result = self.run(*PYTEST, *tests)
-        except subprocess.TimeoutExpired:
+    def run(self, tests: tuple[str, ...], build: bool) -> tuple[str, str]:
+        """What the tests say of the copy as it is, and why."""
+        words = self.root.with_suffix(".txt")
+        process = self._context.Process(target=build_and_test, args=(self.root, tests, build, words))
+        process.start()
+        process.join(TIMEOUT)
+        if process.is_alive():
+            process.kill()
+            process.join()
             return KILLED, f"no end within {TIMEOUT:.0f} s"
-        last = (result.stdout.strip().splitlines() or [result.stderr.strip()[-200:]])[-1]
-        if result.returncode in (0, 4, 5):  # 4, 5: no such tests
-            return (SURVIVED if result.returncode == 0 else BROKEN), last
-        return KILLED, next((line for line in result.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))), last)
+        lines = words.read_text(errors="replace").strip().splitlines() or [""]
+        if process.exitcode == NOT_BUILT:
+            return BROKEN, "\n".join(lines)
+        if process.exitcode in (0, 4, 5):  # 4, 5: no such tests
+            return (SURVIVED if process.exitcode == 0 else BROKEN), lines[-1]
+        return KILLED, next((line for line in lines if line.startswith(("FAILED", "ERROR"))), lines[-1])
 
     def attempt(self, mutant: Mutant) -> tuple[str, str]:
         """Outcome of one mutant, and why."""
@@ -79,9 +104,7 @@ class Scratch:
         original = path.read_text(encoding="utf-8")
         path.write_text(content, encoding="utf-8")
         try:
-            in_kernel = path.suffix != ".py" and "kernel" in path.parts
-            words = self.build() if in_kernel else ""
-            return (BROKEN, words) if words else self.test(mutant.tests)
+            return self.run(mutant.tests, path.suffix != ".py" and "kernel" in path.parts)
         finally:
             path.write_text(original, encoding="utf-8")
 
@@ -89,13 +112,9 @@ class Scratch:
 def prepare(place: Path, tests: tuple[str, ...]) -> Scratch:
     """A copy whose unchanged tests pass."""
     scratch = Scratch(place)
-    words = scratch.build()
-    if words:
-        raise SystemExit(f"The kernel does not compile:\n{words}")
-    if tests:
-        outcome, last = scratch.test(tests)
-        if outcome != SURVIVED:
-            raise SystemExit(f"Without any mutant the tests do not pass: {last}")
+    outcome, words = scratch.run(tests, build=True)
+    if outcome != SURVIVED:
+        raise SystemExit(f"Without any mutant the tests do not pass: {words}")
     return scratch
 
 

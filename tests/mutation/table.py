@@ -6,7 +6,7 @@
 
 A line with `@` names the file by the end of its path, and test files below `tests/`; it holds for all pairs of `-` and
 `+` up to the next one. A text is a part of one line, without the spaces around it, and occurs once in the files of that
-name. An empty `+` takes it away. Lines with `#` are comments.
+name. An empty `+` takes it away. What is changed must compile without a warning. Lines with `#` are comments.
 """
 
 from __future__ import annotations
