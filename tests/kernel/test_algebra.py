@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.settings import Settings
 
 from .scenes import everything, four_bar
 from .system_builder import Element, Row, SystemBuilder, distance_row
@@ -171,6 +172,23 @@ def test_fronts_solve_as_one_dense_front_does(groups: list[int]) -> None:
     tangent = np.reshape(instance.tangent(0.01), (12, 12))
     np.testing.assert_allclose(tangent, np.reshape(reference.tangent(0.01), (12, 12)), rtol=1e-6, atol=1.0)
     assert np.linalg.eigvalsh(tangent).min() > 0
+
+
+@pytest.mark.parametrize("method", ["energy_momentum", "radau_5"])
+@pytest.mark.parametrize("groups", [[4, 4, 4], [2] * 6, [3, 1, 5, 3]], ids=str)
+def test_fronts_without_symmetry_solve_as_one_dense_front_does(groups: list[int], method: str) -> None:
+    ends = []
+    for cut in (groups, [12]):
+        instance = initialised(chain(6, cut))
+        settings = Settings(method=method, tolerance_r=1e-13, tolerance_phi=1e-12)
+        instance.set_settings(**settings.kernel_fields())  # type: ignore[arg-type]
+        for _ in range(10):
+            instance.step(0.01)
+        report = instance.report()
+        ends.append((np.array(instance.get_state()[0]), report["iterations"], report["halvings"]))
+    np.testing.assert_allclose(ends[0][0], ends[1][0], atol=1e-9)
+    assert ends[0][1] == ends[1][1]  # a wrong tangent would cost iterations
+    assert ends[0][2] == ends[1][2] == 0
 
 
 def test_accelerations_and_multipliers_at_the_start_solve_the_index_one_equations() -> None:
