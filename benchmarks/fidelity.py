@@ -1,8 +1,7 @@
 """How much model a car needs: ``python -m benchmarks.fidelity [--json FILE] [--chart FILE] [--repeats N]``.
 
-The same manoeuvres on every rung: 0 rigid, 1 rigid with quasi-static stresses, 2 flexible with the modes of the load
-paths, 3 with static, inertia and 5 dynamic modes, 4 with 40 dynamic modes, and "paper" with 60 static and 5 dynamic
-modes but no inertia modes. Errors are against the stored references (`benchmarks.fidelity_references`).
+The same manoeuvres with every fidelity of the car (`mbs.scenes.prototype_car.Fidelity`). Errors are against the stored
+references (`benchmarks.fidelity_references`).
 """
 
 from __future__ import annotations
@@ -10,7 +9,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from benchmarks.car.fidelity import RUNGS, chart, measure, verdict
+from ali3.running import run_command
+from benchmarks.car.fidelity import COMPARED, chart, measure, verdict
 from benchmarks.car.fidelity_runs import NAMES
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
@@ -20,7 +20,7 @@ from mbs import Settings
 STEPS = (0.01, 0.005, 0.002)  # s
 COLUMNS = {
     "manoeuvre": "",
-    "rung": "",
+    "fidelity": "",
     "h_s": ".3f",
     "coordinates": "d",
     "rows": "d",
@@ -42,8 +42,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--repeats", type=int, default=3, metavar="N", help="timed runs per row; default: 3")
     parser.add_argument("--manoeuvres", nargs="+", default=NAMES, choices=NAMES, metavar="NAME")
     options = parser.parse_args(arguments)
-    todo = [(name, rung, h) for name in options.manoeuvres for rung in RUNGS for h in STEPS]
-    rows = [measure(name, rung, h, options.repeats) for name, rung, h in watched(todo)]
+    todo = [(name, fidelity, h) for name in options.manoeuvres for fidelity in COMPARED for h in STEPS]
+    rows = [measure(name, fidelity, h, options.repeats) for name, fidelity, h in watched(todo)]
     print_table(rows, COLUMNS)
     lines = verdict(rows)
     print("\n" + "\n".join(lines))
@@ -54,4 +54,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -1,6 +1,6 @@
-"""Writes the references of the ladder: ``python -m benchmarks.fidelity_references [NAME ...]``.
+"""Writes the references of the comparison of fidelities: ``python -m benchmarks.fidelity_references [NAME ...]``.
 
-They come from this engine with the highest rung (60 static, 6 inertia and 40 dynamic modes) at a step of 0.5 ms. Each
+They come from this engine with the most modes (60 static, 6 inertia and 40 dynamic modes) at a step of 0.5 ms. Each
 file says how far runs with twice the step, and with 5 dynamic modes, are from it; a second file holds the peaks of all
 steps.
 """
@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
+from ali3.running import run_command
 from benchmarks.car.fidelity_references import write
 from benchmarks.car.fidelity_runs import NAMES
 from benchmarks.shared.command import parser_of, watched
@@ -29,4 +30,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

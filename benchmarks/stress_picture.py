@@ -1,6 +1,6 @@
 """The frame in the kerb test, deformed and coloured by stress: ``python -m benchmarks.stress_picture [--out DIR]``.
 
-Runs the scene kerb_test on rung 3 and draws the moment of the largest stress as PNG and the fall from the kerb as GIF:
+Runs the scene kerb_test and draws the moment of the largest stress as PNG and the fall from the kerb as GIF:
 the largest normal stress round each tube, with the deformation scaled up. Needs PyVista, an extra:
 ``pip install "ali3[pictures]"``; without it the picture is made by Matplotlib, without animation.
 """
@@ -12,9 +12,11 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.running import run_command
 from benchmarks.car.stress_picture import amplitudes, draw, draw_plain, motion_of
 from benchmarks.shared.command import parser_of
-from mbs.scenes.prototype_car.chassis import DYNAMIC, reduced_chassis
+from mbs.scenes.prototype_car.chassis import reduced_chassis
+from mbs.scenes.prototype_car.fidelity import Fidelity
 from mbs.scenes.prototype_car.frame import prototype_frame
 
 
@@ -25,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--plain", action="store_true", help="draw with Matplotlib")
     options = parser.parse_args(arguments)
     frame, _ = prototype_frame()
-    body = reduced_chassis(DYNAMIC)
+    body = reduced_chassis(Fidelity.DYNAMIC)
     motion = motion_of(frame, body, *amplitudes(body))
     options.out.mkdir(parents=True, exist_ok=True)
     plain = options.plain or importlib.util.find_spec("pyvista") is None
@@ -39,4 +41,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

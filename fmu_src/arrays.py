@@ -24,7 +24,7 @@ _NUMBERED = re.compile(r"(.+)_(\d+)((?:\.\w+)?)")
 
 @dataclass(frozen=True)
 class Array:
-    """One variable of FMI 3.0. Its place in the list is its value reference.
+    """One variable of FMI 3.0, whose value reference `references` gives.
 
     Parameters
     ----------
@@ -73,6 +73,15 @@ def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
 def scalars(table: Sequence[Variable]) -> tuple[Array, ...]:
     """Every variable by itself, for hosts that do not read arrays."""
     return tuple(Array(v.name, (i,), v, v.description) for i, v in enumerate(table))
+
+
+def references(groups: Sequence[Array]) -> tuple[list[int], int]:
+    """Value references of the variables of FMI 3.0, in order, and that of time.
+
+    Time stands between the outputs and the constants, so that a constant more moves no reference.
+    """
+    time = sum(group.of.source != "constant" for group in groups)
+    return [k + (k >= time) for k in range(len(groups))], time
 
 
 def _alike(table: Sequence[Variable], items: Sequence[int]) -> bool:

@@ -5,25 +5,25 @@ from __future__ import annotations
 import functools
 import importlib.metadata
 import re
-import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from enum import Enum
 from pathlib import Path
 
 import mbs
 from ali3.files import check_writable
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
-from fmu_src.native.package import NativeContents, Telling, first_time, pack_native
-from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, SUFFIXES, TARGETS
+from fmu_src.native.package import NativeContents, Telling, pack_native
+from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
 from fmu_src.probe import probe, with_nominal
 from fmu_src.texts import check_texts
-from fmu_src.variables import check_variants, variable_table
-from mbs.kernel import build
+from fmu_src.variables import check_fidelities, variable_table
 
 Say = Callable[[str], None]
+Systems = mbs.System | Sequence[mbs.System] | Mapping[int, mbs.System]
 _PATIENCE = 2.0
 
 KINDS = {
@@ -48,7 +48,7 @@ def fmu_name(scene: str, kind: str = "native") -> str:
 
 
 def build_fmu(
-    system: mbs.System | Sequence[mbs.System],
+    system: Systems,
     name: str,
     out: Path,
     platforms: Sequence[str] | None = None,
@@ -63,8 +63,9 @@ def build_fmu(
 
     Parameters
     ----------
-    system : mbs.System or sequence of them
-        Several are the rungs of the parameter `fidelity`: with the same inputs, parameters and sensors.
+    system : mbs.System, sequence of them or mapping of int to mbs.System
+        Several are the choices of the parameter `fidelity`, by number from 0 on or by members of an enumeration, with
+        the same inputs, parameters and sensors.
     name : str
         Of the scene, such as ``prototype_car``.
     out : Path
@@ -94,8 +95,7 @@ def build_fmu(
         raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
     file = out / f"{fmu_name(name, kind)}.fmu"
     check_writable(file)
-    systems = (system,) if isinstance(system, mbs.System) else tuple(system)
-    builder = FmuBuilder(systems, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
+    builder = FmuBuilder(system, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
     return builder.build(kind, chosen, file)
 
 
@@ -104,8 +104,8 @@ class FmuBuilder:
 
     Parameters
     ----------
-    systems : sequence of mbs.System
-        One per fidelity.
+    system : mbs.System, sequence of them or mapping of int to mbs.System
+        As for `build_fmu`.
     name : str
         Of the scene.
     fidelity : int
@@ -116,16 +116,17 @@ class FmuBuilder:
         ``told(what, note)`` makes a context in which `what` is done.
     """
 
-    def __init__(
-        self, systems: Sequence[mbs.System], name: str, fidelity: int, rights: tuple[str, str, str], told: Telling
-    ) -> None:
-        check_variants([s.meta for s in systems])
+    def __init__(self, system: Systems, name: str, fidelity: int, rights: tuple[str, str, str], told: Telling) -> None:
+        given = (system,) if isinstance(system, mbs.System) else system
+        offered = given if isinstance(given, Mapping) else dict(enumerate(given))
+        systems = tuple(offered[k] for k in sorted(offered))
+        check_fidelities([s.meta for s in systems])
         meta = systems[fidelity].meta
         table = variable_table(
             meta,
             pose=bool(meta["floating"]),
             step_size=float(meta["experiment"]["step_s"]),
-            fidelities=len(systems),
+            fidelities=[k.name.lower() if isinstance(k, Enum) else "" for k in sorted(offered)],
             fidelity=fidelity,
         )
         description = meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
@@ -141,9 +142,9 @@ class FmuBuilder:
 
     def pieces(self, kind: str, platforms: Sequence[str]) -> int:
         """How many pieces of work `told` is going to be asked for by `build`."""
-        if kind == "python":
-            return len(platforms) + 1
         made = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
+        if kind == "python":
+            return 1 + len([platform for platform in platforms if platform not in made])
         folders = [folder for platform in platforms for folder in _FACES[kind].binaries[platform]]
         return 2 + len([folder for folder in folders if folder not in made])
 
@@ -166,28 +167,12 @@ class FmuBuilder:
         """
         contents = replace(self._contents, model_name=fmu_name(self._name, kind))
         if kind == "python":
-            _pack_python(contents, platforms, file, self._told)
+            from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
+
+            pack_python(contents, platforms, file, self._told, self._libraries)
         else:
             pack_native(contents, _FACES[kind], platforms, file, self._told, self._libraries)
         return file
-
-
-def _pack_python(contents: NativeContents, platforms: Sequence[str], file: Path, told: Telling) -> None:
-    # PythonFMU is needed for this kind only.
-    from fmu_src.python_slave.package import pack
-    from fmu_src.python_slave.shell_build import compile_shell
-
-    kernels, shells = {}, {}
-    with tempfile.TemporaryDirectory() as folder:
-        for platform in platforms:
-            place = Path(folder, platform)
-            place.mkdir()
-            with told(f"python: compiling for {platform}", first_time(platform)):
-                library = place / f"kernel{SUFFIXES[platform]}"
-                kernels[platform] = build.compile_library(TARGETS[platform][0], library)
-                shells[platform] = compile_shell(platform, place)
-        with told("python: packing"):
-            pack(contents, kernels, shells, file)
 
 
 @contextmanager

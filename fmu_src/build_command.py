@@ -50,7 +50,7 @@ def _build(options: argparse.Namespace) -> int:
     from fmu_src.build import KINDS, FmuBuilder, fmu_name
     from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, this_platform
     from fmu_src.progress_line import ProgressLine
-    from fmu_src.scene_registry import load_variants
+    from fmu_src.scene_registry import load_fidelities
 
     kinds = list(dict.fromkeys(options.kind.split(",")))
     if set(kinds) - set(KINDS):
@@ -64,7 +64,7 @@ def _build(options: argparse.Namespace) -> int:
     line = ProgressLine()
     print(f"scene {options.scene} ...", flush=True)
     with line.told("compiling the scene"):
-        name, systems, fidelity = load_variants(options.scene)
+        name, systems, fidelity = load_fidelities(options.scene)
     files = {kind: options.out / f"{fmu_name(name, kind)}.fmu" for kind in kinds}
     for file in files.values():
         check_writable(file)

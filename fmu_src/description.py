@@ -36,11 +36,9 @@ class Description:
     stop_time, step_size : float
         Default experiment, s.
     needs_execution_tool : bool
-        Whether a Python interpreter must be there.
+        Whether a Python interpreter must be there, which has memory of its own.
     author, copyright, licence : str
         Of the model; by default those of the solver.
-    capable : bool
-        Whether the slave interpolates inputs, gives derivatives and respects the host's memory functions.
     sources : sequence of str
         C files in the folder ``sources``, if it can be compiled from them.
     """
@@ -57,7 +55,6 @@ class Description:
     author: str
     copyright: str
     licence: str
-    capable: bool = False
     sources: Sequence[str] = ()
 
 
@@ -109,21 +106,20 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
         variableNamingConvention="structured",
         numberOfEventIndicators="0",
     )
-    capable = str(head.capable).lower()
     face = ElementTree.SubElement(
         root,
         "CoSimulation",
         modelIdentifier=head.model_identifier,
         needsExecutionTool=str(head.needs_execution_tool).lower(),
         canHandleVariableCommunicationStepSize="true",
-        canInterpolateInputs=capable,
-        maxOutputDerivativeOrder="1" if head.capable else "0",
+        canInterpolateInputs="true",
+        maxOutputDerivativeOrder="1",
         canRunAsynchronuously="false",
         canBeInstantiatedOnlyOncePerProcess="false",
-        canNotUseMemoryManagementFunctions=str(not head.capable).lower(),
+        canNotUseMemoryManagementFunctions=str(head.needs_execution_tool).lower(),
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
-        providesDirectionalDerivative=capable,
+        providesDirectionalDerivative="true",
     )
     if head.sources:
         files = ElementTree.SubElement(face, "SourceFiles")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree import ElementTree
 
-from fmu_src.arrays import Array
+from fmu_src.arrays import Array, references
 from fmu_src.description import (
     Description,
     categories_and_experiment,
@@ -32,7 +32,6 @@ def model_description_fmi3(
     table : sequence of Variable
         All scalars, for units and types.
     arrays : sequence of Array
-        The place is the value reference; time comes after the last.
     reach : Dependencies
         Which variables of the table reach which outputs.
 
@@ -73,18 +72,13 @@ def model_description_fmi3(
         ElementTree.SubElement(definitions, kind, {"name": name} | attributes)
     categories_and_experiment(root, head)
     variables = ElementTree.SubElement(root, "ModelVariables")
-    for reference, array in enumerate(arrays):
+    numbers, time = references(arrays)
+    for place, (reference, array) in enumerate(zip(numbers, arrays, strict=True)):
+        if place == time:
+            _time(variables, time)
         _variable(variables, reference, array, types)
-    ElementTree.SubElement(
-        variables,
-        "Float64",
-        name="time",
-        valueReference=str(len(arrays)),
-        causality="independent",
-        variability="continuous",
-        description="Simulation time",
-        unit="s",
-    )
+    if time == len(arrays):
+        _time(variables, time)
     _structure(root, arrays, reach)
     return to_bytes(root)
 
@@ -129,6 +123,19 @@ def terminals(arrays: Sequence[Array]) -> bytes | None:
                 variableKind="signal",
             )
     return to_bytes(root)
+
+
+def _time(parent: ElementTree.Element, reference: int) -> None:
+    ElementTree.SubElement(
+        parent,
+        "Float64",
+        name="time",
+        valueReference=str(reference),
+        causality="independent",
+        variability="continuous",
+        description="Simulation time",
+        unit="s",
+    )
 
 
 def _variable(parent: ElementTree.Element, reference: int, array: Array, types: dict[str, dict[str, str]]) -> None:

@@ -52,7 +52,7 @@ class Dependencies:
 
 
 def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependencies:
-    """Try a System, or all rungs of one.
+    """Try a System, or all fidelities of one.
 
     Parameters
     ----------
@@ -62,12 +62,12 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
     Returns
     -------
     Dependencies
-        Of all rungs together; the same at every call.
+        Of all fidelities together; the same at every call.
     """
     outputs = [i for i, v in enumerate(table) if v.causality == "output"]
     tries = _Tries(table, outputs)
     for k, system in enumerate(systems):
-        tries.rung(Instance(LoadedSystem(system.to_bytes())), k, float(system.meta["experiment"]["step_s"]))
+        tries.system(Instance(LoadedSystem(system.to_bytes())), k, float(system.meta["experiment"]["step_s"]))
     tries.close(systems)
     return Dependencies(
         {i: tuple(sorted(tries.step[i])) for i in outputs},
@@ -84,12 +84,12 @@ class _Tries:
         self.step: dict[int, set[int]] = {i: set() for i in outputs}
         self.initial: dict[int, set[int]] = {i: set() for i in outputs}
         self.size = dict.fromkeys(outputs, 0.0)
-        self.of_rung: list[list[list[float] | None]] = []
+        self.of_fidelity: list[list[list[float] | None]] = []
         self.share = 1.0
         self.inputs = [i for i, v in enumerate(table) if v.source == "input"]
         self.settable = [i for i, v in enumerate(table) if v.source in ("input", "parameter", "pose")]
 
-    def rung(self, kernel: Instance, number: int, h: float) -> None:
+    def system(self, kernel: Instance, number: int, h: float) -> None:
         rng = random.Random(_SEED)
         starts = [self._start(kernel, {})]
         for k in range(_INITIAL_TRIES):
@@ -98,10 +98,10 @@ class _Tries:
             starts.append(self._start(kernel, values))
             for i in self.settable:
                 self._compare(self.initial, i, starts[-1], self._start(kernel, values | {i: self._random(i, rng)}))
-        self.of_rung.append(starts)
+        self.of_fidelity.append(starts)
         fidelity = next((i for i, v in enumerate(self.table) if v.source == "fidelity"), None)
         if fidelity is not None:
-            for first, mine in zip(self.of_rung[0], starts, strict=True):
+            for first, mine in zip(self.of_fidelity[0], starts, strict=True):
                 self._compare(self.initial, fidelity, first, mine)
         for k in range(_STEP_TRIES):
             self.share = _SHARES[k % len(_SHARES)]

@@ -58,31 +58,35 @@ def load_scene(scene: str) -> tuple[str, mbs.System]:
         return name, _system(scene, build)
 
 
-def load_variants(scene: str) -> tuple[str, list[mbs.System], int]:
+def load_fidelities(scene: str) -> tuple[str, dict[int, mbs.System], int]:
     """Build and compile a scene in all the fidelities it offers.
 
-    A scene offers them by a function `variants` beside its `build`: it returns functions that make a model by number,
-    0 and on. The one of `build` is the default of its argument `fidelity`.
+    A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
+    0 and on; the numbers may be members of an enumeration, whose names an FMU then tells. The one of `build` is the
+    default of its argument `fidelity`. (The function may still be called `variants`, until the next release.)
 
     Returns
     -------
     name : str
-    systems : list of mbs.System
-        By fidelity; one if there is no choice.
+    systems : dict of int to mbs.System
+        By fidelity, ascending; one if there is no choice.
     default : int
         The fidelity of `build`.
     """
     with _scene(scene) as (name, build):
-        variants = getattr(sys.modules[build.__module__], "variants", None)
-        if not callable(variants) or build.__name__ != "build":
-            return name, [_system(scene, build)], 0
-        makers = variants()
-        if sorted(makers) != list(range(len(makers))):
+        module = sys.modules[build.__module__]
+        offered = getattr(module, "fidelities", None) or getattr(module, "variants", None)
+        if not callable(offered) or build.__name__ != "build":
+            return name, {0: _system(scene, build)}, 0
+        makers = offered()
+        numbers = sorted(makers)
+        if numbers != list(range(len(makers))):
             raise SceneError(
-                f"The variants of scene '{scene}' are numbered {sorted(makers)}; they must be 0, 1, 2 and on."
+                f"The fidelities of scene '{scene}' are numbered {[int(k) for k in numbers]}; they must be 0, 1, 2 and "
+                "on."
             )
         default = inspect.signature(build).parameters["fidelity"].default
-        return name, [mbs.compile(makers[k]()) for k in range(len(makers))], int(default)
+        return name, {k: mbs.compile(makers[k]()) for k in numbers}, int(default)
 
 
 def _system(scene: str, build: Callable[..., Any]) -> mbs.System:

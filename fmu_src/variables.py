@@ -51,19 +51,19 @@ class Variable:
     name : str
         Structured name, unique in the table.
     causality : str
-        ``input``, ``parameter`` or ``output``.
+        ``input``, ``parameter``, ``output`` or ``local``.
     variability : str
-        ``continuous``, ``fixed`` or ``tunable``.
+        ``continuous``, ``discrete``, ``fixed``, ``tunable`` or ``constant``.
     unit : str
         SI unit.
     description : str
         One sentence.
     source : str
-        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity`` or
-        ``solver``, what the solver says about itself.
+        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
+        ``solver``, what the solver says about itself, or ``constant``.
     index : int
         Number of that input, parameter, sensor or figure of the solver; place in (x, y, z, yaw, speed) for ``pose``;
-        0 for `step_size` and `fidelity`.
+        0 for `step_size`, `fidelity` and constants.
     start, min, max : float, optional
         In `unit`.
     display_unit : str, optional
@@ -90,7 +90,7 @@ class Variable:
 
 
 def variable_table(
-    meta: Mapping[str, Any], *, pose: bool, step_size: float, fidelities: int = 1, fidelity: int = 0
+    meta: Mapping[str, Any], *, pose: bool, step_size: float, fidelities: Sequence[str] = ("",), fidelity: int = 0
 ) -> tuple[Variable, ...]:
     """Make the table of variables of a System.
 
@@ -102,17 +102,18 @@ def variable_table(
         Whether the System has an initial pose (is not tied to the ground).
     step_size : float
         Default inner step, s.
-    fidelities : int
-        How many Systems there are to choose from; the others must share inputs, parameters and sensors with this one
-        (`check_variants`).
+    fidelities : sequence of str
+        Names of the Systems to choose from, empty where they have none; all must share inputs, parameters and sensors
+        (`check_fidelities`).
     fidelity : int
         The default one.
 
     Returns
     -------
     tuple of Variable
-        Inputs, parameters, outputs; the place is the value reference. Where the sensors have no figures of the solver
-        by these names, `solver.status`, `solver.halvings`, `solver.energy_error` and `solver.energy_balance` come last.
+        Inputs, parameters, outputs, constants; the place is the value reference. Where the sensors have no figures of
+        the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error` and `solver.energy_balance`
+        are the last outputs.
 
     Raises
     ------
@@ -147,9 +148,10 @@ def variable_table(
             step_size * 10.0,
         )
     )
-    if fidelities > 1:
-        text = "How much model: 0 the least, up; stress.computed and the documentation say what it computes"
-        last = float(fidelities - 1)
+    if len(fidelities) > 1:
+        named = ", ".join(f"{k} {name}" for k, name in enumerate(fidelities) if name)
+        text = "Level of detail of the model, from the least to the most" + (f": {named}" if named else "")
+        last = float(len(fidelities) - 1)
         table.append(
             Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
         )
@@ -160,6 +162,7 @@ def variable_table(
         for name, k, unit, whole, text in _SOLVER
         if name not in sensed
     ]
+    table += [_constant(entry) for entry in meta.get("constants", ())]
     _check(table)
     return _distinct(table)
 
@@ -179,6 +182,15 @@ def _sensor(entry: Mapping[str, Any], index: int) -> Variable:
     )
 
 
+def _constant(entry: Mapping[str, Any]) -> Variable:
+    unit = canonical_unit(entry["unit"] or "1")
+    return Variable(
+        *(entry["name"], "local", "constant", unit, entry.get("description", ""), "constant", 0),
+        start=float(entry["value"]),
+        display_unit=_display(entry["name"], unit),
+    )
+
+
 def _distinct(table: Sequence[Variable]) -> tuple[Variable, ...]:
     """Descriptions that several variables share are preceded by the part of the model, or by the name."""
     shared = Counter(v.description for v in table)
@@ -195,7 +207,7 @@ def _preceded(v: Variable, word: str) -> Variable:
     return replace(v, description=f"{word}: {v.description}")
 
 
-def check_variants(metas: Sequence[Mapping[str, Any]]) -> None:
+def check_fidelities(metas: Sequence[Mapping[str, Any]]) -> None:
     """Systems to choose from must have the same inputs, parameters and sensors in the same order."""
     for k, meta in enumerate(metas[1:], start=1):
         for kind in ("inputs", "parameters", "sensors"):

@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from ali3.running import run_command
+from hosts.errors import HostError
 from hosts.manoeuvres import manoeuvre_names
-from hosts.numbers import number
+from hosts.numbers import assignment, number
 
 DEFAULT_FMU = Path("dist", "PrototypeCar.fmu")
 
@@ -29,11 +30,24 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.dr
     parser.add_argument("--step", type=number, metavar="H", help="communication step in s; default: that of the FMU")
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
     parser.add_argument("--fidelity", type=number, metavar="N", help="how much model, where the FMU offers a choice")
+    parser.add_argument(
+        "--driver",
+        action="append",
+        default=[],
+        type=assignment,
+        metavar="NAME=VALUE",
+        help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not tell it; repeatable",
+    )
     options = parser.parse_args(arguments)
-    return run_command(lambda: _drive(options.fmu, options.manoeuvre, options.step, options.out, options.fidelity))
+    known = dict(options.driver)
+    return run_command(
+        lambda: _drive(options.fmu, options.manoeuvre, options.step, options.out, options.fidelity, known)
+    )
 
 
-def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float | None) -> int:
+def _drive(
+    path: Path, name: str, step: float | None, out: Path, fidelity: float | None, known: Mapping[str, float]
+) -> int:
     from hosts.co_simulation import communication_step, run_with_bar
     from hosts.driver import make_driver
     from hosts.fmu import Fmu
@@ -45,8 +59,11 @@ def _drive(path: Path, name: str, step: float | None, out: Path, fidelity: float
     manoeuvre = load_manoeuvre(name)
     if fidelity is not None:
         manoeuvre = replace(manoeuvre, start=manoeuvre.start | {"fidelity": fidelity})
-    driver = make_driver(manoeuvre.driver) if manoeuvre.driver else None
+    if known and not manoeuvre.driver:
+        raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
+    manoeuvre = replace(manoeuvre, driver=dict(manoeuvre.driver) | {k: repr(v) for k, v in known.items()})
     with Fmu(path) as fmu:
+        driver = make_driver(manoeuvre.driver, fmu.constants()) if manoeuvre.driver else None
         table, picture = result_paths(out, f"{_words(path.stem)}_{manoeuvre.name}")
         step = communication_step(fmu, manoeuvre, step)
         result = run_with_bar(fmu, manoeuvre, step, driver)

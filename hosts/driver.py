@@ -15,6 +15,15 @@ _POSITIVE = ("speed", "wheelbase", "wheel_angle_max", "vehicle_length", "vehicle
 ACTS = ("steering", "throttle", "brake")
 
 
+CONSTANTS = {
+    "wheelbase": "vehicle.wheelbase",
+    "wheel_angle_max": "vehicle.front_wheel_angle_max",
+    "vehicle_length": "vehicle.length",
+    "vehicle_width": "vehicle.width",
+}
+"""What a driver must know of the car: setting and the constant of the FMU that tells it."""
+
+
 @dataclass(frozen=True)
 class DriverSettings:
     """What a driver knows of the car and wants.
@@ -27,27 +36,27 @@ class DriverSettings:
         m.
     wheel_angle_max : float
         Mean angle of the front wheels at full steering, rad.
+    vehicle_length, vehicle_width : float
+        Outline centred on the origin of the vehicle axes, m.
     curvature_preview, heading_preview : float
         How far ahead the driver reads the curvature and the direction of the path, s; it makes up for the car's delay.
     heading_gain : float
         Wheel angle per error of the heading.
     lateral_gain : float
         Wheel angle per distance from the path, rad/m.
-    vehicle_length, vehicle_width : float
-        Outline centred on the origin of the vehicle axes, m.
     speed_gain, speed_integral : float
         Pedal per m/s, pedal per m.
     """
 
     speed: float
-    wheelbase: float = 2.3
-    wheel_angle_max: float = 0.525
+    wheelbase: float
+    wheel_angle_max: float
+    vehicle_length: float
+    vehicle_width: float
     curvature_preview: float = 0.25
     heading_preview: float = 0.1
     heading_gain: float = 0.8
     lateral_gain: float = 0.05
-    vehicle_length: float = 3.2
-    vehicle_width: float = 1.5
     speed_gain: float = 0.3
     speed_integral: float = 0.1
 
@@ -101,19 +110,26 @@ class Driver:
         }
 
 
-def make_driver(settings: Mapping[str, str]) -> Driver:
-    """Driver from the ``[driver]`` section of a manoeuvre.
+def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> Driver:
+    """Driver from the ``[driver]`` section of a manoeuvre and what the FMU tells of the car.
 
     Parameters
     ----------
     settings : mapping of str to str
-        ``course`` and the fields of `DriverSettings`.
+        ``course`` and the fields of `DriverSettings`; they come before what the FMU tells.
+    constants : mapping of str to float
+        Constants of the FMU by name; see `CONSTANTS`.
 
     Returns
     -------
     Driver
+
+    Raises
+    ------
+    HostError
+        If a setting is not known, no number, or missing both there and in the FMU.
     """
-    numbers = {}
+    numbers = {name: constants[constant] for name, constant in CONSTANTS.items() if constant in constants}
     known = {f.name for f in fields(DriverSettings)}
     for name, text in settings.items():
         if name == "course":
@@ -129,5 +145,11 @@ def make_driver(settings: Mapping[str, str]) -> Driver:
             raise HostError(f"[driver] {name} is {numbers[name]:g}; it must be {sign}.")
     if "speed" not in numbers or "course" not in settings:
         raise HostError("[driver] needs a course and a speed.")
+    for name, constant in CONSTANTS.items():
+        if name not in numbers:
+            raise HostError(
+                f"The driver needs the {name.replace('_', ' ')} of the car, which this FMU does not tell (it has no "
+                f"constant '{constant}'); give it as --driver {name}=NUMBER, or in [driver] of the manoeuvre."
+            )
     values = DriverSettings(**numbers)
     return Driver(course_of(settings["course"], values.vehicle_width), values)

@@ -28,6 +28,7 @@ from fmpy.fmi2 import (
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
+from ali3.files import reason
 from ali3.running import command_name
 from hosts.errors import HostError
 
@@ -89,6 +90,8 @@ class Fmu:
             shutil.rmtree(self._folder, ignore_errors=True)
             if not isinstance(error, Exception):
                 raise
+            if isinstance(error, OSError) and error.errno is not None:
+                raise HostError(f"{path} cannot be unpacked into {self._folder}: {reason(error)}.") from None
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {self._last_message() or error}") from None
 
     def __enter__(self) -> Fmu:
@@ -179,6 +182,11 @@ class Fmu:
     def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
         """Start values from the model description, zero where there is none."""
         return np.array([float(self.variables[n].start or 0.0) for n in names])
+
+    def constants(self) -> dict[str, float]:
+        """Values of the constants, by name."""
+        constants = {n: v for n, v in self.variables.items() if v.variability == "constant" and v.type == "Real"}
+        return {n: float(v.start) for n, v in constants.items()}
 
     def _last_message(self) -> str:
         return self.messages[-1] if self.messages else ""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mbs.input_signals import unit_text
 from mbs.kernel.header import BALANCE_WRONG, HALVINGS_SUSPECT, GuideType, SensorType
+from mbs.methods import METHOD_TABLE
 from mbs.run_report import Report
 from mbs.system import System
 
@@ -26,25 +27,11 @@ FAR = 0.3  # of the range: beyond it errors do not follow the order of the metho
 INSTANTS = 50  # intervals at whose ends two runs are compared
 STILL = 1e-4  # of the largest value in the unit: a smaller range is rest
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
-ORDER = {"energy_momentum_4": 4, "runge_kutta_8": 8, "semi_recursive": 8, "semi_recursive_4": 4, "radau_5": 5}
-SUSPECT_MISS = {
-    "ali3p": 1.3,
-    "ali3p_generalised_alpha": 1.3,
-    "ali3p_no_projection": 2.0,
-    "energy_momentum": 2.0,
-    "energy_momentum_4": 8.0,
-    "semi_recursive": 0.05,
-    "semi_recursive_4": 1.0,
-    "radau_5": 1.0,
-}
-"""Summed predictor differences of velocity over the largest one, from which on a run is suspect; a third to half of the
-smallest of a wrong run in the survey. Not of runge_kutta_8, which is right far beyond what its predictor tells."""
 BLIND_MISS, BLIND = 0.6, 0.01
 """The first of these is enough where the energy is better than the angle of a step lets expect, by the second: a free
 body that tumbles keeps its energy to third order, and turns over at times that hang on its phase."""
 LONG_MISS, LONG = 0.05, 30.0
 """The same of motions that have turned by more radians than the second: unstable ones double an error every few."""
-BOOKS_DECIDE = ("ali3p", "ali3p_generalised_alpha")  # the quadrature of runge_kutta_8 errs where it is stiff
 COORDINATES = "1"
 WITH_ORDER = (SensorType.COMPONENT, SensorType.NORM)  # their first integer
 LENGTHS, RATES = ("m", "rad", "N"), ("m/s", "rad/s")
@@ -142,8 +129,12 @@ def is_suspect(report: Report, steps: int, halvings: int, method: str) -> bool:
     speed = report.speed_peak or math.inf
     miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
     turned = report.velocity_path / speed
-    blind = method in BOOKS_DECIDE and turned > 0.0 and report.energy_balance < BLIND * (2.0 * miss / turned) ** 2
-    most = SUSPECT_MISS.get(method, math.inf)
+    blind = (
+        METHOD_TABLE[method].books_decide
+        and turned > 0.0
+        and report.energy_balance < BLIND * (2.0 * miss / turned) ** 2
+    )
+    most = METHOD_TABLE[method].suspect_miss
     if blind:
         most = LONG_MISS if turned > LONG else BLIND_MISS
     return miss > most or drift(report) > SUSPECT_DRIFT
@@ -212,9 +203,9 @@ def differences(
 
 def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
     """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
-    most = float(ORDER.get(method, 2))
+    most = float(METHOD_TABLE[method].order)
     first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if method not in BOOKS_DECIDE or not (second > 0.0 and first > second):
+    if not METHOD_TABLE[method].books_decide or not (second > 0.0 and first > second):
         return most
     return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
 
@@ -231,7 +222,7 @@ def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
 
 def balance_says(report: Report, method: str, driven: bool) -> bool:
     """Whether the energy balance alone says that a result is wrong; a drive whose rate jumps gives energy at once."""
-    return method in BOOKS_DECIDE and not driven and report.energy_balance > WRONG_BALANCE
+    return METHOD_TABLE[method].books_decide and not driven and report.energy_balance > WRONG_BALANCE
 
 
 def balance_text(report: Report) -> str:
@@ -245,9 +236,9 @@ def balance_text(report: Report) -> str:
 
 def remedy(system: System, method: str, h: float, accuracy: Accuracy, report: Report) -> str:
     """A step or a method with which the result would be right to about a hundredth, in a sentence."""
-    order = accuracy.order or float(ORDER.get(method, 2))
+    order = accuracy.order or float(METHOD_TABLE[method].order)
     made = h / (1.0 + accuracy.halvings_per_step)
-    shares = [GOAL_DRIFT / drift(report)] if method in BOOKS_DECIDE and drift(report) > GOAL_DRIFT else []
+    shares = [GOAL_DRIFT / drift(report)] if METHOD_TABLE[method].books_decide and drift(report) > GOAL_DRIFT else []
     if accuracy.error:
         shares.append(GOAL_ERROR / accuracy.error)
     step = _rounded_down(made * min([*shares, 0.5**order]) ** (1.0 / order))
@@ -274,7 +265,11 @@ def error_text(accuracy: Accuracy, ranges: Mapping[str, float], groups: Mapping[
 def _higher_orders(system: System, method: str) -> list[str]:
     """Methods of higher order that take the System, for a method of order two."""
     arrays = system.arrays
-    if ORDER.get(method, 2) > 2 or len(arrays["y0"]) or (np.asarray(arrays["guide_type"]) == GuideType.OF_INPUT).any():
+    if (
+        METHOD_TABLE[method].order > 2
+        or len(arrays["y0"])
+        or (np.asarray(arrays["guide_type"]) == GuideType.OF_INPUT).any()
+    ):
         return []
     open_tree = not system.report["no_tree"] and len(arrays["tree_cut_body"]) == 0
     explicit = "semi_recursive" if open_tree else "runge_kutta_8"

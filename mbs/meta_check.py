@@ -14,7 +14,10 @@ _LISTS: dict[str, dict[str, type]] = {
     "parameters": _TEXTS | {"value": float, "min": float, "max": float},
     "elements": {"name": str, "type": str, "outputs": list},
     "switches": {"name": str},
+    "constants": _TEXTS | {"value": float},
 }
+# Of files written before there were any.
+_OPTIONAL = ("constants",)
 # Where the arrays say how many entries there are.
 _COUNTED = {"rows": "row_const", "inputs": "input_start", "sensors": "sen_type", "parameters": "par_value"}
 
@@ -47,6 +50,8 @@ def problem_of(meta: Any, lengths: Mapping[str, int]) -> str:
 
 
 def _list_problem(key: str, entries: Any, lengths: Mapping[str, int]) -> str:
+    if entries is None and key in _OPTIONAL:
+        return ""
     if not isinstance(entries, list):
         return f"'{key}' is missing or no list"
     if key in _COUNTED and len(entries) != lengths[_COUNTED[key]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentTypeError
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,9 +11,19 @@ from typing import Any
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import OUTPUTS
 from benchmarks.shared.command import pyplot, save_chart
-from mbs.scenes.prototype_car.chassis import FIDELITIES, PAPER_MODES, RIGID, reduced_chassis
+from mbs.errors import ModelError
+from mbs.scenes.prototype_car.chassis import reduced_chassis
+from mbs.scenes.prototype_car.fidelity import Fidelity
 
-RUNGS: tuple[int | str, ...] = (0, 1, 2, 3, PAPER_MODES, 4)
+COLOURS = {
+    Fidelity.RIGID: "#222222",
+    Fidelity.QUASI_STATIC: "#56B4E9",
+    Fidelity.LOAD_PATHS: "#E69F00",
+    Fidelity.DYNAMIC: "#009E73",
+    Fidelity.PAPER: "#CC79A7",
+    Fidelity.MANY_MODES: "#D55E00",
+}
+COMPARED = tuple(COLOURS)
 TICKS = (25, 50, 100, 200, 400, 800)  # us, of the chart
 STRESSES = ("moment", "moment_unfiltered")
 
@@ -23,7 +34,7 @@ class Choice:
 
     Attributes
     ----------
-    rung : int
+    fidelity : Fidelity
     h : float
         Step, s.
     error : float
@@ -31,43 +42,51 @@ class Choice:
     ms_per_second : float
         Processor time per simulated second, of the slowest manoeuvre.
     left_out : str
-        What this rung does without.
+        What this fidelity does without.
     """
 
-    rung: int
+    fidelity: Fidelity
     h: float
     error: float
     ms_per_second: float
     left_out: str
 
 
-def modes_of(rung: int | str) -> int:
+def fidelity_of(text: str) -> Fidelity:
+    """From an argument of a command: a number or a name."""
+    try:
+        return Fidelity.of(int(text) if text.isdigit() else text)
+    except ModelError as error:
+        raise ArgumentTypeError(str(error)) from error
+
+
+def modes_of(fidelity: Fidelity) -> int:
     """Number of modes."""
-    return 0 if rung in (0, 1) else reduced_chassis(rung).n_modes
+    return 0 if fidelity in (Fidelity.RIGID, Fidelity.QUASI_STATIC) else reduced_chassis(fidelity).n_modes
 
 
-def size_of(name: str, rung: int | str) -> dict[str, int]:
+def size_of(name: str, fidelity: Fidelity) -> dict[str, int]:
     """Columns of the size of a model."""
-    arrays = fidelity_runs.system_of(name, rung).arrays
-    return {"coordinates": len(arrays["q0"]), "rows": len(arrays["row_const"]), "modes": modes_of(rung)}
+    arrays = fidelity_runs.system_of(name, fidelity).arrays
+    return {"coordinates": len(arrays["q0"]), "rows": len(arrays["row_const"]), "modes": modes_of(fidelity)}
 
 
-def measure(name: str, rung: int | str, h: float, repeats: int) -> dict[str, Any]:
+def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
     """One row; errors of stresses are None where there are none."""
-    found = fidelity_runs.run(name, rung, h)
+    found = fidelity_runs.run(name, fidelity, h)
     report = found.report
     assert report is not None
     reference = fidelity_runs.read_reference(name)
     error: dict[str, float | None] = dict(fidelity_runs.errors(fidelity_runs.sampled(found, h), reference))
-    if rung == RIGID:
+    if fidelity is Fidelity.RIGID:
         error |= dict.fromkeys(STRESSES)
     duration = float(found.t[-1])
-    spent = fidelity_runs.cpu_time(name, rung, h, repeats)
+    spent = fidelity_runs.cpu_time(name, fidelity, h, repeats)
     return {
         "manoeuvre": name,
-        "rung": str(rung),
+        "fidelity": fidelity.name.lower(),
         "h_s": h,
-        **size_of(name, rung),
+        **size_of(name, fidelity),
         **error,
         "iterations_mean": report.mean_iterations,
         "iterations_max": report.max_iterations,
@@ -76,20 +95,20 @@ def measure(name: str, rung: int | str, h: float, repeats: int) -> dict[str, Any
     }
 
 
-def left_out(rung: int) -> str:
-    """What a rung does without, in words."""
+def left_out(fidelity: Fidelity) -> str:
+    """What a fidelity does without, in words."""
     texts = {
-        0: "deformation and stresses",
-        1: "vibration of the frame and what its bending does to the motion; stresses follow the forces at once",
-        2: "deformations that no recorded load excites, and vibration that is not in their shapes",
-        3: "fixed-interface modes above the fifth",
-        4: "fixed-interface modes above the fortieth",
+        Fidelity.RIGID: "deformation and stresses",
+        Fidelity.QUASI_STATIC: "vibration of the frame and the effect of its bending on the motion",
+        Fidelity.LOAD_PATHS: "deformations that no recorded load excites, and vibration that is not in their shapes",
+        Fidelity.DYNAMIC: "fixed-interface modes above the fifth",
+        Fidelity.MANY_MODES: "fixed-interface modes above the fortieth",
     }
-    return texts[rung]
+    return texts[fidelity]
 
 
 def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> Choice:
-    """The rung and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
+    """The fidelity and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
 
     Parameters
     ----------
@@ -107,21 +126,21 @@ def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> C
     names = {row["manoeuvre"] for row in rows}
     found: list[Choice] = []
     smallest = float("inf")
-    for rung, h in dict.fromkeys((row["rung"], row["h_s"]) for row in rows):
-        if rung == PAPER_MODES:
-            continue  # shown for comparison; not a rung
-        mine = [row for row in rows if (row["rung"], row["h_s"]) == (rung, h)]
+    for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
+        fidelity = Fidelity.of(name)
+        if fidelity is Fidelity.PAPER:
+            continue  # shown for comparison
+        mine = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
         errors = [row[output] for row in mine]
         if {row["manoeuvre"] for row in mine} != names or any(e is None for e in errors):
             continue
         smallest = min(smallest, max(errors))
         if max(errors) <= tolerance:
-            key = int(rung)
             cost = max(1e-3 * row["us_per_step"] / h for row in mine)
-            found.append(Choice(key, h, max(errors), cost, left_out(key)))
+            found.append(Choice(fidelity, h, max(errors), cost, left_out(fidelity)))
     if not found:
         raise ValueError(
-            f"No rung that was measured has {output} right to {tolerance:g}; the best is {smallest:.2g} away."
+            f"No fidelity that was measured has {output} right to {tolerance:g}; the best is {smallest:.2g} away."
         )
     return min(found, key=lambda c: c.ms_per_second)
 
@@ -135,19 +154,17 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
         ("motion", "place of the reference point:\nlargest error, m"),
     )
     figure, panels = plt.subplots(2, len(names), figsize=(5.2 * len(names), 8), layout="constrained", squeeze=False)
-    colours = dict(
-        zip(map(str, RUNGS), ("#222222", "#56B4E9", "#E69F00", "#009E73", "#CC79A7", "#D55E00"), strict=True)
-    )
     for column, name in enumerate(names):
         for line, (key, label) in enumerate(parts):
             axes = panels[line][column]
-            for rung in dict.fromkeys(row["rung"] for row in rows):
-                mine = [r for r in rows if r["manoeuvre"] == name and r["rung"] == rung and r[key] is not None]
+            for fidelity in map(Fidelity.of, dict.fromkeys(row["fidelity"] for row in rows)):
+                mine = [r for r in rows if r["manoeuvre"] == name and r["fidelity"] == fidelity.name.lower()]
+                mine = [r for r in mine if r[key] is not None]
                 if not mine:
                     continue
-                text = f"{rung}: {FIDELITIES[int(rung)]}" if rung.isdigit() else "paper: 60 static and 5 dynamic modes"
+                text = f"{fidelity.value}: {fidelity.description}"
                 axes.loglog(
-                    [r["us_per_step"] for r in mine], [r[key] for r in mine], "o-", color=colours[rung], label=text
+                    [r["us_per_step"] for r in mine], [r[key] for r in mine], "o-", color=COLOURS[fidelity], label=text
                 )
                 for r in mine:
                     axes.annotate(
@@ -156,7 +173,7 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
                         fontsize=7,
                         xytext=(3, 3),
                         textcoords="offset points",
-                        color=colours[rung],
+                        color=COLOURS[fidelity],
                     )
             axes.set_title(name.replace("_", " ") if line == 0 else "")
             axes.set_ylabel(label if column == 0 else "")
@@ -168,12 +185,12 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
     handles = {text: h for ax in panels.flat for h, text in zip(*ax.get_legend_handles_labels(), strict=True)}
     handles = dict(sorted(handles.items()))
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=2, fontsize="small")
-    figure.suptitle("The ladder: error against cost on the same manoeuvres")
+    figure.suptitle("Fidelities of the car: error against cost on the same manoeuvres")
     save_chart(figure, file)
 
 
 def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
-    """The cheapest rung for some outputs and tolerances."""
+    """The cheapest fidelity for some outputs and tolerances."""
     lines = []
     for output, tolerance in (("motion", 0.02), ("moment", 0.1), ("moment", 0.03), ("moment", 0.01)):
         unit = " m" if output == "motion" else ""
@@ -183,7 +200,7 @@ def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
             lines.append(str(error))
             continue
         lines.append(
-            f"{output} to {tolerance:g}{unit}: rung {c.rung}, step {1e3 * c.h:g} ms, {c.ms_per_second:.1f} ms per "
-            f"simulated second (error {c.error:.2g}{unit}); it leaves out {c.left_out}."
+            f"{output} to {tolerance:g}{unit}: fidelity {c.fidelity.name.lower()}, step {1e3 * c.h:g} ms, "
+            f"{c.ms_per_second:.1f} ms per simulated second (error {c.error:.2g}{unit}); it leaves out {c.left_out}."
         )
     return lines

@@ -1,4 +1,4 @@
-"""The manoeuvres of the ladder on any rung, their references and the errors against them."""
+"""The manoeuvres on which fidelities are compared, their references and the errors against them."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from hosts.low_pass import low_pass
 from hosts.manoeuvre import Manoeuvre
 from mbs import Settings, System, Trajectory, compile
 from mbs.scenes import kerb_test, prototype_car
+from mbs.scenes.prototype_car.fidelity import Fidelity
 from mbs.scenes.prototype_car.frame import GAUGES
 
 FOLDER = Path(__file__).parents[2] / "tests" / "data" / "fidelity"
@@ -30,9 +31,9 @@ of the reference point in m."""
 
 
 @cache
-def system_of(name: str, rung: int | str) -> System:
-    """The car of a rung on the road of a manoeuvre."""
-    model = kerb_test.build(rung) if name == "kerb_test" else prototype_car.build(fidelity=rung)
+def system_of(name: str, fidelity: Fidelity) -> System:
+    """The car with a fidelity on the road of a manoeuvre."""
+    model = kerb_test.build(fidelity) if name == "kerb_test" else prototype_car.build(fidelity=fidelity)
     return compile(model)
 
 
@@ -43,14 +44,14 @@ def manoeuvre_of(name: str) -> Manoeuvre:
     return manoeuvres.load(name)
 
 
-def run(name: str, rung: int | str, h: float, settings: Settings | None = None) -> Trajectory:
+def run(name: str, fidelity: Fidelity, h: float, settings: Settings | None = None) -> Trajectory:
     """Every step is recorded."""
-    return manoeuvres.run_on(system_of(name, rung), manoeuvre_of(name), h, settings=settings)
+    return manoeuvres.run_on(system_of(name, fidelity), manoeuvre_of(name), h, settings=settings)
 
 
-def cpu_time(name: str, rung: int | str, h: float, repeats: int) -> float:
+def cpu_time(name: str, fidelity: Fidelity, h: float, repeats: int) -> float:
     """Median processor time of all steps of a run, s; start and input table are made before."""
-    return manoeuvres.time_on(system_of(name, rung), manoeuvre_of(name), h, repeats, time.process_time)
+    return manoeuvres.time_on(system_of(name, fidelity), manoeuvre_of(name), h, repeats, time.process_time)
 
 
 def sampled(found: Trajectory, h: float) -> dict[str, NDArray[np.float64]]:

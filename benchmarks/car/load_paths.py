@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from benchmarks.car import fidelity_runs, manoeuvres
 from mbs import Simulation
 from mbs.input_signals import InputSignals
-from mbs.scenes.prototype_car.chassis import QUASI_STATIC
+from mbs.scenes.prototype_car.fidelity import Fidelity
 from mbs.scenes.prototype_car.frame import INTERFACES
 
 GUIDED = "kerb_test"
@@ -20,7 +20,7 @@ def port_forces(name: str) -> NDArray[np.float64]:
     """Forces on the chassis at the interfaces in its axes through a manoeuvre, shape (60, samples), N."""
     manoeuvre = fidelity_runs.manoeuvre_of(name) if name == GUIDED else manoeuvres.load(name)
     parameters, pose = manoeuvres.start_of(manoeuvre)
-    system = fidelity_runs.system_of(name, QUASI_STATIC)
+    system = fidelity_runs.system_of(name, Fidelity.QUASI_STATIC)
     signals = InputSignals(manoeuvres.inputs_of(manoeuvre), system.meta["inputs"])
     car = Simulation(system, parameters=parameters, pose=pose)
     names = [row["name"] for row in system.meta["rows"]]

@@ -119,9 +119,10 @@ def record_driver(h: float = 1e-3, interval: float = 0.02) -> NDArray[np.float64
         Time, steering, throttle, brake.
     """
     manoeuvre = load(CLOSED_LOOP)
-    driver = make_driver(manoeuvre.driver)
+    system = system_of(CLOSED_LOOP)
+    driver = make_driver(manoeuvre.driver, {c["name"]: c["value"] for c in system.meta["constants"]})
     parameters, pose = start_of(manoeuvre)
-    car = Simulation(system_of(CLOSED_LOOP), parameters=parameters, pose=pose)
+    car = Simulation(system, parameters=parameters, pose=pose)
     rows = []
     for k in range(round(manoeuvre.stop_time / interval) + 1):
         acts = driver.act(k * interval, car.sensors)

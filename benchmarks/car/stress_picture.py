@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.files import whole_file
 from benchmarks.shared.command import pyplot, watched
 from mbs import Simulation, compile
 from mbs.flexible import Frame, ReducedBody
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.scenes import kerb_test
-from mbs.scenes.prototype_car.chassis import DYNAMIC
+from mbs.scenes.prototype_car.fidelity import Fidelity
 
 Array = NDArray[np.float64]
 SCALE = 150.0  # of the deformation
@@ -45,7 +46,7 @@ class Motion:
 
 def amplitudes(body: ReducedBody) -> tuple[Array, Array]:
     """Times and modal amplitudes, shape (n, modes), of the kerb test."""
-    system = compile(kerb_test.build(DYNAMIC))
+    system = compile(kerb_test.build(Fidelity.DYNAMIC))
     names = list(system.meta["coordinates"])
     columns = [names.index(f"chassis.{mode}") for mode in body.mode_names]
     car = Simulation(system)
@@ -138,6 +139,7 @@ def draw_plain(frame: Frame, motion: Motion, folder: Path) -> list[Path]:
     figure.colorbar(tubes, ax=axes, label="largest normal stress, MPa", shrink=0.6)
     axes.set_title(f"t = {motion.t[k]:.2f} s, deformation x {SCALE:g}")
     picture = folder / "frame_stress.png"
-    figure.savefig(picture, dpi=100)
+    with whole_file(picture) as made:
+        figure.savefig(made, dpi=100)
     plt.close(figure)
     return [picture]

@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 import mbs
+from mbs.methods import METHOD_TABLE
 from mbs.settings import METHODS as KERNEL
 
-TITLES = {
-    "ali3p": "ALi3-P",
-    "ali3p_no_projection": "ALi3 without projections",
-    "ali3p_generalised_alpha": "ALi3-P, generalised-α",
-    "energy_momentum": "energy-momentum",
-    "energy_momentum_4": "energy-momentum, order 4",
-    "runge_kutta_8": "Runge-Kutta, order 8",
-    "semi_recursive": "semi-recursive, order 8",
-    "semi_recursive_4": "semi-recursive, order 4",
-    "radau_5": "Radau IIA, order 5",
-}
+TITLES = {name: method.title for name, method in METHOD_TABLE.items()}
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13, "eps_rel": 1e-9}
 """Rows that a singular position nearly loses close by a factor of about eps_rel over the square of their lever in an
 iteration: with the default eps_rel the 200-four-bar does not come below 1e-13 m there within 30 iterations."""
-CONSERVATIVE_ONLY = ("energy_momentum_4",)
-TREE_ONLY = ("semi_recursive", "semi_recursive_4")
-POSITIONS_ONLY = ("radau_5",)
+CONSERVATIVE_ONLY = tuple(name for name, method in METHOD_TABLE.items() if method.conservative_only)
+TREE_ONLY = tuple(name for name, method in METHOD_TABLE.items() if method.tree_only)
+POSITIONS_ONLY = tuple(name for name, method in METHOD_TABLE.items() if method.positions_only)
 
 
 def controlled(title: str) -> str:

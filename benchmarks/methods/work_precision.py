@@ -16,8 +16,8 @@ from benchmarks.methods.kernel_methods import TITLES, all_settings, controlled, 
 from benchmarks.references.cases import CASES, SAMPLES, SHARED, exact_of, system_of
 from benchmarks.shared.command import watched
 from mbs.kernel.binding import KernelError
+from mbs.methods import METHOD_TABLE
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
-from mbs.simulation.method_choice import ORDERS
 
 ROUNDS, FEW_ROUNDS = 7, 2
 LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few rounds, or the first run, must do
@@ -146,7 +146,7 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
                     add(name, f"{name}, {integrator}", h, peer_action(scene, engine, integrator, h))
     for method in (m for m in CONTROLLED if suits(m, case.conservative, system)):
         for tolerance in CONTROLLED_TOLERANCES[1 : 1 + QUICK_DIVISIONS] if quick else CONTROLLED_TOLERANCES:
-            if ORDERS[method] > 2 or tolerance >= ORDER_TWO_ENDS:
+            if METHOD_TABLE[method].order_of_changing_steps > 2 or tolerance >= ORDER_TWO_ENDS:
                 add("kernel", controlled(TITLES[method]), None, controlled_action(scene, method, tolerance), tolerance)
     for rtol in SCIPY_TOLERANCES[: 1 if quick else None] if case.classical else ():
         action = classical_action(scene, SCIPY["method"], case.end / SAMPLES, SCIPY["solver"], rtol)

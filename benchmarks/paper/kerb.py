@@ -10,12 +10,12 @@ from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity import size_of
 from mbs import Simulation, Trajectory
 from mbs.scenes import kerb_test
-from mbs.scenes.prototype_car.chassis import RIGID
+from mbs.scenes.prototype_car.fidelity import Fidelity
 
 GAUGES = ("SG1", "SG3")
 RELEASE = 13.0  # s: tyres let go
 COLUMNS = {
-    "rung": "",
+    "fidelity": "",
     "h_s": ".3f",
     "coordinates": "d",
     "rows": "d",
@@ -39,9 +39,9 @@ def changes(t: Trajectory, h: float) -> dict[str, float]:
     return shown | {f"filtered_{g}": found[f"{fidelity_runs.FILTERED}bending_moment.{g}"] for g in GAUGES}
 
 
-def left_at_the_end(rung: int | str, h: float) -> tuple[float, float]:
+def left_at_the_end(fidelity: Fidelity, h: float) -> tuple[float, float]:
     """Largest change of a moment that stays, over its peak: as the car stands, and with its tyres let go."""
-    car = Simulation(fidelity_runs.system_of("kerb_test", rung))
+    car = Simulation(fidelity_runs.system_of("kerb_test", fidelity))
     names = [f"bending_moment.{g}" for g in GAUGES]
     t = car.run(RELEASE, h, progress=False)
     peaks = {n: float(np.abs(t[n] - t[n][0]).max()) for n in names}
@@ -53,22 +53,22 @@ def left_at_the_end(rung: int | str, h: float) -> tuple[float, float]:
     return one, other
 
 
-def measure(rung: int | str, h: float, repeats: int) -> dict[str, Any]:
-    """One row; on the rigid rung there are no moments."""
-    found = fidelity_runs.run("kerb_test", rung, h)
+def measure(fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
+    """One row; with the rigid chassis there are no moments."""
+    found = fidelity_runs.run("kerb_test", fidelity, h)
     report = found.report
     assert report is not None
-    spent = fidelity_runs.cpu_time("kerb_test", rung, h, repeats)
+    spent = fidelity_runs.cpu_time("kerb_test", fidelity, h, repeats)
     row: dict[str, Any] = {
-        "rung": str(rung),
+        "fidelity": fidelity.name.lower(),
         "h_s": h,
-        **size_of("kerb_test", rung),
+        **size_of("kerb_test", fidelity),
         "iterations_mean": report.mean_iterations,
         "iterations_max": report.max_iterations,
         "seconds": spent,
         "realtime_factor": kerb_test.DURATION / spent,
     }
-    if rung == RIGID:
+    if fidelity is Fidelity.RIGID:
         return row | {name: None for name in COLUMNS if name not in row}
     reference = fidelity_runs.read_peaks("kerb_test")
     peaks = changes(found, h)
@@ -77,5 +77,5 @@ def measure(rung: int | str, h: float, repeats: int) -> dict[str, Any]:
         for what, prefix in (("peak", ""), ("filtered", fidelity_runs.FILTERED)):
             size = reference[f"{prefix}bending_moment.{g}"]
             errors[what] = max(errors[what], abs(peaks[f"{what}_{g}"] - size) / size)
-    held, free = left_at_the_end(rung, h)
+    held, free = left_at_the_end(fidelity, h)
     return row | peaks | {f"{k}_error": v for k, v in errors.items()} | {"left_held": held, "left_free": free}

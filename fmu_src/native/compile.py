@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from fmu_src.native.sources import HERE, KERNEL_INCLUDE, shell_files
+from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
 from fmu_src.native.universal import universal
 from mbs.kernel import build
 
@@ -18,7 +18,7 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
     targets : sequence of str
         Triples as `zig cc -target` takes them.
     face : str
-        ``fmi2`` or ``fmi3``.
+        ``fmi2``, ``fmi3`` or ``python``.
     table : Path
         The generated `table.c`.
     folder : Path
@@ -35,7 +35,7 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
     files = [*build.sources(), *shell_files(face), table]
     made = []
     for target in targets:
-        library, include = folder / target / name, (KERNEL_INCLUDE, HERE)
+        library, include = folder / target / name, (KERNEL_INCLUDE, HERE, DETOUR)
         build.compile_c(files, target, library, include=include, what="the FMU", defines=("ALI3_INSIDE",))
         made.append(library.read_bytes())
     return made[0] if len(made) == 1 else universal(made)

@@ -80,9 +80,12 @@ class NativeContents:
         return self.systems[self.fidelity]
 
     @property
-    def rows(self) -> list[list[str]]:
-        """Names of the constraint rows of each System."""
-        return [[row["name"] for row in system.meta["rows"]] for system in self.systems]
+    def names(self) -> dict[str, list[list[str]]]:
+        """Names of the constraint rows and force elements of each System."""
+        return {
+            what: [[item["name"] for item in system.meta[f"{what}s"]] for system in self.systems]
+            for what in ("row", "element")
+        }
 
     @property
     def system_files(self) -> dict[str, bytes]:
@@ -102,7 +105,7 @@ class NativeContents:
     def identity(self, face: str) -> tuple[str, str]:
         """Hash of the content, and the GUID made from it."""
         return identity_of(
-            packed_sources(face, c_table(self.table, self.rows, "0" * 32, "")) | self.system_files,
+            packed_sources(face, c_table(self.table, self.names, "0" * 32, "")) | self.system_files,
             [
                 *(self.model_name, self.description, self.version, self.stop_time, table_records(self.table)),
                 *(self.author, self.copyright, self.licence),
@@ -194,7 +197,6 @@ def pack_native(
         guid,
         tool=f"ALi3 {contents.version}",
         needs_execution_tool=False,
-        capable=True,
         sources=[path for path in sources if path.endswith(".c")],
     )
     with told(f"{face.name}: packing"):

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import accumulate
 
-from fmu_src.arrays import Array
+from fmu_src.arrays import Array, references
 from fmu_src.variables import Variable
 
 _SOURCES = {
@@ -15,18 +16,19 @@ _SOURCES = {
     "fidelity": "SLAVE_FIDELITY",
     "sensor": "SLAVE_SENSOR",
     "solver": "SLAVE_SOLVER",
+    "constant": "SLAVE_CONSTANT",
 }
 
 
-def c_table(table: Sequence[Variable], rows: Sequence[Sequence[str]], identity: str, token: str) -> str:
+def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str]]], identity: str, token: str) -> str:
     """`table.c` of the shell.
 
     Parameters
     ----------
     table : sequence of Variable
-        Outputs last.
-    rows : sequence of sequences of str
-        Names of the constraint rows of each System, for messages.
+        Inputs, parameters, outputs, constants.
+    names : mapping
+        Names of the constraint rows (``"row"``) and force elements (``"element"``) of each System, for messages.
     identity : str
         32 hexadecimal digits.
     token : str
@@ -44,17 +46,24 @@ def c_table(table: Sequence[Variable], rows: Sequence[Sequence[str]], identity: 
         f"{str(v.whole).lower()}}},"
         for v, unit in zip(table, units, strict=True)
     )
-    names = "\n".join(f"    {c_string(name)}," for one in rows for name in one) or "    NULL,"
-    first = ", ".join(str(sum(map(len, rows[:k]))) for k in range(len(rows) + 1))
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
-    known = sum(v.causality != "output" for v in table)
+    known = sum(v.causality in ("input", "parameter") for v in table)
     return (
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
-        f"static const char *const rows[] = {{\n{names}\n}};\n\nstatic const size_t first_row[] = {{{first}}};\n\n"
+        f"{_names('row', names['row'])}{_names('element', names['element'])}"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
-        f"{len(table)}, {known},\n    rows, first_row, {len(rows)},\n}};\n"
+        f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])},\n}};\n"
+    )
+
+
+def _names(what: str, of_systems: Sequence[Sequence[str]]) -> str:
+    """Names of all Systems one after the other, and where those of each begin."""
+    lines = "\n".join(f"    {c_string(name)}," for one in of_systems for name in one) or "    NULL,"
+    first = ", ".join(str(sum(map(len, of_systems[:k]))) for k in range(len(of_systems) + 1))
+    return (
+        f"static const char *const {what}[] = {{\n{lines}\n}};\n\nstatic const size_t first_{what}[] = {{{first}}};\n\n"
     )
 
 
@@ -80,12 +89,12 @@ def c_arrays(groups: Sequence[Array]) -> str:
         C.
     """
     items = [k for group in groups for k in group.items]
-    first = [0]
-    for group in groups:
-        first.append(first[-1] + len(group.items))
+    numbers, time = references(groups)
+    sizes = {time: 0} | {number: len(group.items) for number, group in zip(numbers, groups, strict=True)}
+    first = [0, *accumulate(sizes[number] for number in sorted(sizes))]
     return (
         '\n#include "fmi3_face.h"\n\n'
         f"static const uint32_t items[] = {{{', '.join(map(str, items))}}};\n\n"
         f"static const size_t first[] = {{{', '.join(map(str, first))}}};\n\n"
-        f"const fmi3_table fmi3_the_table = {{items, first, {len(groups)}}};\n"
+        f"const fmi3_table fmi3_the_table = {{items, first, {len(sizes)}, {time}}};\n"
     )

@@ -1,9 +1,9 @@
-"""Packs a System, the kernel, the slave and PythonFMU into an FMU: the same content gives the same bytes."""
+"""Packs a System, the slave in C, its class in Python and PythonFMU into an FMU: the same content, the same bytes."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
+import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import pythonfmu
@@ -11,10 +11,11 @@ import pythonfmu
 from fmu_src.archive import identity_of, licence, write_zip
 from fmu_src.description import model_description
 from fmu_src.documentation import documentation
-from fmu_src.native.package import NativeContents
-from fmu_src.platforms import SUFFIXES
-from fmu_src.variables import table_records
-from mbs.kernel import binding, header
+from fmu_src.native.compile import compile_library
+from fmu_src.native.package import NativeContents, Telling, first_time
+from fmu_src.native.sources import shell_files
+from fmu_src.native.table import c_table
+from fmu_src.platforms import PYTHON_PLATFORMS, SUFFIXES, TARGETS
 
 _HERE = Path(__file__).parent
 _PYTHONFMU = Path(pythonfmu.__file__).parent
@@ -22,56 +23,62 @@ _PYTHONFMU_MODULES = ("_version", "default_experiment", "enums", "fmi2slave", "l
 _PYTHONFMU_LIBRARY = {"linux64": "libpythonfmu-export.so", "win64": "pythonfmu-export.dll"}
 
 
-def pack(contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[str, Path], file: Path) -> str:
-    """Write the FMU.
+def pack_python(
+    contents: NativeContents,
+    platforms: Sequence[str],
+    file: Path,
+    told: Telling,
+    libraries: dict[tuple[str, str], bytes],
+) -> str:
+    """Compile and write the FMU.
 
     Parameters
     ----------
     contents : NativeContents
         The same as for the native kinds.
-    kernels, shells : mapping of str to Path
-        Compiled libraries by FMI platform name.
+    platforms : sequence of str
+        ``linux64``, ``win64`` or both.
     file : Path
         Where to; an older file is replaced only when the new one is whole.
+    told : callable
+        ``told(what, note)`` makes a context in which `what` is done.
+    libraries : dict
+        Libraries by model and platform that were compiled before; those compiled here are added.
 
     Returns
     -------
     str
         The GUID, a hash of all the content.
     """
-    records = table_records(contents.table)
-    entries = _package_files(contents, kernels, shells)
+    name = contents.model_name
+    package = _package()
     template = (_HERE / "main_template.py").read_text(encoding="utf-8")
+    # all that any platform has; sources stand for the slave's libraries, which carry the identity
+    sources = {f"sources/{f.name}": f.read_bytes() for f in shell_files("python")}
     identity, guid = identity_of(
-        entries | {"main": template.encode()},
-        [
-            *(contents.model_name, contents.description, contents.version, contents.stop_time, records),
-            *(contents.author, contents.copyright, contents.licence),
-        ],
+        package | _pythonfmu_libraries(name, PYTHON_PLATFORMS) | sources | {"main": template.encode()},
+        [contents.identity("fmi2")[0]],
     )
-
     # Names of their own per build: a host's Python keeps one module per name, whatever FMU it came from.
-    package = f"ali3_{identity[:12]}"
-    main = f"main_{identity[:12]}"
-    script = template.replace("ModelName", contents.model_name).replace("PackageName", package)
-    files = {f"resources/{package}/{name}": data for name, data in entries.items() if not name.startswith("binaries/")}
-    files |= {name: data for name, data in entries.items() if name.startswith("binaries/")}
+    main, own = f"main_{identity[:12]}", f"ali3_{identity[:12]}"
+    script = template.replace("ModelName", name).replace("PackageName", own)
+    files = {f"resources/{own}/{path}": data for path, data in package.items()}
+    files |= contents.system_files | _pythonfmu_libraries(name, platforms)
     files |= {
         f"resources/{main}.py": script.encode(),
-        f"resources/{package}/fmu.json": json.dumps(
-            {"identity": identity, "variables": records, "rows": contents.rows}, indent=1
-        ).encode(),
         "resources/slavemodule.txt": main.encode(),
-        "resources/guid.txt": guid.encode(),
         "documentation/licenses/license.txt": licence("ali3"),
         "documentation/licenses/PythonFMU.txt": licence("pythonfmu"),
         "documentation/index.html": documentation(
-            contents.model_name,
+            name,
             contents.description,
             contents.version,
             contents.step_size,
             contents.table,
-            ["FMI 2.0 co-simulation in Python: the host's machine needs Python 3.10 or newer."],
+            [
+                "FMI 2.0 co-simulation through Python: the host's machine needs Python 3.10 or newer, and no package. "
+                "The calls pass a class in Python; the slave in C answers them as it does in the native FMU."
+            ],
         ).encode(),
         "modelDescription.xml": model_description(
             contents.description_head(
@@ -81,28 +88,35 @@ def pack(contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[
             contents.reach,
         ),
     }
-    write_zip(files, file)
+    with tempfile.TemporaryDirectory() as temporary:
+        table = Path(temporary, "table.c")
+        table.write_text(c_table(contents.table, contents.names, identity, guid), encoding="utf-8")
+        for platform in platforms:
+            library = name + SUFFIXES[platform]
+            if (name, platform) not in libraries:
+                with told(f"python: compiling for {platform}", first_time(platform)):
+                    made = compile_library(TARGETS[platform], "python", table, Path(temporary), library)
+                libraries[name, platform] = made
+            files[f"binaries/{platform}/{library}"] = libraries[name, platform]
+    with told("python: packing"):
+        write_zip(files, file)
     return guid
 
 
-def _package_files(
-    contents: NativeContents, kernels: Mapping[str, Path], shells: Mapping[str, Path]
-) -> dict[str, bytes]:
-    """All files but those that carry the identity."""
-    entries = {
+def _package() -> dict[str, bytes]:
+    """The package in Python: the slave's class and the parts of PythonFMU that it needs."""
+    modules = {f"pythonfmu/{module}.py": (_PYTHONFMU / f"{module}.py").read_bytes() for module in _PYTHONFMU_MODULES}
+    return modules | {
         "__init__.py": b"",
-        "slave.py": (_HERE / "slave.py").read_bytes(),
-        "header.py": Path(header.__file__).read_bytes(),
-        **{f"binding/{f.name}": f.read_bytes() for f in sorted(Path(binding.__file__).parent.glob("*.py"))},
-        **{f"system_{k}.ali3": system.to_bytes() for k, system in enumerate(contents.systems)},
         "pythonfmu/__init__.py": b"",
+        "slave.py": (_HERE / "slave.py").read_bytes(),
     }
-    for module in _PYTHONFMU_MODULES:
-        entries[f"pythonfmu/{module}.py"] = (_PYTHONFMU / f"{module}.py").read_bytes()
-    for platform, kernel in kernels.items():
-        entries[f"{platform}/{kernel.name}"] = kernel.read_bytes()
-        stem, suffix = f"binaries/{platform}/{contents.model_name}", SUFFIXES[platform]
-        entries[stem + suffix] = shells[platform].read_bytes()
-        library = _PYTHONFMU / "resources" / "binaries" / platform / _PYTHONFMU_LIBRARY[platform]
-        entries[f"{stem}-pythonfmu{suffix}"] = library.read_bytes()
-    return entries
+
+
+def _pythonfmu_libraries(name: str, platforms: Sequence[str]) -> dict[str, bytes]:
+    """PythonFMU's export libraries as they lie beside those of the slave."""
+    folder = _PYTHONFMU / "resources" / "binaries"
+    return {
+        f"binaries/{p}/{name}-pythonfmu{SUFFIXES[p]}": (folder / p / _PYTHONFMU_LIBRARY[p]).read_bytes()
+        for p in platforms
+    }

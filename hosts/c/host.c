@@ -2,7 +2,12 @@
  *
  *   host LIBRARY RESOURCES_URI GUID STEPS STEP FIRST LAST [REFERENCE=VALUE ...]
  *
- * Prints time and the variables FIRST to LAST after every step as hexadecimal numbers, so that no digit is lost. */
+ * Prints time and the variables FIRST to LAST after every step as hexadecimal numbers, so that no digit is lost.
+ *
+ * It needs the headers of the FMI 2.0 standard (https://github.com/modelica/fmi-standard/releases). FMPy brings them, in
+ * the folder that  python -c "import fmpy; print(fmpy.__path__[0] + '/c-code')"  prints:
+ *
+ *   cc -I FOLDER_OF_THE_HEADERS hosts/c/host.c -ldl -o host */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +23,7 @@ static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTL
 static void *find(void *library, const char *name) { return dlsym(library, name); }
 #endif
 
-#include "fmi2.h"
+#include "fmi2FunctionTypes.h"
 
 enum { MOST_VALUES = 4096 };
 
@@ -60,14 +65,15 @@ int main(int count, char **argument) {
     fprintf(stderr, "%s cannot be loaded\n", argument[1]);
     return 2;
   }
-  fmi2Component (*instantiate)(fmi2String, fmi2Type, fmi2String, fmi2String, const fmi2CallbackFunctions *, fmi2Boolean,
-                               fmi2Boolean);
-  fmi2Status (*setup)(fmi2Component, fmi2Boolean, fmi2Real, fmi2Real, fmi2Boolean, fmi2Real);
-  fmi2Status (*enter)(fmi2Component), (*leave)(fmi2Component), (*terminate)(fmi2Component);
-  fmi2Status (*step)(fmi2Component, fmi2Real, fmi2Real, fmi2Boolean);
-  fmi2Status (*get)(fmi2Component, const fmi2ValueReference *, size_t, fmi2Real *);
-  fmi2Status (*set)(fmi2Component, const fmi2ValueReference *, size_t, const fmi2Real *);
-  void (*release)(fmi2Component);
+  fmi2InstantiateTYPE *instantiate;
+  fmi2SetupExperimentTYPE *setup;
+  fmi2EnterInitializationModeTYPE *enter;
+  fmi2ExitInitializationModeTYPE *leave;
+  fmi2DoStepTYPE *step;
+  fmi2GetRealTYPE *get;
+  fmi2SetRealTYPE *set;
+  fmi2TerminateTYPE *terminate;
+  fmi2FreeInstanceTYPE *release;
   *(void **)&instantiate = function(library, "fmi2Instantiate");
   *(void **)&setup = function(library, "fmi2SetupExperiment");
   *(void **)&enter = function(library, "fmi2EnterInitializationMode");

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from mbs.affine import Affine
 from mbs.compiler.loops import Block
 from mbs.compiler.polynomial import RowTerms, substitute
-from mbs.elements.types import ElementType
 from mbs.model.body import Body
 from mbs.model.model import Model
 
@@ -23,9 +22,6 @@ CARRIED = {"port": 1, "interface": 3}
 """Types of the joints that tie the coordinates of a port or a node to its body, and how many a row may tie at once:
 more are those of another body, which took the place of the port's.
 """
-
-
-SPRINGS = {ElementType.SPRING_DAMPER, ElementType.SCALAR_SPRING_DAMPER}
 
 
 @dataclass(frozen=True)
@@ -81,7 +77,7 @@ def moving_part(model: Model, block: Block, rows: Sequence[RowTerms], full: Sequ
 
 def _sprung(model: Model, moving: set[int], full: Sequence[Affine]) -> bool:
     """Whether a spring acts on a moving body."""
-    springs = [e for e in model.elements if e.type in SPRINGS]
+    springs = [e for e in model.elements if e.elastic]
     return any(moving & set(substitute(signal, full).terms) for e in springs for signal in e.signals)
 
 

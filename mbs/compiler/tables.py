@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from mbs.affine import Affine
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import substitute
-from mbs.elements.types import ElementType
 from mbs.errors import ModelError
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
@@ -19,9 +18,6 @@ from mbs.model.reactions import MOST_FACTORS
 from mbs.model.sensors import Sensor
 
 Arrays = dict[str, NDArray[Any]]
-
-NO_TANGENT = {ElementType.INPUT_FORCE}
-"""Element types that add nothing to the tangent, so that their coordinates need not share a front."""
 
 
 class Signals:
@@ -71,7 +67,7 @@ def element_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates (before ordering) that each element couples in the tangent."""
     found = []
     for element in model.elements:
-        if element.type in NO_TANGENT:
+        if not element.tangent:
             continue
         found.append(sorted({j for s in element.signals for j in substitute(s, full).terms}))
     return found
@@ -84,7 +80,7 @@ def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
         mine = [signals.number(s) for s in element.signals]
         numbers.append(mine)
         entries = [c for n in mine for c in signals.rows[n][0]]
-        if element.type in NO_TANGENT or not entries:
+        if not element.tangent or not entries:
             fronts.append(-1)
             locals_.append([0] * len(entries))
         else:

@@ -13,8 +13,8 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
-from mbs.elements.types import ElementType
 from mbs.elements.tyre import Tyre, TyreCurve
+from mbs.kernel.header import ElementType
 
 __all__ = [
     "AutomaticDrive",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mbs.affine import AffineVector
 from mbs.elements.checks import index, size
 from mbs.elements.record import ElementRecord
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

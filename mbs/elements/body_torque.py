@@ -9,7 +9,7 @@ from typing import Literal
 from mbs.affine import AffineVector
 from mbs.elements.checks import index
 from mbs.elements.record import ElementRecord
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)

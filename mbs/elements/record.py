@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from mbs.affine import Affine
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
+
+Check: TypeAlias = Callable[[object, str], float]
+"""One of the checks of numbers of `mbs.checks`."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,10 @@ class ElementRecord:
         Initial values of its slots.
     outputs : sequence of Output
         What it computes beside its force.
+    tangent : bool
+        Whether its force depends on the signals or their rates, so that the tangent couples their coordinates.
+    elastic : bool
+        Whether a spring in it holds the bodies it acts on.
     """
 
     name: str
@@ -48,4 +56,8 @@ class ElementRecord:
     states: Sequence[float] = ()
     outputs: Sequence[Output] = field(default_factory=tuple)
     real_names: Sequence[str] = ()
-    """Names of the entries of `real`, so that a parameter can be tied to one."""
+    """Names of the first entries of `real`, so that a parameter can be tied to one."""
+    real_checks: Sequence[Check] = ()
+    """What each of these must satisfy, also as a parameter writes it; by default any finite number will do."""
+    tangent: bool = True
+    elastic: bool = False

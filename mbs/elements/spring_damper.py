@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import not_negative, positive, size
+from mbs.checks import not_negative, positive
+from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.types import ElementType
+from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)
@@ -127,4 +128,6 @@ class SpringDamper:
                 "rebound_stiffness",
                 *progressive,
             ),
+            real_checks=(not_negative,) * (7 + len(progressive)),
+            elastic=True,
         )

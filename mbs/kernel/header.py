@@ -31,7 +31,7 @@ class Status(IntEnum):
     SINGULAR = 8
     NOT_FINITE = 9
     WRONG_METHOD = 10
-    BELOW_ROAD = 11
+    START_REFUSED = 11
     UNRESOLVED = 12
     NO_TREE = 13
     TOO_STIFF = 14
@@ -108,6 +108,32 @@ class Doubt(IntEnum):
     BALANCE = 2
 
 
+class MethodNumber(IntEnum):
+    """`ali3_settings.method`."""
+
+    ALI3P = 0
+    GENERALISED_ALPHA = 1
+    ENERGY_MOMENTUM = 2
+    ENERGY_MOMENTUM_4 = 3
+    RUNGE_KUTTA_8 = 4
+    SEMI_RECURSIVE = 5
+    SEMI_RECURSIVE_4 = 6
+    RADAU_5 = 7
+
+
+METHOD_ORDERS = {
+    MethodNumber.ALI3P: 2,
+    MethodNumber.GENERALISED_ALPHA: 1,
+    MethodNumber.ENERGY_MOMENTUM: 2,
+    MethodNumber.ENERGY_MOMENTUM_4: 3,
+    MethodNumber.RUNGE_KUTTA_8: 8,
+    MethodNumber.SEMI_RECURSIVE: 8,
+    MethodNumber.SEMI_RECURSIVE_4: 4,
+    MethodNumber.RADAU_5: 5,
+}
+"""Orders of steps that change."""
+
+
 class SensorType(IntEnum):
     """Types of sensors."""
 
@@ -155,6 +181,23 @@ SENSOR_READS = {
     SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
     SensorType.WORK: SensorReads.FORCES,
 }
+
+
+class ElementType(IntEnum):
+    """Types of force elements."""
+
+    SPRING_DAMPER = 1
+    SCALAR_SPRING_DAMPER = 2
+    INPUT_FORCE = 3
+    BODY_FORCE = 4
+    BODY_TORQUE = 5
+    GYROSCOPIC_SPIN = 6
+    DRAG = 7
+    TYRE = 8
+    BRAKE = 9
+    AUTOMATIC_DRIVE = 10
+    CONTACT_POINTS = 11
+    SPIN_TORQUE = 12
 
 
 class SettingsFields(Structure):

@@ -18,6 +18,7 @@ KERNEL = Path(__file__).resolve().parent
 HEADER = KERNEL / "header.py"
 PAGE = KERNEL.parents[1] / "docs" / "system_file.md"
 PUBLIC, SENSORS = "include/ali3.h", "src/system/sensor_types.h"
+ELEMENTS = "src/elements/element_types.h"
 
 ENUMERATIONS = {
     "Status": (PUBLIC, "ALI3_OK", "ALI3_", "Codes of `ali3_status`: how a call of the kernel ended."),
@@ -101,6 +102,20 @@ def table(file: str, name: str) -> list[list[str]]:
     return entries
 
 
+def element_types() -> dict[str, int]:
+    """The types of force elements and their numbers.
+
+    Raises
+    ------
+    ValueError
+        If two have one number.
+    """
+    types = {name.upper(): int(number) for number, name in table(ELEMENTS, "ALI3_ELEMENT_TYPES")}
+    if len(set(types.values())) != len(types):
+        raise ValueError(f"two types of ALI3_ELEMENT_TYPES in {ELEMENTS} have one number.")
+    return types
+
+
 class SensorEntry(NamedTuple):
     """An entry of ALI3_SENSOR_TYPES; what the letters of `integers` mean is said there."""
 
@@ -168,17 +183,25 @@ def header() -> str:
     for name, (file, first, prefix, text) in ENUMERATIONS.items():
         values = (f"{item} = {value}" for item, value in enumeration(file, first, prefix).items())
         parts.append(_class(name, "IntEnum", text, values))
+    methods = table(PUBLIC, "ALI3_METHODS")
+    names = (f"{name} = {number}" for number, (name, _, _) in enumerate(methods))
+    parts.append(_class("MethodNumber", "IntEnum", "`ali3_settings.method`.", names))
+    orders = "\n".join(f"    MethodNumber.{name}: {order}," for name, _, order in methods)
+    text = "Orders of steps that change."
+    parts.append(f'\nMETHOD_ORDERS = {{\n{orders}\n}}\n"""{text}"""')
     types = sensor_types()
     items = (f"{t.name} = {t.number}" for t in types)
     parts.append(_class("SensorType", "IntEnum", "Types of sensors.", items))
     reads = "\n".join(f"    SensorType.{t.name}: SensorReads.{t.reads}," for t in types)
     parts.append(f"\nSENSOR_READS = {{\n{reads}\n}}")
+    elements = (f"{name} = {number}" for name, number in element_types().items())
+    parts.append(_class("ElementType", "IntEnum", "Types of force elements.", elements))
     for c_name, name in STRUCTURES.items():
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")
         parts.append(_class(name, "Structure", f"`ali3_{c_name}`.", body))
-    names = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
-    parts.append(f'\nSTRUCTURES = {{\n{names}\n}}\n"""By their names in C."""')
+    structures = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
+    parts.append(f'\nSTRUCTURES = {{\n{structures}\n}}\n"""By their names in C."""')
     return "\n\n".join(parts) + "\n"
 
 

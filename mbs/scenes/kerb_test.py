@@ -18,6 +18,7 @@ from mbs.model import Model
 from mbs.model.guides import Guide
 from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.fidelity import OFFERED, Fidelity
 from mbs.scenes.prototype_car.tyre_data import FRICTION
 
 SPEED = 5.0  # m/s
@@ -26,20 +27,19 @@ DURATION, STEP = 15.0, 0.01  # s
 EDGE = 7.5  # m from the front axle at rest to the kerb; a wheel is over it at 7.70 s in front, 8.16 s behind
 HEIGHT = 0.08  # m
 PIECE = 0.1  # s, of the guide's polynomials
-FIDELITIES = (0, 1, 2, 3)
 
 
-def build(fidelity: int | str = 3) -> Model:
-    """The car before the kerb, in equilibrium; rungs as in `prototype_car.build`."""
+def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC) -> Model:
+    """The car before the kerb, in equilibrium; fidelities as in `prototype_car.build`."""
     road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", FRICTION)
     m = prototype_car.build(road, fidelity, guide)
     m.stop_time, m.step = DURATION, STEP
     return m
 
 
-def variants() -> dict[int, Callable[[], Model]]:
-    """The rungs an FMU offers by its parameter `fidelity`."""
-    return {k: partial(build, k) for k in FIDELITIES}
+def fidelities() -> dict[Fidelity, Callable[[], Model]]:
+    """The models an FMU offers by its parameter `fidelity`."""
+    return {fidelity: partial(build, fidelity) for fidelity in OFFERED}
 
 
 def speed(t: float | np.ndarray) -> np.ndarray:

@@ -10,24 +10,13 @@ import numpy as np
 from mbs.errors import SimulationError
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.header import GuideType
+from mbs.methods import METHOD_TABLE
 from mbs.settings import Settings
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepping import Simulation
 from mbs.system import System
 
-ORDERS = {
-    "ali3p": 2,
-    "ali3p_no_projection": 2,
-    "ali3p_generalised_alpha": 1,
-    "energy_momentum": 2,
-    "energy_momentum_4": 3,
-    "runge_kutta_8": 8,
-    "semi_recursive": 8,
-    "semi_recursive_4": 4,
-    "radau_5": 5,
-}
-"""Orders with steps that change."""
 FINE = 2e-3  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
 FIRST_BUDGET, MORE, STEPS = 100.0, 2.0, 0.002
 LOOSE = 1e-3  # tolerance from which on ALi3-P, of order two, is tried too: it is the cheapest one for what is stiff
@@ -60,17 +49,6 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
     return ["runge_kutta_8", "radau_5", *coarse], "no tree of joints"
 
 
-def cost(method: str) -> float:
-    """Of one unit of work of a run (`ControlledRun.work`), in evaluations of Runge and Kutta's rule.
-
-    Measured: three stages in one tangent are three times as wide; relative coordinates save the factorization of the
-    natural ones.
-    """
-    if method == "radau_5":
-        return 5.5
-    return 0.2 if method.startswith("semi_recursive") else 1.0
-
-
 def choose(start: Callable[[], Simulation], task: Task, settings: Settings, tolerance: float, coarse: float) -> Choice:
     """The method for a tolerance, by runs of all candidates at a coarse one, each as long as it can still win."""
     system = start().system
@@ -79,7 +57,8 @@ def choose(start: Callable[[], Simulation], task: Task, settings: Settings, tole
         return Choice(names[0], f"chosen: {what}", None, 0.0, 0)
     growth = coarse / tolerance
     runs = {name: ControlledRun(start(), task, replace(settings, method=name), coarse) for name in names}
-    weights = {name: cost(name) * growth ** (1.0 / ORDERS[name]) for name in names}
+    methods = {name: METHOD_TABLE[name] for name in names}
+    weights = {name: m.cost * growth ** (1.0 / m.order_of_changing_steps) for name, m in methods.items()}
     failed = _race(runs, weights)
     ended = {name: run.work * weights[name] for name, run in runs.items() if run.finished}
     best = min(ended, key=lambda name: ended[name], default="")

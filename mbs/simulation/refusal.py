@@ -44,7 +44,7 @@ def refusal(
     if not unsolved and error.status not in (
         Status.WRONG_METHOD,
         Status.NO_TREE,
-        Status.BELOW_ROAD,
+        Status.START_REFUSED,
         Status.UNRESOLVED,
         Status.TOO_STIFF,
         Status.TOO_FAR,
@@ -58,8 +58,10 @@ def _remedy(simulation: Simulation, status: int) -> str:
     if status in (Status.WRONG_METHOD, Status.NO_TREE):
         tree = f" Here {prepared(simulation.system)[1]['report']['no_tree']}." if status == Status.NO_TREE else ""
         return f"{tree} The method is {simulation.settings.method!r}; 'ali3p' takes every System."
-    if status == Status.BELOW_ROAD:
-        return f" {simulation.instance.start_lift():.3g} m higher (z of the pose) it would be clear of it."
+    if status == Status.START_REFUSED:
+        height, element, words = simulation.instance.start_excess()
+        name = prepared(simulation.system)[1]["elements"][element]["name"]
+        return f" '{name}' {words}. {height:.3g} m higher (z of the pose) nothing would be in its way."
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
     if rate > 0.0:
         h = simulation.step_tried

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from mbs.errors import SimulationError
 from mbs.input_signals import Signal
+from mbs.methods import METHOD_TABLE
 from mbs.progress import Progress
-from mbs.simulation.method_choice import ORDERS
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.stepping import Simulation
 from mbs.system import System
@@ -63,7 +63,7 @@ def choose_step(
         else:
             differences.append(_distance(system, positions, previous))
         if len(differences) >= 2:
-            order = _order(differences, ORDERS[method])
+            order = _order(differences, METHOD_TABLE[method].order_of_changing_steps)
             error = differences[-1] / (2.0**order - 1.0)
             last = error, order
             exact = max(differences[-2:]) <= EXACT * tolerance

@@ -1,8 +1,9 @@
-"""The ladder: choosing a rung from measured rows, one measured row, the chart; the naive models."""
+"""Fidelities of the car: choosing one from measured rows, one measured row, the chart; the naive models."""
 
 from __future__ import annotations
 
 import json
+from argparse import ArgumentTypeError
 from pathlib import Path
 
 import numpy as np
@@ -10,34 +11,35 @@ import pytest
 
 from benchmarks.car import fidelity, fidelity_runs
 from benchmarks.methods import naive
+from mbs.scenes.prototype_car import Fidelity
 
 
-def row(rung: str, h: float, us: float, moment: float | None, motion: float, name: str = "kerb") -> dict[str, object]:
-    return {"manoeuvre": name, "rung": rung, "h_s": h, "us_per_step": us, "moment": moment, "motion": motion}
+def row(model: str, h: float, us: float, moment: float | None, motion: float, name: str = "kerb") -> dict[str, object]:
+    return {"manoeuvre": name, "fidelity": model, "h_s": h, "us_per_step": us, "moment": moment, "motion": motion}
 
 
 ROWS = [
-    row("0", 0.01, 40.0, None, 0.005),
-    row("1", 0.01, 60.0, 0.08, 0.005),
-    row("1", 0.002, 60.0, 0.06, 0.004),
-    row("3", 0.01, 250.0, 0.03, 0.001),
-    row("4", 0.01, 400.0, 0.02, 0.001),
+    row("rigid", 0.01, 40.0, None, 0.005),
+    row("quasi_static", 0.01, 60.0, 0.08, 0.005),
+    row("quasi_static", 0.002, 60.0, 0.06, 0.004),
+    row("dynamic", 0.01, 250.0, 0.03, 0.001),
+    row("many_modes", 0.01, 400.0, 0.02, 0.001),
 ]
 
 
 def test_the_cheapest_that_is_good_enough() -> None:
-    assert fidelity.cheapest(ROWS, "motion", 0.01).rung == 0
+    assert fidelity.cheapest(ROWS, "motion", 0.01).fidelity is Fidelity.RIGID
     stress = fidelity.cheapest(ROWS, "moment", 0.1)
-    assert (stress.rung, stress.h, stress.error) == (1, 0.01, 0.08)
+    assert (stress.fidelity, stress.h, stress.error) == (Fidelity.QUASI_STATIC, 0.01, 0.08)
     assert stress.ms_per_second == pytest.approx(6.0)
     fine = fidelity.cheapest(ROWS, "moment", 0.05)
-    assert fine.rung == 3
+    assert fine.fidelity is Fidelity.DYNAMIC
     assert "above the fifth" in fine.left_out
 
 
 def test_it_must_be_good_in_every_manoeuvre() -> None:
-    other = [row("1", 0.01, 60.0, 0.3, 0.01, "drop"), row("3", 0.01, 250.0, 0.04, 0.01, "drop")]
-    assert fidelity.cheapest([*ROWS, *other], "moment", 0.1).rung == 3
+    other = [row("quasi_static", 0.01, 60.0, 0.3, 0.01, "drop"), row("dynamic", 0.01, 250.0, 0.04, 0.01, "drop")]
+    assert fidelity.cheapest([*ROWS, *other], "moment", 0.1).fidelity is Fidelity.DYNAMIC
 
 
 @pytest.mark.parametrize(
@@ -54,13 +56,13 @@ def test_what_cannot_be_chosen(output: str, tolerance: float, said: str) -> None
 
 
 def test_measured_rows_and_chart(tmp_path: Path) -> None:
-    rows = [fidelity.measure("kerb_test", rung, 0.01, 1) for rung in (0, 1)]
+    rows = [fidelity.measure("kerb_test", f, 0.01, 1) for f in (Fidelity.RIGID, Fidelity.QUASI_STATIC)]
     assert rows[0]["moment"] is None
     assert 0.0 < rows[1]["moment"] < 0.05
     assert rows[1]["coordinates"] > rows[0]["coordinates"]
     json.dumps(rows)
-    fidelity.chart(rows, tmp_path / "ladder.png")
-    assert (tmp_path / "ladder.png").stat().st_size > 10_000
+    fidelity.chart(rows, tmp_path / "fidelity.png")
+    assert (tmp_path / "fidelity.png").stat().st_size > 10_000
 
 
 def test_errors_of_a_reference_with_itself_are_nothing() -> None:
@@ -77,3 +79,9 @@ def test_naive_models_move_alike_and_are_larger() -> None:
         assert found["naive_rows"] > 2 * found["rows"]
         assert found["difference"] < 0.01
     assert np.isfinite(found["factor"])
+
+
+def test_a_command_takes_numbers_and_names() -> None:
+    assert [fidelity.fidelity_of(text) for text in ("3", "dynamic", "Paper")] == [3, Fidelity.DYNAMIC, Fidelity.PAPER]
+    with pytest.raises(ArgumentTypeError, match="fidelity of the car is 'soft'"):
+        fidelity.fidelity_of("soft")

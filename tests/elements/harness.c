@@ -11,30 +11,11 @@
 #define EXPORT __attribute__((visibility("default")))
 #endif
 
-extern const ali3_element_type ali3_spring_damper, ali3_scalar_spring_damper, ali3_input_force, ali3_body_force,
-    ali3_body_torque, ali3_gyroscopic_spin, ali3_drag, ali3_tyre, ali3_brake, ali3_automatic_drive, ali3_contact_points,
-    ali3_spin_torque;
-
-static const ali3_element_type *type_of(int32_t type) {
-  const ali3_element_type *all[] = {0,
-                                    &ali3_spring_damper,
-                                    &ali3_scalar_spring_damper,
-                                    &ali3_input_force,
-                                    &ali3_body_force,
-                                    &ali3_body_torque,
-                                    &ali3_gyroscopic_spin,
-                                    &ali3_drag,
-                                    &ali3_tyre,
-                                    &ali3_brake,
-                                    &ali3_automatic_drive,
-                                    &ali3_contact_points,
-                                    &ali3_spin_torque};
-  return all[type];
-}
+EXPORT int32_t harness_has_discrete(int32_t type) { return ali3_element_type_get(type)->discrete != NULL; }
 
 /* sizes: nsig, nreal, nint, nstate, nout */
 EXPORT int32_t harness_sizes_match(int32_t type, const int32_t sizes[5]) {
-  const ali3_element_type *t = type_of(type);
+  const ali3_element_type *t = ali3_element_type_get(type);
   const int32_t want[5] = {t->nsig, t->nreal, t->nint, t->nstate, t->nout};
   for (int i = 0; i < 5; i++)
     if (want[i] >= 0 && want[i] != sizes[i]) return 0; /* below 0: any, or a number for each item */
@@ -43,21 +24,42 @@ EXPORT int32_t harness_sizes_match(int32_t type, const int32_t sizes[5]) {
 
 EXPORT const char *harness_check(int32_t type, const int32_t sizes[5], const double *real, const int32_t *integer,
                                  int32_t n_inputs, int32_t n_roads) {
-  const ali3_element_type *t = type_of(type);
+  const ali3_element_type *t = ali3_element_type_get(type);
   return t->check ? t->check(sizes[0], real, sizes[1], integer, sizes[2], n_inputs, n_roads) : 0;
 }
 
-EXPORT double harness_evaluate(int32_t type, int32_t accepted, const int32_t sizes[5], const double *u,
-                               const double *ud, const double *y_old, double *y_new, double h, double wC, double wK,
-                               const double *real, const int32_t *integer, const double *input, int32_t road_type,
-                               int32_t road_nreal, const double *road_real, double *f, double *S, double *out) {
-  const ali3_element_type *t = type_of(type);
+EXPORT int32_t harness_conservative(int32_t type, const double *real, int32_t nreal) {
+  const ali3_element_type *t = ali3_element_type_get(type);
+  return t->conservative && !(t->lossy && t->lossy(real, nreal));
+}
+
+/* out: excess and rise; 0: the element has no verdict on starts */
+EXPORT int32_t harness_start(int32_t type, const int32_t sizes[5], const double *u, double raised, const double *real,
+                             const int32_t *integer, int32_t road_type, int32_t road_nreal, const double *road_real,
+                             double out[2]) {
+  const ali3_element_type *t = ali3_element_type_get(type);
+  const ali3_road road = {road_type, road_nreal, road_real};
+  const ali3_element_args a = {
+      .nsig = sizes[0], .nreal = sizes[1], .nint = sizes[2], .u = u, .real = real, .integer = integer, .roads = &road};
+  if (!t->start) return 0;
+  const ali3_start_verdict verdict = t->start(&a, raised);
+  out[0] = verdict.excess;
+  out[1] = verdict.rise;
+  return t->start_words != NULL;
+}
+
+EXPORT double harness_evaluate(int32_t type, int32_t accepted, int32_t discrete, const int32_t sizes[5],
+                               const double *u, const double *ud, const double *y_old, double *y_new, double h,
+                               double wC, double wK, const double *real, const int32_t *integer, const double *input,
+                               int32_t road_type, int32_t road_nreal, const double *road_real, double *f, double *S,
+                               double *out) {
+  const ali3_element_type *t = ali3_element_type_get(type);
   const ali3_road road = {road_type, road_nreal, road_real};
   ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u, ud, y_old, y_new, h, wC,
                          wK,       real,     integer,  input,    &road,    f, S,  out,   0.0,   0};
   memset(f, 0, (size_t)sizes[0] * sizeof *f);
   if (S) memset(S, 0, (size_t)(sizes[0] * sizes[0]) * sizeof *S);
-  t->evaluate(&a);
+  (discrete ? t->discrete : t->evaluate)(&a);
   if (accepted && t->accept) t->accept(&a);
   return a.potential;
 }

@@ -20,23 +20,9 @@ from mbs.elements import ElementRecord, PlaneRoad, Road
 
 Array = NDArray[np.float64]
 KERNEL = Path(__file__).parents[2] / "mbs" / "kernel" / "src"
-SOURCES = (
-    "elements/spring_damper",
-    "elements/scalar_spring_damper",
-    "elements/input_force",
-    "elements/body_force",
-    "elements/body_torque",
-    "elements/gyroscopic_spin",
-    "elements/drag",
-    "elements/tyre",
-    "elements/tmeasy",
-    "elements/brake",
-    "elements/contact_law",
-    "elements/contact_points",
-    "elements/automatic_drive",
-    "elements/spin_torque",
-    "algebra/elementary",
-)
+APART = ("forces.c", "road.c")  # the one needs a System, the other may be replaced
+SOURCES = [f for f in sorted((KERNEL / "elements").glob("*.c")) if f.name not in APART]
+SOURCES.append(KERNEL / "algebra" / "elementary.c")
 
 
 def compiled(road: Path) -> ctypes.CDLL:
@@ -44,7 +30,7 @@ def compiled(road: Path) -> ctypes.CDLL:
     folder = Path(tempfile.mkdtemp(prefix="ali3_elements_"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     target = folder / ("elements.dll" if sys.platform == "win32" else "elements.so")
-    files = [str(KERNEL / f"{name}.c") for name in SOURCES] + [str(road)]
+    files = [str(file) for file in (*SOURCES, road)]
     flags = ["-std=c11", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{KERNEL}"]
     command = [sys.executable, "-m", "ziglang", "cc", *flags, str(Path(__file__).with_name("harness.c")), *files]
     subprocess.run([*command, "-lm", "-o", str(target)], check=True, capture_output=True, text=True)
@@ -117,6 +103,24 @@ class Element:
         text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(e.integer), n, n_roads)
         return None if text is None else text.decode()
 
+    @property
+    def conservative(self) -> bool:
+        """Whether the kernel says that forces of this element take no energy."""
+        e = self.element
+        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real)))
+
+    @property
+    def has_discrete(self) -> bool:
+        """Whether it has forces by a discrete gradient of their own."""
+        return bool(library().harness_has_discrete(int(self.element.type)))
+
+    def start(self, u: ArrayLike, raised: float = 0.0) -> tuple[float, float] | None:
+        """Excess and rise of the element's verdict on a start; None: it has none."""
+        e, out, road = self.element, (ctypes.c_double * 2)(), self.road.real
+        numbers = (_doubles(u), ctypes.c_double(raised), _doubles(e.real), _ints(e.integer))
+        has = library().harness_start(int(e.type), self.sizes, *numbers, self.road.type, len(road), _doubles(road), out)
+        return (out[0], out[1]) if has else None
+
     def __call__(
         self,
         u: ArrayLike,
@@ -127,6 +131,7 @@ class Element:
         wK: float = 0.0,
         inputs: ArrayLike = (),
         accept: bool = False,
+        discrete: bool = False,
     ) -> Result:
         e = self.element
         n = len(e.signals)
@@ -138,6 +143,7 @@ class Element:
         potential = library().harness_evaluate(
             int(e.type),
             int(accept),
+            int(discrete),
             self.sizes,
             _doubles(u),
             _doubles(ud),

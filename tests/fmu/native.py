@@ -18,6 +18,7 @@ ROOT = Path(__file__).parents[2]
 C_FOLDER = Path(__file__).parent / "c"
 LIBRARY_HEADERS = ROOT / "benchmarks" / "c"
 HOST_SOURCE = ROOT / "hosts" / "c" / "host.c"
+STANDARD_HEADERS = Path(fmpy.__file__).parent / "c-code"
 
 
 def unpack(fmu: Path, folder: Path) -> Path:
@@ -31,7 +32,9 @@ def compile_host(folder: Path, target: str | None = None, source: Path = HOST_SO
     """Compile the C host of the project, or another one, for a target of zig."""
     target = target or build.host_target()
     program = folder / (source.stem + (".exe" if "windows" in target else ""))
-    build.compile_c([source], target, program, include=(FMI_HEADERS, LIBRARY_HEADERS), what="the C host", shared=False)
+    # the project's host is for users: it has the headers of the standard and nothing else
+    include = (STANDARD_HEADERS,) if source == HOST_SOURCE else (FMI_HEADERS, LIBRARY_HEADERS)
+    build.compile_c([source], target, program, include=include, what="the C host", shared=False)
     return program
 
 

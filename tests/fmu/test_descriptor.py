@@ -75,7 +75,9 @@ def test_flags_and_experiment(crane: Path, kind: str) -> None:
     assert face.canGetAndSetFMUstate
     assert face.canSerializeFMUstate
     assert face.canHandleVariableCommunicationStepSize
-    assert face.canInterpolateInputs == face.providesDirectionalDerivative == (kind == "native")
+    assert face.canInterpolateInputs
+    assert face.providesDirectionalDerivative
+    assert face.canNotUseMemoryManagementFunctions == (kind == "python")
     assert face.needsExecutionTool == (kind == "python")
     assert description.variableNamingConvention == "structured"
     assert float(description.defaultExperiment.stepSize) == 0.01

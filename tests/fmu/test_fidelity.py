@@ -1,4 +1,4 @@
-"""The parameter `fidelity` of an FMU: one table of variables, one System per rung."""
+"""The parameter `fidelity` of an FMU: one table of variables, one System per fidelity."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
 from fmu_src.build import build_fmu
-from fmu_src.scene_registry import SceneError, load_variants
-from fmu_src.variables import check_variants
+from fmu_src.scene_registry import SceneError, load_fidelities
+from fmu_src.variables import check_fidelities
 from hosts.errors import HostError
 from hosts.fmu import Fmu
 from mbs import Simulation, compile
@@ -30,7 +30,7 @@ def kerb(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 
 
 def build_kerb(kind: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, systems, default = load_variants("kerb_test")
+    name, systems, default = load_fidelities("kerb_test")
     return build_fmu(systems, name, tmp_path_factory.mktemp("kerb"), [fmpy.platform], kind=kind, fidelity=default)
 
 
@@ -40,7 +40,7 @@ def values(fmu: Fmu, steps: int = 0, begin: int = 0) -> list[float]:
     return fmu.getter(OUTPUTS)()
 
 
-def test_the_description_offers_the_rungs(kerb: Path) -> None:
+def test_the_description_offers_the_fidelities(kerb: Path) -> None:
     assert validate_fmu(str(kerb)) == []
     (v,) = (v for v in read_model_description(str(kerb)).modelVariables if v.name == "fidelity")
     assert (v.causality, v.variability, v.start, v.min, v.max) == ("parameter", "fixed", "3", "0", "3")
@@ -48,7 +48,7 @@ def test_the_description_offers_the_rungs(kerb: Path) -> None:
 
 
 @pytest.mark.parametrize("fidelity", [0, 1, 2, 3])
-def test_every_rung_is_the_system_of_the_scene(kerb: Path, fidelity: int) -> None:
+def test_every_fidelity_is_the_system_of_the_scene(kerb: Path, fidelity: int) -> None:
     own = Simulation(compile(kerb_test.build(fidelity)))
     own.step(H, 20)
     with Fmu(kerb) as fmu:
@@ -70,7 +70,7 @@ def test_other_values_are_refused(kerb: Path, value: float, said: str) -> None:
         fmu.initialise({"fidelity": value})
 
 
-def test_a_state_brings_its_rung_along(kerb: Path) -> None:
+def test_a_state_brings_its_fidelity_along(kerb: Path) -> None:
     with Fmu(kerb) as fmu, Fmu(kerb) as other:
         fmu.initialise({"fidelity": 1.0})
         values(fmu, 10)
@@ -85,14 +85,14 @@ def test_a_state_brings_its_rung_along(kerb: Path) -> None:
         assert values(other, 10, begin=10) == values(fmu, 10, begin=10)
 
 
-def test_a_rung_may_change_until_initialisation_ends(kerb: Path) -> None:
+def test_the_fidelity_may_change_until_initialisation_ends(kerb: Path) -> None:
     with Fmu(kerb) as fmu, Fmu(kerb) as other:
         references = fmu.references(["fidelity"])
         fmu._slave.setupExperiment(startTime=0.0)
         fmu._slave.enterInitializationMode()
-        for rung in (2.0, 0.0, 1.0):
-            fmu._slave.setReal(references, [rung])
-            assert fmu.getter(("stress.computed",))() == [float(rung > 0.0)]
+        for fidelity in (2.0, 0.0, 1.0):
+            fmu._slave.setReal(references, [fidelity])
+            assert fmu.getter(("stress.computed",))() == [float(fidelity > 0.0)]
         fmu._slave.exitInitializationMode()
         other.initialise({"fidelity": 1.0})
         assert values(fmu, 5) == values(other, 5)
@@ -110,8 +110,8 @@ def test_a_reset_goes_back_to_the_default(kerb: Path) -> None:
         assert values(fmu, 5) == values(other, 5)
 
 
-def test_fmi_3_has_the_rungs_too(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """The same bits as the engine on a flexible rung."""
+def test_fmi_3_has_the_fidelities_too(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """The same bits as the engine with a flexible frame."""
     file = build_kerb("fmi3", tmp_path_factory)
     assert validate_fmu(str(file)) == []
     steps = {"stop_time": 20 * H, "step_size": H, "output_interval": H}
@@ -122,7 +122,7 @@ def test_fmi_3_has_the_rungs_too(tmp_path_factory: pytest.TempPathFactory) -> No
 
 
 def test_a_lost_file_is_named(kerb: Path) -> None:
-    """A rung that cannot be loaded leaves the instance as it was."""
+    """A System that cannot be loaded leaves the instance as it was."""
     with Fmu(kerb) as fmu:
         lost = next(fmu._folder.glob("resources/**/system_2.ali3"))
         lost.unlink()
@@ -136,29 +136,56 @@ def test_a_lost_file_is_named(kerb: Path) -> None:
         values(fmu, 2)
 
 
-def test_a_file_per_rung(kerb: Path, tmp_path: Path) -> None:
+def test_a_file_per_fidelity(kerb: Path, tmp_path: Path) -> None:
     folder = Path(extract(str(kerb), unzipdir=str(tmp_path)))
     assert sorted(f.name for f in folder.glob("resources/**/system_*.ali3")) == [f"system_{k}.ali3" for k in range(4)]
 
 
-def test_rungs_with_other_variables_are_refused() -> None:
+def test_fidelities_with_other_variables_are_refused() -> None:
     one = {"inputs": [], "parameters": [], "sensors": [{"name": "a", "unit": "m"}]}
     other = {"inputs": [], "parameters": [], "sensors": [{"name": "b", "unit": "m"}]}
     with pytest.raises(ValueError, match="Fidelity 1 has other sensors than fidelity 0, first 'b'"):
-        check_variants([one, other])
+        check_fidelities([one, other])
 
 
-def test_rungs_are_numbered_from_zero(tmp_path: Path) -> None:
+def test_fidelities_are_numbered_from_zero(tmp_path: Path) -> None:
     file = tmp_path / "gap.py"
     file.write_text(
         "from mbs.scenes import pendulum\n"
         "def build(fidelity=0): return pendulum.build()\n"
-        "def variants(): return {0: build, 2: build}\n"
+        "def fidelities(): return {0: build, 2: build}\n"
     )
     with pytest.raises(SceneError, match=r"numbered \[0, 2\]"):
-        load_variants(f"{file}:build")
+        load_fidelities(f"{file}:build")
 
 
-def test_a_scene_without_rungs_has_one() -> None:
-    name, systems, default = load_variants("pendulum")
+def test_names_of_fidelities_stand_in_the_description(tmp_path: Path) -> None:
+    file = tmp_path / "named.py"
+    file.write_text(
+        "from enum import IntEnum\n"
+        "from mbs.scenes import pendulum\n"
+        "class Level(IntEnum):\n    RIGID = 0\n    QUASI_STATIC = 1\n"
+        "def build(fidelity=Level.QUASI_STATIC): return pendulum.build()\n"
+        "def fidelities(): return {k: build for k in reversed(Level)}\n"
+    )
+    name, systems, default = load_fidelities(f"{file}:build")
+    assert (list(systems), default) == ([0, 1], 1)
+    fmu = build_fmu(systems, name, tmp_path, [fmpy.platform], fidelity=default)
+    (v,) = (v for v in read_model_description(str(fmu)).modelVariables if v.name == "fidelity")
+    assert v.description.endswith("from the least to the most: 0 rigid, 1 quasi_static")
+    assert (v.type, v.start, v.min, v.max) == ("Integer", "1", "0", "1")
+
+
+def test_the_former_name_of_the_function_still_works(tmp_path: Path) -> None:
+    file = tmp_path / "former.py"
+    file.write_text(
+        "from mbs.scenes import pendulum\n"
+        "def build(fidelity=0): return pendulum.build()\n"
+        "def variants(): return {0: build, 1: build}\n"
+    )
+    assert list(load_fidelities(f"{file}:build")[1]) == [0, 1]
+
+
+def test_a_scene_without_fidelities_has_one() -> None:
+    name, systems, default = load_fidelities("pendulum")
     assert (name, len(systems), default) == ("pendulum", 1, 0)

@@ -70,7 +70,7 @@ def test_the_scheme_of_the_resources_in_any_case(crane: Path, host: HostMaker, s
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes of POSIX")
 @pytest.mark.parametrize(
-    ("variant", "name"), [("native", "system_0.ali3"), ("python", "system_0.ali3"), ("python", "guid.txt")]
+    ("variant", "name"), [("native", "system_0.ali3"), ("python", "system_0.ali3"), ("python", "slavemodule.txt")]
 )
 def test_a_named_pipe_as_resource_is_refused(
     build: Callable[..., Path], tmp_path: Path, variant: str, name: str

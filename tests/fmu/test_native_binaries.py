@@ -18,7 +18,7 @@ import pytest
 
 from fmu_src.build import build_fmu
 from fmu_src.native.universal import universal
-from fmu_src.scene_registry import load_scene, load_variants
+from fmu_src.scene_registry import load_fidelities, load_scene
 
 # pytest imports this folder's files by path
 sys.path.insert(0, str(Path(__file__).parent))
@@ -198,11 +198,11 @@ def test_stress(stress: Callable[[str, int], str], what: str, count: int) -> Non
 
 @pytest.fixture(scope="session")
 def flexible_stress(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, int], str]:
-    """A car with a flexible chassis and rungs."""
+    """A car with a flexible chassis and several fidelities."""
     folder = tmp_path_factory.mktemp("flexible_stress")
-    name, systems, rung = load_variants("kerb_test")
-    fmu = build_fmu(systems, name, folder, [fmpy.platform], kind="native", fidelity=rung)
-    return stress_run(fmu, folder / "fmu", f"system_{rung}.ali3", "bending_moment.SG1")
+    name, systems, fidelity = load_fidelities("kerb_test")
+    fmu = build_fmu(systems, name, folder, [fmpy.platform], kind="native", fidelity=fidelity)
+    return stress_run(fmu, folder / "fmu", f"system_{fidelity}.ali3", "bending_moment.SG1")
 
 
 @pytest.mark.slow

@@ -47,6 +47,22 @@ def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: floa
     return read_csv(folder / f"prototype_car_{manoeuvre}.csv"), done.stdout
 
 
+def test_the_car_is_what_its_constants_tell(car: tuple[mbs.System, Path]) -> None:
+    variables = {v.name: v for v in fmpy.read_model_description(str(car[1])).modelVariables}
+    told = {n.removeprefix("vehicle."): float(v.start) for n, v in variables.items() if n.startswith("vehicle.")}
+    names = ["wheel_FL.steer", "wheel_FR.steer", "steering_wheel_angle"]
+    start = {"steering": 1.0, "brake": 1.0}
+    run = fmpy.simulate_fmu(str(car[1]), stop_time=2.0, start_values=start, output=names)
+    left, right, turned = (float(run[n][-1]) for n in names)
+    assert left > right > 0.0
+    assert told["front_wheel_angle_max"] == pytest.approx(0.5 * (left + right), rel=2e-3)
+    assert told["steering_wheel_angle_max"] == pytest.approx(turned, rel=1e-9)
+    assert told["steering_ratio"] == told["steering_wheel_angle_max"] / told["front_wheel_angle_max"]
+    # Ackermann: the cotangents of the angles differ by track over wheelbase, of this car by a little less
+    ideal = told["track_front"] / told["wheelbase"]
+    assert 0.5 * ideal < 1.0 / np.tan(right) - 1.0 / np.tan(left) < 1.5 * ideal
+
+
 def test_launch_and_brake(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     r, said = drive(car, "launch_and_brake", tmp_path)
     t, speed = r["time"], r["speed"]

@@ -129,7 +129,12 @@ def test_documents(
 
 STATUS = "*value = (fmi2Status)s->last_step;"
 CALLS: list[tuple[str, str, str, Change]] = [
-    ("fmi3", "time", "cannot be read", ("sources/fmi3_life.c", "reference[i] > fmi3_the", "reference[i] >= fmi3_the")),
+    (
+        "fmi3",
+        "time",
+        "cannot be read",
+        ("sources/fmi3_life.c", "reference[i] >= fmi3_the_table.n_arrays", "reference[i] >= fmi3_the_table.time"),
+    ),
     (
         "native",
         "quiet steps",

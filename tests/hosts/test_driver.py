@@ -8,16 +8,17 @@ import numpy as np
 import pytest
 
 from hosts.course import iso_3888_1
-from hosts.driver import DriverSettings, make_driver
+from hosts.driver import CONSTANTS, DriverSettings, make_driver
 from hosts.errors import HostError
 from hosts.manoeuvre import load_manoeuvre
 
-SETTINGS = {"course": "iso_3888_1", "speed": "15", "vehicle_width": "1.5"}
+SETTINGS = {"course": "iso_3888_1", "speed": "15"}
+CAR = {"vehicle.wheelbase": 2.3, "vehicle.front_wheel_angle_max": 0.525, "vehicle.length": 3.2, "vehicle.width": 1.5}
 
 
 def drive_bicycle(settings: dict[str, str], step: float = 0.01) -> dict[str, np.ndarray]:
     """A bicycle without slip that takes 0.2 s to answer the steering and accelerates by at most 4 m/s2."""
-    driver = make_driver(settings)
+    driver = make_driver(settings, CAR)
     s = driver.settings
     rear_axle, curvature = 1.0, 0.0
     x, y, yaw, speed = -rear_axle, 0.0, 0.0, s.speed - 2.0
@@ -57,7 +58,7 @@ def test_path_runs_through_the_middle_of_the_gates_and_is_smooth() -> None:
 @pytest.mark.parametrize("speed", ["5", "10", "15"])
 def test_double_lane_change_is_passed(speed: str) -> None:
     run = drive_bicycle(SETTINGS | {"speed": speed})
-    driver = make_driver(SETTINGS)
+    driver = make_driver(SETTINGS, CAR)
     outside = driver.course.corners_outside(run["x"], run["y"], run["yaw"], 3.2, 1.5)
     assert outside < 0.0
     assert run["y"].max() > 3.0
@@ -92,9 +93,24 @@ def test_driving_straight_misses_the_second_lane() -> None:
 
 
 def test_settings_of_the_manoeuvre_are_those_of_a_driver() -> None:
-    driver = make_driver(load_manoeuvre("double_lane_change").driver)
+    driver = make_driver(load_manoeuvre("double_lane_change").driver, CAR)
     assert driver.settings.speed == load_manoeuvre("double_lane_change").start["initial.speed"]
-    assert driver.settings == DriverSettings(speed=driver.settings.speed)
+    assert driver.settings == DriverSettings(driver.settings.speed, 2.3, 0.525, 3.2, 1.5)
+
+
+def test_the_manoeuvre_comes_before_the_car() -> None:
+    driver = make_driver(SETTINGS | {"wheelbase": "3.1"}, CAR)
+    assert (driver.settings.wheelbase, driver.settings.wheel_angle_max) == (3.1, 0.525)
+
+
+@pytest.mark.parametrize("missing", list(CAR))
+def test_what_no_one_tells_of_the_car_is_asked_for(missing: str) -> None:
+    told = {name: value for name, value in CAR.items() if name != missing}
+    with pytest.raises(HostError, match=rf"this FMU does not tell .*'{missing}'.*\[driver\]") as refusal:
+        make_driver(SETTINGS, told)
+    (setting,) = (name for name, constant in CONSTANTS.items() if constant == missing)
+    assert f"--driver {setting}=NUMBER" in str(refusal.value)
+    assert make_driver(SETTINGS | {setting: "1.25"}, told)
 
 
 @pytest.mark.parametrize(
@@ -112,4 +128,4 @@ def test_settings_of_the_manoeuvre_are_those_of_a_driver() -> None:
 )
 def test_bad_settings_are_refused(settings: dict[str, str], message: str) -> None:
     with pytest.raises(HostError, match=message):
-        make_driver(settings)
+        make_driver(settings, CAR)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_variants
+from fmu_src.scene_registry import load_fidelities
 from hosts import kerb
 from hosts.low_pass import low_pass
 
@@ -18,7 +18,7 @@ PLATFORM = fmpy.platform
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, systems, default = load_variants("kerb_test")
+    name, systems, default = load_fidelities("kerb_test")
     return build_fmu(systems, name, tmp_path_factory.mktemp("kerb"), [PLATFORM], fidelity=default)
 
 

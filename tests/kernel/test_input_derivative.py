@@ -16,7 +16,7 @@ from mbs.scenes import prototype_car
 # Differences over this part of an input, steps converged to this tolerance.
 PART, TIGHT = 1e-3, 1e-13
 ERROR, RATE_ERROR = 2e-4, 2e-3
-# Beyond the flexible rungs' vibrations, which the projected accelerations do not have, the derivative is no better.
+# Beyond the vibrations of the flexible car, which the projected accelerations do not have, the derivative is no better.
 FLEXIBLE_ERROR = 2e-3
 H, RATE_STEP = 0.002, 1e-5
 NAMES = ("steering", "throttle", "brake")

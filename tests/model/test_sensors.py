@@ -228,3 +228,30 @@ def test_forces_of_lines_of_the_ground():
     expected = slope * (weight @ slope) - weight  # what the slope adds to the weight
     for c, value in zip("xyz", expected, strict=True):
         np.testing.assert_allclose(t[c], value, rtol=0, atol=1e-6)
+
+
+class TestConstants:
+    def test_the_system_tells_them(self):
+        m = Model("box", dimension=2)
+        m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
+        m.constant("box.width", 2, "m", "width of the box")
+        m.constant("box.ratio", 1.5)
+        assert compile(m).meta["constants"] == [
+            {"name": "box.width", "unit": "m", "description": "width of the box", "value": 2.0},
+            {"name": "box.ratio", "unit": "1", "description": "", "value": 1.5},
+        ]
+
+    @pytest.mark.parametrize(
+        ("name", "value", "sentence"),
+        [
+            ("", 1.0, "needs a name"),
+            ("taken", 1.0, "already has a constant named 'taken'"),
+            ("other", np.nan, "constant 'other'"),
+            ("other", "wide", "constant 'other'"),
+        ],
+    )
+    def test_what_is_none_is_refused_by_name(self, name, value, sentence):
+        m = Model("box", dimension=2)
+        m.constant("taken", 1.0)
+        with pytest.raises(ModelError, match=sentence):
+            m.constant(name, value)

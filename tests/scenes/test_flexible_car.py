@@ -10,9 +10,10 @@ import pytest
 
 from mbs import ModelError, Pose, Simulation, compile, simulate
 from mbs.flexible import shape_integrals
-from mbs.scenes import prototype_car
+from mbs.scenes import kerb_test, prototype_car
 from mbs.scenes.prototype_car import car_data, chassis
 from mbs.scenes.prototype_car.chassis import reduced_chassis
+from mbs.scenes.prototype_car.fidelity import Fidelity
 from mbs.scenes.prototype_car.frame import GAUGES, INTERFACES
 
 NEUTRAL = {"drive.creep_torque": 0.0}
@@ -71,13 +72,13 @@ def test_the_modes_of_the_paper_alone_miss_the_weight():
     assert abs(sensors["bending_moment.SG3"]) < 0.5 * abs(REST["SG3"])
 
 
-def test_the_rigid_rung_says_that_it_computes_no_stress():
+def test_the_rigid_car_says_that_it_computes_no_stress():
     sensors = at_rest(0).sensors
     assert sensors["stress.computed"] == 0.0
     assert all(sensors[f"{kind}.{g}"] == 0.0 for kind in ("bending_moment", "stress") for g in GAUGES)
 
 
-def test_all_rungs_have_the_same_inputs_parameters_and_sensors():
+def test_all_fidelities_have_the_same_inputs_parameters_and_sensors():
     first = car(0).meta
     for fidelity in (1, 2, 3, 4, "paper"):
         meta = car(fidelity).meta
@@ -133,7 +134,7 @@ def test_a_start_at_speed_does_not_ring(h):
     assert np.abs(flexible["chassis.x"] - rigid["chassis.x"]).max() < 1e-3
 
 
-def test_in_a_steady_turn_the_flexible_and_the_quasi_static_rung_agree():
+def test_in_a_steady_turn_the_flexible_and_the_quasi_static_car_agree():
     inputs = {"steering": ([0.0, 1.0, 3.0, 8.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.15}
     quasi, flexible = (simulate(car(f), 8.0, 0.01, inputs, progress=False) for f in (1, 3))
     last = quasi.t > 7.0
@@ -149,3 +150,24 @@ def test_in_a_steady_turn_the_flexible_and_the_quasi_static_rung_agree():
 def test_an_unknown_fidelity_is_named(fidelity):
     with pytest.raises(ModelError, match="fidelity of the car is .*it must be one of: 0 rigid"):
         prototype_car.build(fidelity=fidelity)
+
+
+def test_a_fidelity_is_given_as_member_number_or_name():
+    for number, name in enumerate(("rigid", "quasi_static", "load_paths", "dynamic", "many_modes")):
+        assert Fidelity.of(number) is Fidelity.of(name) is Fidelity.of(name.upper()) is Fidelity.of(np.int64(number))
+        assert Fidelity.of(Fidelity[name.upper()]) == number
+    assert len({member.description for member in Fidelity}) == len(Fidelity)
+    built = [compile(prototype_car.build(fidelity=value)).to_bytes() for value in (1, 1.0, "quasi_static")]
+    assert built[0] == built[1] == built[2] != compile(prototype_car.build(fidelity="rigid")).to_bytes()
+    with pytest.raises(ModelError, match="2 load_paths, 3 dynamic, 4 many_modes"):
+        prototype_car.build(fidelity="stiff")
+
+
+def test_an_fmu_is_offered_the_first_four():
+    for scene in (prototype_car, kerb_test):
+        assert list(scene.fidelities()) == [
+            Fidelity.RIGID,
+            Fidelity.QUASI_STATIC,
+            Fidelity.LOAD_PATHS,
+            Fidelity.DYNAMIC,
+        ]

@@ -15,7 +15,7 @@ from mbs.scenes.prototype_car.frame import GAUGES
 
 H = kerb_test.STEP
 PAPER = {"coordinates": 293, "rows": 239, "iterations": 2.0}
-# measured at 10 ms: about 0.03 on rungs 1, 3 and 4, 0.07 on rung 2
+# measured at 10 ms: about 0.03 with fidelity 1, 3 and 4, 0.07 with 2
 BOUNDS = {1: 0.05, 2: 0.10, 3: 0.05, 4: 0.05}
 LARGEST_ITERATIONS = 6
 

@@ -92,6 +92,8 @@ def test_a_start_with_a_wheel_centre_in_the_road_is_refused_with_the_height_that
     low = -0.3 if grade == 0.0 else 0.0  # m; falling to the front, the drawn car has its rear wheels in the road
     with pytest.raises(SimulationError, match="deeper in the road than its radius") as refused:
         start_loads(system, Pose(z=low))
+    deepest = "tyre RL" if grade > 0.0 else "tyre F"
+    assert f"refuses the start. '{deepest}" in str(refused.value)
     lift = float(str(refused.value).split("radius. ")[1].split(" m")[0])
     assert max(start_loads(system, Pose(z=low + lift + ROUNDED))) == 0.0
     assert max(start_loads(system, Pose(z=low + lift - 0.01))) > 100.0

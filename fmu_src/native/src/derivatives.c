@@ -31,14 +31,14 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
 slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, const int32_t *order, double *value) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < n; i++) {
-    if (reference[i] < t->n_known || reference[i] >= t->n_variables)
+    if (!slave_is_output(reference[i]))
       return slave_say(s, SLAVE_ERROR, "Value reference %u is no output.", (unsigned)reference[i]);
     if (order[i] != 1)
       return slave_say(s, SLAVE_ERROR, "A derivative of order %d was asked for; outputs have the first only.",
                        (int)order[i]);
   }
   if (!s->calls.initialised && !slave_initialise(s)) return SLAVE_ERROR;
-  const ali3_status status = ali3_sensor_rates(s->rung.kernel, s->sensors, s->known);
+  const ali3_status status = ali3_sensor_rates(s->fidelity.kernel, s->sensors, s->known);
   if (status != ALI3_OK) return slave_say(s, SLAVE_ERROR, "No output rates: %s.", ali3_status_text(status));
   for (size_t i = 0; i < n; i++)
     if (t->variable[reference[i]].source != SLAVE_SENSOR || !s->known[t->variable[reference[i]].index])
@@ -61,7 +61,7 @@ static bool initial_change(slave *s, uint32_t reference, double seed, double *ou
   bool good = true;
   for (int side = 0; side < 2 && good; side++) {
     s->value[reference] = side == 0 ? up : down;
-    good = slave_initialise(s) && ali3_sensors(s->rung.kernel, s->sensors) == ALI3_OK;
+    good = slave_initialise(s) && ali3_sensors(s->fidelity.kernel, s->sensors) == ALI3_OK;
     const double weight = (side == 0 ? seed : -seed) / (up - down);
     for (size_t i = t->n_known; i < t->n_variables && good; i++)
       if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->sensors[t->variable[i].index];
@@ -79,7 +79,7 @@ static slave_status initial_derivative(slave *s, const uint32_t *known, size_t n
 
 static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, double *out) {
   const slave_table *t = &slave_the_table;
-  const ali3_sizes z = ali3_system_sizes(s->rung.system);
+  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   memset(s->direction, 0, (size_t)z.nu * sizeof(double));
   for (size_t i = 0; i < n; i++) {
     const slave_variable *v = &t->variable[known[i]];
@@ -88,7 +88,7 @@ static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, c
                        v->name);
     s->direction[v->index] += seed[i];
   }
-  const ali3_status status = ali3_input_derivative(s->rung.kernel, s->direction, s->sensors);
+  const ali3_status status = ali3_input_derivative(s->fidelity.kernel, s->direction, s->sensors);
   if (status != ALI3_OK)
     return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s%s.", ali3_status_text(status),
                      status == ALI3_NOT_INITIALISED ? "; after initialisation it takes one step" : "");
@@ -101,7 +101,7 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
                                size_t n_known, const double *seed, double *out) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < n_unknown; i++)
-    if (unknown[i] < t->n_known || unknown[i] >= t->n_variables)
+    if (!slave_is_output(unknown[i]))
       return slave_say(s, SLAVE_ERROR, "Value reference %u is no output; derivatives are those of outputs.",
                        (unsigned)unknown[i]);
   for (size_t i = 0; i < n_known; i++) {

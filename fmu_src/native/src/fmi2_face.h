@@ -7,7 +7,24 @@
 typedef struct {
   fmi2CallbackFunctions host;
   slave *s;
+  void *detour; /* of the Python FMU */
 } fmi2_face;
+
+/* The calls that PythonFMU knows. The native FMU makes them at once (fmi2_direct.c); the Python FMU has its class in
+ * Python make them (python_slave/detour.c). */
+slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
+                const char *token, const char *resources);
+void fmi2_free(fmi2_face *face);
+slave_status fmi2_setup(slave *s, double start_time, bool stop_defined, double stop_time);
+slave_status fmi2_enter(slave *s);
+slave_status fmi2_exit(slave *s);
+slave_status fmi2_step(slave *s, double time, double step);
+slave_status fmi2_terminate(slave *s);
+slave_status fmi2_reset(slave *s);
+slave_status fmi2_get(slave *s, const uint32_t *reference, size_t n, double *value);
+slave_status fmi2_set(slave *s, const uint32_t *reference, size_t n, const double *value);
+slave_status fmi2_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value);
+slave_status fmi2_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value);
 
 /* Calls allowed in the states of the standard's table for co-simulation. */
 enum {

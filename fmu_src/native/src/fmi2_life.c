@@ -4,8 +4,6 @@
 
 #include "fmi2_face.h"
 
-enum { PATH_SIZE = 4096 };
-
 slave *fmi2_slave(fmi2Component c, const char *function, unsigned mask) {
   fmi2_face *face = c;
   return face != NULL && slave_allowed(face->s, function, mask) ? face->s : NULL;
@@ -45,7 +43,7 @@ static fmi2Component refuse(const fmi2CallbackFunctions *functions, fmi2String n
 FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
                                                      fmi2String resources, const fmi2CallbackFunctions *functions,
                                                      fmi2Boolean visible, fmi2Boolean logging) {
-  char path[PATH_SIZE];
+  char path[SLAVE_PATH];
   ali3_memory memory = {calloc, free};
   (void)visible;
   if (functions == NULL) return NULL;
@@ -59,7 +57,7 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
   fmi2_face *face = memory.allocate(1, sizeof *face);
   if (face == NULL) return refuse(functions, name, "There is not enough memory for an instance.");
   face->host = *functions;
-  face->s = slave_new(&memory, face, log_to_host, logging != 0, name, guid, resources != NULL ? path : NULL);
+  face->s = fmi2_new(face, &memory, log_to_host, logging != 0, name, guid, resources != NULL ? path : NULL);
   if (face->s != NULL) return face;
   memory.release(face);
   return NULL;
@@ -69,7 +67,7 @@ FMI2_EXPORT void FMI2_NAME(fmi2FreeInstance)(fmi2Component c) {
   fmi2_face *face = c;
   if (face == NULL) return;
   void (*const release)(void *) = face->s->memory.release;
-  slave_free(face->s);
+  fmi2_free(face);
   release(face);
 }
 
@@ -84,25 +82,25 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetupExperiment)(fmi2Component c, fmi2Boole
                                                       fmi2Real stop) {
   slave *s = fmi2_slave(c, "fmi2SetupExperiment", SLAVE_INSTANTIATED);
   (void)tolerance_defined, (void)tolerance; /* the inner step is fixed */
-  return s != NULL ? (fmi2Status)slave_setup(s, start, stop_defined != 0, stop) : fmi2Error;
+  return s != NULL ? (fmi2Status)fmi2_setup(s, start, stop_defined != 0, stop) : fmi2Error;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2EnterInitializationMode)(fmi2Component c) {
   slave *s = fmi2_slave(c, "fmi2EnterInitializationMode", SLAVE_INSTANTIATED);
-  return s != NULL ? (fmi2Status)slave_enter(s) : fmi2Error;
+  return s != NULL ? (fmi2Status)fmi2_enter(s) : fmi2Error;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2ExitInitializationMode)(fmi2Component c) {
   slave *s = fmi2_slave(c, "fmi2ExitInitializationMode", SLAVE_INITIALISING);
-  return s != NULL ? (fmi2Status)slave_exit(s) : fmi2Error;
+  return s != NULL ? (fmi2Status)fmi2_exit(s) : fmi2Error;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Terminate)(fmi2Component c) {
   slave *s = fmi2_slave(c, "fmi2Terminate", FMI2_RUN);
-  return s != NULL ? (fmi2Status)slave_terminate(s) : fmi2Error;
+  return s != NULL ? (fmi2Status)fmi2_terminate(s) : fmi2Error;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Reset)(fmi2Component c) {
   slave *s = fmi2_slave(c, "fmi2Reset", FMI2_ANY);
-  return s != NULL ? (fmi2Status)slave_reset(s) : fmi2Error;
+  return s != NULL ? (fmi2Status)fmi2_reset(s) : fmi2Error;
 }

@@ -5,7 +5,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DoStep)(fmi2Component c, fmi2Real time, fmi
                                              fmi2Boolean no_set_state_prior) {
   slave *s = fmi2_slave(c, "fmi2DoStep", FMI2_RUN);
   (void)no_set_state_prior;
-  return s != NULL ? (fmi2Status)slave_step(s, time, step) : fmi2Error;
+  return s != NULL ? (fmi2Status)fmi2_step(s, time, step) : fmi2Error;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2CancelStep)(fmi2Component c) {
@@ -33,7 +33,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealStatus)(fmi2Component c, const fmi2S
   slave *s = fmi2_slave(c, "fmi2GetRealStatus", FMI2_DONE);
   if (s == NULL || !fmi2_given(s, "fmi2GetRealStatus", value != NULL)) return fmi2Error;
   if (kind != fmi2LastSuccessfulTime) return no_status(c, "fmi2GetRealStatus");
-  *value = ali3_time(s->rung.kernel);
+  *value = ali3_time(s->fidelity.kernel);
   return fmi2OK;
 }
 

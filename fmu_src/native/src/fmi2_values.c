@@ -5,28 +5,28 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component c, const fmi2ValueRe
                                               fmi2Real value[]) {
   slave *s = fmi2_slave(c, "fmi2GetReal", FMI2_GET);
   if (s == NULL || !fmi2_given(s, "fmi2GetReal", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
-  return (fmi2Status)slave_get(s, vr, n, value);
+  return (fmi2Status)fmi2_get(s, vr, n, value);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                               const fmi2Real value[]) {
   slave *s = fmi2_slave(c, "fmi2SetReal", FMI2_SET);
   if (s == NULL || !fmi2_given(s, "fmi2SetReal", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
-  return (fmi2Status)slave_set(s, vr, n, value);
+  return (fmi2Status)fmi2_set(s, vr, n, value);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                                  fmi2Integer value[]) {
   slave *s = fmi2_slave(c, "fmi2GetInteger", FMI2_GET);
   if (s == NULL || !fmi2_given(s, "fmi2GetInteger", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
-  return (fmi2Status)slave_get_whole(s, vr, n, value);
+  return (fmi2Status)fmi2_get_whole(s, vr, n, value);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                                  const fmi2Integer value[]) {
   slave *s = fmi2_slave(c, "fmi2SetInteger", FMI2_SET);
   if (s == NULL || !fmi2_given(s, "fmi2SetInteger", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
-  return (fmi2Status)slave_set_whole(s, vr, n, value);
+  return (fmi2Status)fmi2_set_whole(s, vr, n, value);
 }
 
 static fmi2Status other_type(fmi2Component c, const char *function, unsigned mask, size_t n) {

@@ -5,11 +5,12 @@
 #include "slave.h"
 
 /* Arrays of the table's variables, generated with the FMU (table.c): the value reference is the number of an array;
- * its items are variables first[i] .. first[i + 1] - 1 of `item`. Time comes after the last array. */
+ * its items are variables first[i] .. first[i + 1] - 1 of `item`. Time stands among them, without items. */
 typedef struct {
   const uint32_t *item;
   const size_t *first;
   size_t n_arrays;
+  fmi3ValueReference time;
 } fmi3_table;
 
 extern const fmi3_table fmi3_the_table;
@@ -36,7 +37,7 @@ bool fmi3_given(fmi3_face *face, const char *function, bool given);
 /* Numbers of variables of arrays into face->items[which]; false, and said, if a reference is unknown or the count is
  * not n_values. */
 bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference, size_t n, size_t n_values);
-/* Values of one array; time is one value. The reference must be known. */
+/* Values of one array; time is one value. The reference must be below n_arrays. */
 size_t fmi3_size(fmi3ValueReference reference);
 /* Whether the references, time among them, are known and have n_values values; said if not. */
 bool fmi3_counted(fmi3_face *face, const fmi3ValueReference *reference, size_t n, size_t n_values);

@@ -16,13 +16,13 @@ bool fmi3_given(fmi3_face *face, const char *function, bool given) {
 
 size_t fmi3_size(fmi3ValueReference reference) {
   const fmi3_table *t = &fmi3_the_table;
-  return reference < t->n_arrays ? t->first[reference + 1] - t->first[reference] : 1;
+  return reference != t->time ? t->first[reference + 1] - t->first[reference] : 1;
 }
 
 bool fmi3_counted(fmi3_face *face, const fmi3ValueReference *reference, size_t n, size_t n_values) {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
-    if (reference[i] > fmi3_the_table.n_arrays) {
+    if (reference[i] >= fmi3_the_table.n_arrays) {
       slave_say(face->s, SLAVE_ERROR, "There is no variable with value reference %u for this call.",
                 (unsigned)reference[i]);
       return false;
@@ -38,7 +38,7 @@ bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference
   const fmi3_table *t = &fmi3_the_table;
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
-    if (reference[i] >= t->n_arrays) {
+    if (reference[i] >= t->n_arrays || reference[i] == t->time) {
       slave_say(face->s, SLAVE_ERROR, "There is no variable with value reference %u for this call.",
                 (unsigned)reference[i]);
       return false;

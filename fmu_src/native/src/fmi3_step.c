@@ -14,7 +14,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 
   if (event_needed != NULL) *event_needed = false;
   if (terminate != NULL) *terminate = slave_wants_end(face->s);
   if (early_return != NULL) *early_return = false;
-  if (last_successful_time != NULL) *last_successful_time = ali3_time(face->s->rung.kernel);
+  if (last_successful_time != NULL) *last_successful_time = ali3_time(face->s->fidelity.kernel);
   return (fmi3Status)status;
 }
 

@@ -2,7 +2,7 @@
 #include "fmi3_face.h"
 
 static double time_of(const slave *s) {
-  return s->calls.phase == SLAVE_INITIALISING ? s->calls.start_time : ali3_time(s->rung.kernel);
+  return s->calls.phase == SLAVE_INITIALISING ? s->calls.start_time : ali3_time(s->fidelity.kernel);
 }
 
 /* Time stands anywhere in a call and as often as the host likes; the variables between are read in one piece. */
@@ -10,7 +10,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetFloat64)(fmi3Instance instance, const fm
                                                  fmi3Float64 value[], size_t n_values) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetFloat64", FMI3_GET);
   if (face == NULL || !fmi3_given(face, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
-  const fmi3ValueReference time = (fmi3ValueReference)fmi3_the_table.n_arrays;
+  const fmi3ValueReference time = fmi3_the_table.time;
   if (!fmi3_counted(face, vr, n, n_values)) return fmi3Error;
   size_t at = 0;
   for (size_t i = 0; i < n;) {

@@ -17,8 +17,8 @@ const char *slave_worst_row(slave *s, char *text, size_t size) {
   ali3_report report;
   text[0] = 0;
   const slave_table *t = &slave_the_table;
-  const size_t first = t->first_row[s->rung.fidelity], n = t->first_row[s->rung.fidelity + 1] - first;
-  if (ali3_report_get(s->rung.kernel, &report) == ALI3_OK && report.violation > ALI3_OPEN &&
+  const size_t first = t->first_row[s->fidelity.number], n = t->first_row[s->fidelity.number + 1] - first;
+  if (ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK && report.violation > ALI3_OPEN &&
       report.violation < HUGE_VAL && report.worst_row >= 0 && (size_t)report.worst_row < n)
     snprintf(text, size, " Worst constraint: '%.128s', open by %.3g m.", t->row[first + (size_t)report.worst_row],
              report.violation);
@@ -38,40 +38,49 @@ static const char *farthest(const slave *s, char *text, size_t size) {
   return text;
 }
 
+/* Which element refuses a start, why, and what height it would accept. */
+static const char *refused(const slave *s, char *text, size_t size) {
+  const slave_table *t = &slave_the_table;
+  const char *words = "";
+  int32_t element = -1;
+  const double height = ali3_start_excess(s->fidelity.kernel, &element, &words);
+  const char *name = element < 0 ? "" : t->element[t->first_element[s->fidelity.number] + (size_t)element];
+  snprintf(text, size, " '%.64s' %s. %.3g m higher nothing would be in its way.", name, words, height);
+  for (size_t i = 0; i < t->n_known; i++)
+    if (t->variable[i].source == SLAVE_POSE && t->variable[i].index == POSE_HEIGHT)
+      snprintf(text, size, " '%.64s' %s. '%.64s' is %g m; from %.3g m on nothing is in its way.", name, words,
+               t->variable[i].name, s->value[i], s->value[i] + height);
+  return text;
+}
+
 /* What is wrong with a start, in numbers. */
 static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
   if (status == ALI3_TOO_FAR) return farthest(s, text, size);
-  if (status != ALI3_BELOW_ROAD) return slave_worst_row(s, text, size);
-  const double lift = ali3_start_lift(s->rung.kernel);
-  snprintf(text, size, " %.3g m higher it would be clear of it.", lift);
-  for (size_t i = 0; i < slave_the_table.n_known; i++)
-    if (slave_the_table.variable[i].source == SLAVE_POSE && slave_the_table.variable[i].index == POSE_HEIGHT)
-      snprintf(text, size, " '%.64s' is %g m; from %.3g m on the tyres are clear of it.",
-               slave_the_table.variable[i].name, s->value[i], s->value[i] + lift);
-  return text;
+  return status == ALI3_START_REFUSED ? refused(s, text, size) : slave_worst_row(s, text, size);
 }
 
 static ali3_status apply(slave *s) {
   const slave_table *t = &slave_the_table;
   double pose[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
   bool posed = false;
-  ali3_status status = ali3_reset(s->rung.kernel);
+  ali3_status status = ali3_reset(s->fidelity.kernel);
   for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
     const slave_variable *v = &t->variable[i];
-    if (v->source == SLAVE_INPUT) status = ali3_set_input(s->rung.kernel, v->index, s->value[i]);
-    if (v->source == SLAVE_PARAMETER) status = ali3_set_parameter(s->rung.kernel, v->index, s->value[i]);
+    if (v->source == SLAVE_INPUT) status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i]);
+    if (v->source == SLAVE_PARAMETER) status = ali3_set_parameter(s->fidelity.kernel, v->index, s->value[i]);
     if (v->source != SLAVE_POSE) continue;
     pose[v->index] = s->value[i];
     posed = posed || s->value[i] != 0.0;
   }
-  if (status == ALI3_OK && posed) status = ali3_set_pose(s->rung.kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
-  return status == ALI3_OK ? ali3_initialise(s->rung.kernel, s->calls.start_time) : status;
+  if (status == ALI3_OK && posed)
+    status = ali3_set_pose(s->fidelity.kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
+  return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 
 bool slave_initialise(slave *s) {
   char text[SLAVE_TEXT / 2];
   slave_stale(s);
-  if (!slave_rung_choose(s)) return false;
+  if (!slave_fidelity_choose(s)) return false;
   const ali3_status status = apply(s);
   s->calls.initialised = status == ALI3_OK;
   s->outputs_fresh = false;

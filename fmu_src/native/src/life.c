@@ -7,7 +7,7 @@
 /* One block behind the instance for all its arrays; false if there is no memory. */
 static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
-  const ali3_sizes z = ali3_system_sizes(s->rung.system);
+  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const size_t numbers = t->n_variables + t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + (size_t)z.nu;
   double *pool = s->memory.allocate(1, numbers * sizeof(double) + 2 * t->n_known + (size_t)z.ns + 1);
   if (pool == NULL) {
@@ -45,7 +45,7 @@ static bool load(slave *s, const char *resources) {
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
   }
-  return slave_rung_load(s, fidelity, &s->rung) && take_arrays(s);
+  return slave_fidelity_load(s, fidelity, &s->fidelity) && take_arrays(s);
 }
 
 static void start_values(slave *s) {
@@ -99,7 +99,7 @@ void slave_free(slave *s) {
   if (s == NULL) return;
   void (*const release)(void *) = s->memory.release;
   if (s->value != NULL) release(s->value);
-  slave_rung_free(s, &s->rung);
+  slave_fidelity_free(s, &s->fidelity);
   if (s->resources != NULL) release(s->resources);
   if (s->name != NULL) release(s->name);
   release(s);
@@ -134,7 +134,7 @@ slave_status slave_terminate(slave *s) {
 }
 
 slave_status slave_reset(slave *s) {
-  ali3_reset(s->rung.kernel);
+  ali3_reset(s->fidelity.kernel);
   start_values(s);
   return SLAVE_OK;
 }

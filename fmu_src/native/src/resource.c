@@ -10,7 +10,7 @@
 
 #include "slave.h"
 
-enum { PATH_SIZE = 4096, MOST_BYTES = 1 << 30 };
+enum { MOST_BYTES = 1 << 30 };
 
 static int hex(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -59,8 +59,8 @@ bool slave_path_of_uri(const char *uri, char *path, size_t size) {
 /* Paths are UTF-8. */
 static FILE *open_file(const char *path) {
 #if defined(_WIN32)
-  wchar_t wide[PATH_SIZE];
-  if (MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, PATH_SIZE) <= 0) return NULL;
+  wchar_t wide[SLAVE_PATH];
+  if (MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, SLAVE_PATH) <= 0) return NULL;
   return _wfopen(wide, L"rb");
 #else
   struct stat kind; /* a named pipe would wait for its writer */
@@ -70,7 +70,7 @@ static FILE *open_file(const char *path) {
 }
 
 unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size) {
-  char path[PATH_SIZE + 64];
+  char path[SLAVE_PATH + 64];
   snprintf(path, sizeof path, "%s/%s", folder, name);
   FILE *file = open_file(path);
   if (file == NULL) return NULL;

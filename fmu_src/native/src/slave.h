@@ -16,7 +16,8 @@ typedef enum {
   SLAVE_STEP_SIZE,
   SLAVE_FIDELITY,
   SLAVE_SENSOR,
-  SLAVE_SOLVER /* what the solver says about itself: ali3_solver_value */
+  SLAVE_SOLVER, /* what the solver says about itself: ali3_solver_value */
+  SLAVE_CONSTANT /* the start is its value */
 } slave_source;
 
 typedef struct {
@@ -31,9 +32,11 @@ typedef struct {
   const char *token;           /* GUID or instantiation token */
   unsigned char identity[16];  /* the same as bytes */
   const slave_variable *variable;
-  size_t n_variables, n_known; /* known: all but the outputs, which come last */
+  size_t n_variables, n_known; /* known: inputs and parameters; then come outputs, then constants */
   const char *const *row;      /* names of the constraint rows of all Systems */
   const size_t *first_row;     /* n_systems + 1 */
+  const char *const *element;  /* names of the force elements of all Systems */
+  const size_t *first_element; /* n_systems + 1 */
   size_t n_systems;            /* to choose from by the fidelity */
 } slave_table;
 
@@ -50,7 +53,7 @@ typedef enum { /* bits, for masks of allowed calls */
                SLAVE_TERMINATED = 16
 } slave_phase;
 
-enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024 };
+enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096 };
 
 typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
@@ -67,11 +70,11 @@ typedef struct { /* a step that was refused and what the host did since: nothing
 } slave_refusal;
 
 typedef struct { /* a System of the FMU at work */
-  size_t fidelity;
+  size_t number;
   ali3_system *system;
   ali3_instance *kernel;
   void *snapshot; /* of the kernel before the step, which may be taken back */
-} slave_rung;
+} slave_fidelity;
 
 struct slave {
   void *host; /* what the face needs for its logger */
@@ -80,7 +83,7 @@ struct slave {
   char *name, *resources;
   bool logging, all_categories;
   unsigned categories; /* bits, see slave_category */
-  slave_rung rung;
+  slave_fidelity fidelity;
   slave_memory_of_calls calls;
   slave_refusal refusal;
   slave_status last_step; /* what the last step was answered with */
@@ -105,11 +108,11 @@ bool slave_allowed(slave *s, const char *function, unsigned mask);
 bool slave_path_of_uri(const char *uri, char *path, size_t size);
 unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size);
 
-/* rung.c */
-bool slave_rung_load(slave *s, size_t fidelity, slave_rung *rung);
-void slave_rung_take(slave *s, const slave_rung *rung);
-void slave_rung_free(const slave *s, slave_rung *rung);
-bool slave_rung_choose(slave *s);
+/* fidelity.c */
+bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded);
+void slave_fidelity_take(slave *s, const slave_fidelity *loaded);
+void slave_fidelity_free(const slave *s, slave_fidelity *loaded);
+bool slave_fidelity_choose(slave *s);
 
 /* life.c */
 slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bool logging, const char *name,
@@ -130,6 +133,7 @@ const char *slave_worst_row(slave *s, char *text, size_t size);
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value);
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value);
 bool slave_outputs(slave *s);
+bool slave_is_output(uint32_t reference);
 
 slave_status slave_may_set(slave *s, uint32_t reference, double value); /* the answer it would get; nothing is set */
 

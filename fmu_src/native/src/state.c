@@ -32,7 +32,7 @@ static size_t own_size(void) {
   return sizeof(header) + n * (1 + SLAVE_MOST_ORDERS) * sizeof(double) + 2 * n;
 }
 
-static size_t whole_size(const slave *s) { return own_size() + ali3_state_size(s->rung.system); }
+static size_t whole_size(const slave *s) { return own_size() + ali3_state_size(s->fidelity.system); }
 
 static void put(unsigned char **to, const void *from, size_t size) {
   memcpy(*to, from, size);
@@ -52,7 +52,7 @@ static void save(const slave *s, unsigned char *bytes) {
                  (uint8_t)c->step_warned,
                  (uint8_t)c->energy_warned,
                  (uint8_t)c->mode_warned,
-                 (uint32_t)s->rung.fidelity,
+                 (uint32_t)s->fidelity.number,
                  (uint32_t)n,
                  c->start_time,
                  c->stop_time};
@@ -64,7 +64,7 @@ static void save(const slave *s, unsigned char *bytes) {
   put(&p, s->slope, n * SLAVE_MOST_ORDERS * sizeof(double));
   put(&p, s->pending, n);
   put(&p, s->clamped, n);
-  ali3_state_save(s->rung.kernel, p, ali3_state_size(s->rung.system));
+  ali3_state_save(s->fidelity.kernel, p, ali3_state_size(s->fidelity.system));
 }
 
 /* One sentence on what is wrong with the bytes, or NULL. */
@@ -79,7 +79,7 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (head.size != size || size < own_size() || head.n_known != slave_the_table.n_known)
     return "they have another size";
   if (head.fidelity >= slave_the_table.n_systems) return "their header makes no sense";
-  if (head.fidelity == s->rung.fidelity && size != whole_size(s)) return "they have another size";
+  if (head.fidelity == s->fidelity.number && size != whole_size(s)) return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
       head.initialised > 1 || head.step_warned > 1 || head.energy_warned > 1 || head.mode_warned > 1 ||
       !(fabs(head.start_time) < HUGE_VAL) || !(head.stop_time > head.start_time))
@@ -115,16 +115,16 @@ static void get(void *to, const unsigned char **from, size_t size) {
 
 /* The state of the kernel, of another System too; false, said and nothing changed, if that fails. */
 static bool restore_kernel(slave *s, size_t fidelity, const unsigned char *bytes, size_t size) {
-  slave_rung other = s->rung;
-  const bool same = fidelity == s->rung.fidelity;
-  if (!same && !slave_rung_load(s, fidelity, &other)) return false;
+  slave_fidelity other = s->fidelity;
+  const bool same = fidelity == s->fidelity.number;
+  if (!same && !slave_fidelity_load(s, fidelity, &other)) return false;
   const ali3_status status = ali3_state_restore(other.kernel, bytes, size);
   if (status != ALI3_OK) {
-    if (!same) slave_rung_free(s, &other);
+    if (!same) slave_fidelity_free(s, &other);
     slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", ali3_status_text(status));
     return false;
   }
-  if (!same) slave_rung_take(s, &other);
+  if (!same) slave_fidelity_take(s, &other);
   return true;
 }
 

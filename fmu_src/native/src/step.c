@@ -41,9 +41,9 @@ static ali3_status apply_pending(slave *s) {
     const slave_variable *v = &t->variable[i];
     if (!s->pending[i]) continue;
     if (v->source == SLAVE_INPUT)
-      status = ali3_set_input(s->rung.kernel, v->index, s->value[i]);
+      status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i]);
     else
-      status = ali3_set_parameter(s->rung.kernel, v->index, s->value[i]);
+      status = ali3_set_parameter(s->fidelity.kernel, v->index, s->value[i]);
   }
   return status;
 }
@@ -60,7 +60,7 @@ static ali3_status follow_slopes(slave *s, double elapsed) {
       power *= elapsed / (k + 1);
       u += slope[k] * power;
     }
-    status = ali3_set_input(s->rung.kernel, t->variable[i].index, u);
+    status = ali3_set_input(s->fidelity.kernel, t->variable[i].index, u);
   }
   return status;
 }
@@ -68,10 +68,11 @@ static ali3_status follow_slopes(slave *s, double elapsed) {
 static ali3_status advance(slave *s, int64_t n, double h) {
   ali3_status status = apply_pending(s);
   if (status != ALI3_OK) return status;
-  if (!any_slope(s)) return n == 1 ? ali3_step(s->rung.kernel, h) : ali3_run(s->rung.kernel, h, n, NULL, 1, NULL, NULL);
+  if (!any_slope(s))
+    return n == 1 ? ali3_step(s->fidelity.kernel, h) : ali3_run(s->fidelity.kernel, h, n, NULL, 1, NULL, NULL);
   for (int64_t k = 0; k < n && status == ALI3_OK; k++) {
     status = follow_slopes(s, (double)(k + 1) * h);
-    if (status == ALI3_OK) status = ali3_step(s->rung.kernel, h);
+    if (status == ALI3_OK) status = ali3_step(s->fidelity.kernel, h);
   }
   return status;
 }
@@ -82,7 +83,7 @@ static void forget_slopes(slave *s) {
   if (!any_slope(s)) return;
   memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
   for (size_t i = 0; i < t->n_known; i++)
-    if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->rung.kernel, t->variable[i].index, s->value[i]);
+    if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->fidelity.kernel, t->variable[i].index, s->value[i]);
 }
 
 /* Whether a step can be asked for here at all; said if not. */
@@ -111,15 +112,16 @@ static bool possible(slave *s, double time, double step, double now) {
 
 static slave_status try_step(slave *s, double time, double step) {
   char worst[SLAVE_TEXT / 2];
-  const double now = ali3_time(s->rung.kernel);
+  const double now = ali3_time(s->fidelity.kernel);
   double h;
   if (!possible(s, time, step, now)) return SLAVE_ERROR;
   const int64_t n = division(s, now, time + step, &h);
-  ali3_snapshot_take(s->rung.kernel, s->rung.snapshot); /* inputs, parameters and inner steps go back together */
+  ali3_snapshot_take(s->fidelity.kernel,
+                     s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
   const ali3_status status = advance(s, n, h);
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
-    ali3_snapshot_restore(s->rung.kernel, s->rung.snapshot);
+    ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.snapshot);
     return slave_refuse_step(s, status, now, step, worst);
   }
   forget_slopes(s);

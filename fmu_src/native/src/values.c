@@ -6,14 +6,21 @@
 
 static const unsigned SETTABLE = SLAVE_INSTANTIATED | SLAVE_INITIALISING | SLAVE_STEPPING | SLAVE_STEP_FAILED;
 
+bool slave_is_output(uint32_t reference) {
+  const slave_table *t = &slave_the_table;
+  return reference < t->n_variables &&
+         (t->variable[reference].source == SLAVE_SENSOR || t->variable[reference].source == SLAVE_SOLVER);
+}
+
 bool slave_outputs(slave *s) {
   const slave_table *t = &slave_the_table;
   if (s->outputs_fresh) return true;
   if (!s->calls.initialised && !slave_initialise(s)) return false;
-  if (ali3_sensors(s->rung.kernel, s->sensors) != ALI3_OK) return false;
+  if (ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return false;
   for (size_t i = t->n_known; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
-    s->value[i] = v->source == SLAVE_SENSOR ? s->sensors[v->index] : ali3_solver_value(s->rung.kernel, v->index);
+    if (v->source == SLAVE_CONSTANT) break; /* they come last */
+    s->value[i] = v->source == SLAVE_SENSOR ? s->sensors[v->index] : ali3_solver_value(s->fidelity.kernel, v->index);
   }
   s->outputs_fresh = true;
   return true;
@@ -25,7 +32,7 @@ slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *va
   for (size_t i = 0; i < n; i++) {
     if (reference[i] >= t->n_variables)
       return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference[i]);
-    outputs = outputs || reference[i] >= t->n_known;
+    outputs = outputs || slave_is_output(reference[i]);
   }
   if (outputs && !slave_outputs(s)) return SLAVE_ERROR;
   for (size_t i = 0; i < n; i++) value[i] = s->value[reference[i]];
@@ -39,7 +46,9 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
     return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference);
   const slave_variable *v = &t->variable[reference];
   const bool fixed = v->source == SLAVE_POSE || v->source == SLAVE_STEP_SIZE || v->source == SLAVE_FIDELITY;
-  if (reference >= t->n_known) return slave_say(s, SLAVE_ERROR, "'%s' is an output and cannot be set.", v->name);
+  if (reference >= t->n_known)
+    return slave_say(s, SLAVE_ERROR, "'%s' is %s and cannot be set.", v->name,
+                     v->source == SLAVE_CONSTANT ? "a constant" : "an output");
   if (!(s->calls.phase & SETTABLE) || (fixed && (s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))))
     return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s%s.", v->name, slave_phase_name(s->calls.phase),
                      fixed ? "; it is a fixed parameter" : "");
@@ -63,12 +72,13 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
 static slave_status try_parameter(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
   double before;
-  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->rung.kernel, v->index, &before) != ALI3_OK) return SLAVE_OK;
-  const ali3_status status = ali3_set_parameter(s->rung.kernel, v->index, value);
+  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->fidelity.kernel, v->index, &before) != ALI3_OK)
+    return SLAVE_OK;
+  const ali3_status status = ali3_set_parameter(s->fidelity.kernel, v->index, value);
   if (status != ALI3_OK)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, which the model cannot take; it keeps %g.", v->name,
                      value, v->unit, s->value[reference]);
-  ali3_set_parameter(s->rung.kernel, v->index, before);
+  ali3_set_parameter(s->fidelity.kernel, v->index, before);
   return SLAVE_OK;
 }
 

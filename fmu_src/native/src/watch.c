@@ -6,7 +6,7 @@ static slave_status watch_energy(slave *s, const ali3_report *report) {
   if (s->calls.energy_warned) return SLAVE_OK;
   const ali3_doubt doubt = ali3_run_doubt(&r);
   if (doubt == ALI3_DOUBT_NONE) return SLAVE_OK;
-  const double h = s->value[s->step_reference], time = ali3_time(s->rung.kernel);
+  const double h = s->value[s->step_reference], time = ali3_time(s->fidelity.kernel);
   s->calls.energy_warned = 1;
   if (doubt == ALI3_DOUBT_BALANCE)
     return slave_say(s, SLAVE_WARNING,
@@ -23,14 +23,14 @@ static slave_status watch_energy(slave *s, const ali3_report *report) {
 static slave_status watch_modes(slave *s, const ali3_report *report) {
   char text[SLAVE_TEXT / 2];
   if (s->calls.mode_warned || report->branch_changes == 0) return SLAVE_OK;
-  if (ali3_branch_text(s->rung.kernel, text, sizeof text) != ALI3_OK) return SLAVE_OK;
+  if (ali3_branch_text(s->fidelity.kernel, text, sizeof text) != ALI3_OK) return SLAVE_OK;
   s->calls.mode_warned = 1;
   return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
 }
 
 slave_status slave_watch(slave *s) {
   ali3_report report;
-  if (ali3_report_get(s->rung.kernel, &report) != ALI3_OK) return SLAVE_OK;
+  if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   const slave_status modes = watch_modes(s, &report), energy = watch_energy(s, &report);
   return modes > energy ? modes : energy;
 }

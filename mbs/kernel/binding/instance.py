@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Callable, Mapping, Sequence
-from ctypes import POINTER, byref, c_double, c_int32, c_int64, c_void_p
+from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_p
 from typing import Any
 
 from ..header import OPEN, ControlFields, Doubt, InputTable, InputTables, RecordFields, ReportFields, SettingsFields
@@ -160,9 +160,21 @@ class Instance:
         """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
         self._start(self._library.ali3_initialise(self._handle, t0))
 
-    def start_lift(self) -> float:
-        """How much higher a start refused with `BELOW_ROAD` must be, m: there no tyre touches the road."""
-        return float(self._library.ali3_start_lift(self._handle))
+    def start_excess(self) -> tuple[float, int, str]:
+        """Why a start was refused with `START_REFUSED`.
+
+        Returns
+        -------
+        float
+            How much higher the scene must start, m, so that it is out of the way of all elements.
+        int
+            The element that refuses the start most; -1: none does.
+        str
+            Its words, after its name.
+        """
+        element, words = c_int32(), c_char_p()
+        height = self._library.ali3_start_excess(self._handle, byref(element), byref(words))
+        return float(height), element.value, (words.value or b"").decode()
 
     def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
         """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""

@@ -31,7 +31,7 @@ typedef enum {
   ALI3_SINGULAR,          /* the tangent could not be factorised */
   ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
   ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
-  ALI3_BELOW_ROAD,        /* a start with a tyre deeper in the road than its radius; see ali3_start_lift */
+  ALI3_START_REFUSED,     /* a start that an element refuses; see ali3_start_excess */
   ALI3_UNRESOLVED, /* the motion is too fast for the step: energy came or went without a force, also in halves */
   ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
   ALI3_TOO_STIFF,         /* the step is too long for an explicit rule; see report.fastest_rate */
@@ -46,16 +46,23 @@ typedef struct ali3_instance ali3_instance;
 
 enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
 
-enum {                    /* ali3_settings.method */
-       ALI3_METHOD_ALI3P = 0,              /* trapezoidal rule with projections */
-       ALI3_METHOD_GENERALISED_ALPHA,      /* the same with generalised-alpha, rho_infinity */
-       ALI3_METHOD_ENERGY_MOMENTUM,        /* discrete derivatives of rows and potentials; keeps energy */
-       ALI3_METHOD_ENERGY_MOMENTUM_4,      /* five of them, order four; conservative Systems only */
-       ALI3_METHOD_RUNGE_KUTTA_8,          /* explicit, index one, order eight; no element states */
-       ALI3_METHOD_SEMI_RECURSIVE,         /* explicit, relative coordinates, order eight; no element states */
-       ALI3_METHOD_SEMI_RECURSIVE_4,       /* the same of order four, for coarse errors */
-       ALI3_METHOD_RADAU_5,                /* implicit collocation, index three, order five; no element states */
-       ALI3_METHOD_COUNT
+/* Methods, numbers of ali3_settings.method in this order: X(NAME, name, order of steps that change). */
+/* clang-format off */
+#define ALI3_METHODS(X) \
+  X(ALI3P, ali3p, 2)                         /* trapezoidal rule with projections */ \
+  X(GENERALISED_ALPHA, generalised_alpha, 1) /* the same with generalised-alpha, rho_infinity */ \
+  X(ENERGY_MOMENTUM, energy_momentum, 2)     /* discrete derivatives of rows and potentials; keeps energy */ \
+  X(ENERGY_MOMENTUM_4, energy_momentum_4, 3) /* five of them, order four; conservative Systems only */ \
+  X(RUNGE_KUTTA_8, runge_kutta_8, 8)         /* explicit, index one, order eight; no element states */ \
+  X(SEMI_RECURSIVE, semi_recursive, 8)       /* explicit, relative coordinates, order eight; no element states */ \
+  X(SEMI_RECURSIVE_4, semi_recursive_4, 4)   /* the same of order four, for coarse errors */ \
+  X(RADAU_5, radau_5, 5)                     /* implicit collocation, index three; no element states */
+/* clang-format on */
+enum {
+#define ALI3_METHOD_NUMBER(NAME, name, order) ALI3_METHOD_##NAME,
+  ALI3_METHODS(ALI3_METHOD_NUMBER)
+#undef ALI3_METHOD_NUMBER
+      ALI3_METHOD_COUNT
 };
 
 typedef enum {
@@ -88,9 +95,9 @@ typedef struct {
   int32_t worst_row, worst_coordinate;
   double energy_jump; /* change of the kinetic energy by the last switching, J */
   double energy_error; /* work of constraint forces and projections, J; 0: exact, or not measured */
-  /* what says whether the run is right, see ali3_energy_balance; the first three of methods with books of energy */
+  /* what says whether the run is right, see ali3_energy_balance; the first three of methods with an energy balance */
   double energy; /* kinetic and potential energy of the state, J */
-  double work; /* what inputs, drives, dampers and tyres gave and took: sum of their shares of the steps, J */
+  double work; /* what inputs and forces without a potential gave and took: sum over the steps, J */
   double kinetic_peak; /* largest kinetic energy, at least that of 1e-6 m/s, J */
   /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity (over the largest: radians
    * that the motion has turned), sum of what steps are off v + h a of their start */
@@ -140,8 +147,9 @@ ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double val
  * state; ali3_reset takes it away. */
 typedef int32_t ali3_input_function(void *context, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context);
-/* Such a function, whose context is an ali3_input_tables: straight lines between the points of each table, held outside;
- * a time given twice is a jump, and times within `tolerance` of a jump are at it. A table of one point is a constant. */
+/* Such a function, whose context is an ali3_input_tables: straight lines between the points of each table, held
+ * outside; a time given twice is a jump, and times within `tolerance` of a jump are at it. A table of one point is a
+ * constant. */
 typedef struct {
   int32_t input; /* its number */
   int64_t n;
@@ -167,8 +175,9 @@ ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, in
  * Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
  * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
-/* How much higher, m, a start must be that was refused with ALI3_BELOW_ROAD: there no tyre touches the road. 0: good. */
-ALI3_API double ali3_start_lift(const ali3_instance *in);
+/* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
+ * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
+ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);
 /* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m);
  * then as ali3_initialise. */
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
@@ -206,7 +215,8 @@ ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, 
 /* Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs. */
 ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
-/* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] = 0). */
+/* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] =
+ * 0). */
 ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);
 /* d(sensors at the end of the last step)/d(inputs of that step) times direction (nu), the state before it held; from
  * the factorised tangent (23). ALI3_NOT_INITIALISED before the first step. */
@@ -221,8 +231,9 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
  * any time, no run was right that was tried; below it a run may be wrong. */
 #define ALI3_BALANCE_WRONG 0.036
 ALI3_API double ali3_energy_balance(const ali3_report *report);
-/* What a run can say without being repeated: nothing; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a balance
- * above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps say nothing: they have no motion to compare with. */
+/* What a run can say without being repeated: nothing; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a
+ * balance above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps say nothing: they have no motion to compare
+ * with. */
 #define ALI3_HALVINGS_SUSPECT 0.1
 #define ALI3_DOUBT_FROM 100
 typedef enum { ALI3_DOUBT_NONE, ALI3_DOUBT_HALVINGS, ALI3_DOUBT_BALANCE } ali3_doubt;

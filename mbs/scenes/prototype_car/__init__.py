@@ -15,6 +15,8 @@ from mbs.model.guides import Guide
 from mbs.scenes.prototype_car import car_data
 from mbs.scenes.prototype_car.chassis import chassis as chassis_of
 from mbs.scenes.prototype_car.chassis import stress_outputs
+from mbs.scenes.prototype_car.constants import vehicle_constants
+from mbs.scenes.prototype_car.fidelity import OFFERED, Fidelity
 from mbs.scenes.prototype_car.front_suspension import front_suspension
 from mbs.scenes.prototype_car.ground_contact import ground_contact
 from mbs.scenes.prototype_car.outputs import (
@@ -37,7 +39,11 @@ FOOTPRINT = (
 )  # m, x and y of the car as drawn, from the rear edge of its wheels to the front one
 
 
-def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Model], Guide] | None = None) -> Model:
+def build(
+    road: Road | None = None,
+    fidelity: Fidelity | int | str = Fidelity.RIGID,
+    guide: Callable[[Model], Guide] | None = None,
+) -> Model:
     """The car at rest in static equilibrium, its front axle over the origin.
 
     Where the road under it is not level nothing but the brakes could hold it: there it starts as drawn, level, and
@@ -48,12 +54,13 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
     road : Road, optional
         By default level ground with a kerb, down by `road.kerb_height` at `road.kerb_x` (parameters; far away unless
         set), and the friction `road.friction`.
-    fidelity : int or str
-        Rung of the ladder: 0 rigid, 1 rigid with quasi-static stresses, 2 flexible with the static modes of the load
-        paths, 3 with static, inertia and 5 dynamic modes, 4 with many modes; "paper": 60 static and 5 dynamic modes.
+    fidelity : Fidelity, int or str
+        How much of the chassis is modelled, a member of `Fidelity`, its number or its name: 0 "rigid", 1
+        "quasi_static", 2 "load_paths", 3 "dynamic", and for comparison 4 "many_modes" and "paper".
     guide : callable, optional
         Makes the guide of the x coordinate of the floor's centre, m; the selector is then in neutral.
     """
+    fidelity = Fidelity.of(fidelity)
     m = Model("prototype car", gravity=(0.0, 0.0, -car_data.GRAVITY))
     m.floating = True
     m.start_in_equilibrium = _level_under_the_car(road)
@@ -98,14 +105,15 @@ def build(road: Road | None = None, fidelity: int | str = 0, guide: Callable[[Mo
     stress_outputs(m, parts, fidelity)
     ground_contact(m, parts, ground)
     work_outputs(m)
+    vehicle_constants(m)
     if guide is not None:
         m.drive("guided way", chassis.point(parts.origin)[0], guide(m))
     return m
 
 
-def variants() -> dict[int, Callable[[], Model]]:
-    """The rungs an FMU offers by its parameter `fidelity`."""
-    return {k: partial(build, None, k) for k in range(4)}
+def fidelities() -> dict[Fidelity, Callable[[], Model]]:
+    """The models an FMU offers by its parameter `fidelity`."""
+    return {fidelity: partial(build, None, fidelity) for fidelity in OFFERED}
 
 
 def _level_under_the_car(road: Road | None) -> bool:
@@ -155,4 +163,4 @@ def _road_parameters(m: Model, road: Road | None, ground: int) -> None:
         )
 
 
-__all__ = ["build", "variants"]
+__all__ = ["Fidelity", "build", "fidelities"]

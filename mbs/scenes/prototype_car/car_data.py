@@ -16,6 +16,7 @@ from typing import Any
 GRAVITY = 9.81
 TOTAL_MASS = 597.0  # [P]
 WHEELBASE = 2.300  # [A]
+LENGTH, WIDTH = 3.2, 1.5  # outline without mirrors, centred on the origin of the vehicle axes [A]
 REFERENCE_POINT = (-1.3046, 0.0, 0.3530)  # centre of mass of the whole car, origin of the vehicle axes [A]
 
 FLOOR_CENTRE = (-1.100, 0.0, 0.160)  # node of the frame that carries the floating frame [A]
@@ -71,6 +72,8 @@ REAR_WHEEL = {"mass": 16.0, "spin_inertia": 0.70, "diametral_inertia": 0.40}  # 
 
 RACK_TRAVEL = 0.060  # m each way; about 27 deg at the outer and 33 deg at the inner wheel [A]
 RACK_PER_TURN = 0.042  # m per turn of the steering wheel [A]
+# rad, mean of both wheels at RACK_TRAVEL; the standing car turns them by 0.5246 to 0.5256
+FRONT_WHEEL_ANGLE_MAX = 0.525
 RACK_FREQUENCY = 10.0  # Hz, of the follower between input and rack [A]
 
 DRIVELINE: dict[str, Any] = {  # simple automatic, open differential [A]

@@ -1,4 +1,4 @@
-"""The chassis on every rung of the ladder, with the same outputs: rigid, with quasi-static stresses, or flexible."""
+"""The chassis of every fidelity, with the same outputs: rigid, with quasi-static stresses, or flexible."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 
 from mbs.affine import AffineVector
-from mbs.errors import ModelError
 from mbs.flexible import (
     FiniteElementModel,
     InertiaRelief,
@@ -27,6 +26,7 @@ from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
 from mbs.model.ports import PortedBody
 from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.fidelity import Fidelity
 from mbs.scenes.prototype_car.frame import (
     DAMPING,
     DYNAMIC_MODES,
@@ -38,16 +38,6 @@ from mbs.scenes.prototype_car.frame import (
     strain_gauges,
 )
 
-RIGID, QUASI_STATIC, LOAD_PATHS, DYNAMIC, REFERENCE_MODES = range(5)
-FIDELITIES = (
-    "rigid, stresses not computed",
-    "rigid, quasi-static stresses by inertia relief",
-    "flexible, static modes of the load paths",
-    "flexible, static, inertia and 5 dynamic modes",
-    "flexible, static, inertia and many dynamic modes",
-)
-PAPER_MODES = "paper"
-"""In place of a number: the 60 static and 5 dynamic modes of the paper, without the inertia modes."""
 MANY_MODES = 40
 LOAD_FILE = Path(__file__).parent / "frame" / "loads.csv"
 LOAD_PATH_TOLERANCE = 5e-3
@@ -97,15 +87,19 @@ def _finite_elements() -> tuple[FiniteElementModel, tuple[StrainGauge, ...], np.
     return frame.finite_element_model(), gauges, np.vstack(gauge_rows(frame, gauges))
 
 
+def reduced_chassis(fidelity: Fidelity | int | str) -> ReducedBody:
+    """The frame with the modes of a flexible fidelity."""
+    return _reduced_chassis(Fidelity.of(fidelity))
+
+
 @cache
-def reduced_chassis(fidelity: int | str) -> ReducedBody:
-    """The frame with the modes of a rung (2 to 4), or those of the paper."""
+def _reduced_chassis(fidelity: Fidelity) -> ReducedBody:
     model, _, _ = _finite_elements()
-    if fidelity == PAPER_MODES:
+    if fidelity is Fidelity.PAPER:
         return craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES, damping=DAMPING)
-    count = {LOAD_PATHS: 0, DYNAMIC: DYNAMIC_MODES, REFERENCE_MODES: MANY_MODES}[int(fidelity)]
+    count = {Fidelity.LOAD_PATHS: 0, Fidelity.DYNAMIC: DYNAMIC_MODES, Fidelity.MANY_MODES: MANY_MODES}[fidelity]
     body = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=True, damping=DAMPING)
-    if fidelity != LOAD_PATHS:
+    if fidelity is not Fidelity.LOAD_PATHS:
         return body
     # without the stretch between the pivots of a wishbone the frame could not follow its fixed length, and without
     # all directions at the origin a guide, which pushes a pitched car upwards too, would bend it wrongly
@@ -177,14 +171,11 @@ def quasi_static() -> InertiaRelief:
     )
 
 
-def chassis(m: Model, fidelity: int | str) -> Chassis:
+def chassis(m: Model, fidelity: Fidelity) -> Chassis:
     """Add the chassis."""
-    if fidelity != PAPER_MODES and (isinstance(fidelity, bool) or fidelity not in range(len(FIDELITIES))):
-        names = "; ".join(f"{k} {text}" for k, text in enumerate(FIDELITIES))
-        raise ModelError(f"The fidelity of the car is {fidelity!r}; it must be one of: {names}.")
-    if fidelity in (RIGID, QUASI_STATIC):
+    if fidelity in (Fidelity.RIGID, Fidelity.QUASI_STATIC):
         rigid = m.body("chassis", **car_data.CHASSIS)
-        if fidelity == RIGID:
+        if fidelity is Fidelity.RIGID:
             axes = rigid.vector((0.0, 0.0, 1.0)), rigid.vector((1.0, 0.0, 0.0))
             frame = rigid.point(rigid.com), [rigid.vector(v) for v in np.eye(3)], rigid.com
             return Chassis(rigid, rigid, rigid, car_data.FLOOR_CENTRE, axes, frame)
@@ -234,9 +225,9 @@ def _mean_frame(body: Body) -> tuple[AffineVector, list[AffineVector], np.ndarra
     return combination(np.append(origin, 1.0)), axes, origin
 
 
-def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
-    """Moments and stresses at the gauges; zero on the rigid rung, where `stress.computed` says so."""
-    _, _, rows = _finite_elements() if fidelity != RIGID else (None, None, None)
+def stress_outputs(m: Model, chassis: Chassis, fidelity: Fidelity) -> None:
+    """Moments and stresses at the gauges; zero for the rigid chassis, where `stress.computed` says so."""
+    _, _, rows = _finite_elements() if fidelity is not Fidelity.RIGID else (None, None, None)
     note = "; zero where stress.computed is 0"
     names = list(GAUGES)
     outputs = [
@@ -244,7 +235,7 @@ def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
     ]
     outputs += [(f"stress.{g}", "Pa", f"half-bridge {g}, upper minus lower fibre") for g in names]
     for k, (name, unit, text) in enumerate(outputs):
-        if fidelity == RIGID:
+        if fidelity is Fidelity.RIGID:
             m.sense_constant(name, 0.0, unit, text + note)
         elif isinstance(chassis.body, PortedBody):
             m.sense_quasi_static(name, chassis.body, quasi_static(), k, chassis.origin, unit, text + note)
@@ -254,7 +245,7 @@ def stress_outputs(m: Model, chassis: Chassis, fidelity: int | str) -> None:
             assert rows is not None
             m.sense_recovery(name, body, body.reduced.recovery(rows[k : k + 1])[0], unit, text + note)
     text = "1 where moments and stresses are computed; 0: they read zero"
-    m.sense_constant("stress.computed", float(fidelity != RIGID), "1", text, whole=True)
+    m.sense_constant("stress.computed", float(fidelity is not Fidelity.RIGID), "1", text, whole=True)
 
 
-__all__ = ["FIDELITIES", "Chassis", "chassis", "quasi_static", "reduced_chassis", "stress_outputs"]
+__all__ = ["Chassis", "chassis", "quasi_static", "reduced_chassis", "stress_outputs"]

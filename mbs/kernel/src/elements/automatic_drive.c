@@ -10,8 +10,8 @@
  * the engine turns at sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over
  * in RAMP seconds, so torque is continuous; the clock of a shift starts where the wheel rate crossed the shift speed
  * within the step, so its time does not depend on the step. */
+#include "../algebra/small_vectors.h"
 #include "element.h"
-#include "element_math.h"
 
 enum {
   MAX_TORQUE,
@@ -146,5 +146,13 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_automatic_drive;
-const ali3_element_type ali3_automatic_drive = {evaluate, accept, 8, -1, 2, 4, 4, check};
+const ali3_element_type ali3_automatic_drive = {
+    .evaluate = evaluate,
+    .accept = accept,
+    .nsig = 8,
+    .nreal = -1,
+    .nint = 2,
+    .nstate = 4,
+    .nout = 4,
+    .check = check,
+};

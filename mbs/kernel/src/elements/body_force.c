@@ -36,5 +36,10 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_body_force;
-const ali3_element_type ali3_body_force = {evaluate, 0, -1, 0, 3, 0, 0, check};
+const ali3_element_type ali3_body_force = {
+    .evaluate = evaluate,
+    .conservative = true,
+    .nsig = -1,
+    .nint = 3,
+    .check = check,
+};

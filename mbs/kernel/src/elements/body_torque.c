@@ -48,5 +48,10 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_body_torque;
-const ali3_element_type ali3_body_torque = {evaluate, 0, -1, 0, 4, 0, 0, check};
+const ali3_element_type ali3_body_torque = {
+    .evaluate = evaluate,
+    .conservative = true,
+    .nsig = -1,
+    .nint = 4,
+    .check = check,
+};

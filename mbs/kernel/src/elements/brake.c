@@ -52,5 +52,12 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_brake;
-const ali3_element_type ali3_brake = {evaluate, 0, 7, REALS, 1, 2, 3, check};
+const ali3_element_type ali3_brake = {
+    .evaluate = evaluate,
+    .nsig = 7,
+    .nreal = REALS,
+    .nint = 1,
+    .nstate = 2,
+    .nout = 3,
+    .check = check,
+};

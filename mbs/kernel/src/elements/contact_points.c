@@ -13,18 +13,29 @@
  * z' = (T - k a)/D. Slip power T.(v - z') >= 0, and what sticks returns to where it was: it does not creep.
  *
  * The tangent leaves out the coupling of normal and tangential force, and the turning of the normal. */
-#include "contact_points.h"
 
 #include <string.h>
 
 #include "contact_law.h"
+#include "element.h"
 #include "element_math.h"
 #include "road.h"
 
-enum { RADIUS, STIFFNESS, ONSET, LOSS, STICK_STIFFNESS, STICK_DAMPING, FRICTION_FACTOR, LOW, HIGH = LOW + 3 };
+enum {
+  RADIUS,
+  STIFFNESS,
+  ONSET,
+  LOSS,
+  STICK_STIFFNESS,
+  STICK_DAMPING,
+  FRICTION_FACTOR,
+  LOW,
+  HIGH = LOW + 3,
+  HEAD = HIGH + 3
+};
 enum { ROAD, POINTS, INTEGERS };
 enum { NORMAL_FORCE, TOUCHING, FORCE, DEPTH = FORCE + 3, OUTPUTS };
-enum { SIGNALS = 12 };
+enum { SIGNALS = 12, STATES = 4 }; /* states of each point */
 
 /* o + X p of signals or rates */
 static void place(const double *u, const double p[3], double out[3]) {
@@ -61,8 +72,8 @@ typedef struct {
 
 /* Distance and gradient for a step from u - h ud to u + h ud: the gradient g of the middle, corrected along the way so
  * that g . (p1 - p0) is the difference of the distances. */
-static void discrete(const ali3_road *road, const double point[3], const double velocity[3], double h, int k,
-                     ali3_clearance *c, double depth[2], double radius) {
+static void discrete_clearance(const ali3_road *road, const double point[3], const double velocity[3], double h, int k,
+                               ali3_clearance *c, double depth[2], double radius) {
   double from[3], to[3], way = 0.0, along = 0.0;
   ali3_clearance end[2];
   for (int i = 0; i < 3; i++) {
@@ -95,7 +106,7 @@ static touch press(ali3_element_args *a, const double local[3], int by_gradients
   for (int k = 0; k < count; k++) {
     ali3_clearance *c = &clearance[k];
     double depth[2] = {p[RADIUS] - c->distance, p[RADIUS] - c->distance}, slope = 0.0, loss_slope, b[SIGNALS];
-    if (by_gradients) discrete(road, point, velocity, a->h, k, c, depth, p[RADIUS]);
+    if (by_gradients) discrete_clearance(road, point, velocity, a->h, k, c, depth, p[RADIUS]);
     if (!(depth[0] > 0.0 || depth[1] > 0.0)) continue;
     const double now = ali3_contact_force(&law, depth[1], &slope, &a->potential);
     const double mean = by_gradients ? ali3_contact_mean(&law, depth[0], depth[1]) : now;
@@ -132,17 +143,17 @@ static void rub(ali3_element_args *a, const double local[3], const touch *t, con
     first[0] = 1.0, first[2] = 0.0;
   ali3_cross(n, first, second);
   place(a->ud, foot, velocity);
-  const double *tangent[2] = {first, second};
+  const double *plane[2] = {first, second};
   for (int i = 0; i < 2; i++) {
     wound[i] = k * (y_old[i] + half * y_old[2 + i]);
-    trial[i] = wound[i] + D * ali3_dot(tangent[i], velocity);
-    lever(tangent[i], foot, row[i]);
+    trial[i] = wound[i] + D * ali3_dot(plane[i], velocity);
+    lever(plane[i], foot, row[i]);
   }
   const double most = ali3_hypot(trial[0], trial[1]), share = most > bound ? bound / most : 1.0;
   for (int i = 0; i < 2; i++) {
     const double force = share * trial[i];
     for (int j = 0; j < SIGNALS; j++) a->f[j] -= force * row[i][j];
-    for (int j = 0; j < 3; j++) a->out[FORCE + j] -= force * tangent[i][j];
+    for (int j = 0; j < 3; j++) a->out[FORCE + j] -= force * plane[i][j];
     y_new[i] = y_old[i];
     y_new[2 + i] = y_old[2 + i];
     if (a->h > 0.0) {
@@ -175,10 +186,10 @@ static void every_point(ali3_element_args *a, int by_gradients) {
     return;
   }
   for (int32_t i = 0; i < a->integer[POINTS]; i++) {
-    const double *local = a->real + ALI3_CONTACT_HEAD + 3 * i;
+    const double *local = a->real + HEAD + 3 * i;
     const touch t = press(a, local, by_gradients);
     if (!(t.load > 0.0)) continue; /* what leaves the road forgets its deflection, which fell with the load */
-    rub(a, local, &t, a->y_old + ALI3_CONTACT_STATES * i, a->y_new + ALI3_CONTACT_STATES * i);
+    rub(a, local, &t, a->y_old + STATES * i, a->y_new + STATES * i);
     a->out[NORMAL_FORCE] += t.load;
     a->out[TOUCHING] += 1.0;
   }
@@ -186,13 +197,13 @@ static void every_point(ali3_element_args *a, int by_gradients) {
 
 static void evaluate(ali3_element_args *a) { every_point(a, 0); }
 
-void ali3_contact_points_discrete(ali3_element_args *a) { every_point(a, 1); }
+static void discrete(ali3_element_args *a) { every_point(a, 1); }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)nint, (void)n_inputs;
   if (integer[ROAD] < 0 || integer[ROAD] >= n_roads) return "contact points name a road that does not exist";
-  if (integer[POINTS] < 1 || nreal != ALI3_CONTACT_HEAD + 3 * (int64_t)integer[POINTS])
+  if (integer[POINTS] < 1 || nreal != HEAD + 3 * (int64_t)integer[POINTS])
     return "contact points need three numbers a point";
   if (!(real[STIFFNESS] > 0.0 && real[ONSET] > 0.0 && real[STICK_STIFFNESS] > 0.0 && real[STICK_DAMPING] > 0.0))
     return "stiffness, onset, stick stiffness and stick damping of contact points must be positive";
@@ -200,12 +211,19 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
     return "radius, loss and friction factor of contact points must not be negative";
   for (int32_t i = 0; i < integer[POINTS]; i++)
     for (int k = 0; k < 3; k++) {
-      const double x = real[ALI3_CONTACT_HEAD + 3 * i + k];
+      const double x = real[HEAD + 3 * i + k];
       if (!(x >= real[LOW + k] && x <= real[HIGH + k])) return "a contact point lies outside the box given for all";
     }
   return 0;
 }
 
-extern const ali3_element_type ali3_contact_points;
-const ali3_element_type ali3_contact_points = {evaluate, 0,    SIGNALS, -1, INTEGERS, -ALI3_CONTACT_STATES,
-                                               OUTPUTS,  check};
+const ali3_element_type ali3_contact_points = {
+    .evaluate = evaluate,
+    .discrete = discrete,
+    .nsig = SIGNALS,
+    .nreal = -1,
+    .nint = INTEGERS,
+    .nstate = -STATES,
+    .nout = OUTPUTS,
+    .check = check,
+};

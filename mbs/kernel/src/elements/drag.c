@@ -1,7 +1,7 @@
 /* Aerodynamic drag F = -rho CdA |v| v / 2 at a point in still air.
  * Signals: p (2 or 3). Reals: air density kg/m^3, drag area m^2. Outputs: drag N (size of the force). */
+#include "../algebra/small_vectors.h"
 #include "element.h"
-#include "element_math.h"
 
 static void evaluate(ali3_element_args *a) {
   const int32_t n = a->nsig;
@@ -25,5 +25,10 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_drag;
-const ali3_element_type ali3_drag = {evaluate, 0, -1, 2, 0, 0, 1, check};
+const ali3_element_type ali3_drag = {
+    .evaluate = evaluate,
+    .nsig = -1,
+    .nreal = 2,
+    .nout = 1,
+    .check = check,
+};

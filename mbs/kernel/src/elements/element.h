@@ -1,27 +1,14 @@
-/* The interface every force element implements: one file per type, one function per file.
+/* The interface every force element implements: one file per type, one description per file, one line in
+ * element_types.h. Nothing else in the engine knows a type.
  * An element sees its affine signals u and their rates ud, never coordinates. It returns the generalised force f
  * conjugate to u, the symmetric part of its tangent wC*C + wK*K (C = -df/dud, K = -df/du, states condensed), and the
  * slots of its state at the end of the step. */
 #ifndef ALI3_ELEMENT_H
 #define ALI3_ELEMENT_H
-#include <stddef.h>
+#include <stdbool.h>
 #include <stdint.h>
 
-enum { /* element types; the numbers are part of the file format and equal mbs/elements/types.py */
-       ALI3_SPRING_DAMPER = 1,      /* two points */
-       ALI3_SCALAR_SPRING_DAMPER,   /* one signal: torsional, or along a coordinate */
-       ALI3_INPUT_FORCE,            /* one input times constant weights on its signals */
-       ALI3_BODY_FORCE,             /* inputs along body axes at a point */
-       ALI3_BODY_TORQUE,            /* inputs as a torque, earth or body axes */
-       ALI3_GYROSCOPIC_SPIN,        /* axisymmetric wheel on a carrier */
-       ALI3_DRAG,                   /* quadratic aerodynamic drag */
-       ALI3_TYRE,
-       ALI3_BRAKE,                  /* elastoplastic friction between a spin and its carrier */
-       ALI3_AUTOMATIC_DRIVE,        /* engine, converter, gears, open differential */
-       ALI3_CONTACT_POINTS,         /* points of a body on a road */
-       ALI3_SPIN_TORQUE,            /* an input between a spin and its carrier */
-       ALI3_ELEMENT_TYPE_END
-};
+#include "element_types.h"
 
 #define ALI3_MAX_SIGNALS 24    /* per element */
 
@@ -46,18 +33,37 @@ typedef struct {
 } ali3_element_args;
 
 typedef void ali3_element_function(ali3_element_args *a);
-typedef void ali3_element_accept_function(
-    ali3_element_args *a); /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
 
+/* What an element says of a start. */
+typedef struct {
+  double excess; /* above 0: no scene is meant to start like this; of two elements the larger one is named */
+  double rise;   /* above 0: the height, m, by which the scene must rise at least to be out of the element's way */
+} ali3_start_verdict;
+
+/* What a type of elements is; what is not named is 0 or NULL: not so, or none. */
 typedef struct ali3_element_type {
   ali3_element_function *evaluate;
-  ali3_element_accept_function *accept;  /* may be NULL */
-  /* sizes that the loader checks; -1: any; nstate = -k, k > 1: k for each of the items that the last integer counts.
-   * check (may be NULL) returns NULL or one sentence for bad data. */
+  /* Forces over a step by a discrete gradient, for elements whose potential is not quadratic in their signals:
+   * f . (u1 - u0) = -(V(u1) - V(u0)) minus what dampers take, exactly. It sees the middle of the step, u, and
+   * ud = (u1 - u0) / (2 h), its h being half a step. NULL: evaluate is exact there, or as good. */
+  ali3_element_function *discrete;
+  ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
+  bool conservative; /* a potential, or a force of inputs alone: steps of order four may be composed of it */
+  bool (*lossy)(const double *real, int32_t nreal); /* whether a conservative element takes energy with these data */
+  /* Verdict on a start, from u, real, integer and roads, with the scene raised by `raised`, m; and its words, after the
+   * element's name. */
+  ali3_start_verdict (*start)(const ali3_element_args *a, double raised);
+  const char *start_words;
+  /* sizes that the loader checks; -1: any; nstate = -k, k > 1: k for each of the items that the last integer counts */
   int32_t nsig, nreal, nint, nstate, nout;
+  /* NULL or one sentence for bad data */
   const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                        int32_t n_inputs, int32_t n_roads);
 } ali3_element_type;
+
+#define ALI3_DECLARE(number, name) extern const ali3_element_type ali3_##name;
+ALI3_ELEMENT_TYPES(ALI3_DECLARE)
+#undef ALI3_DECLARE
 
 const ali3_element_type *ali3_element_type_get(int32_t type); /* NULL if unknown; table in elements.c */
 #endif

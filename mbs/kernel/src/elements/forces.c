@@ -3,7 +3,6 @@
 
 #include "../flexible/flexible_body.h"
 #include "../instance.h"
-#include "discrete_gradient.h"
 #include "element.h"
 #include "forces.h"
 
@@ -86,8 +85,8 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
       a.S = in->S + S->el_S_off[e];
       memset(a.S, 0, (size_t)(a.nsig * a.nsig) * sizeof(double));
     }
-    ali3_element_function *discrete = in->discrete ? ali3_discrete_gradient(S->el_type[e]) : NULL;
-    (discrete != NULL ? discrete : S->el_kind[e]->evaluate)(&a);
+    const ali3_element_type *type = S->el_kind[e];
+    (in->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(&a);
     call->potential[e] = a.potential;
     in->idle[e] = (unsigned char)a.idle;
     if (S->n_work > 0) record(in, e, f, ud, a.nsig);

@@ -16,5 +16,9 @@ static void evaluate(ali3_element_args *a) {
   a->potential = 0.0;
 }
 
-extern const ali3_element_type ali3_gyroscopic_spin;
-const ali3_element_type ali3_gyroscopic_spin = {evaluate, 0, 7, 1, 0, 0, 0, 0};
+const ali3_element_type ali3_gyroscopic_spin = {
+    .evaluate = evaluate,
+    .conservative = true,
+    .nsig = 7,
+    .nreal = 1,
+};

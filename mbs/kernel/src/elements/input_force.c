@@ -15,5 +15,11 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_input_force;
-const ali3_element_type ali3_input_force = {evaluate, 0, -1, -1, 1, 0, 0, check};
+const ali3_element_type ali3_input_force = {
+    .evaluate = evaluate,
+    .conservative = true,
+    .nsig = -1,
+    .nreal = -1,
+    .nint = 1,
+    .check = check,
+};

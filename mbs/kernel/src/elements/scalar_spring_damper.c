@@ -13,5 +13,16 @@ static void evaluate(ali3_element_args *a) {
   if (a->S) a->S[0] = a->wK * p[STIFFNESS] + a->wC * p[DAMPING];
 }
 
-extern const ali3_element_type ali3_scalar_spring_damper;
-const ali3_element_type ali3_scalar_spring_damper = {evaluate, 0, 1, REALS, 0, 0, 1, 0};
+static bool lossy(const double *real, int32_t nreal) {
+  (void)nreal;
+  return real[DAMPING] != 0.0;
+}
+
+const ali3_element_type ali3_scalar_spring_damper = {
+    .evaluate = evaluate,
+    .conservative = true,
+    .lossy = lossy,
+    .nsig = 1,
+    .nreal = REALS,
+    .nout = 1,
+};

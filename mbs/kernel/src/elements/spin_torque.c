@@ -19,5 +19,11 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return integer[0] < 0 || integer[0] >= n_inputs ? "a spin torque names an input that does not exist" : 0;
 }
 
-extern const ali3_element_type ali3_spin_torque;
-const ali3_element_type ali3_spin_torque = {evaluate, 0, 7, 1, 1, 0, 0, check};
+const ali3_element_type ali3_spin_torque = {
+    .evaluate = evaluate,
+    .conservative = true,
+    .nsig = 7,
+    .nreal = 1,
+    .nint = 1,
+    .check = check,
+};

@@ -16,7 +16,8 @@
  * Hence F (v_s + x') = -F^2/g <= 0: sliding only takes energy. With x = a + b x' (theta rule, a and b known) and
  * D = d + b c the step is
  *   F = g (c a - D v_s)/(g + D),   x' = (F - c a)/D,
- * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the largest force of its direction.
+ * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the largest force of its
+ * direction.
  *
  * The tangent leaves out the coupling of load and horizontal force and the turning of the frames. */
 #include "../algebra/elementary.h"
@@ -49,6 +50,7 @@ enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, I
 #define SLOW_SPEED 1e-5 /* m/s, added to the transport speed; small so that a parked car creeps by micrometres only */
 #define ROLL_SPEED 1.0 /* m/s, from which effective radius and trail are those of the rolling tyre */
 #define NO_LOAD 1e-9 /* N */
+#define CLEAR 1e-6 /* m: a depth that counts as none at a start */
 #define NO_GRIP 1e-6 /* of the reference friction */
 
 typedef struct {
@@ -205,10 +207,10 @@ static void evaluate(ali3_element_args *a) {
   const double rolls = transport / ROLL_SPEED, moving = rolls < 1.0 ? rolls * rolls * (2.0 - rolls * rolls) : 1.0;
   const double ratio =
       loaded > 1e-6 ? 1.0 + moving * (rolling / loaded - 1.0) : 1.0; /* slip radius over loaded radius */
-  const double *tangent[2] = {forward, left};
+  const double *along[2] = {forward, left};
   double row[2][7], travel[2];
   for (int i = 0; i < 2; i++) {
-    const double *t = tangent[i], spin = ali3_dot(t, push), lean = ali3_dot(t, e);
+    const double *t = along[i], spin = ali3_dot(t, push), lean = ali3_dot(t, e);
     travel[i] = ali3_dot(t, rd) - lean * turn;
     v[i] = travel[i] + ratio * spin * omega;
     for (int k = 0; k < 3; k++) row[i][k] = t[k], row[i][3 + k] = -lean * rho[k];
@@ -242,6 +244,25 @@ static void evaluate(ali3_element_args *a) {
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, n), upright);
 }
 
+/* A start with the wheel's centre below the surface: no spring of a tyre means that, and it would shoot the scene up.
+ * The rise is the depth along the road's normal; walls are climbed a depth at a time. */
+static ali3_start_verdict start(const ali3_element_args *a, double raised) {
+  const double *axis = a->u + 3, length = ali3_norm(axis), radius = a->real[RADIUS];
+  double centre[3], e[3], deepest = 0.0, climb = 0.0;
+  for (int i = 0; i < 3; i++) {
+    centre[i] = a->u[i] + (i == 2 ? raised : 0.0);
+    e[i] = length > 1e-6 ? axis[i] / length : (i == 1);
+  }
+  ali3_contact contact[2];
+  const int count = ali3_road_contacts(&a->roads[a->integer[0]], centre, e, radius, contact);
+  for (int k = 0; k < count; k++)
+    if (contact[k].penetration > deepest) {
+      deepest = contact[k].penetration;
+      climb = deepest * contact[k].cosine;
+    }
+  return (ali3_start_verdict){.excess = deepest - radius, .rise = deepest > CLEAR ? climb : 0.0};
+}
+
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)nreal, (void)nint, (void)n_inputs;
@@ -273,5 +294,14 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   return 0;
 }
 
-extern const ali3_element_type ali3_tyre;
-const ali3_element_type ali3_tyre = {evaluate, 0, 7, REALS, 1, 4, OUTPUTS, check};
+const ali3_element_type ali3_tyre = {
+    .evaluate = evaluate,
+    .start = start,
+    .start_words = "lies deeper in the road than its radius",
+    .nsig = 7,
+    .nreal = REALS,
+    .nint = 1,
+    .nstate = 4,
+    .nout = OUTPUTS,
+    .check = check,
+};

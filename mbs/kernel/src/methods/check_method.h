@@ -3,6 +3,7 @@
 #define ALI3_CHECK_METHOD_H
 #include "../instance.h"
 
-ali3_status ali3_check_method(ali3_instance *in);
-bool ali3_relative(const ali3_instance *in);
+ali3_status ali3_check_method(const ali3_instance *in);
+ali3_status ali3_needs_no_states(const ali3_instance *in);
+bool ali3_conservative(const ali3_instance *in);
 #endif

@@ -1,17 +1,19 @@
 /* Order four by symmetric composition (Suzuki 1990) of energy-momentum steps: a h, a h, (1 - 4 a) h, a h, a h with
  * a = 1 / (4 - 4^(1/3)). The third goes backwards in time, so nothing may dissipate. */
 #include "../instance.h"
+#include "../method.h"
 #include "../state/vectors.h"
+#include "check_method.h"
 #include "energy_momentum.h"
 #include "steps.h"
 
 enum { STAGES = 5 };
 static const double OUTER = 0.41449077179437573714;
 
-/* The last of the steps that a step of h is composed of. */
-double ali3_composed(double h) { return OUTER * h; }
+/* By the last of the steps that a step of h is composed of. */
+static void before(ali3_instance *in, double h) { ali3_energy_momentum_restart(in, OUTER * h); }
 
-ali3_status ali3_composition(ali3_instance *in, double t, double h) {
+static ali3_status step(ali3_instance *in, double t, double h) {
   const double share[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
   int32_t iterations = 0, most = in->report.max_iterations;
   double done = -1.0; /* time from the end of the step, in steps */
@@ -19,7 +21,7 @@ ali3_status ali3_composition(ali3_instance *in, double t, double h) {
   for (int stage = 0; stage < STAGES; stage++) {
     done = stage == STAGES - 1 ? 0.0 : done + share[stage];
     const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, 1.0 + done - 0.5 * share[stage],
-                                                    stage == STAGES - 1 && !in->quiet);
+                                                    stage == STAGES - 1 && !in->unobserved);
     if (status != ALI3_OK) {
       ali3_vectors_copy(in, &in->now, &in->whole);
       return status;
@@ -30,3 +32,19 @@ ali3_status ali3_composition(ali3_instance *in, double t, double h) {
   in->report.max_iterations = iterations > most ? iterations : most;
   return ALI3_OK;
 }
+
+static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->whole, h); }
+
+static ali3_status takes(const ali3_instance *in) {
+  const ali3_status status = ali3_needs_no_states(in);
+  if (status != ALI3_OK) return status;
+  return ali3_conservative(in) ? ALI3_OK : ALI3_WRONG_METHOD;
+}
+
+const ali3_method ali3_method_energy_momentum_4 = {.step = step,
+                                                   .before = before,
+                                                   .motion = motion,
+                                                   .takes = takes,
+                                                   .after_unobserved = ali3_energy_momentum_report,
+                                                   .owner = ALI3_METHOD_ENERGY_MOMENTUM,
+                                                   .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -8,5 +8,5 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
 ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v);
 void ali3_energy_momentum_report(ali3_instance *in);
 void ali3_energy_momentum_restart(ali3_instance *in, double h);
-double ali3_composed(double h);
+void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h);
 #endif

@@ -1,31 +1,34 @@
 /* Step sizes from the error: each step may err by its share of the tolerance (error per unit step), so that the errors
- * of a run add up to it. Where a shorter step does not err less in proportion (a kink of a force, a velocity kicked at a
- * singular position) it may err by a fixed share, and where it errs no less at all it is taken and counted.
- * Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential
- * Equations II", second edition, IV.2). */
+ * of a run add up to it. Where a shorter step does not err less in proportion (a kink of a force, a velocity kicked at
+ * a singular position) it may err by a fixed share, and where it errs no less at all it is taken and counted.
+ * Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential Equations II",
+ * second edition, IV.2). */
 #include <math.h>
 #include <string.h>
 
 #include "../algebra/elementary.h"
 #include "../instance.h"
+#include "../method.h"
 #include "../rows/guides.h"
 #include "../start/initialise.h"
-#include "../state/books.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "branch_watch.h"
 #include "check_method.h"
+#include "energy_balance.h"
 #include "error_control.h"
-#include "semi_recursive.h"
 
 static const double LEAST_SHARE = 1e-3; /* of the tolerance */
 static const double AIM = 0.4; /* of what a step may err */
 static const double PROPORTIONAL = 0.4, INTEGRAL = 0.7;
 static const double AGAIN = 1.5; /* after a step that stays without a share of its own */
 static const double SHRINK = 0.15, GROW = 4.0, MOST_KEPT = 0.9 /* of a rejected one */, AFTER_FAILURE = 0.25;
-/* Of the time scale of the motion, by rules of order two and composed ones, by collocation, by index one: shorter steps are not made
- * for the sake of the error, since round-off of index three grows there, and not for that of convergence. */
-static const double SHORTEST[3] = {1e-4, 1e-6, 1e-10}, SHORTEST_TRIED[3] = {1e-6, 1e-7, 1e-10};
+/* Of the time scale of the motion: shorter steps are not made for the sake of the error, since round-off of index three
+ * grows there, and not for that of convergence. */
+static const double SHORTEST[] = {
+    [ALI3_ROUND_OFF_INDEX_3] = 1e-4, [ALI3_ROUND_OFF_COLLOCATION] = 1e-6, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
+static const double SHORTEST_TRIED[] = {
+    [ALI3_ROUND_OFF_INDEX_3] = 1e-6, [ALI3_ROUND_OFF_COLLOCATION] = 1e-7, [ALI3_ROUND_OFF_INDEX_1] = 1e-10};
 static const double KINK = 0.5, KICK = 0.7; /* error over the one before: in parts of the steps' ratio, and plainly */
 enum { KICKS = 2 };                         /* so often in one step */
 static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
@@ -73,7 +76,7 @@ ali3_status ali3_refresh(ali3_instance *in) {
     ali3_vectors_copy(in, &in->now, &in->start);
     return status;
   }
-  memset(in->now.memory, 0, ALI3_MEMORY * sizeof(double));
+  memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
   return ALI3_OK;
 }
 
@@ -99,11 +102,9 @@ static double factor(double part, double last, int32_t order) {
   return fmin(GROW, fmax(SHRINK, f));
 }
 
-static double shortest(const ali3_instance *in, const ali3_measure *measure, double t, const double share[3]) {
-  const int32_t method = in->settings.method;
-  const bool index_one = method == ALI3_METHOD_RUNGE_KUTTA_8 || ali3_relative(in);
-  const int kind = index_one ? 2 : method == ALI3_METHOD_RADAU_5;
-  return fmax(share[kind] * fmin(measure->control->span, 1.0 / ali3_rate(in, measure)), ROUND_OFF * fabs(t));
+static double shortest(const ali3_instance *in, const ali3_measure *measure, double t, const double *share) {
+  return fmax(share[ali3_method_of(in)->round_off] * fmin(measure->control->span, 1.0 / ali3_rate(in, measure)),
+              ROUND_OFF * fabs(t));
 }
 
 /* What the tries of one step have shown so far. */
@@ -159,7 +160,7 @@ static double next_step(const ali3_control *c, double size, double tried, double
 /* One accepted step from t, at most to `end`; *h is its length. */
 static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measure, double t, double end, double *h) {
   ali3_control *c = measure->control;
-  const int32_t order = ali3_order(in->settings.method);
+  const int32_t order = ali3_method_order(in);
   const double least = shortest(in, measure, t, SHORTEST), end_of_tries = shortest(in, measure, t, SHORTEST_TRIED);
   const bool roads = in->system->nr > 0;
   const double longest = roads ? fmin(c->longest, ON_A_ROAD / ali3_rate(in, measure)) : c->longest;
@@ -192,14 +193,16 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     seen.rejected = true;
     ali3_vectors_copy(in, &in->now, &in->origin);
     in->report.steps = before.steps;
-    ali3_books_back(&in->report, &before);
+    ali3_balance_restore(&in->report, &before);
   }
 }
 
 /* Takes the report back to what the state in in->now says of itself: nobody looked at it while steps were made. */
 static void finish(ali3_instance *in) {
   in->sampled = false;
-  if (in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE) ali3_semi_recursive_report(in);
+  const ali3_method *method = ali3_method_of(in);
+  if (method->after_sampled != NULL && in->now.history[ALI3_HISTORY_OWNER] == (double)method->owner)
+    method->after_sampled(in);
 }
 
 /* Whether inputs are others than those that the last step ended with. */
@@ -247,7 +250,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST * control->span);
   if (jumped(in)) status = ali3_refresh(in);
   ali3_branch_before(in); /* the modes of the start, where nobody has looked yet */
-  in->quiet = false;
+  in->unobserved = false;
   in->sampled = in->controlled = true;
   if (status == ALI3_OK) status = run(in, &measure, t_end, most_steps, record, done);
   in->controlled = false;

@@ -10,7 +10,6 @@ typedef struct {
 } ali3_measure;
 
 /* step_doubling.c */
-int32_t ali3_order(int32_t method);
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error);
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h);
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,

@@ -4,19 +4,15 @@
 #include <string.h>
 
 #include "../instance.h"
-#include "../state/books.h"
+#include "../method.h"
 #include "../state/vectors.h"
+#include "energy_balance.h"
 #include "error_control.h"
 #include "steps.h"
 
-int32_t ali3_order(int32_t method) {
-  static const int32_t order[ALI3_METHOD_COUNT] = {2, 1, 2, 3, 8, 8, 4, 5}; /* of steps that change */
-  return order[method];
-}
-
 /* A step from time t that is never halved inside; what a failed one leaves behind is for the caller to mend. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
-  in->kept = false;
+  in->backed_up = false;
   in->t_now = t;
   return ali3_advance(in, t + h, h, 0);
 }
@@ -47,14 +43,14 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure) {
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
-/* From in->now, which stays in in->origin, to in->now by way of in->centre; *error in parts of the length. A failed step
- * leaves in->now as it was. */
+/* From in->now, which stays in in->origin, to in->now by way of in->centre; *error in parts of the length. A failed
+ * step leaves in->now as it was. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;
   ali3_vectors_copy(in, &in->origin, &in->now);
   ali3_status status = ali3_trial_step(in, t, h);
-  ali3_books_back(&in->report, &before);
+  ali3_balance_restore(&in->report, &before);
   ali3_vectors_copy(in, &in->coarse, &in->now);
   ali3_vectors_copy(in, &in->now, &in->origin);
   if (status == ALI3_OK) status = ali3_trial_step(in, t, 0.5 * h);
@@ -64,7 +60,7 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
     status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h);
   }
   if (status == ALI3_OK) {
-    const double share = 1.0 / (ldexp(1.0, ali3_order(in->settings.method)) - 1.0);
+    const double share = 1.0 / (ldexp(1.0, ali3_method_order(in)) - 1.0);
     for (int32_t i = 0; i < nq; i++) {
       in->w[i] = share * (in->now.q[i] - in->coarse.q[i]);
       in->x[i] = share * (in->now.qd[i] - in->coarse.qd[i]);
@@ -74,7 +70,7 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
     if (*error < 1e300) return ALI3_OK;
     status = ALI3_NOT_FINITE;
   }
-  ali3_books_back(&in->report, &before);
+  ali3_balance_restore(&in->report, &before);
   in->report.steps = before.steps;
   ali3_vectors_copy(in, &in->now, &in->origin);
   return status;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "../instance.h"
+#include "../method.h"
 #include "../start/index_one.h"
 #include "../state/vectors.h"
 #include "stiffness.h"
@@ -10,7 +11,6 @@
 enum { ROUNDS = 24, COUNTED = 8 }; /* the eighth root is three square roots */
 static const double SHIFT = 1e-7; /* of the size of the state, at least 1 */
 static const double RESOLVED = 1.0; /* step times rate at which no stage runs away by itself */
-static const double LIMIT_8 = 5.0, LIMIT_4 = 2.5; /* step times rate that the rules follow, of negative rates */
 
 static double length(const double *x, int32_t n) {
   double sum = 0.0;
@@ -60,13 +60,12 @@ static double fastest_rate(ali3_instance *in) {
 /* The status of a step h of an explicit method that was refused, or ALI3_TOO_STIFF where that is the reason: the rate
  * says so, also of stages that ran away, or steps before this one have left a state without a rate. */
 ali3_status ali3_explain_refusal(ali3_instance *in, ali3_status status, double h) {
-  const int32_t method = in->settings.method;
-  const bool order_8 = method == ALI3_METHOD_RUNGE_KUTTA_8 || method == ALI3_METHOD_SEMI_RECURSIVE;
+  const double stable_rate = ali3_method_of(in)->stable_rate;
   const bool ran_away = status == ALI3_SINGULAR || status == ALI3_NOT_FINITE;
-  if (!order_8 && method != ALI3_METHOD_SEMI_RECURSIVE_4) return status;
+  if (stable_rate == 0.0) return status;
   if (!ran_away && status != ALI3_NOT_CONVERGED && status != ALI3_UNRESOLVED) return status;
   const ali3_report report = in->report;
-  const double rate = fastest_rate(in), limit = ran_away ? RESOLVED : (order_8 ? LIMIT_8 : LIMIT_4);
+  const double rate = fastest_rate(in), limit = ran_away ? RESOLVED : stable_rate;
   in->report = report;
   if (!(h * rate > limit || (ran_away && rate == 0.0 && report.steps > 0))) return status;
   in->report.fastest_rate = rate;

@@ -1,6 +1,7 @@
 /* What the solver says about itself: its clock, its report, and numbers of it that sensors of type 13 and the FMU
  * read. */
 #include <float.h>
+#include <math.h>
 
 #include "../instance.h"
 
@@ -16,6 +17,11 @@ ali3_status ali3_run_status(const ali3_report *report) {
   if (report == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_status last = (ali3_status)report->last_status;
   return last == ALI3_OK && report->branch_changes > 0 ? ALI3_BRANCH_CHANGED : last;
+}
+
+double ali3_energy_balance(const ali3_report *r) {
+  const double size = r != NULL ? r->kinetic_peak + r->work : 0.0;
+  return size > 0.0 ? fabs(r->energy_error) / size : 0.0;
 }
 
 /* A refused step may leave a residual beyond all numbers. */

@@ -1,5 +1,5 @@
-/* A copy in memory of what inputs, parameters and steps change, for steps that are taken back. It returns to the instance
- * it was taken of, so it needs no header, checksum or checks of ali3_state_restore. */
+/* A copy in memory of what inputs, parameters and steps change, for steps that are taken back. It returns to the
+ * instance it was taken of, so it needs no header, checksum or checks of ali3_state_restore. */
 #include <string.h>
 
 #include "../instance.h"
@@ -12,9 +12,7 @@ typedef struct {
   int64_t count;
 } ali3_snapshot_head; /* then the vectors, inputs and parameters */
 
-static size_t numbers(const ali3_system *s) {
-  return ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np;
-}
+static size_t numbers(const ali3_system *s) { return ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np; }
 
 size_t ali3_snapshot_size(const ali3_system *s) {
   return s != NULL ? sizeof(ali3_snapshot_head) + numbers(s) * sizeof(double) : 0;

@@ -1,8 +1,8 @@
 /* Inertia, inertia forces and mass matrix of a tree: composite bodies about the origin of the earth. */
 #include "tree.h"
 
-/* Inertia of each body about the origin of the earth, and the forces its velocity and gravity ask for. */
-void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) {
+/* Inertia of each body about its centre of mass, in earth axes, and where that is. */
+static void inertia(const ali3_tree *T, ali3_tree_work *w) {
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
     double c[3], e[3], rc[3];
@@ -37,6 +37,11 @@ void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) {
       w->inertia[5][b] += k0 * e[1];
     }
   }
+}
+
+/* Inertia of each body about the origin of the earth, and the forces its velocity and gravity ask for. */
+void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w) {
+  inertia(T, w);
   ALI3_FOR_LANES
   for (int32_t b = 0; b < T->lanes; b++) {
     const double c0 = w->moment[0][b], c1 = w->moment[1][b], c2 = w->moment[2][b], m = T->mass[b];

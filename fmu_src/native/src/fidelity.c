@@ -12,28 +12,28 @@ static bool table_fits(const ali3_system *system, size_t fidelity) {
   if (t->first_row[fidelity + 1] - t->first_row[fidelity] != (size_t)z.nc) return false;
   for (size_t i = 0; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
-    const int32_t limit[] = {z.nu, z.np, z.has_pose ? 5 : 0, 1, 1, z.ns, ALI3_SOLVER_COUNT};
+    const int32_t limit[] = {z.nu, z.np, z.has_pose ? 5 : 0, 1, 1, z.ns, ALI3_SOLVER_COUNT, 1};
     if ((i < t->n_known) != (v->source < SLAVE_SENSOR)) return false;
     if (v->index < 0 || v->index >= limit[v->source]) return false;
   }
   return true;
 }
 
-void slave_rung_free(const slave *s, slave_rung *rung) {
-  if (rung->snapshot != NULL) s->memory.release(rung->snapshot);
-  if (rung->kernel != NULL) ali3_instance_free(rung->kernel);
-  if (rung->system != NULL) ali3_system_free(rung->system);
-  memset(rung, 0, sizeof *rung);
+void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
+  if (loaded->snapshot != NULL) s->memory.release(loaded->snapshot);
+  if (loaded->kernel != NULL) ali3_instance_free(loaded->kernel);
+  if (loaded->system != NULL) ali3_system_free(loaded->system);
+  memset(loaded, 0, sizeof *loaded);
 }
 
-/* False, and said, if it cannot be loaded; then the rung is empty. */
-bool slave_rung_load(slave *s, size_t fidelity, slave_rung *rung) {
+/* False, and said, if it cannot be loaded; then `loaded` is empty. */
+bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   char file[32], message[256] = "";
   size_t size = 0;
-  memset(rung, 0, sizeof *rung);
-  snprintf(file, sizeof file, "system_%u.ali3", (unsigned)fidelity);
-  if (fidelity >= slave_the_table.n_systems) {
-    slave_say(s, SLAVE_ERROR, "There is no fidelity %u in this FMU.", (unsigned)fidelity);
+  memset(loaded, 0, sizeof *loaded);
+  snprintf(file, sizeof file, "system_%u.ali3", (unsigned)number);
+  if (number >= slave_the_table.n_systems) {
+    slave_say(s, SLAVE_ERROR, "There is no fidelity %u in this FMU.", (unsigned)number);
     return false;
   }
   unsigned char *bytes = slave_read(s->resources, file, &s->memory, &size);
@@ -41,43 +41,43 @@ bool slave_rung_load(slave *s, size_t fidelity, slave_rung *rung) {
     slave_say(s, SLAVE_ERROR, "The file %s of the FMU cannot be read in %s.", file, s->resources);
     return false;
   }
-  ali3_status status = ali3_system_load_with(bytes, size, &s->memory, &rung->system, message, sizeof message);
+  ali3_status status = ali3_system_load_with(bytes, size, &s->memory, &loaded->system, message, sizeof message);
   s->memory.release(bytes);
-  if (status == ALI3_OK && !table_fits(rung->system, fidelity)) {
+  if (status == ALI3_OK && !table_fits(loaded->system, number)) {
     slave_say(s, SLAVE_ERROR, "The file %s does not belong to this FMU.", file);
-    slave_rung_free(s, rung);
+    slave_fidelity_free(s, loaded);
     return false;
   }
-  if (status == ALI3_OK) status = ali3_instance_new(rung->system, &rung->kernel);
+  if (status == ALI3_OK) status = ali3_instance_new(loaded->system, &loaded->kernel);
   if (status == ALI3_OK) {
-    rung->snapshot = s->memory.allocate(1, ali3_snapshot_size(rung->system));
-    if (rung->snapshot == NULL) status = ALI3_NO_MEMORY;
+    loaded->snapshot = s->memory.allocate(1, ali3_snapshot_size(loaded->system));
+    if (loaded->snapshot == NULL) status = ALI3_NO_MEMORY;
   }
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The file %s was refused: %s%s%s.", file, ali3_status_text(status),
               message[0] != 0 ? ": " : "", message);
-    slave_rung_free(s, rung);
+    slave_fidelity_free(s, loaded);
     return false;
   }
-  rung->fidelity = fidelity;
-  const ali3_sizes z = ali3_system_sizes(rung->system);
+  loaded->number = number;
+  const ali3_sizes z = ali3_system_sizes(loaded->system);
   slave_say(s, SLAVE_OK, "System loaded: %d coordinates, %d rows, %d inputs, %d outputs.", (int)z.nq, (int)z.nc,
             (int)z.nu, (int)z.ns);
   return true;
 }
 
-void slave_rung_take(slave *s, const slave_rung *rung) {
-  slave_rung_free(s, &s->rung);
-  s->rung = *rung;
+void slave_fidelity_take(slave *s, const slave_fidelity *loaded) {
+  slave_fidelity_free(s, &s->fidelity);
+  s->fidelity = *loaded;
 }
 
 /* The System of the fidelity among the values. */
-bool slave_rung_choose(slave *s) {
-  slave_rung rung;
+bool slave_fidelity_choose(slave *s) {
+  slave_fidelity loaded;
   if (s->fidelity_reference == slave_the_table.n_variables) return true;
   const size_t wanted = (size_t)s->value[s->fidelity_reference];
-  if (wanted == s->rung.fidelity) return true;
-  if (!slave_rung_load(s, wanted, &rung)) return false;
-  slave_rung_take(s, &rung);
+  if (wanted == s->fidelity.number) return true;
+  if (!slave_fidelity_load(s, wanted, &loaded)) return false;
+  slave_fidelity_take(s, &loaded);
   return true;
 }

@@ -1,25 +1,14 @@
-/* What tells at no cost whether a run is right: energy that no force gave, beside the energy that was in the motion, and
- * how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
+/* What tells at no cost whether a run is right: energy that no force gave, beside the energy that was in the motion,
+ * and how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
 #include <math.h>
 
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
-#include "books.h"
+#include "../method.h"
+#include "energy_balance.h"
 
 static const double REST = 1e-6; /* m/s: slower than that nothing moves, and round-off is no error of the energy */
-
-double ali3_energy_balance(const ali3_report *r) {
-  const double size = r != NULL ? r->kinetic_peak + r->work : 0.0;
-  return size > 0.0 ? fabs(r->energy_error) / size : 0.0;
-}
-
-/* Whether ali3_energy_watch sees the steps of the present method. */
-bool ali3_keeps_books(const ali3_instance *in) {
-  const int32_t method = in->settings.method;
-  if (method == ALI3_METHOD_RUNGE_KUTTA_8) return in->system->n_flexible == 0;
-  return in->settings.project && (method == ALI3_METHOD_ALI3P || method == ALI3_METHOD_GENERALISED_ALPHA);
-}
 
 /* Potential energy of v; flexible bodies prepared at its position. */
 static double potential(const ali3_instance *in, const ali3_vectors *v) {
@@ -37,9 +26,10 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
 }
 
 /* The energy of in->now, from which the next step counts. */
-void ali3_books_open(ali3_instance *in) {
+void ali3_balance_open(ali3_instance *in) {
   in->report.open_power = 0.0;
-  if (!ali3_keeps_books(in)) return;
+  const ali3_method *method = ali3_method_of(in);
+  if (method->has_balance == NULL || !method->has_balance(in)) return;
   ali3_flexible_prepare(in, in->now.q);
   const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
   double rest = 0.0;
@@ -49,7 +39,7 @@ void ali3_books_open(ali3_instance *in) {
 }
 
 /* A step to in->next with the kinetic energy there and an error of the energy: what else has changed is work. */
-void ali3_books_energy(ali3_instance *in, double error, double kinetic) {
+void ali3_balance_energy(ali3_instance *in, double error, double kinetic) {
   ali3_report *r = &in->report;
   const double energy = kinetic + potential(in, &in->next);
   r->energy_error += error;
@@ -58,33 +48,32 @@ void ali3_books_energy(ali3_instance *in, double error, double kinetic) {
 }
 
 /* Squares of the velocity at the end of a step, of its change, and of its distance from v + h a. */
-void ali3_books_motion(ali3_report *report, double speed, double change, double miss) {
+void ali3_balance_motion(ali3_report *report, double speed, double change, double miss) {
   report->speed_peak = fmax(report->speed_peak, sqrt(speed));
   report->velocity_path += sqrt(change);
   report->predictor_path += sqrt(miss);
 }
 
-/* After a step of natural coordinates: what was in->now is in in->next, of a composed step in in->whole. */
-void ali3_books_step(ali3_instance *in, double h) {
-  const int32_t method = in->settings.method, nq = in->system->size.nq;
-  const ali3_vectors *from = method == ALI3_METHOD_ENERGY_MOMENTUM_4 ? &in->whole : &in->next;
-  const bool carried = method == ALI3_METHOD_ENERGY_MOMENTUM || method == ALI3_METHOD_ENERGY_MOMENTUM_4;
-  const bool past = carried && from->memory[ALI3_MEMORY_COUNT] >= 1.0 &&
-                    from->memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
-  const double *v0 = past ? from->own : from->qd, *v1 = carried ? in->now.own : in->now.qd;
-  const double *a = past ? from->past_a : from->qdd, *m = in->system->mass_floor;
+/* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
+void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
+  const double *m = in->system->mass_floor;
   double speed = 0.0, change = 0.0, miss = 0.0;
-  for (int32_t i = 0; i < nq; i++) {
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
     const double d = v1[i] - v0[i], e = d - h * a[i];
     speed += m[i] * v1[i] * v1[i];
     change += m[i] * d * d;
     miss += m[i] * e * e;
   }
-  ali3_books_motion(&in->report, speed, change, miss);
+  ali3_balance_motion(&in->report, speed, change, miss);
 }
 
-/* The books as they were before a step that was refused. */
-void ali3_books_back(ali3_report *report, const ali3_report *before) {
+/* The same where velocities and accelerations of the states tell: what was in->now is in in->next. */
+void ali3_balance_step(ali3_instance *in, double h) {
+  ali3_balance_change(in, h, in->next.qd, in->next.qdd, in->now.qd);
+}
+
+/* The energy balance as it was before a step that was refused. */
+void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->energy_error = before->energy_error;
   report->open_power = before->open_power;
   report->energy = before->energy;

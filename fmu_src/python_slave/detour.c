@@ -1,0 +1,167 @@
+/* The way of a call through Python. The library a host loads is the slave in C with its FMI 2.0 face; the calls that
+ * PythonFMU knows go to PythonFMU's export library, which lies beside it as <this library>-pythonfmu, to the class in
+ * Python (slave.py) and from there back to the slave, by the functions of a python_link. The slave's answer stays in the
+ * link, since PythonFMU knows OK, Discard and Fatal only. */
+#include <stdio.h>
+#include <string.h>
+
+#include "fmi2_face.h"
+#include "pythonfmu.h"
+
+typedef struct { /* what slave.py reads and writes, in this order */
+  slave *s;
+  const char *name; /* of the instance */
+  int32_t answer;   /* of the slave to the present call */
+  slave_status (*setup)(slave *, double, bool, double);
+  slave_status (*enter)(slave *);
+  slave_status (*exit)(slave *);
+  slave_status (*step)(slave *, double, double);
+  slave_status (*terminate)(slave *);
+  slave_status (*get)(slave *, const uint32_t *, size_t, double *);
+  slave_status (*set)(slave *, const uint32_t *, size_t, const double *);
+  slave_status (*get_whole)(slave *, const uint32_t *, size_t, int32_t *);
+  slave_status (*set_whole)(slave *, const uint32_t *, size_t, const int32_t *);
+} python_link;
+
+typedef struct {
+  python_link link;
+  fmi2CallbackFunctions callbacks; /* PythonFMU keeps a pointer to them */
+  fmi2Component inner;             /* PythonFMU's instance; NULL once an exception of Python has ended it */
+} detour;
+
+static const pythonfmu *py; /* loaded with the first instance; it stays, as the interpreter does */
+
+/* PythonFMU hands over finished text: an exception of Python, or what the class in Python logs. */
+static void log_of_python(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
+                          fmi2String text, ...) {
+  const detour *d = environment;
+  (void)name, (void)category;
+  slave_say(d->link.s, status >= fmi2Error ? SLAVE_ERROR : (slave_status)status, "%s", text);
+}
+
+/* PythonFMU reads this file without a look at what it is. */
+static bool has_module(slave *s) {
+  size_t size = 0;
+  unsigned char *text = slave_read(s->resources, "slavemodule.txt", &s->memory, &size);
+  if (text == NULL) {
+    slave_say(s, SLAVE_ERROR, "The file slavemodule.txt of the FMU cannot be read in %s.", s->resources);
+    return false;
+  }
+  s->memory.release(text);
+  return true;
+}
+
+static bool start_python(detour *d) {
+  slave *s = d->link.s;
+  char address[32], uri[SLAVE_PATH + 16], problem[SLAVE_TEXT / 2];
+  if (!has_module(s)) return false;
+  if (py == NULL) py = pythonfmu_load(problem, sizeof problem);
+  if (py == NULL) {
+    slave_say(s, SLAVE_ERROR, "%s", problem);
+    return false;
+  }
+  /* PythonFMU decodes nothing of a URI but %20; the class in Python finds its link by the name of its instance */
+  snprintf(uri, sizeof uri, s->resources[0] == '/' ? "file://%s" : "file:///%s", s->resources);
+  snprintf(address, sizeof address, "%llu", (unsigned long long)(uintptr_t)&d->link);
+  d->inner = py->instantiate(address, fmi2CoSimulation, slave_the_table.token, uri, &d->callbacks, 0, 1);
+  if (d->inner == NULL) slave_say(s, SLAVE_ERROR, "PythonFMU could not make the instance.");
+  return d->inner != NULL;
+}
+
+slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,
+                const char *token, const char *resources) {
+  slave *s = slave_new(memory, face, logger, logging, name, token, resources);
+  if (s == NULL) return NULL;
+  detour *d = memory->allocate(1, sizeof *d);
+  face->s = s;
+  face->detour = d;
+  if (d != NULL) {
+    const detour fresh = {{s, s->name, 0, slave_setup, slave_enter, slave_exit, slave_step, slave_terminate, slave_get,
+                           slave_set, slave_get_whole, slave_set_whole},
+                          {log_of_python, memory->allocate, memory->release, NULL, d},
+                          NULL};
+    *d = fresh;
+  }
+  if (d != NULL && start_python(d)) return s;
+  if (d == NULL) slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
+  fmi2_free(face);
+  return NULL;
+}
+
+void fmi2_free(fmi2_face *face) {
+  detour *d = face->detour;
+  slave *s = face->s;
+  if (d != NULL && d->inner != NULL) py->free_instance(d->inner);
+  if (d != NULL) s->memory.release(d);
+  slave_free(s);
+}
+
+/* PythonFMU's instance behind a slave, or NULL, said, if there is none any more. */
+static detour *begin(slave *s) {
+  detour *d = ((fmi2_face *)s->host)->detour;
+  d->link.answer = SLAVE_ERROR; /* unless Python brings another one */
+  if (d->inner != NULL) return d;
+  slave_say(s, SLAVE_ERROR, "An exception has ended the Python part of this instance; it can only be freed.");
+  return NULL;
+}
+
+/* PythonFMU frees its instance after an exception. */
+static slave_status end(detour *d, fmi2Status status) {
+  if (status < fmi2Error) return (slave_status)d->link.answer;
+  d->inner = NULL;
+  return SLAVE_ERROR;
+}
+
+slave_status fmi2_setup(slave *s, double start_time, bool stop_defined, double stop_time) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->setup(d->inner, 0, 0.0, start_time, stop_defined, stop_time)) : SLAVE_ERROR;
+}
+
+slave_status fmi2_enter(slave *s) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->enter(d->inner)) : SLAVE_ERROR;
+}
+
+slave_status fmi2_exit(slave *s) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->exit(d->inner)) : SLAVE_ERROR;
+}
+
+slave_status fmi2_step(slave *s, double time, double step) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->step(d->inner, time, step, 0)) : SLAVE_ERROR;
+}
+
+slave_status fmi2_terminate(slave *s) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->terminate(d->inner)) : SLAVE_ERROR;
+}
+
+/* PythonFMU makes a new object of the class, which finds the same link. */
+slave_status fmi2_reset(slave *s) {
+  detour *d = begin(s);
+  if (d == NULL) return SLAVE_ERROR;
+  d->link.answer = SLAVE_OK;
+  const slave_status status = end(d, py->reset(d->inner));
+  return status == SLAVE_OK ? slave_reset(s) : status;
+}
+
+slave_status fmi2_get(slave *s, const uint32_t *reference, size_t n, double *value) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->get_real(d->inner, reference, n, value)) : SLAVE_ERROR;
+}
+
+slave_status fmi2_set(slave *s, const uint32_t *reference, size_t n, const double *value) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->set_real(d->inner, reference, n, value)) : SLAVE_ERROR;
+}
+
+slave_status fmi2_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->get_integer(d->inner, reference, n, value)) : SLAVE_ERROR;
+}
+
+slave_status fmi2_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value) {
+  detour *d = begin(s);
+  return d != NULL ? end(d, py->set_integer(d->inner, reference, n, value)) : SLAVE_ERROR;
+}

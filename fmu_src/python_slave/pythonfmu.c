@@ -1,0 +1,108 @@
+/* Finds and loads PythonFMU's export library. */
+#if !defined(_WIN32)
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#else
+#include <windows.h>
+#endif
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "pythonfmu.h"
+
+enum { PATH_SIZE = 4096 };
+
+#if defined(_WIN32)
+static bool own_path(char *path) {
+  static const int anchor;
+  HMODULE module;
+  if (!GetModuleHandleExA(GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT,
+                          (LPCSTR)&anchor, &module))
+    return false;
+  const DWORD n = GetModuleFileNameA(module, path, PATH_SIZE);
+  return n > 0 && n < PATH_SIZE;
+}
+
+static void *open_library(const char *path) {
+  return (void *)LoadLibraryExA(path, NULL, LOAD_WITH_ALTERED_SEARCH_PATH);
+}
+
+static void *find(void *library, const char *name) { return (void *)GetProcAddress((HMODULE)library, name); }
+
+static bool python_is_there(void) { return true; } /* else the library does not load, which is said */
+
+static const char *const SUFFIX = "-pythonfmu.dll";
+#else
+static bool own_path(char *path) {
+  static const int anchor;
+  Dl_info info;
+  if (!dladdr(&anchor, &info) || info.dli_fname == NULL || strlen(info.dli_fname) >= PATH_SIZE) return false;
+  strcpy(path, info.dli_fname);
+  return true;
+}
+
+static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
+
+static void *find(void *library, const char *name) { return dlsym(library, name); }
+
+/* PythonFMU's library leaves Python's symbols to the host; a host without them gets the newest libpython the loader
+ * finds. */
+static bool python_is_there(void) {
+  char name[32];
+  if (dlsym(RTLD_DEFAULT, "Py_IsInitialized") != NULL) return true;
+  for (int minor = 16; minor >= 10; minor--) {
+    snprintf(name, sizeof name, "libpython3.%d.so.1.0", minor);
+    if (dlopen(name, RTLD_NOW | RTLD_GLOBAL) != NULL) return true;
+  }
+  return false;
+}
+
+static const char *const SUFFIX = "-pythonfmu.so";
+#endif
+
+static bool fill(pythonfmu *py, void *library) {
+  const struct {
+    void **function;
+    const char *name;
+  } all[] = {
+      {(void **)&py->instantiate, "fmi2Instantiate"},
+      {(void **)&py->free_instance, "fmi2FreeInstance"},
+      {(void **)&py->setup, "fmi2SetupExperiment"},
+      {(void **)&py->enter, "fmi2EnterInitializationMode"},
+      {(void **)&py->exit, "fmi2ExitInitializationMode"},
+      {(void **)&py->terminate, "fmi2Terminate"},
+      {(void **)&py->reset, "fmi2Reset"},
+      {(void **)&py->step, "fmi2DoStep"},
+      {(void **)&py->get_real, "fmi2GetReal"},
+      {(void **)&py->set_real, "fmi2SetReal"},
+      {(void **)&py->get_integer, "fmi2GetInteger"},
+      {(void **)&py->set_integer, "fmi2SetInteger"},
+  };
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+    if ((*all[i].function = find(library, all[i].name)) == NULL) return false;
+  return true;
+}
+
+const pythonfmu *pythonfmu_load(char *problem, size_t size) {
+  static pythonfmu py;
+  char path[PATH_SIZE + 16];
+  char *dot = own_path(path) ? strrchr(path, '.') : NULL;
+  void *library = NULL;
+  problem[0] = 0;
+  if (!python_is_there())
+    snprintf(problem, size,
+             "This FMU runs in Python, and no libpython3.so was found; install Python's shared library (Debian: "
+             "libpython3-dev) or add its folder to LD_LIBRARY_PATH.");
+  else if (dot == NULL)
+    snprintf(problem, size, "The path of the FMU's own library could not be found.");
+  else
+    library = open_library(strcpy(dot, SUFFIX) != NULL ? path : NULL);
+  if (library == NULL && problem[0] == 0)
+    snprintf(problem, size,
+             "PythonFMU's library beside the FMU's own could not be loaded; on Windows python3.dll must be on PATH.");
+  if (library == NULL) return NULL;
+  if (fill(&py, library)) return &py;
+  snprintf(problem, size, "PythonFMU's library beside the FMU's own is not complete.");
+  return NULL;
+}

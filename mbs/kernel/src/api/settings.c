@@ -1,0 +1,20 @@
+/* Settings of an instance. */
+#include "../instance.h"
+#include "../methods/energy_balance.h"
+#include "../state/parameters.h"
+#include "../state/work.h"
+
+ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
+  if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
+  const bool other = settings->method != in->settings.method;
+  in->settings = *settings;
+  if (in->initialised) ali3_balance_open(in); /* another method may have had none */
+  if (in->initialised && other) ali3_work_reopen(in);
+  return ALI3_OK;
+}
+
+ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings) {
+  if (in == NULL || settings == NULL) return ALI3_BAD_ARGUMENT;
+  *settings = in->settings;
+  return ALI3_OK;
+}

@@ -1,0 +1,22 @@
+/* The types of force elements: the one list of them, from which their declarations, the table in elements.c and
+ * `ElementType` in Python come. A number is part of the System file and keeps its meaning for ever. */
+#ifndef ALI3_ELEMENT_TYPES_H
+#define ALI3_ELEMENT_TYPES_H
+
+/* number, name: ali3_name in name.c says what the element is */
+/* clang-format off */
+#define ALI3_ELEMENT_TYPES(X) \
+  X(1, spring_damper) \
+  X(2, scalar_spring_damper) \
+  X(3, input_force) \
+  X(4, body_force) \
+  X(5, body_torque) \
+  X(6, gyroscopic_spin) \
+  X(7, drag) \
+  X(8, tyre) \
+  X(9, brake) \
+  X(10, automatic_drive) \
+  X(11, contact_points) \
+  X(12, spin_torque)
+/* clang-format on */
+#endif

@@ -1,0 +1,18 @@
+/* The methods by their numbers. */
+#include "../method.h"
+
+static const ali3_method *const methods[ALI3_METHOD_COUNT] = {
+#define ALI3_METHOD_ENTRY(NAME, name, order) [ALI3_METHOD_##NAME] = &ali3_method_##name,
+    ALI3_METHODS(ALI3_METHOD_ENTRY)
+#undef ALI3_METHOD_ENTRY
+};
+
+static const int32_t orders[ALI3_METHOD_COUNT] = {
+#define ALI3_METHOD_ENTRY(NAME, name, order) [ALI3_METHOD_##NAME] = order,
+    ALI3_METHODS(ALI3_METHOD_ENTRY)
+#undef ALI3_METHOD_ENTRY
+};
+
+const ali3_method *ali3_method_of(const ali3_instance *in) { return methods[in->settings.method]; }
+
+int32_t ali3_method_order(const ali3_instance *in) { return orders[in->settings.method]; }

@@ -1,0 +1,50 @@
+/* Starts that an element refuses, and how much higher the scene must begin. */
+#include "../elements/element.h"
+#include "../elements/road.h"
+#include "../instance.h"
+
+enum { MOST_RISES = 100 }; /* an element may ask for its rise bit by bit */
+
+/* Verdict of element e on in->now; {0} of elements without one. */
+static ali3_start_verdict verdict(const ali3_instance *in, int32_t e, double raised) {
+  const ali3_system *S = in->system;
+  const int32_t first = S->el_sig_ptr[e];
+  double u[ALI3_MAX_SIGNALS] = {0.0};
+  if (S->el_kind[e]->start == NULL) return (ali3_start_verdict){0};
+  const ali3_element_args a = {
+      .nsig = S->el_sig_ptr[e + 1] - first,
+      .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
+      .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
+      .u = u,
+      .real = in->el_real + S->el_real_ptr[e],
+      .integer = S->el_int + S->el_int_ptr[e],
+      .roads = in->road,
+  };
+  for (int32_t i = 0; i < a.nsig; i++) {
+    const int32_t signal = S->el_sig[first + i];
+    u[i] = S->sig_const[signal];
+    for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++)
+      u[i] += S->sig_val[k] * in->now.q[S->sig_col[k]];
+  }
+  return S->el_kind[e]->start(&a, raised);
+}
+
+double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words) {
+  int32_t worst = -1;
+  double most = 0.0, raised = 0.0;
+  for (int32_t e = 0; in != NULL && e < in->system->size.ne; e++) {
+    const double excess = verdict(in, e, 0.0).excess;
+    if (!(excess > most)) continue;
+    most = excess;
+    worst = e;
+  }
+  for (int32_t e = 0; worst >= 0 && e < in->system->size.ne; e++)
+    for (int k = 0; k < MOST_RISES; k++) {
+      const double rise = verdict(in, e, raised).rise;
+      if (!(rise > 0.0)) break;
+      raised += rise;
+    }
+  if (element != NULL) *element = worst;
+  if (words != NULL) *words = worst >= 0 ? in->system->el_kind[worst]->start_words : "";
+  return raised;
+}

@@ -1,0 +1,127 @@
+"""The methods of the kernel by name: what Python knows of each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from mbs.kernel.header import METHOD_ORDERS, MethodNumber
+
+
+@dataclass(frozen=True)
+class Method:
+    """A time integrator, with settings that belong to it.
+
+    Parameters
+    ----------
+    number : MethodNumber
+        In the kernel.
+    title : str
+        In tables and charts.
+    order : int
+        With which errors of fixed steps fall.
+    project : bool or None
+        Value of the setting `project` that the name stands for; None: that of the settings.
+    suspect_miss : float
+        Summed predictor differences of velocity over the largest one, from which on a run is suspect; a third to half
+        of the smallest of a wrong run in the survey.
+    books_decide : bool
+        Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
+        runge_kutta_8 errs where it is stiff.
+    looks_at_ends : bool
+        Whether it looks at inputs at the ends of its steps only, as the trapezoidal rule does.
+    conservative_only, tree_only, positions_only : bool
+        Whether it takes only Systems without damping, with a spanning tree, without rows of velocities.
+    cost : float
+        Of one unit of work of a controlled run (`ControlledRun.work`), in evaluations of Runge and Kutta's rule.
+    """
+
+    number: MethodNumber
+    title: str
+    order: int = 2
+    project: bool | None = None
+    suspect_miss: float = math.inf
+    books_decide: bool = False
+    looks_at_ends: bool = False
+    conservative_only: bool = False
+    tree_only: bool = False
+    positions_only: bool = False
+    cost: float = 1.0
+
+    @property
+    def order_of_changing_steps(self) -> int:
+        """With which errors of steps that change fall."""
+        return METHOD_ORDERS[self.number]
+
+    @property
+    def kernel_fields(self) -> dict[str, int]:
+        """What the name sets of `ali3_settings`."""
+        fields = {"method": int(self.number)}
+        return fields if self.project is None else fields | {"project": int(self.project)}
+
+
+METHOD_TABLE = {
+    "ali3p": Method(
+        number=MethodNumber.ALI3P,
+        title="ALi3-P",
+        suspect_miss=1.3,
+        books_decide=True,
+        looks_at_ends=True,
+    ),
+    "ali3p_no_projection": Method(
+        number=MethodNumber.ALI3P,
+        title="ALi3 without projections",
+        project=False,
+        suspect_miss=2.0,
+        looks_at_ends=True,
+    ),
+    "ali3p_generalised_alpha": Method(
+        number=MethodNumber.GENERALISED_ALPHA,
+        title="ALi3-P, generalised-α",
+        suspect_miss=1.3,
+        books_decide=True,
+        looks_at_ends=True,
+    ),
+    "energy_momentum": Method(
+        number=MethodNumber.ENERGY_MOMENTUM,
+        title="energy-momentum",
+        suspect_miss=2.0,
+    ),
+    "energy_momentum_4": Method(
+        number=MethodNumber.ENERGY_MOMENTUM_4,
+        title="energy-momentum, order 4",
+        order=4,
+        suspect_miss=8.0,
+        conservative_only=True,
+    ),
+    "runge_kutta_8": Method(  # no suspect_miss: it is right far beyond what its predictor tells
+        number=MethodNumber.RUNGE_KUTTA_8,
+        title="Runge-Kutta, order 8",
+        order=8,
+    ),
+    "semi_recursive": Method(
+        number=MethodNumber.SEMI_RECURSIVE,
+        title="semi-recursive, order 8",
+        order=8,
+        suspect_miss=0.05,
+        tree_only=True,
+        cost=0.2,  # measured: relative coordinates save the factorization of the natural ones
+    ),
+    "semi_recursive_4": Method(
+        number=MethodNumber.SEMI_RECURSIVE_4,
+        title="semi-recursive, order 4",
+        order=4,
+        suspect_miss=1.0,
+        tree_only=True,
+        cost=0.2,
+    ),
+    "radau_5": Method(
+        number=MethodNumber.RADAU_5,
+        title="Radau IIA, order 5",
+        order=5,
+        suspect_miss=1.0,
+        positions_only=True,
+        cost=5.5,  # measured: three stages in one tangent are three times as wide
+    ),
+}
+"""The only list of methods in Python; numbers and orders of changing steps are those of the kernel."""

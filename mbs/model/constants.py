@@ -1,0 +1,41 @@
+"""Numbers about a model that its users need and its equations do not: a wheelbase, a steering ratio."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbs.checks import number, shown, text
+from mbs.model.core import ModelCore
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A number that is told, not computed.
+
+    Parameters
+    ----------
+    name : str
+        Unique, such as ``vehicle.wheelbase``.
+    value : float
+        In `unit`.
+    unit : str
+    description : str
+    """
+
+    name: str
+    value: float
+    unit: str
+    description: str
+
+
+def new_constant(model: ModelCore, name: str, value: float, unit: str, description: str) -> Constant:
+    """Register a constant."""
+    what = f"constant {shown(name)}"
+    constant = Constant(
+        model.unique("constant", name),
+        number(value, f"The value of {what}"),
+        text(unit, f"The unit of {what}"),
+        text(description, f"The description of {what}", lines=True),
+    )
+    model.constants.append(constant)
+    return constant

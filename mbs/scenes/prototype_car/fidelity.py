@@ -1,0 +1,63 @@
+"""How much of the car's chassis is modelled."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from mbs.errors import ModelError
+
+
+class Fidelity(IntEnum):
+    """Model of the chassis; inputs, parameters and outputs of the car are the same with each.
+
+    The numbers only identify: a simpler model, or one with compliances, takes a free number. Those from 100 on are for
+    comparison.
+
+    Attributes
+    ----------
+    description : str
+        What the model contains.
+    """
+
+    description: str
+
+    def __new__(cls, number: int, description: str) -> Fidelity:
+        """The number with its description."""
+        member = int.__new__(cls, number)
+        member._value_ = number
+        member.description = description
+        return member
+
+    RIGID = 0, "rigid, stresses not computed"
+    QUASI_STATIC = 1, "rigid, quasi-static stresses by inertia relief"
+    LOAD_PATHS = 2, "flexible, static modes of the load paths"
+    DYNAMIC = 3, "flexible, static, inertia and 5 dynamic modes"
+    MANY_MODES = 4, "flexible, static, inertia and 40 dynamic modes"
+    PAPER = 100, "flexible, 60 static and 5 dynamic modes as in the paper, without inertia modes"
+
+    @classmethod
+    def of(cls, value: int | str) -> Fidelity:
+        """The member with a number or a name.
+
+        Parameters
+        ----------
+        value : int or str
+            A member, its number, or its name in any case.
+
+        Raises
+        ------
+        ModelError
+            There is no such fidelity.
+        """
+        if isinstance(value, str):
+            found = cls.__members__.get(value.upper())
+        else:
+            found = next((member for member in cls if member == value and not isinstance(value, bool)), None)
+        if found is None:
+            names = ", ".join(f"{member.value} {member.name.lower()}" for member in cls)
+            raise ModelError(f"The fidelity of the car is {value!r}; it must be one of: {names}.")
+        return found
+
+
+OFFERED = (Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.LOAD_PATHS, Fidelity.DYNAMIC)
+"""The choice of an FMU by its parameter `fidelity`."""
