@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from mbs.errors import ModelError
-from mbs.kernel.header import GuideType
+from mbs.kernel.header import GuideType, ParameterTarget
 from mbs.model.checks import number
 from mbs.model.core import ModelCore
 
-ELEMENT, GUIDE, ROAD = 0, 1, 2  # par_target of the System file
 GUIDE_REALS = ("frequency", "gain", "start")
 
 
@@ -58,7 +57,7 @@ def new_parameter(
 def _target(model: ModelCore, name: str, owner: Any, real: Any, scale: float) -> tuple[int, int, int, float]:
     factor = number(scale, f"The scale of parameter '{name}'")
     if isinstance(owner, tuple) and len(owner) == 2 and owner[0] == "road":
-        return ROAD, int(owner[1]), int(real), factor
+        return ParameterTarget.ROAD, int(owner[1]), int(real), factor
     owner_name = getattr(owner, "name", owner)
     for index, element in enumerate(model.elements):
         if element.name == owner_name:
@@ -67,10 +66,10 @@ def _target(model: ModelCore, name: str, owner: Any, real: Any, scale: float) ->
                 raise ModelError(
                     f"The parameter '{name}' asks for '{real}' of element '{owner_name}', which has: {known}."
                 )
-            return ELEMENT, index, list(element.real_names).index(real), factor
+            return ParameterTarget.ELEMENT, index, list(element.real_names).index(real), factor
     for guide in model.guides:
         if guide.name == owner_name and guide.type == GuideType.OF_INPUT and real in GUIDE_REALS:
-            return GUIDE, guide.index, GUIDE_REALS.index(real), factor
+            return ParameterTarget.GUIDE, guide.index, GUIDE_REALS.index(real), factor
     raise ModelError(
         f"The parameter '{name}' writes '{real}' of '{owner_name}', but the model has no such element or guide."
     )

@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 
 from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
+from mbs.methods import METHOD_TABLE
 
 from .scenes import everything, four_bar, pendulum
 from .system_builder import SystemBuilder
 
-METHODS = {"ali3p": 0, "energy_momentum": 2, "energy_momentum_4": 3, "runge_kutta_8": 4, "radau_5": 7}
+METHODS = {
+    n: METHOD_TABLE[n].number for n in ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
+}
 
 
 def start(builder: SystemBuilder, method: int = 0) -> Instance:

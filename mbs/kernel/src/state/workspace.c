@@ -104,7 +104,8 @@ static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) 
 /* Flexible bodies and elements. */
 static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
-  in->flex = ali3_pool_numbers(p, ALI3_FLEX_COUPLING * (size_t)s->n_flexible + ALI3_FLEX_OF_MODE * (size_t)s->n_flex_mode);
+  in->flex =
+      ali3_pool_numbers(p, ALI3_FLEX_COUPLING * (size_t)s->n_flexible + ALI3_FLEX_OF_MODE * (size_t)s->n_flex_mode);
   in->flex_work = ali3_pool_numbers(p, 3 * (size_t)s->max_modes);
   in->y_work = ali3_pool_numbers(p, (size_t)z->ny);
   in->out_work = ali3_pool_numbers(p, (size_t)z->nout);
