@@ -11,6 +11,7 @@ import sys
 from collections.abc import Sequence
 
 import mbs
+from ali3.running import run_command
 from benchmarks.methods.honesty import SUMMARY, measure, summary
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
@@ -60,4 +61,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))
