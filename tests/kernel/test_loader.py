@@ -106,6 +106,13 @@ def test_integers_and_reals_of_each_sensor_type_are_checked(entry: SensorEntry) 
             refused(with_sensor([*good[:k], wrong_value, *good[k + 1 :]], reals))
 
 
+@pytest.mark.parametrize("integers", [[0, 1, 0], [0, 4, 0, 0, 0, 0], [2, 2, 0, 0]])
+def test_a_norm_has_two_or_three_components_and_an_order_below_two(integers: list[int]) -> None:
+    builder = everything()
+    builder.sensors[-1] = (SensorType.NORM, integers, [])
+    assert "'sen_int'" in refused(builder.to_bytes())
+
+
 def test_every_truncation_is_refused() -> None:
     data = everything().to_bytes()
     for n in [*range(0, 200), *range(200, len(data), 97), len(data) - 1]:
