@@ -75,6 +75,28 @@ def test_the_number_of_steps_goes_with_the_order(method: str, order: int, loose:
     assert growth == pytest.approx(1.0 / order, rel=0.25)
 
 
+@pytest.mark.parametrize(
+    ("method", "share"),
+    [
+        ("ali3p", 1e-4),
+        ("energy_momentum", 1e-4),
+        ("energy_momentum_4", 1e-4),
+        ("radau_5", 1e-6),
+        ("runge_kutta_8", 1e-10),
+    ],
+)
+def test_the_shortest_step_is_that_of_the_method(method: str, share: float) -> None:
+    """Of the time scale of the motion, here one over the rate: below it, round-off of index three grows."""
+    least = share / 3.0
+    fields = control(0.5, h=0.01 * least)
+    instance = start(pendulum(), METHODS[method])
+    done = np.array([2.0])
+    sizes = instance.system.sizes
+    instance.control_run(fields, None, 2.0, 1, done, np.zeros((1, sizes.ns)), np.zeros((1, sizes.nq)), 0)
+    assert fields.accepted == 1
+    assert fields.h == pytest.approx(least, rel=1e-6)
+
+
 def test_errors_add_up_to_the_tolerance() -> None:
     for tolerance in (1e-3, 1e-5):
         fields = control(tolerance)
