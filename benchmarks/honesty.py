@@ -1,7 +1,7 @@
-"""Whether a run says that it is wrong: ``python -m benchmarks.honesty [--json FILE] [--quick]``.
+"""Whether a run reports that it is wrong: ``python -m benchmarks.honesty [--json FILE] [--quick]``.
 
 Every scene, method and manoeuvre of the car at coarse and fine steps, as `mbs.simulate` runs it: the true error beside
-the error told. A run is wrong when a judged sensor is off by more than 5 % of the largest range in its unit at one of
+its estimate. A run is wrong when a judged sensor is off by more than 5 % of the largest range in its unit at one of
 51 instants; a warning then is right, and is a false alarm elsewhere.
 """
 
@@ -27,7 +27,7 @@ TABLE = {
     "h_s": ".4g",
     "ended": "",
     "error": ".1e",
-    "told": ".1e",
+    "estimate": ".1e",
     "balance": ".1e",
     "halvings_per_step": ".2g",
     "repeated": "",

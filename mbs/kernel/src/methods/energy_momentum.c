@@ -199,9 +199,9 @@ static double change_of(const ali3_instance *in) {
 static double need_of(const ali3_instance *in, double h) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq;
-  const double *time = v->memory + ALI3_MEMORY_TIME;
+  const double *time = v->history + ALI3_HISTORY_TIME;
   double change = 0.0, size = 0.0;
-  if (!(v->memory[ALI3_MEMORY_COUNT] >= 2.0) || time[0] == time[1]) return ROUND_OFF;
+  if (!(v->history[ALI3_HISTORY_COUNT] >= 2.0) || time[0] == time[1]) return ROUND_OFF;
   for (int32_t i = 0; i < nq; i++) {
     const double a = v->past_a[i], difference = a - v->past_a[nq + i], m = in->system->mass_floor[i];
     change += m * difference * difference;
@@ -327,14 +327,14 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
 }
 
 static ali3_status step(ali3_instance *in, double t, double h) {
-  return ali3_energy_momentum(in, t, h, 0.5, !in->quiet);
+  return ali3_energy_momentum(in, t, h, 0.5, !in->unobserved);
 }
 
 /* Of the carried velocities, after steps from `from`. */
 void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h) {
-  const bool past =
-      from->memory[ALI3_MEMORY_COUNT] >= 1.0 && from->memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
-  ali3_books_change(in, h, past ? from->own : from->qd, past ? from->past_a : from->qdd, in->now.own);
+  const bool past = from->history[ALI3_HISTORY_COUNT] >= 1.0 &&
+                    from->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
+  ali3_balance_change(in, h, past ? from->own : from->qd, past ? from->past_a : from->qdd, in->now.own);
 }
 
 static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->next, h); }
@@ -342,6 +342,6 @@ static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in
 const ali3_method ali3_method_energy_momentum = {.step = step,
                                                  .before = ali3_energy_momentum_restart,
                                                  .motion = motion,
-                                                 .after_quiet = ali3_energy_momentum_report,
+                                                 .after_unobserved = ali3_energy_momentum_report,
                                                  .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                  .round_off = ALI3_ROUND_OFF_INDEX_3};

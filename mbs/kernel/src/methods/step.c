@@ -130,7 +130,7 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   const int32_t nq = S->size.nq;
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
-  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_quiet_start(in, h);
+  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
   ali3_guides_step(in, from, to, t, h);
   const bool from_past = ali3_predict(in, h, true);
   if (is_alpha)
@@ -140,7 +140,7 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   const double c = in->rule.c;
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
-  /* derivatives of a step are those of the trapezoidal rule, also in a quiet start */
+  /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
   ali3_status status = newton(in, h, alpha);
   if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
@@ -152,7 +152,7 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   if (is_alpha)
     ali3_alpha_accept(in, h);
   else
-    to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_ALI3P;
+    to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_ALI3P;
   const ali3_force_call call = {.q = to->q,
                                 .qd = to->qd,
                                 .y_old = from->y,
@@ -185,7 +185,7 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
 bool ali3_projects(const ali3_instance *in) { return in->settings.project; }
 
 const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
-                                       .motion = ali3_books_step,
-                                       .keeps_books = ali3_projects,
+                                       .motion = ali3_balance_step,
+                                       .has_balance = ali3_projects,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -116,7 +116,7 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
     ali3_forces(in, &call);
   }
   if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
-  ali3_work_keep(in, v);
+  ali3_work_store(in, v);
   if (start) ali3_work_start(in, v);
   if (S->n_flexible > 0) {
     memcpy(v->mean, v->qd, (size_t)S->size.nq * sizeof(double));

@@ -23,7 +23,7 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, ali3_pool *pool) 
   v->h_last = ali3_pool_numbers(pool, 1);
   v->on = ali3_pool_numbers(pool, (size_t)z->n_switch);
   v->anchor = ali3_pool_numbers(pool, z->n_switch > 0 ? (size_t)z->nc : 0);
-  v->memory = ali3_pool_numbers(pool, ALI3_MEMORY);
+  v->history = ali3_pool_numbers(pool, ALI3_HISTORY);
   v->own = ali3_pool_numbers(pool, (size_t)z->nq);
   v->past_a = ali3_pool_numbers(pool, ALI3_PAST * (size_t)z->nq);
   v->past_lam = ali3_pool_numbers(pool, ALI3_PAST * (size_t)z->nc);
@@ -48,10 +48,10 @@ void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vec
 }
 
 /* Once a step, before anything changes in->now: what it goes back to when the step fails. */
-void ali3_keep(ali3_instance *in) {
-  if (in->kept) return;
+void ali3_back_up(ali3_instance *in) {
+  if (in->backed_up) return;
   ali3_vectors_copy(in, &in->start, &in->now);
-  in->kept = true;
+  in->backed_up = true;
 }
 
 /* in->next becomes the state when all of it is finite. */

@@ -4,7 +4,7 @@
 #include "../elements/road.h"
 #include "../flexible/body_arrays.h"
 #include "../rows/assembly_mode.h"
-#include "../system/without_memory.h"
+#include "../system/without_states.h"
 #include "../tree/tree.h"
 #include "vectors.h"
 
@@ -24,7 +24,7 @@ static void place_states(const ali3_system *s, ali3_instance *in, ali3_pool *p) 
   ali3_vectors_place(s, &in->next, p);
   ali3_vectors_place(s, &in->start, p);
   ali3_vectors_place(s, &in->whole, p);
-  ali3_vectors_place(s, &in->tangent, p);
+  ali3_vectors_place(s, &in->direction, p);
   ali3_vectors_place(s, &in->origin, p);
   ali3_vectors_place(s, &in->centre, p);
   ali3_vectors_place(s, &in->coarse, p);
@@ -90,7 +90,7 @@ static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p
 /* Of radau.c, where stages inside a step need nothing but q, qd and the time. */
 static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
-  const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, stages = ali3_without_memory(s) ? ALI3_RADAU : 0;
+  const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, stages = ali3_without_states(s) ? ALI3_RADAU : 0;
   in->stage_Phi = ali3_pool_numbers(p, stages * nc);
   in->stage_lam = ali3_pool_numbers(p, stages * nc);
   in->stage_J = ali3_pool_numbers(p, stages * (size_t)z->nnz_rows);
