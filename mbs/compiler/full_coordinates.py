@@ -39,7 +39,7 @@ def reduce_coordinates(
     all : list of Affine
         Each natural coordinate as an expression of z.
     redundant : int
-        Redundant linear equations.
+        Linear equations that said nothing new.
     left : list of RowTerms
         Linear equations between coordinates that stay.
     """

@@ -93,7 +93,7 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
 
 
 def notices_of(sensors: list[dict[str, str]], t: Array, values: Array) -> list[str]:
-    """Notices of sensors whose columns are not zero, `values` (n, ns) at `t` (n,)."""
+    """What sensors with a notice want told of their columns, `values` (n, ns) at `t` (n,)."""
     told = []
     for k, sensor in enumerate(sensors):
         there = np.flatnonzero(values[:, k] if "notice" in sensor else ())

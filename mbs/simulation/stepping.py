@@ -189,7 +189,7 @@ class Simulation:
         return trajectory
 
     def march(self, t_end: float, h: float, inputs: Mapping[str, Signal]) -> Trajectory:
-        """As `run`, without a warning about the accuracy: for callers that compare runs themselves."""
+        """As `run`, without a word about the accuracy: for who compares runs himself."""
         return march(self, t_end, h, inputs, 1, False)[0]
 
     def _warn_once(self) -> None:

@@ -86,7 +86,7 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h), h) : status;
 }
 
-/* After a step that was not read, or only sampled, the last good state lacks what a reader needs. */
+/* After a quiet or sampled step the last good state lacks what only a reader needs. */
 static ali3_status give_up(ali3_instance *in, ali3_status status, bool quiet, bool sampled) {
   const ali3_method *method = ali3_method_of(in);
   ali3_vectors_copy(in, &in->start, &in->now);

@@ -1,7 +1,7 @@
 /* The state at any time of a controlled step: positions, velocities and accelerations at its start, centre and end give
  * the polynomial of degree eight (Hermite interpolation), accelerations, multipliers and outputs of the elements come
  * from the equations of index one there. Where these say that the polynomial errs by more than the tolerance, and
- * where states have memory, a step of the method is made to that time instead, and discarded. */
+ * where states have memory, a step of the method is made to that time instead, and forgotten. */
 #include <math.h>
 #include <string.h>
 

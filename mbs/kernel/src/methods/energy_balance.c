@@ -1,5 +1,5 @@
-/* Measures of the accuracy of a run at no cost: the energy balance, how far velocities turn, and their error against
- * the simplest prediction. They do not influence the steps. */
+/* What tells at no cost whether a run is right: energy that no force gave, beside the energy that was in the motion, and
+ * how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
 #include <math.h>
 
 #include "../flexible/flexible_body.h"
@@ -8,7 +8,7 @@
 #include "../method.h"
 #include "energy_balance.h"
 
-static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
+static const double REST = 1e-6; /* m/s: slower than that nothing moves, and round-off is no error of the energy */
 
 /* Potential energy of v; flexible bodies prepared at its position. */
 static double potential(const ali3_instance *in, const ali3_vectors *v) {
@@ -70,7 +70,7 @@ void ali3_books_change(ali3_instance *in, double h, const double *v0, const doub
 /* The same where velocities and accelerations of the states tell: what was in->now is in in->next. */
 void ali3_books_step(ali3_instance *in, double h) { ali3_books_change(in, h, in->next.qd, in->next.qdd, in->now.qd); }
 
-/* The energy balance as it was before a step that was refused. */
+/* The books as they were before a step that was refused. */
 void ali3_books_back(ali3_report *report, const ali3_report *before) {
   report->energy_error = before->energy_error;
   report->open_power = before->open_power;

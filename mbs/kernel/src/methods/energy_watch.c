@@ -1,4 +1,4 @@
-/* Energy that a step adds or removes without a force, and the refusal of steps that do not resolve the motion.
+/* Energy that a step makes or takes where no force does, and the refusal of steps that do not resolve the motion.
  *
  * By the trapezoidal rule the kinetic energy changes by D'(f0 + f1)/2, f all forces, -Phi_q' lam among them. With
  * Phi = 0 at both ends (Phi_q0 + Phi_q1) D = -2 h Phi_t to third order, and beside the work of drives there remains
@@ -49,10 +49,9 @@ double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double
   return given + 0.5 * h * in->report.open_power;
 }
 
-/* Adds an error of the energy to the balance and, without prescribed motion, compares it with the kinetic energy, what
- * the forces in in->Q can give in a step and what the tolerance of the residual leaves open; so also with what the
- * forces left without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at
- * its end. */
+/* Books an error of the energy and, where no row is driven, judges it beside the kinetic energy, what the forces in
+ * in->Q can give in a step and what the tolerance of the residual leaves open; so also with what the forces left
+ * without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its end. */
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open) {
   const ali3_system *S = in->system;
   const double left = 2.0 * in->settings.tolerance_r / h;
@@ -61,7 +60,7 @@ ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double 
   for (int32_t i = 0; i < S->size.nq; i++)
     size += 0.5 * (h * h * in->Q[i] * in->Q[i] * S->mass_floor_inverse[i] + left * left * S->mass_floor[i]);
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
-  const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps adds energy instantly */
+  const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps gives energy in no time */
   if (!driven && !(worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size)) return ALI3_UNRESOLVED;
   ali3_books_energy(in, error, end);
   in->report.open_power = open;

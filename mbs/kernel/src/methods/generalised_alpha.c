@@ -1,4 +1,4 @@
-/* Rule of generalised-alpha, and the damped start of flexible systems, its most damped form. */
+/* Rule of generalised-alpha, and the quiet start of flexible systems, which is its most damped form. */
 #include <string.h>
 
 #include "../instance.h"
@@ -24,14 +24,14 @@ static ali3_alpha alpha_of(double rho) {
 }
 
 /* At a start, light nodes of flexible bodies have the accelerations of loads they have not bent under yet. Where the
- * step does not resolve the fastest mode, the trapezoidal rule would let them oscillate: the first steps have no memory
- * of it at high frequencies. */
+ * step does not resolve the fastest mode, the trapezoidal rule would let that ring: the first steps have no memory of
+ * it at high frequencies. */
 bool ali3_quiet_start(const ali3_instance *in, double h) {
   return in->system->n_flexible > 0 && h * h * in->system->flex_rate > UNRESOLVED * UNRESOLVED &&
          in->settings.method == ALI3_METHOD_ALI3P && in->settings.project && in->report.steps < QUIET_STEPS;
 }
 
-/* The first step of a damped start has one acceleration, that at its end. */
+/* The first quiet step has one acceleration, that at its end. */
 static bool quiet_first(const ali3_instance *in, double h) { return ali3_quiet_start(in, h) && in->report.steps == 0; }
 
 static double rho_of(const ali3_instance *in, double h) {

@@ -131,7 +131,7 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   const double c = in->rule.c;
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
-  /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
+  /* derivatives of a step are those of the trapezoidal rule, also in a quiet start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
   ali3_status status = newton(in, h, alpha);
   if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */

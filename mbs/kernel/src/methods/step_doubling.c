@@ -10,7 +10,7 @@
 #include "error_control.h"
 #include "steps.h"
 
-/* A step from time t that is never halved inside; the caller restores what a failed one changed. */
+/* A step from time t that is never halved inside; what a failed one leaves behind is for the caller to mend. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
   in->kept = false;
   in->t_now = t;
@@ -43,8 +43,8 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure) {
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
-/* From in->now, which stays in in->origin, to in->now by way of in->centre; *error in parts of the length. A failed
- * step leaves in->now as it was. */
+/* From in->now, which stays in in->origin, to in->now by way of in->centre; *error in parts of the length. A failed step
+ * leaves in->now as it was. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;
