@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from mbs.affine import Affine, AffineVector
 from mbs.branch_warning import BranchWarning
 from mbs.compiler import compile
+from mbs.errors import ArgumentTypeError, ModelWarning
 from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 
@@ -47,6 +48,7 @@ __all__ = [
     "AccuracyWarning",
     "Affine",
     "AffineVector",
+    "ArgumentTypeError",
     "Control",
     "BendingWarning",
     "BranchWarning",
@@ -55,6 +57,7 @@ __all__ = [
     "LinearisationWarning",
     "Model",
     "ModelError",
+    "ModelWarning",
     "Pose",
     "Settings",
     "Simulation",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-import numbers
 from dataclasses import dataclass
+
+from mbs.checks import is_finite, shown
 
 LEAST_TOLERANCE, MOST_TOLERANCE = 1e-11, 0.5
 ALLOWED = 10.0
@@ -79,12 +80,11 @@ class Control:
 
 def checked_tolerance(tolerance: object) -> float:
     """The tolerance as a number, or one sentence."""
-    number = isinstance(tolerance, numbers.Real) and not isinstance(tolerance, bool)
-    value = float(tolerance) if number else math.nan  # type: ignore[arg-type]
+    value = float(tolerance) if is_finite(tolerance) else math.nan  # type: ignore[arg-type]
     if LEAST_TOLERANCE <= value <= MOST_TOLERANCE:
         return value
     what = "it is below what round-off leaves; " if 0.0 < value < LEAST_TOLERANCE else ""
     raise ValueError(
-        f"The tolerance is {tolerance!r}; {what}it must be a number between {LEAST_TOLERANCE:g} and "
+        f"The tolerance is {shown(tolerance)}; {what}it must be a number between {LEAST_TOLERANCE:g} and "
         f"{MOST_TOLERANCE:g}: the largest error of positions in parts of the model's length."
     )

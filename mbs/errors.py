@@ -12,6 +12,17 @@ class ModelError(ValueError):
     """A model that cannot be: one sentence that names the part, the value and what would be right."""
 
 
+class ModelWarning(UserWarning):
+    """A model that can be, but is hardly meant: one sentence that says why."""
+
+
+class ArgumentTypeError(TypeError, ValueError):
+    """An argument that is a thing of another kind: one sentence that says which kind is needed.
+
+    It is a TypeError, as everywhere in Python, and a ValueError, as all errors of values here.
+    """
+
+
 class SimulationError(RuntimeError):
     """A step, an initialisation or a restore that the kernel refused; the last good state is kept.
 

@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mbs.checks import is_number, numbers, shown
 from mbs.kernel.binding import Instance
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
@@ -40,9 +41,9 @@ class InputSignals:
         self._max = np.array([np.inf if d["max"] is None else d["max"] for d in declared], float)
         self._signals: dict[int, Signal] = {}
         for name, signal in signals.items():
-            if name not in self._names:
+            if not isinstance(name, str) or name not in self._names:
                 known = ", ".join(self._names) or "none"
-                raise ValueError(f"There is no input {name!r}; the System has: {known}.")
+                raise ValueError(f"There is no input {shown(name)}; the System has: {known}.")
             self._signals[self._names.index(name)] = _checked(name, signal)
 
     def columns(self) -> list[int]:
@@ -57,7 +58,7 @@ class InputSignals:
         values = np.empty((len(t), len(self._signals)))
         for k, (i, signal) in enumerate(self._signals.items()):
             if callable(signal):
-                values[:, k] = [float(signal(float(time))) for time in t]
+                values[:, k] = [_value_of(self._names[i], signal, float(time)) for time in t]
             elif isinstance(signal, tuple):
                 values[:, k] = _interpolate(t, np.asarray(signal[0]), np.asarray(signal[1]), tolerance, after_jump)
             else:
@@ -99,7 +100,7 @@ class InputSignals:
         if callable(signal):
 
             def of_function(t: float, after: bool) -> float:
-                value = float(signal(t))
+                value = _value_of(self._names[i], signal, t)
                 if not low <= value <= high or math.isinf(value):
                     self._check(i, np.array([t]), np.array([value]))
                 return value
@@ -133,14 +134,27 @@ def _table(signal: Signal) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return np.zeros(1), np.array([signal], float)
 
 
+def _value_of(name: str, signal: Callable[[float], float], t: float) -> float:
+    """What a function of time gives at a time, s."""
+    value = signal(t)
+    if not is_number(value):
+        raise ValueError(f"The function of input {name!r} gives {shown(value)} at t = {t:g} s; it must give a number.")
+    return float(value)
+
+
 def _checked(name: str, signal: Signal) -> Signal:
     if callable(signal):
         return signal
     if not isinstance(signal, tuple):
+        if not is_number(signal):
+            raise ValueError(
+                f"Input {name!r} is {shown(signal)}; it must be a number, a function of time or a tuple "
+                "(times, values)."
+            )
         return float(signal)
     if len(signal) != 2:
         raise ValueError(f"The table of input {name!r} has {len(signal)} parts; it must be a pair (times, values).")
-    times, values = (np.asarray(part, float) for part in signal)
+    times, values = (numbers(part, f"the table of input {name!r}") for part in signal)
     if times.ndim != 1 or times.shape != values.shape or len(times) == 0:
         raise ValueError(
             f"The table of input {name!r} has times of shape {times.shape} and values of shape {values.shape}; "

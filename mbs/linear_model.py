@@ -26,6 +26,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
+from mbs.checks import instance_of, is_number, shown
 from mbs.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
 from mbs.kinks import smooth_side
 from mbs.simulation import Simulation, State
@@ -139,9 +140,12 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     Returns
     -------
     LinearModel
+        State-space matrix, natural frequencies, damping and mode shapes.
 
     Raises
     ------
+    ArgumentTypeError
+        `simulation` is no Simulation.
     ValueError
         If the state is neither an equilibrium nor part of a steady motion, or a coordinate moves no mass.
 
@@ -150,8 +154,9 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     LinearisationWarning
         Where a force has a kink at the state, or bends within the smallest differences.
     """
-    if side not in (None, 1, -1):
-        raise ValueError(f"side = {side!r}; it must be 1 (rising velocities), -1 (falling ones) or left out.")
+    instance_of(Simulation, simulation, "What linearise takes", "a Simulation")
+    if side is not None and (not is_number(side) or side not in (1, -1)):
+        raise ValueError(f"side = {shown(side)}; it must be 1 (rising velocities), -1 (falling ones) or left out.")
     evaluator = Evaluator(simulation)
     state = evaluator.state
     M = evaluator.mass()

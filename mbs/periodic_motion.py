@@ -12,12 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.checks import instance_of, is_finite, shown
 from mbs.evaluator import Evaluator
 from mbs.linear_model import admissible_motions
 from mbs.simulation import Simulation
+from mbs.simulation.arguments import check_resolution
 
 Array = NDArray[np.float64]
 
+MOST_STEPS = 1e8  # of a period
 DISTURBANCE = 1e-4  # largest change of a point or unit axis, m; of a velocity the same over the period
 CLOSED = 1e-4  # largest distance of the state after a period, share of the size and of the speed of the motion
 
@@ -58,15 +61,29 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
     h : float
         Step, s; the runs make whole steps next to it.
 
+    Returns
+    -------
+    FloquetModel
+        Multipliers and the monodromy matrix.
+
     Raises
     ------
+    ArgumentTypeError
+        `simulation` is no Simulation.
     ValueError
         If the motion does not come back after the period, or force elements have states of their own.
     SimulationError
         If a step fails.
     """
-    if not (np.isfinite(period) and period > 0.0 and np.isfinite(h) and 0.0 < h <= period):
-        raise ValueError(f"The period is {period} s and the step {h} s; both must be positive, h at most the period.")
+    instance_of(Simulation, simulation, "What floquet takes", "a Simulation")
+    good = is_finite(period) and is_finite(h) and 0.0 < h <= period
+    if not good:
+        raise ValueError(
+            f"The period is {shown(period)} s and the step {shown(h)} s; both must be positive, h at most the period."
+        )
+    check_resolution(simulation.time + period, h)
+    if period / h > MOST_STEPS:
+        raise ValueError(f"The period of {period:g} s has {period / h:.3g} steps of {h:g} s; at most {MOST_STEPS:g}.")
     evaluator = Evaluator(simulation)
     state = evaluator.state
     if evaluator.slots:

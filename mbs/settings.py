@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
-import numbers
 from dataclasses import asdict, dataclass
 
+from mbs.checks import LARGEST, flag, is_finite, shown, whole
 from mbs.kernel.header import Predictor, Update
 from mbs.methods import METHOD_TABLE
 
@@ -62,6 +61,11 @@ class Settings:
         are smooth, or the present ones stay, as in the paper. The first needs fewer iterations.
     rho_infinity : float
         Of generalised-alpha: what a step leaves of an infinitely fast oscillation, 0 to 1.
+
+    Raises
+    ------
+    ValueError
+        A value is not what it must be; the message names the setting and says what would be right.
     """
 
     alpha: float = 0.0
@@ -80,11 +84,12 @@ class Settings:
     def __post_init__(self) -> None:
         for name in ("alpha", "eps_rel", "tolerance_r", "tolerance_phi", "rho_infinity"):
             value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
-                raise ValueError(f"Setting {name!r} is {value!r}; it must be a finite number.")
+            if not is_finite(value) or not abs(value) < LARGEST:
+                size = f" below {LARGEST:g}" if is_finite(value) else ""
+                raise ValueError(f"Setting {name!r} is {shown(value)}; it must be a finite number{size}.")
+            object.__setattr__(self, name, float(value))
         for name in ("project", "geometric"):
-            if not isinstance(getattr(self, name), bool):
-                raise ValueError(f"Setting {name!r} is {getattr(self, name)!r}; it must be True or False.")
+            object.__setattr__(self, name, flag(getattr(self, name), f"Setting {name!r}", ValueError))
         if self.alpha < 0.0:
             raise ValueError(
                 f"Setting 'alpha' is {self.alpha}; it must be positive, or 0 for the rule 1/(eps_rel h^2)."
@@ -94,12 +99,12 @@ class Settings:
                 raise ValueError(f"Setting {name!r} is {getattr(self, name)}; it must be positive.")
         for name, least, most in (("max_iterations", 1, 1000), ("max_halvings", 0, 16)):
             value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-                raise ValueError(f"Setting {name!r} is {value!r}; it must be a whole number from {least} to {most}.")
+            object.__setattr__(self, name, whole(value, f"Setting {name!r}", least, most, ValueError))
         for name, words in (("update", UPDATES), ("predictor", PREDICTORS), ("method", tuple(METHODS))):
-            if getattr(self, name) not in words:
+            value = getattr(self, name)
+            if not isinstance(value, str) or value not in words:
                 raise ValueError(
-                    f"Setting {name!r} is {getattr(self, name)!r}; it must be one of {', '.join(map(repr, words))}."
+                    f"Setting {name!r} is {shown(value)}; it must be one of {', '.join(map(repr, words))}."
                 )
         if not 0.0 <= self.rho_infinity <= 1.0:
             raise ValueError(f"Setting 'rho_infinity' is {self.rho_infinity}; it must lie between 0 and 1.")
@@ -110,7 +115,13 @@ class Settings:
         return METHOD_TABLE[self.method].looks_at_ends
 
     def kernel_fields(self) -> dict[str, float | int]:
-        """Values by the field names of `ali3_settings`."""
+        """Values by the field names of `ali3_settings`.
+
+        Returns
+        -------
+        dict of str to number
+            For the kernel.
+        """
         fields: dict[str, float | int] = asdict(self)
         fields["project"] = int(self.project)
         fields["geometric"] = int(self.geometric)

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mbs.checks import instance_of
 from mbs.frames import Frames
 from mbs.meta_check import problem_of
 from mbs.system_text import system_text
@@ -113,7 +114,13 @@ class System:
         return system_text(meta["name"], meta["dimension"], meta["report"])
 
     def to_bytes(self) -> bytes:
-        """The System file; equal Systems give equal bytes."""
+        """The System file; equal Systems give equal bytes.
+
+        Returns
+        -------
+        bytes
+            As `docs/system_file.md` describes.
+        """
         items: list[tuple[str, int, bytes, int]] = []
         for name, values in self.arrays.items():
             kind = FLOAT64 if name in FLOATS else INT32
@@ -134,11 +141,24 @@ class System:
     def from_bytes(cls, data: bytes) -> System:
         """A System from its file content; everything is checked, also by the kernel.
 
+        Parameters
+        ----------
+        data : bytes
+            What `to_bytes` gave.
+
+        Returns
+        -------
+        System
+            Without `frames`, which are not in the file.
+
         Raises
         ------
+        ArgumentTypeError
+            The data are no bytes.
         SystemFileError
             With one sentence that says what is wrong.
         """
+        data = bytes(instance_of((bytes, bytearray, memoryview), data, "The content of a System file", "bytes"))
         from mbs.kernel.binding import KernelError, LoadedSystem
 
         found = _parse(data)
@@ -160,12 +180,41 @@ class System:
         return system
 
     def save(self, path: str | Path) -> None:
-        """Write the System file."""
+        """Write the System file.
+
+        Parameters
+        ----------
+        path : str or Path
+            File to write; one that exists is replaced.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
         Path(path).write_bytes(self.to_bytes())
 
     @classmethod
     def load(cls, path: str | Path) -> System:
-        """Read a System file; `SystemFileError` if it is not a valid one."""
+        """Read a System file.
+
+        Parameters
+        ----------
+        path : str or Path
+            File to read.
+
+        Returns
+        -------
+        System
+            Without `frames`, which are not in the file.
+
+        Raises
+        ------
+        OSError
+            The file cannot be read.
+        SystemFileError
+            It is no valid System file.
+        """
         if Path(path).exists() and not Path(path).is_file():
             raise SystemFileError(f"{path} is not a file that can be read to its end.")
         return cls.from_bytes(Path(path).read_bytes())

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.accuracy import Accuracy
+from mbs.checks import shown, whole
 from mbs.control import Control
 from mbs.run_report import Report
 from mbs.settings import Settings
@@ -20,6 +21,7 @@ from mbs.settings import Settings
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+_NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*([eE][+-]?\d+)?|\.\d+([eE][+-]?\d+)?|inf|nan)\s*")
 _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 
 
@@ -77,11 +79,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
-        try:
-            return self._columns[name]
-        except KeyError:
+        if not isinstance(name, str) or name not in self._columns:
             known = ", ".join(self._columns) or "none"
-            raise KeyError(f"There is no sensor {name!r}; the trajectory has: {known}.") from None
+            raise KeyError(f"There is no sensor {shown(name)}; the trajectory has: {known}.")
+        return self._columns[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -90,7 +91,24 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         return len(self._columns)
 
     def thinned(self, every: int) -> Trajectory:
-        """Every so many samples, the first one among them, with the same report, settings and accuracy."""
+        """Every so many samples, the first one among them, with the same report, settings and accuracy.
+
+        Parameters
+        ----------
+        every : int
+            One of that many samples is kept.
+
+        Returns
+        -------
+        Trajectory
+            This one, where all are kept.
+
+        Raises
+        ------
+        ValueError
+            It is no whole number above zero.
+        """
+        every = whole(every, "every", 1, 10**9, ValueError)
         if every == 1:
             return self
         values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))
@@ -111,7 +129,18 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str]) -> None:
-        """Write one column per sensor, headed ``name [unit]``, with all digits."""
+        """Write one column per sensor, headed ``name [unit]``, with all digits.
+
+        Parameters
+        ----------
+        path : str or path-like
+            File to write; one that exists is replaced.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
         with Path(path).open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in self.units.items())])
@@ -119,7 +148,25 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str]) -> Trajectory:
-        """Read what `to_csv` wrote; counters and settings are not in the file."""
+        """Read what `to_csv` wrote; counters and settings are not in the file.
+
+        Parameters
+        ----------
+        path : str or path-like
+            File to read.
+
+        Returns
+        -------
+        Trajectory
+            Times, values, names and units.
+
+        Raises
+        ------
+        OSError
+            The file cannot be read.
+        ValueError
+            A heading or a value is not what `to_csv` writes; the message names the line.
+        """
         with Path(path).open(newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file))
         headings = [_HEADING.fullmatch(text) for text in rows[0]] if rows else []
@@ -131,12 +178,33 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         for number, row in enumerate(rows[1:], start=2):
             if len(row) != len(headings):
                 raise ValueError(f"{path}, line {number}: {len(row)} values where {len(headings)} belong.")
+            wrong = [cell for cell in row if not _NUMBER.fullmatch(cell)]
+            if wrong:
+                raise ValueError(f"{path}, line {number}: {shown(wrong[0])} is no number.")
         data = np.array(rows[1:], float).reshape(-1, len(headings))
         found = [match for match in headings[1:] if match is not None]
         return cls(data[:, 0], data[:, 1:], [m["name"] for m in found], [m["unit"] for m in found])
 
     def plot(self, *names: str) -> Figure:
-        """Draw the named sensors (all when none is named), one axes per unit, with matplotlib."""
+        """Draw sensors over time with matplotlib, one diagram per unit.
+
+        Parameters
+        ----------
+        *names : str
+            Sensors; all when none is named.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Not shown yet.
+
+        Raises
+        ------
+        KeyError
+            There is no such sensor.
+        ValueError
+            The trajectory has no sensors.
+        """
         import matplotlib.pyplot as plt
 
         chosen = names or tuple(self)

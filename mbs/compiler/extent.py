@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbs.checks import Vector
 from mbs.model.body import Body
-from mbs.model.checks import Vector
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mbs.checks import Vector
 from mbs.model.body import Body
-from mbs.model.checks import Vector
 
 
 def body_length(body: Body) -> float:

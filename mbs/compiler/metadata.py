@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from mbs.checks import flag, positive
 from mbs.compiler.polynomial import RowTerms
 from mbs.model.model import Model
 
@@ -58,8 +59,11 @@ def metadata(
         "switches": [{"name": s.name} for s in model.switches],
         "guides": [g.name for g in model.guides],
         "report": report,
-        "experiment": {"stop_time_s": model.stop_time, "step_s": model.step},
-        "floating": model.floating,
+        "experiment": {
+            "stop_time_s": positive(model.stop_time, f"The stop_time of model '{model.name}'"),
+            "step_s": positive(model.step, f"The step of model '{model.name}'"),
+        },
+        "floating": flag(model.floating, f"The floating of model '{model.name}'"),
         "gravity": math.hypot(*model.gravity),
         "coordinate_lengths": lengths,
     }

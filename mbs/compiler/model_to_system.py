@@ -8,6 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from mbs.affine import Affine
+from mbs.checks import instance_of, is_number, shown
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
@@ -59,16 +60,24 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
         Largest correction of an overconstrained loop, parts of the size of its drawing (m/m) and rad; 0 takes every
         drawing as it is.
 
+    Returns
+    -------
+    System
+        What `Simulation` and `simulate` step, and what an FMU carries.
+
     Raises
     ------
+    ArgumentTypeError
+        `model` is no Model.
     ModelError
         If the assembly cannot be closed or the model is not possible; the message names the joints.
     """
+    instance_of(Model, model, "What compile takes", "a Model")
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
-    if isinstance(tolerance, bool) or not isinstance(tolerance, (int, float)) or not 0.0 <= tolerance <= MOST_TOLERANCE:
+    if not is_number(tolerance) or not 0.0 <= tolerance <= MOST_TOLERANCE:
         raise ModelError(
-            f"The tolerance of compile is {tolerance!r}; it must be a number from 0 to {MOST_TOLERANCE:g}."
+            f"The tolerance of compile is {shown(tolerance)}; it must be a number from 0 to {MOST_TOLERANCE:g}."
         )
     joints = corrected_joints(model, float(tolerance))
     with redrawn(joints):

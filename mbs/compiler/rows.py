@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbs.affine import Affine, AffineVector
+from mbs.checks import Vector
 from mbs.compiler.local_vectors import body_length, distinct
 from mbs.compiler.polynomial import Polynomial, RowTerms, add_product, cleaned, substitute
 from mbs.model.body import Body
-from mbs.model.checks import Vector
 
 INDEPENDENT = 0.2
 """Smallest singular value of the chosen unit vectors (1: perpendicular)."""

@@ -7,7 +7,8 @@ from dataclasses import dataclass, fields
 from itertools import pairwise
 
 from mbs.affine import Affine, AffineVector
-from mbs.elements.checks import index, not_negative, positive, size
+from mbs.checks import not_negative, positive
+from mbs.elements.checks import index, size
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -98,6 +99,7 @@ class AutomaticDrive:
                 Output("engine_torque", "N m", "torque of the engine"),
             ),
             (*names, *(f"ratio_{i + 1}" for i in range(len(ratios)))),
+            (*(not_negative for _ in names), *(positive for _ in ratios)),
         )
 
     def _check_hysteresis(self, what: str, ratios: Sequence[float]) -> None:

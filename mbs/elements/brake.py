@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
-from mbs.elements.checks import index, not_negative, positive, size
+from mbs.checks import not_negative, positive
+from mbs.elements.checks import index, size
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -60,4 +61,5 @@ class Brake:
                 Output("rate", "rad/s", "spin of the wheel relative to its carrier"),
             ),
             ("max_torque", "stick_stiffness", "stick_damping"),
+            (not_negative, positive, positive),
         )

@@ -6,12 +6,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import index, not_negative, positive, size
-from mbs.elements.record import ElementRecord, Output
+from mbs.checks import array, not_negative, positive
+from mbs.elements.checks import index, size
+from mbs.elements.record import Check, ElementRecord, Output
 from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
@@ -83,20 +83,19 @@ class ContactPoints:
         what = f"the contact points '{name}'"
         for vector in (origin, *axes):
             size(vector, (3,), f"The origin and each axis of {what}")
-        places = np.array(points, dtype=float)
-        if len(axes) != 3 or places.ndim != 2 or places.shape[1] != 3 or not len(places):
+        places = array(points, (None, 3), f"the points of {what}")
+        if len(axes) != 3 or not len(places):
             raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {places.shape}.")
-        if not np.all(np.isfinite(places)):
-            raise ModelError(f"A point of {what} is not finite.")
-        named = {
-            "radius": not_negative(self.radius, f"The radius of {what}"),
-            "stiffness": positive(self.stiffness, f"The stiffness of {what}"),
-            "onset": positive(self.onset, f"The onset of {what}"),
-            "loss": not_negative(self.loss, f"The loss of {what}"),
-            "stick_stiffness": positive(self.stick_stiffness, f"The stick stiffness of {what}"),
-            "stick_damping": positive(self.stick_damping, f"The stick damping of {what}"),
-            "friction_factor": not_negative(self.friction_factor, f"The friction factor of {what}"),
-        }
+        data: tuple[tuple[str, float, Check], ...] = (
+            ("radius", self.radius, not_negative),
+            ("stiffness", self.stiffness, positive),
+            ("onset", self.onset, positive),
+            ("loss", self.loss, not_negative),
+            ("stick_stiffness", self.stick_stiffness, positive),
+            ("stick_damping", self.stick_damping, positive),
+            ("friction_factor", self.friction_factor, not_negative),
+        )
+        named = {key: check(value, f"The {key.replace('_', ' ')} of {what}") for key, value, check in data}
         box = (*places.min(axis=0).tolist(), *places.max(axis=0).tolist())
         return ElementRecord(
             name,
@@ -114,4 +113,5 @@ class ContactPoints:
                 Output("depth", "m", "deepest penetration of a point"),
             ),
             tuple(named),
+            tuple(check for _, _, check in data),
         )

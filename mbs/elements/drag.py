@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import not_negative, size
+from mbs.checks import not_negative
+from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -39,4 +40,5 @@ class Drag:
             ),
             outputs=(Output("force", "N", "size of the drag"),),
             real_names=("air_density", "drag_area"),
+            real_checks=(not_negative, not_negative),
         )

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
-from mbs.elements.checks import positive, size
+from mbs.checks import positive
+from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header import ElementType
 
@@ -29,4 +30,11 @@ class GyroscopicSpin:
         size(g, (3,), f"The vector g of {what}")
         inertia = positive(self.spin_inertia, f"The spin inertia of {what}")
         signals = (*f.components, *g.components, spin)
-        return ElementRecord(name, ElementType.GYROSCOPIC_SPIN, signals, (inertia,), real_names=("spin_inertia",))
+        return ElementRecord(
+            name,
+            ElementType.GYROSCOPIC_SPIN,
+            signals,
+            (inertia,),
+            real_names=("spin_inertia",),
+            real_checks=(positive,),
+        )

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.affine import Affine
-from mbs.elements.checks import index, number
+from mbs.checks import number
+from mbs.elements.checks import index
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header import ElementType
 
@@ -37,6 +38,7 @@ class InputForce:
             signals,
             tuple(number(w, f"A weight of {what}") for w in self.weights),
             (index(self.input, f"The input of {what}"),),
+            real_checks=(number,) * len(self.weights),
             tangent=False,
             real_names=tuple(f"weight_{i}" for i in range(len(self.weights))),
         )

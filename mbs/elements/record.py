@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from mbs.affine import Affine
 from mbs.kernel.header import ElementType
+
+Check: TypeAlias = Callable[[object, str], float]
+"""One of the checks of numbers of `mbs.checks`."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,8 @@ class ElementRecord:
     states: Sequence[float] = ()
     outputs: Sequence[Output] = field(default_factory=tuple)
     real_names: Sequence[str] = ()
-    """Names of the entries of `real`, so that a parameter can be tied to one."""
+    """Names of the first entries of `real`, so that a parameter can be tied to one."""
+    real_checks: Sequence[Check] = ()
+    """What each of these must satisfy, also as a parameter writes it; by default any finite number will do."""
     tangent: bool = True
     elastic: bool = False

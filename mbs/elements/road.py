@@ -9,7 +9,9 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.elements.checks import not_negative, number, positive
+from mbs.checks import array, is_number, not_negative, not_zero, number, one_of, positive, vector
+from mbs.elements.record import Check
+from mbs.errors import ModelError
 from mbs.kernel.header import RoadType
 
 
@@ -33,6 +35,7 @@ class PlaneRoad:
     friction: float = 0.9
     type: ClassVar[RoadType] = RoadType.PLANE
     real_names: ClassVar[tuple[str, ...]] = ("height", "grade_x", "grade_y", "friction")
+    real_checks: ClassVar[tuple[Check, ...]] = (number, number, number, not_negative)
 
     @property
     def real(self) -> tuple[float, ...]:
@@ -70,12 +73,12 @@ class KerbRoad:
     friction: float = 0.9
     type: ClassVar[RoadType] = RoadType.KERB
     real_names: ClassVar[tuple[str, ...]] = ("position", "lower_height", "step", "side", "friction")
+    real_checks: ClassVar[tuple[Check, ...]] = (number, number, positive, not_zero, not_negative)
 
     @property
     def real(self) -> tuple[float, ...]:
         """Checked numbers for the System."""
-        if self.upper not in ("before", "after"):
-            raise ValueError(f"The upper level of a kerb is {self.upper!r}; it must be 'before' or 'after' the edge.")
+        one_of(self.upper, ("before", "after"), "The upper level of a kerb")
         return (
             number(self.position, "The position of a kerb"),
             number(self.lower_height, "The lower height of a kerb"),
@@ -110,27 +113,30 @@ class GridRoad:
     friction_factor: float = 1.0
     type: ClassVar[RoadType] = RoadType.GRID
     real_names: ClassVar[tuple[str, ...]] = ("nx", "ny", "x0", "y0", "dx", "dy", "friction")
+    real_checks: ClassVar[tuple[Check, ...]] = (positive, positive, number, number, positive, positive, not_negative)
 
     @property
     def real(self) -> tuple[float, ...]:
         """Checked numbers for the System."""
-        heights = np.asarray(self.heights, float)
-        if heights.ndim != 2 or min(heights.shape) < 2:
-            raise ValueError(f"The heights of a grid road have shape {heights.shape}; they need at least 2 x 2 points.")
-        if np.ndim(self.frictions) and np.shape(self.frictions) != heights.shape:
-            shape = np.shape(self.frictions)
-            raise ValueError(
-                f"The frictions of a grid road have shape {shape}, its heights {heights.shape}; both must agree."
+        heights = array(self.heights, (None, None), "the heights of a grid road")
+        if min(heights.shape) < 2:
+            raise ModelError(f"The heights of a grid road have shape {heights.shape}; they need at least 2 x 2 points.")
+        if is_number(self.frictions):
+            frictions = np.full(heights.shape, number(self.frictions, "The friction of a grid road"))
+        else:
+            frictions = array(self.frictions, (None, None), "the frictions of a grid road")
+        if frictions.shape != heights.shape:
+            raise ModelError(
+                f"The frictions of a grid road have shape {frictions.shape}, its heights {heights.shape}; "
+                "both must agree."
             )
-        frictions = np.broadcast_to(np.asarray(self.frictions, float), heights.shape)
-        if not np.all(np.isfinite(heights)):
-            raise ValueError("The heights of a grid road hold a number that is not finite.")
-        if not np.all(np.isfinite(frictions) & (frictions >= 0.0)):
-            raise ValueError("The frictions of a grid road must be finite and not negative.")
-        x0, y0 = (number(v, "The origin of a grid road") for v in self.origin)
-        dx, dy = (positive(v, "The spacing of a grid road") for v in self.spacing)
+        if not np.all(frictions >= 0.0):
+            raise ModelError("The frictions of a grid road must be finite and not negative.")
+        x0, y0 = vector(self.origin, 2, "the origin of a grid road").tolist()
+        spacing = vector(self.spacing, 2, "the spacing of a grid road")
+        dx, dy = (positive(v, "The spacing of a grid road") for v in spacing)
         factor = not_negative(self.friction_factor, "The friction factor of a grid road")
-        head = (float(heights.shape[0]), float(heights.shape[1]), x0, y0, dx, dy, factor)
+        head = (float(len(heights)), float(len(heights[0])), x0, y0, dx, dy, factor)
         return (*head, *heights.ravel().tolist(), *frictions.ravel().tolist())
 
 

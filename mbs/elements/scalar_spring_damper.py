@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import Affine
-from mbs.elements.checks import not_negative, number
+from mbs.checks import not_negative, number
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -47,5 +47,6 @@ class ScalarSpringDamper:
             ),
             outputs=(Output("force", self.unit, "generalised force on the coordinate"),),
             real_names=("stiffness", "damping", "free_value", "constant"),
+            real_checks=(not_negative, not_negative, number, number),
             elastic=True,
         )

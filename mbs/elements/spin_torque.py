@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
-from mbs.elements.checks import index, number, size
+from mbs.checks import number
+from mbs.elements.checks import index, size
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header import ElementType
 
@@ -37,4 +38,5 @@ class SpinTorque:
             (number(self.gain, f"The gain of {what}"),),
             (index(self.input, f"The input of {what}"),),
             real_names=("gain",),
+            real_checks=(number,),
         )

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import not_negative, positive, size
+from mbs.checks import not_negative, positive
+from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -127,5 +128,6 @@ class SpringDamper:
                 "rebound_stiffness",
                 *progressive,
             ),
+            real_checks=(not_negative,) * (7 + len(progressive)),
             elastic=True,
         )

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
-from mbs.elements.checks import index, not_negative, number, positive, size
-from mbs.elements.record import ElementRecord, Output
+from mbs.checks import not_negative, number, positive
+from mbs.elements.checks import index, size
+from mbs.elements.record import Check, ElementRecord, Output
 from mbs.kernel.header import ElementType
 
 Pair = tuple[float, float]
@@ -122,6 +123,7 @@ class Tyre:
                 Output("inclination", "rad", "of the wheel plane from the road's normal, positive with the top right"),
             ),
             tuple(key for key, _ in named),
+            tuple(_check_of(key) for key, _ in named),
         )
 
     def _named(self) -> list[tuple[str, float]]:
@@ -175,6 +177,13 @@ class Tyre:
             end = _linear(self.trail_end, q)
             if end <= zero:
                 raise ValueError(f"The end slip of the trail of {what} is {end:g} {load}; it must exceed {zero:g}.")
+
+
+def _check_of(key: str) -> Check:
+    """What a real must satisfy by itself."""
+    if key in ("damping", "bottoming_stiffness", "rolling_resistance", "friction_factor"):
+        return not_negative
+    return number if key in ("trail_1", "trail_2") else positive
 
 
 def _linear(pair: Pair, q: float) -> float:

@@ -5,17 +5,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mbs.checks import direction, number
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import direction, number, perpendicular
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.checks import perpendicular
+from mbs.model.core import Coordinate
+from mbs.model.ends import different
 from mbs.model.equation import AnglePart, Equation, dot_products
 from mbs.model.joints.joint import Joint, Turn
-from mbs.model.joints.points import different
 
 
 def relative_angle(
-    model: ModelCore, name: str, body_1: Body, body_2: Body, axis: ArrayLike | None, zero: float
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, axis: ArrayLike | None, zero: float
 ) -> tuple[Coordinate, Joint]:
     """The row ``cos(theta) S - sin(theta) C = 0`` with C = v.e1, S = v.e2; regular at every angle, and theta is not
     wrapped.

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.elements.checks import positive
+from mbs.checks import flag, positive, shown
 from mbs.elements.record import ElementRecord
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.errors import ModelError
 from mbs.model.angle import relative_angle
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.core import Coordinate
 from mbs.model.joints.joint import Joint
 
 
 def arm_angles(
-    model: ModelCore, name: str, arms: tuple[object, object], carrier: Body | None, axis: ArrayLike | None
+    model: BodyVocabulary,
+    name: str,
+    arms: tuple[Coordinate | Body, Coordinate | Body],
+    carrier: Body | None,
+    axis: ArrayLike | None,
 ) -> tuple[list[Coordinate], list[Joint]]:
     """The angles of both arms, and the joints of those that are made here for arms given as bodies."""
     what = f"anti-roll bar '{name}'"
@@ -36,12 +40,15 @@ def arm_angles(
         ]
         angles, joints = [angle for angle, _ in made], [joint for _, joint in made]
     else:
-        raise ModelError(f"The {what} needs two relative angles or two bodies as its arms, got {arms!r}.")
+        raise ModelError(
+            f"The {what} needs two relative angles or two bodies as its arms, got {shown(arms[0])} and "
+            f"{shown(arms[1])}."
+        )
     return angles, joints
 
 
 def anti_roll_bar(
-    model: ModelCore,
+    model: BodyVocabulary,
     name: str,
     angles: list[Coordinate],
     stiffness: float,
@@ -51,10 +58,11 @@ def anti_roll_bar(
 ) -> ElementRecord:
     """Torque ``-k (twist - free_twist) - c d(twist)/dt`` on the first angle and against it on the second."""
     first, second = angles
+    flag(mirrored, f"The mirrored of anti-roll bar '{name}'")
     if first.index == second.index:
         raise ModelError(f"The anti-roll bar '{name}' joins '{first.name}' with itself; it needs two arms.")
     twist = first.affine + second.affine if mirrored else first.affine - second.affine
     if free_twist is None:
-        free_twist = float(twist.value(np.array([c.reference for c in model.coordinates])))
+        free_twist = float(twist.value(model.drawn()))
     k = positive(stiffness, f"The stiffness of the anti-roll bar '{name}'")
     return model.add(ScalarSpringDamper(k, damping, free_twist).record(name, twist))

@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import Affine, AffineVector
+from mbs.checks import Vector, vector
 from mbs.errors import ModelError
-from mbs.model.checks import Vector, vector
+from mbs.model.core import CoordinateInfo
 
 if TYPE_CHECKING:
-    from mbs.model.core import ModelCore
+    from mbs.model.bodies import BodyVocabulary
 
 
 class Body:
@@ -36,7 +37,7 @@ class Body:
     is_point = False
     is_flexible = False
 
-    def __init__(self, model: ModelCore, name: str, com: Vector, start: int) -> None:
+    def __init__(self, model: BodyVocabulary, name: str, com: Vector, start: int) -> None:
         self.model = model
         self.name = name
         self.com = com
@@ -124,6 +125,18 @@ class Body:
             of_axes = self.mass_block()[axes, axes]
             block[axes, axes] = (float(np.mean(np.diag(of_axes))) or self.mass) * np.eye(len(of_axes))
         return block
+
+    def coordinates(self) -> list[CoordinateInfo]:
+        """Its full coordinates: of the position, then of each axis."""
+        parts = "r" if self.is_point else "rabc" if self.dimension == 3 else "ra"
+        values = iter(self.reference())
+        return [
+            CoordinateInfo(
+                f"{self.name}.{part}{'xyz'[k]}", "point" if part == "r" else "vector", k, float(next(values))
+            )
+            for part in parts
+            for k in range(self.dimension)
+        ]
 
     def reference(self) -> NDArray[np.float64]:
         """Full coordinates in the reference configuration, shape (size,)."""

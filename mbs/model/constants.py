@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.model.checks import number
+from mbs.checks import number, shown, text
 from mbs.model.core import ModelCore
 
 
@@ -30,7 +30,12 @@ class Constant:
 
 def new_constant(model: ModelCore, name: str, value: float, unit: str, description: str) -> Constant:
     """Register a constant."""
-    model.unique("constant", name)
-    constant = Constant(name, number(value, f"The constant '{name}'"), unit, description)
+    what = f"constant {shown(name)}"
+    constant = Constant(
+        model.unique("constant", name),
+        number(value, f"The value of {what}"),
+        text(unit, f"The unit of {what}"),
+        text(description, f"The description of {what}", lines=True),
+    )
     model.constants.append(constant)
     return constant

@@ -14,17 +14,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import Affine, AffineVector
+from mbs.checks import Vector, vector
 from mbs.errors import ModelError
 from mbs.flexible.checks import check_turning_inertia
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals
 from mbs.model.body import Body
-from mbs.model.checks import Vector, vector
+from mbs.model.core import CoordinateInfo
 from mbs.model.equation import Equation, Product
 from mbs.model.joints.joint import Joint
 
 if TYPE_CHECKING:
-    from mbs.model.core import ModelCore
+    from mbs.model.bodies import BodyVocabulary
 
 SAME_PLACE = 1e-6
 """A point belongs to a node if it is no farther from it, m."""
@@ -50,7 +51,13 @@ class FlexibleBody(Body):
     is_flexible = True
 
     def __init__(
-        self, model: ModelCore, name: str, reduced: ReducedBody, origin: Vector, axes: NDArray[np.float64], start: int
+        self,
+        model: BodyVocabulary,
+        name: str,
+        reduced: ReducedBody,
+        origin: Vector,
+        axes: NDArray[np.float64],
+        start: int,
     ) -> None:
         super().__init__(model, name, origin + axes @ reduced.origin, start)
         check_turning_inertia(name, reduced.mass_positions @ axes.T, reduced.masses)
@@ -149,6 +156,11 @@ class FlexibleBody(Body):
             block[:12, :12] = self.mass * np.kron(np.outer(place, place), np.eye(3))
         block[12:, 12:] = self.integrals.modal_mass()
         return block
+
+    def coordinates(self) -> list[CoordinateInfo]:
+        """Those of its frame, then one per mode."""
+        modes = [CoordinateInfo(f"{self.name}.{mode}", "mode", 0, 0.0) for mode in self.reduced.mode_names]
+        return [*super().coordinates(), *modes]
 
     def reference(self) -> NDArray[np.float64]:
         """Full coordinates in the reference configuration."""

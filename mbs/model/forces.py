@@ -3,64 +3,112 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
+from mbs.checks import array, instance_of, number, one_of, shown, whole
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.drag import Drag
 from mbs.elements.input_force import InputForce
 from mbs.elements.record import ElementRecord
-from mbs.elements.road import Road
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.core import Coordinate
+from mbs.model.ends import FixedEnd, body_and_point, different
+from mbs.model.flexible import FlexibleBody
 from mbs.model.inputs import Input, owned_input
 from mbs.model.spin import Spin
 
 
-class ForceVocabulary(ModelCore):
-    """Springs, forces and torques of a model; each method returns the record of its element."""
+class ForceVocabulary(BodyVocabulary):
+    """Springs, forces and torques of a model; each method returns the record of its element, for sensors."""
 
     def spring_damper(
         self,
         name: str,
-        end_1: Any,
-        end_2: Any,
+        end_1: FixedEnd,
+        end_2: FixedEnd,
         *,
         stiffness: float,
         damping: float = 0.0,
         free_length: float | None = None,
         stops: EndStops | None = None,
     ) -> ElementRecord:
-        """Spring and damper between two points; ends are (body, point) or a point mass.
+        """Spring and damper between two points.
 
         Parameters
         ----------
+        name : str
+            Unique among the elements.
+        end_1, end_2 : (Body, array_like) or PointMass
+            A body and its point in earth axes in the reference configuration, m; or a particle.
         stiffness, damping : float
             N/m and N s/m.
         free_length : float, optional
             m; by default as drawn.
         stops : EndStops, optional
             Bump and rebound stops.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
+        Raises
+        ------
+        ModelError
+            Both ends are on one body or one is not of this model, or a number is not one or negative.
+        ArgumentTypeError
+            `stops` are no EndStops.
         """
-        p1, p2 = self._end(end_1, f"spring-damper '{name}'"), self._end(end_2, f"spring-damper '{name}'")
+        what = f"spring-damper '{name}'"
+        p1, p2 = self._end(end_1, what), self._end(end_2, what)
+        first, second = body_and_point(end_1, what)[0], body_and_point(end_2, what)[0]
+        if not isinstance(first, FlexibleBody):  # which has many nodes
+            different(first, second, what)
+        if stops is not None:
+            instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
         gap = p2 - p1
         if free_length is None:
-            free_length = float(np.linalg.norm(gap.value(np.array([c.reference for c in self.coordinates]))))
+            free_length = float(np.linalg.norm(gap.value(self.drawn())))
         return self.add(SpringDamper(stiffness, damping, free_length, stops).record(name, gap))
 
     def torsional_spring_damper(
         self, name: str, angle: Coordinate, *, stiffness: float, damping: float = 0.0, free_angle: float = 0.0
     ) -> ElementRecord:
-        """Spring and damper on a relative angle; N m/rad, N m s/rad, rad."""
+        """Spring and damper on a relative angle.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements.
+        angle : Coordinate
+            A relative angle, or an expression of coordinates.
+        stiffness, damping : float
+            N m/rad and N m s/rad.
+        free_angle : float
+            Angle without spring torque, rad.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
+        Raises
+        ------
+        ModelError
+            The angle is not of this model, or a number is not one or negative.
+        """
         expression = self.expression(angle, f"The torsional spring-damper '{name}'")
         return self.add(ScalarSpringDamper(stiffness, damping, free_angle).record(name, expression))
 
@@ -73,47 +121,164 @@ class ForceVocabulary(ModelCore):
         inputs: Sequence[Input | None],
         axes: Literal["earth", "body"] = "earth",
     ) -> ElementRecord:
-        """Force at a point (default: centre of mass) from one input per component, N; None: none along that axis."""
+        """Force at a point from one input per component.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements.
+        body : Body
+            Of this model.
+        point : array_like, shape (dimension,), optional
+            Earth axes in the reference configuration, m; by default the centre of mass.
+        inputs : sequence of Input or None
+            One per component, N; None: no force along that axis.
+        axes : {"earth", "body"}
+            Axes of the components.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            Body or input are not of this model, or the number of inputs is not the dimension.
+        """
         what = f"force '{name}'"
+        self.owned(body, f"The {what}")
         p = self._end((body, body.com if point is None else point), what)
         e = np.eye(self.dimension)[: 3 if self.dimension == 3 else 1]
-        if axes not in ("earth", "body"):
-            raise ModelError(f"The axes of {what} are {axes!r}; they must be 'earth' or 'body'.")
+        one_of(axes, ("earth", "body"), f"The axes of {what}")
         frame = [AffineVector.constant(u) if axes == "earth" else body.vector(u) for u in e]
         return self.add(BodyForce(self._numbers(inputs, self.dimension, what)).record(name, p, frame))
 
     def torque(
         self, name: str, body: Body, *, inputs: Sequence[Input | None] | Input, axes: Literal["earth", "body"] = "earth"
     ) -> ElementRecord:
-        """Torque on a body from one input per component (planar: one input), N m; None: none about that axis."""
+        """Torque on a body from one input per component.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements.
+        body : Body
+            A rigid body or a node of a flexible one.
+        inputs : sequence of Input or None, or Input
+            Three in space, one in the plane, N m; None: no torque about that axis.
+        axes : {"earth", "body"}
+            Axes of the components.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The body is the ground or a point mass, body or input are not of this model, or the number of inputs is
+            wrong.
+        """
         what = f"torque '{name}'"
         self.owned(body, f"The {what}")
         if body.is_ground or body.is_point:
             raise ModelError(f"The {what} needs a rigid body, not '{body.name}'.")
         channels = [inputs] if isinstance(inputs, Input) else inputs
         count = 3 if self.dimension == 3 else 1
+        numbers = self._numbers(channels, count, what)
+        one_of(axes, ("earth", "body"), f"The axes of {what}")
         frame = [body.vector(u) for u in np.eye(self.dimension)[:count]]
-        return self.add(BodyTorque(self._numbers(channels, count, what), axes).record(name, frame))
+        return self.add(BodyTorque(numbers, axes).record(name, frame))
 
     def torque_on(self, name: str, angle: Coordinate, *, input: Input, gain: float = 1.0) -> ElementRecord:
-        """Torque ``gain * input``, N m, on a relative angle or a spin; the first body of the angle or the carrier of
-        the spin takes the reaction.
+        """Torque on a relative angle or a spin; the first body of the angle or the carrier of the spin takes the
+        reaction.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements.
+        angle : Coordinate
+            A relative angle, an expression of coordinates, or a spin.
+        input : Input
+            Of this model.
+        gain : float
+            The torque is ``gain * input``, N m.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
+        Raises
+        ------
+        ModelError
+            Angle or input are not of this model, or the gain is no finite number.
         """
         what = f"torque '{name}'"
         expression = self.expression(angle, f"The {what}")
         channel = owned_input(self, input, f"The {what}")
+        factor = number(gain, f"The gain of {what}")
         if isinstance(angle, Spin):
-            return self.add(SpinTorque(channel.index, gain).record(name, angle.f, angle.g, angle.affine))
-        return self.add(InputForce(channel.index, (gain,)).record(name, [expression]))
+            return self.add(SpinTorque(channel.index, factor).record(name, angle.f, angle.g, angle.affine))
+        return self.add(InputForce(channel.index, (factor,)).record(name, [expression]))
 
     def drag(
         self, name: str, body: Body, point: ArrayLike, *, drag_area: float, air_density: float = 1.225
     ) -> ElementRecord:
-        """Aerodynamic drag in still air at a point; drag area (coefficient times frontal area) in m2."""
+        """Aerodynamic drag in still air at a point.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements.
+        body : Body
+            Of this model.
+        point : array_like, shape (dimension,)
+            Earth axes in the reference configuration, m.
+        drag_area : float
+            Drag coefficient times frontal area, m2.
+        air_density : float
+            kg/m3.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
+        Raises
+        ------
+        ModelError
+            The body is not of this model, or a number is not one or negative.
+        """
+        self.owned(body, f"The drag '{name}'")
         return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'")))
 
     def road(self, road: Road) -> int:
-        """Add a road; the number is what a tyre asks for."""
+        """Add a road.
+
+        Parameters
+        ----------
+        road : PlaneRoad, KerbRoad or GridRoad
+            Of `mbs.elements`.
+
+        Returns
+        -------
+        int
+            Its number, for tyres, contact points and parameters.
+
+        Raises
+        ------
+        ModelError
+            A number of the road is not one.
+        ArgumentTypeError
+            It is no road.
+        """
+        kinds = (PlaneRoad, KerbRoad, GridRoad)
+        instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad or GridRoad")
+        _ = road.real  # its numbers are looked at
         self.roads.append(road)
         return len(self.roads) - 1
 
@@ -124,41 +289,82 @@ class ForceVocabulary(ModelCore):
 
         Parameters
         ----------
+        name : str
+            Unique among the elements.
+        body : Body
+            A rigid body of a spatial model.
         points : array_like, shape (n, 3)
             Earth axes in the reference configuration, m.
         road : int
-            Number of the road.
+            Number of the road, from `road`.
         contact : ContactPoints
             How they touch; `ContactPoints.for_mass` chooses numbers.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
+        Raises
+        ------
+        ModelError
+            The body is not rigid, the road does not exist, or the points are not of that shape.
+        ArgumentTypeError
+            `contact` is no ContactPoints.
         """
         what = f"contact points '{name}'"
         self.owned(body, f"The {what}")
         if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
             raise ModelError(f"The {what} need a rigid body in space, not '{body.name}'.")
-        if not 0 <= road < len(self.roads):
-            raise ModelError(f"The {what} ask for road {road!r}; the model has {len(self.roads)}.")
-        places = np.array(points, dtype=float)
-        if places.ndim != 2 or places.shape[1:] != (3,):
-            raise ModelError(f"The places of {what} have shape {places.shape}; they need (n, 3).")
+        instance_of(ContactPoints, contact, f"The contact of {what}", "ContactPoints")
+        k = whole(road, f"The road of {what}", 0)
+        if k >= len(self.roads):
+            raise ModelError(f"The {what} ask for road {k}; the model has {len(self.roads)}.")
+        places = array(points, (None, 3), f"the places of {what}")
         axes = [body.vector(v) for v in np.eye(3)]
-        return self.add(contact.record(name, body.point(body.com), axes, places - body.com, road))
+        return self.add(contact.record(name, body.point(body.com), axes, places - body.com, k))
 
     def contact_point(
         self, name: str, body: Body, point: ArrayLike, *, road: int, contact: ContactPoints
     ) -> ElementRecord:
-        """One point of a body (earth axes, reference configuration, m) that touches a road; see `contact_points`."""
-        return self.contact_points(name, body, np.atleast_2d(np.asarray(point, float)), road=road, contact=contact)
+        """One point of a body that touches a road; see `contact_points`.
 
-    def _end(self, end: Any, what: str) -> AffineVector:
-        if isinstance(end, Body) and end.is_point:
-            end = (end, None)
-        try:
-            body, point = end
-        except (TypeError, ValueError):
-            raise ModelError(f"An end of {what} must be (body, point) or a point mass; got {end!r}.") from None
+        Parameters
+        ----------
+        name : str
+            Unique among the elements.
+        body : Body
+            A rigid body of a spatial model.
+        point : array_like, shape (3,)
+            Earth axes in the reference configuration, m.
+        road : int
+            Number of the road, from `road`.
+        contact : ContactPoints
+            How it touches.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
+        Raises
+        ------
+        ModelError
+            The body is not rigid, the road does not exist, or the point is not three numbers.
+        ArgumentTypeError
+            `contact` is no ContactPoints.
+        """
+        place = array(point, (3,), f"the place of contact point {shown(name)}")
+        return self.contact_points(name, body, place[None], road=road, contact=contact)
+
+    def _end(self, end: FixedEnd, what: str) -> AffineVector:
+        body, point = body_and_point(end, what)
         return self.owned(body, f"The {what}").point(point)
 
     def _numbers(self, inputs: Sequence[Input | None], count: int, what: str) -> list[int | None]:
+        """Numbers of the inputs, one per component."""
+        if not isinstance(inputs, (list, tuple)):
+            raise ModelError(f"The inputs of {what} must be {count} inputs or None, not {shown(inputs)}.")
         if len(inputs) != count:
             raise ModelError(f"The {what} has {len(inputs)} inputs; it needs {count}, None where there is none.")
         return [None if i is None else owned_input(self, i, f"The {what}").index for i in inputs]

@@ -5,14 +5,14 @@ filter.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PPoly
 
+from mbs.checks import LARGEST, array, number, positive, shown, text
 from mbs.errors import ModelError
 from mbs.kernel.header import GuideType
-from mbs.model.checks import number, positive
 from mbs.model.core import ModelCore
 from mbs.model.inputs import Input, owned_input
 
@@ -40,24 +40,17 @@ def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequenc
     return _register(model, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
 
 
-def guide_time(model: ModelCore, name: str, motion: Any, unit: str) -> Guide:
+def guide_time(model: ModelCore, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], unit: str) -> Guide:
     """A motion in time: a `scipy.interpolate.PPoly` of degree 5 or less, or (times, values) through which a cubic
     spline goes.
 
     Outside its pieces the motion stands still, so it should begin and end with zero rates.
     """
-    if isinstance(motion, PPoly):
-        pieces = motion
-    else:
-        try:
-            times, values = (np.asarray(part, dtype=float) for part in motion)
-            pieces = CubicSpline(times, values, bc_type="clamped")
-        except (TypeError, ValueError) as error:
-            raise ModelError(f"The motion of guide '{name}' must be a PPoly or (times, values): {error}") from None
+    pieces = motion if isinstance(motion, PPoly) else _spline(motion, f"guide '{name}'")
     c, b = np.asarray(pieces.c, dtype=float), np.asarray(pieces.x, dtype=float)
     if c.ndim != 2 or c.shape[0] > 6:
         raise ModelError(f"The motion of guide '{name}' must be one scalar motion of degree 5 or less.")
-    if not (np.all(np.isfinite(c)) and np.all(np.isfinite(b)) and np.all(np.diff(b) > 0.0)):
+    if not (np.all(np.abs(c) < LARGEST) and np.all(np.abs(b) < LARGEST) and np.all(np.diff(b) > 0.0)):
         raise ModelError(f"The motion of guide '{name}' needs finite coefficients and rising times.")
     ascending = np.zeros((c.shape[1], 6))
     ascending[:, : c.shape[0]] = c[::-1].T
@@ -66,17 +59,32 @@ def guide_time(model: ModelCore, name: str, motion: Any, unit: str) -> Guide:
     return _register(model, name, GuideType.OF_TIME, -1, reals, start, unit)
 
 
+def _spline(motion: tuple[ArrayLike, ArrayLike], what: str) -> CubicSpline:
+    """A spline through points that begins and ends at rest."""
+    if not isinstance(motion, (tuple, list)) or len(motion) != 2:
+        raise ModelError(f"The motion of {what} must be a PPoly or (times, values), not {shown(motion)}.")
+    times = array(motion[0], (None,), f"the times of {what}")
+    values = array(motion[1], (None,), f"the values of {what}")
+    if len(times) < 2 or len(times) != len(values) or not np.all(np.diff(times) > 0.0):
+        raise ModelError(
+            f"The motion of {what} has {len(times)} times and {len(values)} values; it needs two or more rising times "
+            "and a value for each."
+        )
+    return CubicSpline(times, values, bc_type="clamped")
+
+
 def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
     """`guide` if it is one of this model."""
     if not isinstance(guide, Guide) or guide.index >= len(model.guides) or model.guides[guide.index] is not guide:
-        raise ModelError(f"{what} needs a guide made by model '{model.name}', got {guide!r}.")
+        raise ModelError(f"{what} needs a guide made by model '{model.name}', got {shown(guide)}.")
     return guide
 
 
 def _register(
     model: ModelCore, name: str, type: GuideType, input: int, reals: list[float], start: float, unit: str
 ) -> Guide:
-    model.unique("guide", name)
-    guide = Guide(name, len(model.guides), type, input, tuple(float(r) for r in reals), start, unit)
+    text(unit, f"The unit of guide {shown(name)}")
+    checked = tuple(number(r, f"A number of guide {shown(name)}") for r in reals)
+    guide = Guide(model.unique("guide", name), len(model.guides), type, input, checked, start, unit)
     model.guides.append(guide)
     return guide

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
+from mbs.checks import limit, number, shown, text
 from mbs.errors import ModelError
-from mbs.model.checks import number
 from mbs.model.core import ModelCore
 
 
@@ -26,14 +24,15 @@ class Input:
 
 def new_input(model: ModelCore, name: str, start: float, min: float, max: float, unit: str, description: str) -> Input:
     """Register an input; limits may be infinite."""
-    model.unique("input", name)
-    low, high = float(min), float(max)
+    low, high = limit(min, f"The min of input '{name}'"), limit(max, f"The max of input '{name}'")
     value = number(start, f"The start of input '{name}'")
-    if np.isnan(low) or np.isnan(high) or not low <= value <= high:
+    text(unit, f"The unit of input '{name}'")
+    text(description, f"The description of input '{name}'", lines=True)
+    if not low <= value <= high:
         raise ModelError(
             f"The input '{name}' starts at {value:g}, which is not between its limits {low:g} and {high:g}."
         )
-    channel = Input(name, len(model.inputs), value, low, high, unit, description)
+    channel = Input(model.unique("input", name), len(model.inputs), value, low, high, unit, description)
     model.inputs.append(channel)
     return channel
 
@@ -45,5 +44,5 @@ def owned_input(model: ModelCore, channel: Input, what: str) -> Input:
         or channel.index >= len(model.inputs)
         or model.inputs[channel.index] is not channel
     ):
-        raise ModelError(f"{what} needs an input made by model '{model.name}', got {channel!r}.")
+        raise ModelError(f"{what} needs an input made by model '{model.name}', got {shown(channel)}.")
     return channel

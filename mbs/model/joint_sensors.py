@@ -8,21 +8,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
+from mbs.checks import one_of, shown
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.reactions import Term, folded, force_on_first, moment_terms
-from mbs.model.sensors import Sensor, SensorVocabulary, component_number
+from mbs.model.sensors import Sensor, SensorBase, component_number
 
 
-class JointSensorVocabulary(SensorVocabulary):
+class JointSensorVocabulary(SensorBase):
     """What can be read of a joint."""
 
     def _joint(self, name: str, joint: Joint | str) -> Joint:
         found = self.joint_named(joint) if isinstance(joint, str) else joint
-        if found not in self.joints:
-            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {joint!r}.")
+        if not isinstance(found, Joint) or found not in self.joints:
+            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {shown(joint)}.")
+        self.remember(found)
         return found
 
     def _sense_terms(self, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
@@ -32,11 +34,33 @@ class JointSensorVocabulary(SensorVocabulary):
     def sense_joint_force(
         self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
     ) -> Sensor:
-        """Force of a joint on its first body: a component in earth axes at a shared point or from a line, "tension" of
-        a distance, "drive" of a drive, either of a driven distance ("drive" pushes its ends apart), "torque" of a gear
-        on its first wheel, "force" of a rack on its body and of a screw on its first body, both along the axis.
+        """Force of a joint on its first body, N; of a gear its torque on its first wheel, N m.
 
         The equations of the joint stay rows of the System, so that the multipliers exist.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        joint : Joint or str
+            A joint of this model or its name.
+        component : str
+            "x", "y" or "z" in earth axes of a joint with a shared point or a line; "tension" of a distance; "drive" of
+            a drive; either of a driven distance ("drive" pushes its ends apart); "torque" of a gear; "force" of a rack
+            on its body and of a screw on its first body, both along the axis.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, the joint is not of this model or has no force that can be read, or the component is not
+            one of it.
         """
         found = self._joint(name, joint)
         rows = found.force_equations
@@ -45,7 +69,7 @@ class JointSensorVocabulary(SensorVocabulary):
                 f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
                 "drives, gears, racks and screws have one."
             )
-        unit = unit or ("N m" if found.type == "gear" else "N")
+        unit = self._unit(unit, "N m" if found.type == "gear" else "N")
         if found.equations[rows[0]].kind == "driven_distance":
             return self._driven_distance(name, found, component, unit, description)
         if found.normals:
@@ -58,7 +82,8 @@ class JointSensorVocabulary(SensorVocabulary):
             expected = SCALAR_FORCES[found.type]
             if component not in (expected, "x"):
                 raise ModelError(
-                    f"The component of sensor '{name}' is {component!r}; for a {found.type} it must be '{expected}'."
+                    f"The component of sensor '{name}' is {shown(component)}; for a {found.type} it must be "
+                    f"'{expected}'."
                 )
             rows, weights = rows[:1], [found.rows_weight if found.type == "distance" else -found.rows_weight]
         else:
@@ -70,10 +95,10 @@ class JointSensorVocabulary(SensorVocabulary):
     def _driven_distance(self, name: str, joint: Joint, component: str, unit: str, description: str) -> Sensor:
         """(|p1 - p2|^2 - s^2)/2 = 0: the multiplier times the length s is the tension."""
         signs = {"tension": 1.0, "drive": -1.0, "x": -1.0}
-        if component not in signs:
+        if not isinstance(component, str) or component not in signs:
             raise ModelError(
-                f"The component of sensor '{name}' is {component!r}; for a driven distance it must be 'tension' or "
-                "'drive'."
+                f"The component of sensor '{name}' is {shown(component)}; for a driven distance it must be "
+                "'tension' or 'drive'."
             )
         (row,) = joint.force_equations
         term = Term(signs[component], row, (), joint.equations[row].guides[0].guide)
@@ -99,8 +124,10 @@ class JointSensorVocabulary(SensorVocabulary):
 
         Parameters
         ----------
+        name : str
+            Unique among the sensors.
         joint : Joint or str
-            With the drive of an angle, its torque on the angle.
+            A joint of this model or its name. With the drive of an angle, its torque on the angle.
         component : {"x", "y", "z"}
             In the plane "z".
         on : {"first", "second"}
@@ -110,6 +137,13 @@ class JointSensorVocabulary(SensorVocabulary):
         point : array_like, optional
             Place (earth axes, reference configuration, m) of the body that it acts on, about which the moment is taken;
             by default the point of the joint on that body.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
 
         Raises
         ------
@@ -117,8 +151,7 @@ class JointSensorVocabulary(SensorVocabulary):
             The joint transmits no moment, or the component or body is not one.
         """
         found = self._joint(name, joint)
-        if on not in ("first", "second"):
-            raise ModelError(f"The sensor '{name}' asks for the moment on {on!r}; it must be 'first' or 'second'.")
+        one_of(on, ("first", "second"), f"The body that the moment of sensor '{name}' acts on")
         if found.type == "drive" and found.equations[0].kind == "drive":
             return self.sense_joint_force(name, found, "drive", unit, description)
         axis = self._axis(name, component, axes)
@@ -139,11 +172,13 @@ class JointSensorVocabulary(SensorVocabulary):
         """Three components of the axis of a moment; in the plane one."""
         if self.dimension == 2:
             if component != "z":
-                raise ModelError(f"The component of sensor '{name}' is {component!r}; in the plane it must be 'z'.")
+                raise ModelError(
+                    f"The component of sensor '{name}' is {shown(component)}; in the plane it must be 'z'."
+                )
             return AffineVector.constant([1.0])
         e = np.eye(3)[component_number(component, 3, f"sensor '{name}'")]
         if isinstance(axes, Body):
             return self.owned(axes, f"The sensor '{name}'").vector(e)
-        if axes != "earth":
-            raise ModelError(f"The axes of sensor '{name}' are {axes!r}; they must be 'earth' or a body.")
+        if not isinstance(axes, str) or axes != "earth":
+            raise ModelError(f"The axes of sensor '{name}' are {shown(axes)}; they must be 'earth' or a body.")
         return AffineVector.constant(e)

@@ -4,53 +4,71 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 from numpy.typing import ArrayLike
+from scipy.interpolate import PPoly
 
+from mbs.checks import not_negative, number
 from mbs.elements.record import ElementRecord
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
 from mbs.model.body import Body
-from mbs.model.checks import not_negative
+from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.constants import Constant, new_constant
 from mbs.model.core import Coordinate
 from mbs.model.flexible import FlexibleBody
+from mbs.model.force_sensors import ForceSensorVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
-from mbs.model.joints.distance import distance
-from mbs.model.joints.drive import drive
-from mbs.model.joints.gear import gear
-from mbs.model.joints.joint import Joint
-from mbs.model.joints.pin import pin
-from mbs.model.joints.points import revolute, spherical, universal
-from mbs.model.joints.rack import rack
-from mbs.model.joints.rolling import rolling, skate
-from mbs.model.joints.screw import Screw, screw
-from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
-from mbs.model.parameters import Parameter, new_parameter
+from mbs.model.joint_vocabulary import JointVocabulary
+from mbs.model.motion_sensors import MotionSensorVocabulary
+from mbs.model.parameters import Owner, Parameter, new_parameter
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin, spin
 
 
-class Model(ForceVocabulary, JointSensorVocabulary):
+class Model(
+    JointVocabulary,
+    ForceVocabulary,
+    MotionSensorVocabulary,
+    ForceSensorVocabulary,
+    JointSensorVocabulary,
+    ChannelSensorVocabulary,
+):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 
     Points, axes and inertias are given in earth axes in the reference configuration, as read off a drawing. Where the
     drawing does not close, `point` (or `axis`) of a joint may be a pair, one per body; `compile` then closes the
-    assembly.
+    assembly. A call that raises changes nothing.
 
     Parameters
     ----------
     name : str
+        Name of the model; it goes into the System and into messages.
     dimension : {2, 3}
         Planar (x, y) or spatial.
     gravity : array_like, shape (dimension,), optional
         m/s2; by default 9.81 along -y (planar) or -z (spatial).
     length : float, optional
         What the tolerance of `simulate` is relative to, m; by default the extent of bodies and joints as drawn.
+
+    Attributes
+    ----------
+    ground : Body
+        The earth, for joints, forces and sensors.
+    floating : bool
+        Set it where the whole scene may be placed by a `Pose`: nothing ties it to the ground but roads.
+    start_in_equilibrium : bool
+        Set it to start in the static equilibrium instead of as drawn.
+    stop_time, step : float
+        What an FMU of the System proposes as its stop time and its step, s.
+
+    Raises
+    ------
+    ModelError
+        The name is empty, the dimension is neither 2 nor 3, or a number is not one.
 
     Examples
     --------
@@ -59,175 +77,125 @@ class Model(ForceVocabulary, JointSensorVocabulary):
     >>> joint = m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
     """
 
-    # --- joints ---
-    def _join(self, joint: Joint) -> Joint:
-        self.unique("joint", joint.name)
-        self.joints.append(joint)
-        return joint
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
+        super().__init__(name, dimension, gravity, length=length)
+        self.coordinate_rates: dict[int, float] = {}
 
-    def revolute(self, name: str, body_1: Body, body_2: Body, *, point: Any, axis: Any = None) -> Joint:
-        """Shared point and (spatial) shared axis."""
-        return self._join(revolute(self, name, body_1, body_2, point, axis))
+    # --- coordinates ---
+    def relative_angle(
+        self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0
+    ) -> Coordinate:
+        """Angle of body 2 against body 1 about an axis, not wrapped, as one more coordinate.
 
-    def spherical(self, name: str, body_1: Body, body_2: Body, *, point: Any) -> Joint:
-        """Shared point."""
-        return self._join(spherical(self, name, body_1, body_2, point))
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body_1, body_2 : Body
+            Bodies with axes, or the ground.
+        axis : array_like, shape (3,), optional
+            In space only: earth axes in the reference configuration, of any length.
+        zero : float
+            The angle in the reference configuration, rad.
 
-    def universal(
-        self, name: str, body_1: Body, body_2: Body, *, point: Any, axis_1: ArrayLike, axis_2: ArrayLike
-    ) -> Joint:
-        """Shared point; the angle between axis_1 (of body 1) and axis_2 (of body 2) is constant."""
-        return self._join(universal(self, name, body_1, body_2, point, axis_1, axis_2))
+        Returns
+        -------
+        Coordinate
+            For torques, drives, gears and sensors.
 
-    def prismatic(self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike, point: Any = None) -> Joint:
-        """Shared orientation; the point of body 1 slides along the axis of body 2."""
-        return self._join(prismatic(self, name, body_1, body_2, point, axis))
-
-    def cylindrical(self, name: str, body_1: Body, body_2: Body, *, point: Any, axis: ArrayLike) -> Joint:
-        """Shared axis along which the point of body 1 slides and about which the bodies turn."""
-        return self._join(cylindrical(self, name, body_1, body_2, point, axis))
-
-    def weld(self, name: str, body_1: Body, body_2: Body) -> Joint:
-        """The bodies move as one."""
-        return self._join(weld(self, name, body_1, body_2))
-
-    def point_on_line(self, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], *, axis: ArrayLike) -> Joint:
-        """The point of body 1 stays on a line fixed in body 2; ends are (body, point)."""
-        return self._join(point_on_line(self, name, end_1, end_2, axis))
-
-    def distance(self, name: str, end_1: Any, end_2: Any, *, length: float | None = None) -> Joint:
-        """Constant distance, m (default: as drawn): a massless rod. Ends: (body, point), a point mass or a sliding
-        point.
+        Raises
+        ------
+        ModelError
+            The bodies are one, have no axes or are not of this model, or the axis is missing or superfluous.
         """
-        return self._join(distance(self, name, end_1, end_2, length))
+        coordinate, joint = relative_angle(self, name, body_1, body_2, axis, zero)
+        self._join(joint)
+        return coordinate
 
-    def drive(self, name: str, driven: Any, guide: Guide) -> Joint:
-        """A coordinate, a component of a point, or the distance of a pair of ends follows a guide."""
-        return self._join(drive(self, name, driven, guide))
+    def initial_rate(self, coordinate: Coordinate, rate: float) -> None:
+        """Start rate of a relative angle or a spin.
 
-    def pin(self, name: str, body: Body, point: ArrayLike | None = None, *, on: bool = False) -> Joint:
-        """Hold a point of a body (default: its centre of mass) by a switch of the same name, which a running
-        `Simulation` turns on and off: it stays where it is at that moment. `on`: from the start, where it is drawn.
+        Parameters
+        ----------
+        coordinate : Coordinate
+            Of this model.
+        rate : float
+            rad/s.
+
+        Raises
+        ------
+        ModelError
+            The coordinate is not one of this model, or the rate is no finite number.
         """
-        return self._join(pin(self, name, body, point, on))
+        index = self.owned_coordinate(coordinate, "An initial rate").index
+        self.coordinate_rates[index] = number(rate, f"The initial rate of '{coordinate.name}'")
 
-    def rolling(
+    def armature(self, name: str, coordinate: Coordinate, *, inertia: float) -> None:
+        """Inertia that turns with a relative angle, such as a motor behind a gear, seen at the joint.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the armatures.
+        coordinate : Coordinate
+            A relative angle or a spin of this model.
+        inertia : float
+            kg m2; it is added to what the coordinate has already.
+
+        Raises
+        ------
+        ModelError
+            The coordinate is not one of this model, or the inertia is negative.
+        """
+        self.owned_coordinate(coordinate, f"The armature '{name}'")
+        value = not_negative(inertia, f"The inertia of armature '{name}'")
+        self.unique("armature", name)
+        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + value
+
+    def spin(
         self,
         name: str,
-        wheel: Body | Spin,
-        *,
-        radius: float,
-        centre: ArrayLike | None = None,
-        axis: ArrayLike | None = None,
-        level: float = 0.0,
-    ) -> Joint:
-        """A wheel with a knife edge that rolls without slip on a level plane; it always touches.
-
-        Parameters
-        ----------
-        name : str
-        wheel : Body or Spin
-            A rigid body, or a spin on its carrier.
-        radius : float
-            m.
-        centre, axis : array_like, shape (3,)
-            As drawn, in earth axes, m and without unit; of a body, a spin has them.
-        level : float
-            Height z of the plane, m.
-
-        Raises
-        ------
-        ModelError
-            The wheel lies flat, misses the plane by more than a thousandth of its radius, or is no rigid body of this
-            spatial model.
-        """
-        return self._join(rolling(self, name, wheel, radius, centre, axis, level))
-
-    def skate(
-        self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, switch: bool | None = None
-    ) -> Joint:
-        """A knife edge: a point of a body moves along a direction of the body only, seen from above.
-
-        Parameters
-        ----------
-        name : str
-        body : Body
-            A rigid body.
-        point, direction : array_like, shape (2,) or (3,)
-            As drawn, in earth axes, m and without unit; the height is free.
-        switch : bool, optional
-            With a switch of the same name, on or off at the start.
-
-        Raises
-        ------
-        ModelError
-            The direction is upright, or the body is not a rigid one of this model.
-        """
-        return self._join(skate(self, name, body, point, direction, switch))
-
-    # --- transmissions ---
-    def gear(self, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
-        """Two wheels that turn in a constant ratio.
-
-        Parameters
-        ----------
-        name : str
-        wheel_1, wheel_2 : Coordinate
-            Relative angles of the wheels against what carries them, or spins.
-        ratio : float
-            Turns of the first wheel for one of the second, each against its carrier; negative where they turn opposite
-            ways about the axes of their angles (-z2/z1 for external teeth on parallel axes).
-
-        Raises
-        ------
-        ModelError
-            The ratio is zero or not finite, or both wheels are one.
-        """
-        return self._join(gear(self, name, wheel_1, wheel_2, ratio))
-
-    def rack(
-        self,
-        name: str,
-        pinion: Coordinate,
-        body: Body,
         *,
         carrier: Body,
+        centre: ArrayLike,
         axis: ArrayLike,
-        radius: float,
-        point: ArrayLike | None = None,
-    ) -> Joint:
-        """A rack that slides on a carrier by the radius of a pinion per radian; it guides nothing (see `prismatic`).
+        mass: float,
+        spin_inertia: float,
+        diametral_inertia: float,
+        rolling_radius: float = 0.0,
+    ) -> Spin:
+        """An axisymmetric wheel as one coordinate, its absolute axial rate.
+
+        Mass and diametral inertia are added to the carrier.
 
         Parameters
         ----------
         name : str
-        pinion : Coordinate
-            Relative angle of the pinion against the carrier, or a spin on it.
-        body, carrier : Body
-            The rack and what it slides on.
-        axis : array_like, shape (dimension,)
-            Direction of the slide, fixed in the carrier, earth axes as drawn.
-        radius : float
-            m per rad; negative where the rack goes against `axis` when the pinion turns positively.
-        point : array_like, shape (dimension,), optional
-            Of the rack, as drawn, m; by default its centre of mass.
+            Name of the coordinate; unique among the spins.
+        carrier : Body
+            A rigid body of a spatial model.
+        centre, axis : array_like, shape (3,)
+            Earth axes in the reference configuration, m and of any length.
+        mass : float
+            kg.
+        spin_inertia, diametral_inertia : float
+            About the axis and across it, kg m2.
+        rolling_radius : float
+            Radius that gives the spin when an initial pose has a speed, m; 0: none.
+
+        Returns
+        -------
+        Spin
+            For torques, gears, tyres and sensors.
 
         Raises
         ------
         ModelError
-            The radius is zero or not finite, the carrier is a point mass, the rack is the ground or the carrier.
+            The model is planar, the carrier is not rigid, or no wheel has these inertias.
         """
-        return self._join(rack(self, name, pinion, body, carrier, axis, radius, point))
-
-    def screw(self, name: str, body_1: Body, body_2: Body, *, point: ArrayLike, axis: ArrayLike, pitch: float) -> Screw:
-        """Shared axis along which body 1 moves by `pitch`, m, per turn against body 2; a right-hand thread is positive.
-
-        The joint's `angle` is that turn, rad, a coordinate for sensors and torques.
-        """
-        joint, angle = screw(self, name, body_1, body_2, point, axis, pitch)
-        self._join(joint)
-        self._join(angle)
-        return joint
+        return spin(self, name, carrier, centre, axis, mass, spin_inertia, diametral_inertia, rolling_radius)
 
     def anti_roll_bar(
         self,
@@ -250,6 +218,7 @@ class Model(ForceVocabulary, JointSensorVocabulary):
         Parameters
         ----------
         name : str
+            Unique among the elements.
         left, right : Coordinate or Body
             Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
         stiffness, damping : float
@@ -263,12 +232,16 @@ class Model(ForceVocabulary, JointSensorVocabulary):
         mirrored : bool
             The angles count opposite ways (mirrored axes): the twist is their sum instead of left minus right.
 
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
         Raises
         ------
         ModelError
-            The arms are one, are of two kinds or a spin, or the carrier is missing or superfluous.
-        ValueError
-            The stiffness is not positive or the damping negative.
+            The arms are one, are of two kinds or a spin, the carrier is missing or superfluous, the stiffness is not
+            positive or the damping negative.
         """
         angles, joints = arm_angles(self, name, (left, right), carrier, axis)
         bar = anti_roll_bar(self, name, angles, stiffness, damping, free_twist, mirrored)
@@ -276,42 +249,7 @@ class Model(ForceVocabulary, JointSensorVocabulary):
             self._join(joint)
         return bar
 
-    # --- coordinates ---
-    def relative_angle(
-        self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0
-    ) -> Coordinate:
-        """Angle of body 2 against body 1 about the axis, unwrapped, as one more coordinate; `zero` is its reading,
-        rad, in the reference configuration."""
-        coordinate, joint = relative_angle(self, name, body_1, body_2, axis, zero)
-        self._join(joint)
-        return coordinate
-
-    def armature(self, name: str, coordinate: Coordinate, *, inertia: float) -> None:
-        """Inertia, kg m2, that turns with a relative angle (a motor behind a gear, seen at the joint)."""
-        self.unique("armature", name)
-        self.owned_coordinate(coordinate, f"The armature '{name}'")
-        value = not_negative(inertia, f"The inertia of armature '{name}'")
-        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + value
-
-    def spin(
-        self,
-        name: str,
-        *,
-        carrier: Body,
-        centre: ArrayLike,
-        axis: ArrayLike,
-        mass: float,
-        spin_inertia: float,
-        diametral_inertia: float,
-        rolling_radius: float = 0.0,
-    ) -> Spin:
-        """An axisymmetric wheel as one coordinate, its absolute axial rate; mass in kg, inertias in kg m2.
-
-        `rolling_radius` (m) gives the spin when an initial pose has a speed.
-        """
-        return spin(self, name, carrier, centre, axis, mass, spin_inertia, diametral_inertia, rolling_radius)
-
-    # --- guides, inputs, parameters ---
+    # --- inputs, guides, parameters ---
     def input(
         self,
         name: str,
@@ -322,27 +260,117 @@ class Model(ForceVocabulary, JointSensorVocabulary):
         unit: str = "1",
         description: str = "",
     ) -> Input:
-        """A number that a host sets."""
+        """A number that a host sets.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the inputs.
+        start : float
+            Value at the start.
+        min, max : float
+            Limits; values beyond them are refused. They may be infinite.
+        unit : str
+            "1" for a pure number.
+        description : str
+            One sentence for hosts.
+
+        Returns
+        -------
+        Input
+            For forces, torques, guides and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, or the start is not between the limits.
+        """
         return new_input(self, name, start, min, max, unit, description)
 
     def guide_input(self, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1") -> Guide:
-        """A motion that follows gain * input through a critically damped filter of the given frequency, Hz."""
+        """A prescribed motion that follows ``gain * input`` through a critically damped filter.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the guides.
+        input : Input
+            Of this model.
+        gain : float
+            Of the filter, in units of the guide per unit of the input.
+        frequency : float
+            Of the filter, Hz.
+        unit : str
+            Of the guide, rad or m.
+
+        Returns
+        -------
+        Guide
+            For drives, slides and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, the input is not of this model, or the frequency is not positive.
+        """
         return guide_input(self, name, input, gain, frequency, unit)
 
-    def guide_time(self, name: str, motion: Any, *, unit: str = "1") -> Guide:
-        """A motion in time: a PPoly of degree 5 or less, or (times, values)."""
+    def guide_time(self, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], *, unit: str = "1") -> Guide:
+        """A prescribed motion in time.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the guides.
+        motion : scipy.interpolate.PPoly or (times, values)
+            Pieces of degree 5 or less over s; or points, of shape (n,) each, through which a cubic spline goes that
+            begins and ends at rest.
+        unit : str
+            Of the guide, rad or m.
+
+        Returns
+        -------
+        Guide
+            For drives, slides and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, the degree is above 5, or the times do not rise.
+        """
         return guide_time(self, name, motion, unit)
 
     def slide(self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, guide: Guide) -> SlidingPoint:
-        """A point that a guide (m) slides along a direction fixed in a body (of a flexible one, in its floating frame);
-        an end of `distance`.
+        """A point that a guide slides along a direction fixed in a body, such as the rack of a car.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the slides.
+        body : Body
+            Of a flexible one its floating frame is meant.
+        point, direction : array_like, shape (dimension,)
+            Where it is when the guide is 0 (m), and along what it slides, of any length; earth axes in the reference
+            configuration.
+        guide : Guide
+            m.
+
+        Returns
+        -------
+        SlidingPoint
+            An end of `distance`.
+
+        Raises
+        ------
+        ModelError
+            Body or guide are not of this model, or a number is not one.
         """
-        self.unique("slide", name)
         what = f"slide '{name}'"
         index = owned_guide(self, guide, f"The {what}").index
         start = self.anchor(body, point, what)
         turning = body.frame if isinstance(body, FlexibleBody) else body
-        return SlidingPoint(name, body, start, self.anchor_axis(turning, direction, what), index)
+        along = self.anchor_axis(turning, direction, what)
+        return SlidingPoint(self.unique("slide", name), body, start, along, index)
 
     def parameter(
         self,
@@ -353,9 +381,37 @@ class Model(ForceVocabulary, JointSensorVocabulary):
         unit: str = "1",
         description: str = "",
         *,
-        targets: Sequence[tuple[Any, Any, float]],
+        targets: Sequence[tuple[Owner, str | int, float]],
     ) -> Parameter:
-        """A tunable number; each target is (element or guide, name of its real, scale)."""
+        """A number that can be tuned between runs: it is written to data of elements, guides and roads.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the parameters.
+        value : float
+            As the model is compiled.
+        min, max : float
+            Limits.
+        unit : str
+            "1" for a pure number.
+        description : str
+            One sentence for hosts.
+        targets : sequence of (owner, real, scale)
+            ``value * scale`` is written to the real of the owner: an element, a guide of an input, or their name, and
+            one of its `real_names`; or ("road", number) and the number of a real of the road.
+
+        Returns
+        -------
+        Parameter
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, the value is not between the limits, a target does not exist, or what it writes at one
+            of the limits is no value that the target can have.
+        """
         return new_parameter(self, name, value, min, max, unit, description, targets)
 
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
@@ -372,15 +428,16 @@ class Model(ForceVocabulary, JointSensorVocabulary):
         unit : str
             SI unit.
         description : str
-            One sentence.
+            One sentence for hosts.
 
         Returns
         -------
         Constant
+            As it stands in the System.
 
         Raises
         ------
         ModelError
-            If the name is empty or given twice, or the value is no finite number.
+            The name is empty or taken, or the value is no finite number.
         """
         return new_constant(self, name, value, unit, description)

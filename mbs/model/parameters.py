@@ -2,24 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeAlias
 
+from mbs.checks import not_zero, number, positive, shown, text, whole
+from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
 from mbs.kernel.header import GuideType
-from mbs.model.checks import number
 from mbs.model.core import ModelCore
+from mbs.model.guides import Guide
 
 ELEMENT, GUIDE, ROAD = 0, 1, 2  # par_target of the System file
-GUIDE_REALS = ("frequency", "gain", "start")
+GUIDE_REALS = {"frequency": positive, "gain": number, "start": number}
+Owner: TypeAlias = "ElementRecord | Guide | str | tuple[str, int]"
+"""An element, a guide or the name of one; or ("road", number)."""
 
 
 @dataclass(frozen=True)
 class Parameter:
     """A number that writes value * scale to data of elements, guides or roads.
 
-    ``targets`` holds (family, index in the family, index of the real, scale).
+    Parameters
+    ----------
+    name : str
+        Unique among the parameters.
+    value, min, max : float
+        As compiled, and its limits.
+    unit, description : str
+        For hosts.
+    targets : tuple of (int, int, int, float)
+        Family, index in the family, index of the real, scale.
     """
 
     name: str
@@ -31,6 +44,15 @@ class Parameter:
     targets: tuple[tuple[int, int, int, float], ...]
 
 
+@dataclass(frozen=True)
+class _Target:
+    """Where a value goes, and what checks it there."""
+
+    where: tuple[int, int, int, float]
+    what: str
+    check: Callable[[object, str], float]
+
+
 def new_parameter(
     model: ModelCore,
     name: str,
@@ -39,38 +61,68 @@ def new_parameter(
     max: float,
     unit: str,
     description: str,
-    targets: Sequence[tuple[Any, Any, float]],
+    targets: Sequence[tuple[Owner, str | int, float]],
 ) -> Parameter:
-    """Register a parameter; each target is (element, guide or ("road", number); real name; scale)."""
-    model.unique("parameter", name)
-    start = number(value, f"The value of parameter '{name}'")
-    low, high = number(min, f"The min of parameter '{name}'"), number(max, f"The max of parameter '{name}'")
+    """Register a parameter; see `Model.parameter`."""
+    what = f"parameter {shown(name)}"
+    start = number(value, f"The value of {what}")
+    low, high = number(min, f"The min of {what}"), number(max, f"The max of {what}")
     if not low <= start <= high:
-        raise ModelError(f"The parameter '{name}' is {start:g}, which is not between its limits {low:g} and {high:g}.")
-    if not targets:
-        raise ModelError(f"The parameter '{name}' has no target; name the element and the real it writes.")
-    found = tuple(_target(model, name, *target) for target in targets)
-    parameter = Parameter(name, start, low, high, unit, description, found)
+        raise ModelError(f"The {what} is {start:g}, which is not between its limits {low:g} and {high:g}.")
+    if not isinstance(targets, (list, tuple)) or not targets:
+        raise ModelError(
+            f"The {what} has no target; its targets must be a list of (element, name of a real, scale), not "
+            f"{shown(targets)}."
+        )
+    found = [_target(model, what, target) for target in targets]
+    for end, limit in (("min", low), ("max", high)):
+        for target in found:
+            target.check(limit * target.where[3], f"At the {end} {limit:g} of {what}, {target.what}")
+    text(unit, f"The unit of {what}")
+    text(description, f"The description of {what}", lines=True)
+    model.unique("parameter", name)
+    parameter = Parameter(name, start, low, high, unit, description, tuple(target.where for target in found))
     model.parameters.append(parameter)
     return parameter
 
 
-def _target(model: ModelCore, name: str, owner: Any, real: Any, scale: float) -> tuple[int, int, int, float]:
-    factor = number(scale, f"The scale of parameter '{name}'")
+def _target(model: ModelCore, what: str, given: tuple[Owner, str | int, float]) -> _Target:
+    """One target of a parameter."""
+    if not isinstance(given, (list, tuple)) or len(given) != 3:
+        raise ModelError(f"A target of {what} must be (element or guide, name of its real, scale), not {shown(given)}.")
+    owner, real, scale = given
+    factor = not_zero(scale, f"The scale of {what}")
     if isinstance(owner, tuple) and len(owner) == 2 and owner[0] == "road":
-        return ROAD, int(owner[1]), int(real), factor
+        return _road(model, what, owner[1], real, factor)
     owner_name = getattr(owner, "name", owner)
     for index, element in enumerate(model.elements):
         if element.name == owner_name:
-            if real not in element.real_names:
-                known = ", ".join(element.real_names) or "none"
-                raise ModelError(
-                    f"The parameter '{name}' asks for '{real}' of element '{owner_name}', which has: {known}."
-                )
-            return ELEMENT, index, list(element.real_names).index(real), factor
+            names = list(element.real_names)
+            if real not in names:
+                known = ", ".join(names) or "none"
+                raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {known}.")
+            k = names.index(str(real))
+            check = element.real_checks[k] if element.real_checks else number
+            return _Target((ELEMENT, index, k, factor), f"the {real} of element '{owner_name}'", check)
     for guide in model.guides:
         if guide.name == owner_name and guide.type == GuideType.OF_INPUT and real in GUIDE_REALS:
-            return GUIDE, guide.index, GUIDE_REALS.index(real), factor
+            k, check = list(GUIDE_REALS).index(str(real)), GUIDE_REALS[str(real)]
+            return _Target((GUIDE, guide.index, k, factor), f"the {real} of guide '{owner_name}'", check)
     raise ModelError(
-        f"The parameter '{name}' writes '{real}' of '{owner_name}', but the model has no such element or guide."
+        f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element or guide."
     )
+
+
+def _road(model: ModelCore, what: str, number_of: object, real: str | int, factor: float) -> _Target:
+    """A real of a road, by its name or its number."""
+    k = whole(number_of, f"The road of {what}", 0)
+    if k >= len(model.roads):
+        raise ModelError(f"The {what} asks for road {k}; the model has {len(model.roads)}.")
+    road = model.roads[k]
+    names = list(road.real_names)
+    if isinstance(real, str):
+        if real not in names:
+            raise ModelError(f"The {what} asks for {shown(real)} of road {k}, which has: {', '.join(names)}.")
+        real = names.index(real)
+    n = whole(real, f"The number of the real of road {k} for {what}", 0, len(names) - 1)
+    return _Target((ROAD, k, n, factor), f"the {names[n]} of road {k}", road.real_checks[n])

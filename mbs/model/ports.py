@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
+from mbs.checks import Vector, vector
 from mbs.model.body import Body
-from mbs.model.checks import Vector, vector
 from mbs.model.joints.joint import Joint, equal_vectors
 
 SAME_PLACE = 1e-6

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
+from mbs.checks import direction, not_negative, positive, vector
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import direction, not_negative, perpendicular, positive, vector
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.checks import perpendicular
+from mbs.model.core import Coordinate
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ class Spin(Coordinate):
 
 
 def spin(
-    model: ModelCore,
+    model: BodyVocabulary,
     name: str,
     carrier: Body,
     centre: ArrayLike,
@@ -74,10 +76,11 @@ def spin(
     e = direction(axis, 3, f"the axis of {what}")
     c = vector(centre, 3, f"the centre of {what}")
     x, y = perpendicular(e)
+    model.remember(carrier)
     carrier.joint_axes.append(e)
     # I = I_d (1 - e e'), zero about the axis, has the second moment J = tr(I)/2 - I = I_d e e'
     carrier.add_mass(m, c, I_d * np.outer(e, e))
-    index = model.new_coordinate(name, "spin", 0.0)
+    index = model.new_coordinate(model.unique("spin", name), "spin", 0.0)
     model.inertias[index] = I_s
     new = Spin(
         name,

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from mbs.checks import shown
 from mbs.errors import ModelError
 from mbs.model.core import ModelCore
 
@@ -19,8 +22,8 @@ class Switch:
 
 def new_switch(model: ModelCore, name: str, on: bool) -> Switch:
     """Register a switch."""
-    if not isinstance(on, bool):
-        raise ModelError(f"The switch '{name}' is {on!r} at the start; it must be True or False.")
-    switch = Switch(model.unique("switch", name), len(model.switches), on)
+    if not isinstance(on, (bool, np.bool_)):
+        raise ModelError(f"The switch '{name}' is {shown(on)} at the start; it must be True or False.")
+    switch = Switch(model.unique("switch", name), len(model.switches), bool(on))
     model.switches.append(switch)
     return switch

@@ -3,21 +3,123 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from mbs.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
+from mbs.settings import Settings
+from mbs.simulation.state import Pose
+from mbs.system import System
+
+LATEST = 1e10
+"""Largest time, s: double precision leaves two microseconds there."""
+RESOLVED = 1e3
+"""Least length of a step in units of the round-off of the time."""
+MOST_VALUES = 10**9
+"""Values that one run may record: 8 gigabytes."""
 
 
-def check_step(h: float) -> None:
-    """One sentence for a step that is none."""
-    if not (math.isfinite(h) and h > 0.0):
-        raise ValueError(f"The step h is {h} s; it must be positive and finite.")
+def check_step(h: float) -> float:
+    """A step, s, or one sentence."""
+    if not is_number(h):
+        raise ValueError(f"The step h must be a number of seconds, not {shown(h)}.")
+    if not (is_finite(h) and h > 0.0):
+        raise ValueError(f"The step h is {shown(h)} s; it must be positive and finite.")
+    return float(h)
 
 
-def check_end(t0: float, t_end: float) -> None:
-    """One sentence for an end that is none."""
-    if not (math.isfinite(t_end) and t_end >= t0):
-        raise ValueError(f"The end t_end is {t_end} s; it must be finite and not before {t0:g} s.")
+def check_time(t: float, what: str) -> float:
+    """A time, s, or one sentence."""
+    time = number(t, what, ValueError)
+    if abs(time) > LATEST:
+        raise ValueError(f"{what} is {time:g} s; it must lie within {LATEST:g} s of zero, where round-off is small.")
+    return time
 
 
-def check_every(every: int) -> None:
-    """One sentence for an interval of the record that is none."""
-    if every < 1:
-        raise ValueError(f"every = {every}; it must be at least 1.")
+def check_end(t0: float, t_end: float) -> float:
+    """The end of a run, s, or one sentence."""
+    if not is_number(t_end):
+        raise ValueError(f"The end t_end must be a number of seconds, not {shown(t_end)}.")
+    if not (is_finite(t_end) and t_end >= t0):
+        raise ValueError(f"The end t_end is {shown(t_end)} s; it must be finite and not before {t0:g} s.")
+    return check_time(t_end, "The end t_end")
+
+
+def check_every(every: int) -> int:
+    """An interval of the record in steps, or one sentence."""
+    if not is_finite(every) or int(every) != every or not 1 <= every <= MOST_VALUES:
+        raise ValueError(
+            f"every = {shown(every)}; it must be at least 1, a whole number of steps up to {MOST_VALUES:g}."
+        )
+    return int(every)
+
+
+def check_resolution(t: float, h: float) -> None:
+    """One sentence for a step that is lost in the round-off of the time."""
+    if h < RESOLVED * np.spacing(abs(t)):
+        raise ValueError(
+            f"At t = {t:g} s a step of {h:g} s is lost in the round-off of the time; start nearer to zero or take a "
+            f"step above {RESOLVED * np.spacing(abs(t)):.1g} s."
+        )
+
+
+def count_steps(t0: float, t_end: float, h: float) -> int:
+    """Number of whole steps that end not after `t_end`, give or take round-off.
+
+    Raises
+    ------
+    ValueError
+        The end is none, the step is longer than the run, or lost in the round-off of the time.
+    """
+    end = check_end(t0, t_end)
+    steps = math.floor((end - t0) / h + 1e-6)
+    if steps == 0 and end > t0:
+        raise ValueError(f"The step h is {h:g} s, longer than the run of {end - t0:g} s; take a shorter step.")
+    if steps:
+        check_resolution(max(abs(t0), abs(end)), h)
+    return steps
+
+
+def check_record(samples: int, sensors: int) -> None:
+    """One sentence for a record that no memory holds."""
+    if samples * max(sensors, 1) > MOST_VALUES:
+        raise ValueError(
+            f"The run would record {samples:.3g} samples of {sensors} sensors, more than {MOST_VALUES:g} values; "
+            "record less often (every), take longer steps or an earlier end (t_end)."
+        )
+
+
+def check_system(system: System, what: str) -> System:
+    """A System, or one sentence that says how to get one."""
+    return instance_of(System, system, what, "a System, which compile(model) makes")
+
+
+def check_settings(settings: Settings | None) -> Settings:
+    """Settings, by default those of the kernel."""
+    return Settings() if settings is None else instance_of(Settings, settings, "The settings", "Settings(...)")
+
+
+def check_pose(pose: Pose | None, meta: Mapping[str, Any]) -> Pose | None:
+    """A pose of a System that takes one."""
+    if pose is None:
+        return None
+    instance_of(Pose, pose, "The pose", "a Pose(...)")
+    if not meta.get("floating", True):
+        raise ValueError(
+            f"The System {meta['name']!r} takes no pose: its joints tie it to the ground. Leave the pose out, or "
+            "declare the model floating (model.floating = True) where nothing but roads holds it."
+        )
+    return pose
+
+
+def check_values(values: Mapping[str, Any] | None, what: str) -> Mapping[str, Any]:
+    """Values by name; None for none."""
+    return mapping(values, what, "names to values")
+
+
+def check_progress(progress: bool | Callable[[float], None] | None) -> None:
+    """One sentence for what is neither a choice nor a function."""
+    if progress is not None and not callable(progress):
+        flag(progress, "The progress", ValueError)

@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.accuracy import AccuracyWarning
 from mbs.branch_warning import BranchWarning
+from mbs.checks import array, shown
 from mbs.control import ALLOWED, Control
 from mbs.errors import SimulationError
 from mbs.input_signals import Signal
 from mbs.kernel.binding import KernelError, Status
 from mbs.progress import Progress, progress_for
 from mbs.settings import Settings
-from mbs.simulation.arguments import check_end
+from mbs.simulation.arguments import check_end, check_record, count_steps
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.march import notices_of
 from mbs.simulation.method_choice import choose
@@ -166,13 +167,12 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
         if t_end == t0:
             return np.array([t0])
         interval = (t_end - t0) / RECORDED if h is None else h * every
-        return t0 + interval * np.arange(math.floor((t_end - t0) / interval + 1e-6) + 1, dtype=float)
-    try:
-        wanted = np.asarray(times, float).reshape(-1)
-    except (TypeError, ValueError):
-        wanted = np.array([math.nan])
-    if not (np.all(np.isfinite(wanted)) and np.all(np.diff(wanted) > 0.0)):
-        raise ValueError("The times must be finite numbers that ascend.")
+        samples = count_steps(t0, t_end, interval) + 1
+        check_record(samples, 1)
+        return t0 + interval * np.arange(samples, dtype=float)
+    wanted = array(times, (None,), "the times", ValueError, "finite numbers that ascend")
+    if not len(wanted) or not np.all(np.diff(wanted) > 0.0):
+        raise ValueError(f"The times must be finite numbers that ascend, not {shown(times)}.")
     if len(wanted) and not (wanted[0] >= t0 and wanted[-1] <= t_end):
         raise ValueError(
             f"The times must lie between {t0:g} and {t_end:g} s; they go from {wanted[0]:g} to {wanted[-1]:g}."

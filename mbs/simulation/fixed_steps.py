@@ -11,7 +11,8 @@ from mbs.errors import SimulationError
 from mbs.input_signals import Signal
 from mbs.progress import progress_for
 from mbs.simulation import repeat
-from mbs.simulation.march import count_steps, march
+from mbs.simulation.arguments import count_steps
+from mbs.simulation.march import march
 from mbs.simulation.stepping import Simulation
 from mbs.system import System
 from mbs.trajectory import Trajectory

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -16,7 +15,14 @@ from mbs.input_signals import InputSignals, Signal
 from mbs.kernel.binding import KernelError
 from mbs.progress import progress_for
 from mbs.run_report import Report
-from mbs.simulation.arguments import check_end, check_every, check_step
+from mbs.simulation.arguments import (
+    check_every,
+    check_progress,
+    check_record,
+    check_step,
+    check_values,
+    count_steps,
+)
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
 from mbs.trajectory import Trajectory
@@ -45,13 +51,13 @@ def march(
     seen : list of ndarray, shape (nq,)
         With `look` the coordinates at the instants where two runs are compared.
     """
-    check_step(h)
-    t0 = simulation.time
-    steps = count_steps(t0, t_end, h)
-    check_every(every)
-    simulation.step_tried = h
+    t0, h = simulation.time, check_step(h)
+    steps, every = count_steps(t0, t_end, h), check_every(every)
+    check_progress(progress)
     meta, instance = prepared(simulation.system)[1], simulation.instance
-    signals = InputSignals(inputs or {}, meta["inputs"])
+    check_record(steps // every + 1, len(meta["sensors"]))
+    simulation.step_tried = h
+    signals = InputSignals(check_values(inputs, "The inputs"), meta["inputs"])
     values = np.empty((steps // every + 1, len(meta["sensors"])))
     values[0] = list(instance.sensors())
     instants = [int(k) * every for k in accuracy.instants(len(values))]
@@ -84,12 +90,6 @@ def march(
             bar.update(done / steps)
             chunk = _next_chunk(chunk, spent, every)
     return _trajectory(simulation, t0, h * every, values, wall, before), seen
-
-
-def count_steps(t0: float, t_end: float, h: float) -> int:
-    """Number of whole steps that end not after `t_end`, give or take round-off."""
-    check_end(t0, t_end)
-    return math.floor((t_end - t0) / h + 1e-6)
 
 
 def notices_of(sensors: list[dict[str, str]], t: Array, values: Array) -> list[str]:

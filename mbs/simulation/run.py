@@ -10,12 +10,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.accuracy import AccuracyWarning
+from mbs.checks import shown
 from mbs.control import checked_tolerance
 from mbs.input_signals import InputSignals, Signal
 from mbs.progress import progress_for
 from mbs.settings import Settings
 from mbs.simulation import chosen_run
-from mbs.simulation.arguments import check_every, check_step
+from mbs.simulation.arguments import (
+    check_end,
+    check_every,
+    check_progress,
+    check_settings,
+    check_step,
+    check_system,
+    check_time,
+    check_values,
+)
 from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.state import Pose
@@ -92,6 +102,8 @@ def simulate(
 
     Raises
     ------
+    ArgumentTypeError, ValueError
+        An argument is not what it must be, such as a Model in place of a System, or a step longer than the run.
     SimulationError
         When a step fails; its `trajectory` holds what was recorded.
 
@@ -106,20 +118,24 @@ def simulate(
     BranchWarning
         When a closed loop changed its assembly mode; once, with the names of its joints and the time.
     """
-    if h is not None:
-        check_step(h)
-    if estimate_error not in (None, True, False):
-        raise ValueError(f"estimate_error = {estimate_error!r}; it must be True, False or None (suspects only).")
-    check_every(every)
+    check_system(system, "The system to simulate")
+    t0 = check_time(t0, "The start t0")
+    t_end = check_end(t0, t_end)
+    h = None if h is None else check_step(h)
+    if estimate_error is not None and not isinstance(estimate_error, (bool, np.bool_)):
+        raise ValueError(f"estimate_error = {shown(estimate_error)}; it must be True, False or None (suspects only).")
+    every = check_every(every)
+    check_progress(progress)
     if times is not None and tolerance is None:
         raise ValueError("times need a tolerance: equal steps are recorded where they end.")
     wanted = None if tolerance is None else checked_tolerance(tolerance)
-    settings = settings or Settings()
+    settings = check_settings(settings)
+    check_values(parameters, "The parameters")
     named = method is not None or settings.method != Settings().method
     chosen = method if method is not None else settings.method if named or wanted is None else "auto"
-    if chosen not in ("auto", settings.method):
+    if not isinstance(chosen, str) or chosen not in ("auto", settings.method):
         settings = replace(settings, method=chosen)
-    given = inputs or {}
+    given = check_values(inputs, "The inputs")
     declared = prepared(system)[1]["inputs"]
     signals = InputSignals(given, declared)
     names = [declared[i]["name"] for i in signals.columns()]

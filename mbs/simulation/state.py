@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.checks import number
+
 
 @dataclass(frozen=True)
 class Pose:
@@ -20,6 +22,11 @@ class Pose:
         Turn about the vertical, rad.
     speed : float
         Along the turned forward direction, m/s.
+
+    Raises
+    ------
+    ValueError
+        One of them is no finite number.
     """
 
     x: float = 0.0
@@ -27,6 +34,10 @@ class Pose:
     z: float = 0.0
     yaw: float = 0.0
     speed: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("x", "y", "z", "yaw", "speed"):
+            object.__setattr__(self, name, number(getattr(self, name), f"The {name} of a pose", ValueError))
 
 
 @dataclass(frozen=True)

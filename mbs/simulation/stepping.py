@@ -10,12 +10,21 @@ import numpy as np
 
 from mbs import accuracy
 from mbs.accuracy import AccuracyWarning
+from mbs.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.input_signals import InputSignals, Signal, unit_text
 from mbs.kernel.binding import Instance, KernelError
 from mbs.large_bending import BendingWatch
 from mbs.run_report import Report
 from mbs.settings import Settings
-from mbs.simulation.arguments import check_step
+from mbs.simulation.arguments import (
+    check_pose,
+    check_resolution,
+    check_settings,
+    check_step,
+    check_system,
+    check_time,
+    check_values,
+)
 from mbs.simulation.march import march
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
@@ -24,6 +33,7 @@ from mbs.system import System
 from mbs.trajectory import Trajectory
 
 SINGULAR = {"switches": "switch"}
+MOST_ITERATIONS = 10**6
 
 
 class Simulation:
@@ -43,6 +53,15 @@ class Simulation:
         Start of a scene that is not tied to the ground.
     t0 : float
         Time at the start, s.
+
+    Raises
+    ------
+    ArgumentTypeError
+        An argument is of another kind, such as a Model in place of a System.
+    ValueError
+        A name is unknown, a value lies outside its limits, or the System takes no pose.
+    SimulationError
+        The start cannot be made consistent, or is refused: below a road, too far away.
     """
 
     def __init__(
@@ -55,20 +74,21 @@ class Simulation:
         pose: Pose | None = None,
         t0: float = 0.0,
     ) -> None:
-        self.system = system
+        self.system = check_system(system, "The system of a Simulation")
+        self.settings = check_settings(settings)
+        start = check_time(t0, "The start t0")
         self.bending = BendingWatch(system.frames)
         self._warned, self.step_tried = False, 0.0  # whether it has warned, the last step tried
         loaded, self._meta = prepared(system)
-        self.settings = settings or Settings()
         self.instance = Instance(loaded)
         self.instance.set_settings(**self.settings.kernel_fields())
-        for name, value in (parameters or {}).items():
+        for name, value in check_values(parameters, "The parameters").items():
             self.set_parameter(name, value)
-        for name, value in (inputs or {}).items():
+        for name, value in check_values(inputs, "The inputs").items():
             self.set_input(name, value)
-        if pose is not None:
-            self._call(f"The starting {pose} was refused", lambda: self.instance.set_pose(*astuple(pose)))
-        self._call("The start could not be made consistent", lambda: self.instance.initialise(t0))
+        if (placed := check_pose(pose, self._meta)) is not None:
+            self._call(f"The starting {placed} was refused", lambda: self.instance.set_pose(*astuple(placed)))
+        self._call("The start could not be made consistent", lambda: self.instance.initialise(start))
 
     @property
     def time(self) -> float:
@@ -96,20 +116,49 @@ class Simulation:
         return State(*(np.array(part, float) for part in self.instance.get_state()))
 
     def set_input(self, name: str, value: float) -> None:
-        """Value of an input from now on."""
-        InputSignals({name: value}, self._meta["inputs"]).at(np.array([self.time]), 0.0)
-        self.instance.set_input(self._index("inputs", name), value)
+        """Value of an input from now on.
+
+        Parameters
+        ----------
+        name : str
+            Of an input of the System.
+        value : float
+            In its unit, within its limits.
+
+        Raises
+        ------
+        ValueError
+            There is no such input, or the value is not within its limits.
+        """
+        index = self._index("inputs", name)
+        x = number(value, f"The value of input {name!r}", ValueError)
+        InputSignals({name: x}, self._meta["inputs"]).at(np.array([self.time]), 0.0)
+        self.instance.set_input(index, x)
 
     def set_parameter(self, name: str, value: float) -> None:
-        """Value of a parameter from now on."""
+        """Value of a parameter from now on.
+
+        Parameters
+        ----------
+        name : str
+            Of a parameter of the System.
+        value : float
+            In its unit, within its limits.
+
+        Raises
+        ------
+        ValueError
+            There is no such parameter, or the value is not within its limits.
+        """
         index = self._index("parameters", name)
         entry = self._meta["parameters"][index]
-        if not entry["min"] <= value <= entry["max"]:
+        x = number(value, f"The value of parameter {name!r}", ValueError)
+        if not entry["min"] <= x <= entry["max"]:
             raise ValueError(
-                f"Parameter {name!r} is set to {value:g}{unit_text(entry['unit'])}; "
+                f"Parameter {name!r} is set to {x:g}{unit_text(entry['unit'])}; "
                 f"it must lie between {entry['min']:g} and {entry['max']:g}."
             )
-        self.instance.set_parameter(index, value)
+        self.instance.set_parameter(index, x)
 
     def set_switch(self, name: str, on: bool) -> float:
         """Turn the rows of a switch on or off.
@@ -117,12 +166,27 @@ class Simulation:
         Rows that go on hold the values they have at this moment; velocities go to the nearest ones that satisfy them,
         as in an impact without rebound.
 
+        Parameters
+        ----------
+        name : str
+            Of a switch of the System.
+        on : bool
+            Whether its rows hold.
+
         Returns
         -------
         float
             Change of the kinetic energy, J.
+
+        Raises
+        ------
+        ValueError
+            There is no such switch, or `on` is neither True nor False.
+        SimulationError
+            The rows cannot hold here; the switch stays as it was.
         """
         index = self._index("switches", name)
+        flag(on, f"The position of switch {name!r}", ValueError)
         before = self.instance.get_switch(index)
         self._call(
             f"Switch {name!r} could not be turned {'on' if on else 'off'} at t = {self.time:g} s",
@@ -131,7 +195,23 @@ class Simulation:
         return self.report.energy_jump if before != bool(on) else 0.0
 
     def switch(self, name: str) -> bool:
-        """Whether the rows of a switch are on."""
+        """Whether the rows of a switch are on.
+
+        Parameters
+        ----------
+        name : str
+            Of a switch of the System.
+
+        Returns
+        -------
+        bool
+            Whether they hold.
+
+        Raises
+        ------
+        ValueError
+            There is no such switch.
+        """
         return self.instance.get_switch(self._index("switches", name))
 
     def static_equilibrium(self, tolerance: float = 1e-6, max_iterations: int = 1000) -> None:
@@ -143,24 +223,49 @@ class Simulation:
             Largest force out of balance, N or N m.
         max_iterations : int
             Bound on the Newton iterations.
+
+        Raises
+        ------
+        ValueError
+            The tolerance is not positive or the bound no whole number above zero.
+        SimulationError
+            None was found; the state is the one before.
         """
+        force = positive(tolerance, "The tolerance of the static equilibrium", ValueError)
+        most = whole(max_iterations, "max_iterations", 1, MOST_ITERATIONS, ValueError)
         self._call(
             "No static equilibrium was found near the present position",
-            lambda: self.instance.static_equilibrium(self.time, tolerance, max_iterations),
+            lambda: self.instance.static_equilibrium(self.time, force, most),
         )
 
     def step(self, h: float, n: int = 1) -> None:
-        """Make `n` steps of `h` seconds with the inputs as they are.
+        """Make steps with the inputs as they are.
+
+        Parameters
+        ----------
+        h : float
+            Length of a step, s.
+        n : int
+            Number of steps.
+
+        Raises
+        ------
+        ValueError
+            The step is not positive or lost in the round-off of the time, or `n` is no whole number.
+        SimulationError
+            A step failed; the state is the last good one.
 
         Warns
         -----
         AccuracyWarning
             Once, when the energy balance since the start says that the result is wrong.
         """
-        check_step(h)
+        h = check_step(h)
+        if not is_finite(n) or n != int(n) or n < 0:
+            raise ValueError(f"n = {shown(n)}; it must be a whole number of steps.")
+        check_time(self.time + n * h, f"The end of n = {shown(n)} steps of {h:g} s")
+        check_resolution(self.time, h)
         self.step_tried = h
-        if n != int(n) or n < 0:
-            raise ValueError(f"n = {n}; it must be a whole number of steps.")
         for _ in range(int(n)):
             self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
         self._warn_once()
@@ -174,7 +279,33 @@ class Simulation:
         every: int = 1,
         progress: bool | Callable[[float], None] | None = None,
     ) -> Trajectory:
-        """Step from the present time to `t_end`; see `simulate`. Only `simulate` can repeat a run to check it.
+        """Step from the present time to `t_end`. Only `simulate` can repeat a run to check it.
+
+        Parameters
+        ----------
+        t_end : float
+            Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
+        h : float
+            Step, s.
+        inputs : mapping of str to signal, optional
+            Per input a constant, a function of time, or a pair (times, values); see `simulate`.
+        every : int
+            Record the state after every that many steps.
+        progress : bool or callable, optional
+            None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
+            the share that is done.
+
+        Returns
+        -------
+        Trajectory
+            Sensor values, the present ones first.
+
+        Raises
+        ------
+        ArgumentTypeError, ValueError
+            An argument is not what it must be; nothing has moved.
+        SimulationError
+            A step failed; its `trajectory` holds what was recorded.
 
         Warns
         -----
@@ -189,7 +320,27 @@ class Simulation:
         return trajectory
 
     def march(self, t_end: float, h: float, inputs: Mapping[str, Signal]) -> Trajectory:
-        """As `run`, without a word about the accuracy: for who compares runs himself."""
+        """As `run`, without a word about the accuracy: for who compares runs himself.
+
+        Parameters
+        ----------
+        t_end, h : float
+            End and step, s.
+        inputs : mapping of str to signal
+            Per input a constant, a function of time, or a pair (times, values).
+
+        Returns
+        -------
+        Trajectory
+            Sensor values after every step, the present ones first.
+
+        Raises
+        ------
+        ArgumentTypeError, ValueError
+            An argument is not what it must be; nothing has moved.
+        SimulationError
+            A step failed; its `trajectory` holds what was recorded.
+        """
         return march(self, t_end, h, inputs, 1, False)[0]
 
     def _warn_once(self) -> None:
@@ -203,24 +354,55 @@ class Simulation:
             warnings.warn(f"{text} Shorter steps make it right.", AccuracyWarning, stacklevel=3)
 
     def change_settings(self, settings: Settings) -> None:
-        """Solve the steps from now on in another way."""
+        """Solve the steps from now on in another way.
+
+        Parameters
+        ----------
+        settings : Settings
+            How.
+
+        Raises
+        ------
+        ArgumentTypeError
+            They are no Settings.
+        """
+        instance_of(Settings, settings, "The settings", "Settings(...)")
         self.instance.set_settings(**settings.kernel_fields())
         self.settings = settings
 
     def save(self) -> bytes:
-        """All that continues bit for bit, in this or another process."""
+        """All that continues bit for bit, in this or another process.
+
+        Returns
+        -------
+        bytes
+            For `restore`.
+        """
         return self.instance.save()
 
     def restore(self, state: bytes) -> None:
-        """Continue from a saved state of the same System."""
-        self._call("The saved state was refused", lambda: self.instance.restore(state))
+        """Continue from a saved state of the same System.
+
+        Parameters
+        ----------
+        state : bytes
+            What `save` gave.
+
+        Raises
+        ------
+        ArgumentTypeError
+            It is no bytes.
+        SimulationError
+            It is damaged or of another System; the state is the one before.
+        """
+        instance_of((bytes, bytearray), state, "The saved state", "the bytes that save() gave")
+        self._call("The saved state was refused", lambda: self.instance.restore(bytes(state)))
 
     def _index(self, kind: str, name: str) -> int:
         names = [entry["name"] for entry in self._meta[kind]]
-        if name not in names:
-            raise ValueError(
-                f"There is no {SINGULAR.get(kind, kind[:-1])} {name!r}; the System has: {', '.join(names) or 'none'}."
-            )
+        if not isinstance(name, str) or name not in names:
+            known = ", ".join(names) or "none"
+            raise ValueError(f"There is no {SINGULAR.get(kind, kind[:-1])} {shown(name)}; the System has: {known}.")
         return names.index(name)
 
     def _call(self, what: str, action: Callable[[], object]) -> None:

@@ -2,49 +2,41 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
+from mbs.checks import positive
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import positive
-from mbs.model.core import ModelCore
+from mbs.model.ends import End, body_and_point, different
 from mbs.model.equation import Equation, GuideTerm, dot_products
+from mbs.model.flexible import FlexibleBody
 from mbs.model.joints.joint import Drawing, Joint, JointEnds
 from mbs.model.slide import SlidingPoint
 
-End = Any  # (body, point), a point mass, or a SlidingPoint
+ENDS = "(body, point), a point mass or a sliding point"
 
 
-def end_point(model: ModelCore, end: End, what: str) -> tuple[AffineVector, SlidingPoint | None]:
+def end_point(model: BodyVocabulary, end: End, what: str) -> tuple[AffineVector, SlidingPoint | None]:
     """The point at an end, at guide value zero if it slides."""
     if isinstance(end, SlidingPoint):
         model.owned(end.body, what)
         return end.start, end
-    if isinstance(end, Body):
-        end = (end, None if end.is_point else end.com)
-    try:
-        body, point = end
-    except (TypeError, ValueError):
-        raise ModelError(
-            f"An end of {what} must be (body, point), a point mass or a sliding point; got {end!r}."
-        ) from None
+    body, point = body_and_point(end, what, ENDS)
     return model.anchor(body, point, what), None
 
 
-def end_body(end: End) -> Body:
+def end_body(end: End, what: str) -> Body:
     """The body at an end."""
-    if isinstance(end, SlidingPoint | Body):
-        return end.body if isinstance(end, SlidingPoint) else end
-    body: Body = end[0]
-    return body
+    return end.body if isinstance(end, SlidingPoint) else body_and_point(end, what, ENDS)[0]
 
 
-def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float | None) -> Joint:
+def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: float | None) -> Joint:
     """``(|p1 - p2|^2 - length^2)/2 = 0``; its multiplier times the length is the tension of the rod."""
     what = f"distance '{name}'"
+    bodies = end_body(end_1, what), end_body(end_2, what)
     p1, slide_1 = end_point(model, end_1, what)
     p2, slide_2 = end_point(model, end_2, what)
     if slide_1 is not None and slide_2 is not None:
@@ -52,8 +44,9 @@ def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float 
     gap = p1 - p2
     if not any(c.terms for c in gap.components):
         raise ModelError(f"The {what} joins two points of the ground; one end must be able to move.")
-    reference = np.array([c.reference for c in model.coordinates])
-    drawn = float(np.linalg.norm(gap.value(reference)))
+    if slide_1 is None and slide_2 is None and not isinstance(bodies[0], FlexibleBody):  # which has many nodes
+        different(*bodies, what)
+    drawn = float(np.linalg.norm(gap.value(model.drawn())))
     if length is None:
         if drawn <= 0.0:
             raise ModelError(f"The {what} has zero length; use a spherical joint for points that coincide.")
@@ -73,20 +66,25 @@ def distance(model: ModelCore, name: str, end_1: End, end_2: End, length: float 
         [Equation(name, "distance", dot_products(gap, gap, 0.5), constant, guides)],
         rows_weight=length,
     )
-    joint.ends = JointEnds((end_body(end_1), end_body(end_2)), (p1, p2), rod=True)
+    joint.ends = JointEnds(bodies, (p1, p2), rod=True)
     if slide is None:
         joint.drawing = _drawing(model, name, end_1, end_2, length)
     return joint
 
 
-def _drawing(model: ModelCore, name: str, end_1: End, end_2: End, length: float) -> Drawing:
+def _drawing(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: float) -> Drawing:
     """The bodies and points of a rod."""
-    first, second = ((end, end.com) if isinstance(end, Body) else end for end in (end_1, end_2))
+    first, second = (body_and_point(end, name) for end in (end_1, end_2))
     return Drawing(
         (first[0], second[0]),
-        tuple(b.com if p is None else p for b, p in (first, second)),  # type: ignore[arg-type]
+        (_place(*first), _place(*second)),
         None,
         ("distance",),
         lambda p, _, rod: distance(model, name, (first[0], p[0]), (second[0], p[1]), rod),
         length,
     )
+
+
+def _place(body: Body, point: ArrayLike | None) -> ArrayLike:
+    """Where an end is; of a particle its own place."""
+    return body.com if point is None else point

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from mbs.affine import Affine
+from mbs.checks import shown
 from mbs.errors import ModelError
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.core import Coordinate
+from mbs.model.ends import End
 from mbs.model.equation import Equation, GuideTerm
 from mbs.model.guides import Guide, owned_guide
 from mbs.model.joints.distance import distance
 from mbs.model.joints.joint import Joint
 
 
-def drive(model: ModelCore, name: str, driven: Any, guide: Guide) -> Joint:
+def drive(model: BodyVocabulary, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide) -> Joint:
     """``coordinate - s(t) = 0``, or for a pair of ends ``(|p1 - p2|^2 - s(t)^2)/2 = 0``."""
     what = f"drive '{name}'"
     g = owned_guide(model, guide, f"The {what}").index
@@ -32,7 +33,7 @@ def drive(model: ModelCore, name: str, driven: Any, guide: Guide) -> Joint:
         return Joint(name, "drive", [row])
     if not isinstance(driven, (Coordinate, Affine)):
         raise ModelError(
-            f"The {what} needs a coordinate, a component of a point or two ends of a distance, got {driven!r}."
+            f"The {what} needs a coordinate, a component of a point or two ends of a distance, got {shown(driven)}."
         )
     expression = model.expression(driven, f"The {what}")
     if not expression.terms:

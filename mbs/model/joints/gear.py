@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from mbs.checks import not_zero
 from mbs.errors import ModelError
-from mbs.model.checks import number
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.core import Coordinate
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint
-from mbs.model.joints.transmission import not_zero, turned, turning_rate, wheel
+from mbs.model.joints.transmission import turned, turning_rate, wheel
 from mbs.model.spin import Spin
 
 
-def gear(model: ModelCore, name: str, wheel_1: Coordinate, wheel_2: Coordinate, ratio: float) -> Joint:
+def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordinate, ratio: float) -> Joint:
     """``theta_1 = ratio * theta_2`` from where both are drawn; with a spin, the same of the rates.
 
     Both sides are measured against the carriers, so the reactions on these are right by virtual work.
@@ -20,7 +21,7 @@ def gear(model: ModelCore, name: str, wheel_1: Coordinate, wheel_2: Coordinate, 
     a, b = wheel(model, wheel_1, what), wheel(model, wheel_2, what)
     if a.index == b.index:
         raise ModelError(f"The {what} couples '{a.name}' with itself; it needs two wheels.")
-    i = not_zero(number(ratio, f"The ratio of {what}"), f"The ratio of {what}")
+    i = not_zero(ratio, f"The ratio of {what}")
     if isinstance(a, Spin) or isinstance(b, Spin):
         equation = Equation(name, "gear", rates=[*turning_rate(a, 1.0), *turning_rate(b, -i)])
     else:

@@ -6,15 +6,19 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
+from mbs.checks import Vector, array, is_number
 from mbs.errors import ModelError
 from mbs.model.equation import Equation
 from mbs.model.reactions import Turning
 
 if TYPE_CHECKING:
     from mbs.model.body import Body
+    from mbs.model.ends import PointPair
+    from mbs.model.switches import Switch
 
 FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
 """Kinds of equations whose multipliers are a force or a torque that can be read."""
@@ -27,8 +31,8 @@ class JointPlaces:
     """Where a joint sits: its bodies and, on each in earth axes as drawn, its point and axis (if it has one)."""
 
     bodies: tuple[Body, Body]
-    points: tuple[Any, Any]
-    axes: tuple[Any, Any] | None = None
+    points: tuple[ArrayLike, ArrayLike]
+    axes: tuple[ArrayLike, ArrayLike] | None = None
 
 
 @dataclass(frozen=True)
@@ -52,10 +56,12 @@ class Drawing:
     """
 
     bodies: tuple[Body, Body]
-    points: tuple[Any, Any]
-    axes: tuple[Any, Any] | None
+    points: tuple[ArrayLike, ArrayLike]
+    axes: tuple[ArrayLike, ArrayLike] | None
     conditions: tuple[str, ...]
-    remake: Callable[[tuple[Any, Any], tuple[Any, Any] | None, float], Joint] = field(repr=False)
+    remake: Callable[[tuple[ArrayLike, ArrayLike], tuple[ArrayLike, ArrayLike] | None, float], Joint] = field(
+        repr=False
+    )
     length: float = 0.0
 
 
@@ -64,7 +70,7 @@ class Turn:
     """What a relative angle measures: body 2 against body 1 about an axis (as drawn, earth axes; None in the plane)."""
 
     bodies: tuple[Body, Body]
-    axis: Any
+    axis: ArrayLike | None
     coordinate: int
 
 
@@ -140,7 +146,7 @@ class Joint:
         self.keep = False
         self.turning: Turning | None = None
         self._make_turning = turning
-        self.switch: Any = None
+        self.switch: Switch | None = None
         self.ends: JointEnds | None = None
         self.drawing: Drawing | None = None
 
@@ -184,15 +190,34 @@ def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> lis
     return [Equation(name, kind, linear=x - y) for x, y in zip(a.components, b.components, strict=True)]
 
 
-def point_pair(point: Any, dimension: int, what: str) -> tuple[ArrayLike, ArrayLike]:
-    """`point` for both bodies; a pair of points where the drawing does not close."""
-    try:
-        if len(point) == 2 and all(hasattr(p, "__len__") for p in point):
-            return point[0], point[1]
-        if len(point) == dimension:
-            return point, point
-    except TypeError:
-        pass
-    raise ModelError(
-        f"The point of {what} must be {dimension} numbers, or a pair of points, one per body; got {point!r}."
-    )
+def point_pair(point: PointPair, dimension: int, what: str, thing: str = "point") -> tuple[Vector, Vector]:
+    """A point, or an axis, of each body of a joint.
+
+    Parameters
+    ----------
+    point : array_like, shape (dimension,), or pair of them
+        A pair where the drawing does not close.
+    dimension : int
+        2 or 3.
+    what : str
+        What joins there, for the message.
+    thing : {"point", "axis"}
+        What it is, for the message.
+
+    Returns
+    -------
+    pair of ndarray, shape (dimension,)
+        Of the first and of the second body.
+
+    Raises
+    ------
+    ModelError
+        It is neither, or a number is not finite.
+    """
+    wanted = f"{dimension} numbers, or a pair of {'points' if thing == 'point' else 'axes'}, one per body"
+    name = f"the {thing} of {what}"
+    given: Any = point
+    if isinstance(given, (tuple, list, np.ndarray)) and len(given) == 2 and not any(is_number(p) for p in given):
+        return array(given[0], (dimension,), name, wanted=wanted), array(given[1], (dimension,), name, wanted=wanted)
+    both = array(given, (dimension,), name, wanted=wanted)
+    return both, both

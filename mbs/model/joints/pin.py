@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from numpy.typing import ArrayLike
 
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import ModelCore
 from mbs.model.joints.joint import Joint, equal_vectors
 from mbs.model.switches import new_switch
 
 
-def pin(model: ModelCore, name: str, body: Body, point: ArrayLike | None, on: bool) -> Joint:
+def pin(model: BodyVocabulary, name: str, body: Body, point: ArrayLike | None, on: bool) -> Joint:
     """The point of the body stays where it is when the switch of the same name goes on.
 
     At the start, if `on`, that is where it is drawn.
@@ -21,9 +19,9 @@ def pin(model: ModelCore, name: str, body: Body, point: ArrayLike | None, on: bo
     what = f"pin '{name}'"
     if model.owned(body, f"The {what}").is_ground:
         raise ModelError(f"The {what} holds a point of the ground; it needs a body that can move.")
-    p: Any = body.com if point is None and not body.is_point else point
-    held = model.anchor(body, p, what)
-    equations = equal_vectors(name, "point", held, model.anchor(model.ground, body.com if p is None else p, what))
+    place = body.com if point is None else point
+    held = model.anchor(body, place, what)
+    equations = equal_vectors(name, "point", held, model.anchor(model.ground, place, what))
     joint = Joint(name, "pin", equations, rows_weight=1.0)
     joint.keep = True
     joint.switch = new_switch(model, name, on)

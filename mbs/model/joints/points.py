@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
+from mbs.checks import direction
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import direction, perpendicular
-from mbs.model.core import ModelCore
+from mbs.model.checks import perpendicular
+from mbs.model.ends import PointPair, different
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
@@ -20,15 +20,19 @@ from mbs.model.reactions import Turning
 _BIG = 1.0 - 1e-12
 
 
-def shared_point(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, what: str) -> list[Equation]:
+def shared_point(
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, what: str
+) -> list[Equation]:
     """The point of body 1 is the point of body 2."""
     p1, p2 = point_pair(point, model.dimension, what)
     return equal_vectors(name, "point", model.anchor(body_1, p1, what), model.anchor(body_2, p2, what))
 
 
-def shared_axis(model: ModelCore, name: str, body_1: Body, body_2: Body, axis: Any, what: str) -> list[Equation]:
+def shared_axis(
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, axis: PointPair, what: str
+) -> list[Equation]:
     """The unit vector of body 1 is the unit vector of body 2; of nodes that bend, their directions are the same."""
-    a1, a2 = point_pair(axis, model.dimension, what)
+    a1, a2 = point_pair(axis, model.dimension, what, "axis")
     if may_share(body_1, body_2):
         return equal_vectors(name, "axis", model.anchor_axis(body_1, a1, what), model.anchor_axis(body_2, a2, what))
     if bends(body_2) and not bends(body_1):
@@ -38,12 +42,12 @@ def shared_axis(model: ModelCore, name: str, body_1: Body, body_2: Body, axis: A
     return [Equation(name, "axis", dot_products(along, model.anchor_axis(body_2, e, what))) for e in across]
 
 
-def points_of(body_1: Body, p1: Any, body_2: Body, p2: Any) -> tuple[AffineVector, AffineVector]:
+def points_of(body_1: Body, p1: ArrayLike, body_2: Body, p2: ArrayLike) -> tuple[AffineVector, AffineVector]:
     """Where a joint is, on either body."""
     return body_1.point(p1), body_2.point(p2)
 
 
-def turning_about(body_1: Body, p1: Any, a1: ArrayLike, body_2: Body, p2: Any, a2: ArrayLike) -> Turning:
+def turning_about(body_1: Body, p1: ArrayLike, a1: ArrayLike, body_2: Body, p2: ArrayLike, a2: ArrayLike) -> Turning:
     """The axis of body 1 stays square to two vectors of body 2 that are square to its own axis."""
     u = body_1.vector(direction(a1, 3, "an axis"))
     across = perpendicular(direction(a2, 3, "an axis"))
@@ -60,13 +64,7 @@ def may_share(body_1: Body, body_2: Body) -> bool:
     return not (bends(body_1) or bends(body_2) or rigid.is_ground or rigid.is_flexible)
 
 
-def different(body_1: Body, body_2: Body, what: str) -> None:
-    """Refuse a joint of a body with itself."""
-    if body_1 is body_2:
-        raise ModelError(f"The {what} joins body '{body_1.name}' with itself; it needs two bodies.")
-
-
-def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any) -> Joint:
+def spherical(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair) -> Joint:
     """Shared point (spatial: ball joint)."""
     what = f"spherical joint '{name}'"
     different(body_1, body_2, what)
@@ -81,7 +79,9 @@ def spherical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     return joint
 
 
-def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike | None) -> Joint:
+def revolute(
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, axis: PointPair | None
+) -> Joint:
     """Shared point and, in space, shared axis: all equations are linear."""
     what = f"revolute joint '{name}'"
     different(body_1, body_2, what)
@@ -94,7 +94,7 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
         equations += shared_axis(model, name, body_1, body_2, axis, what)
     elif axis is not None:
         raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
-    axes = None if axis is None else point_pair(axis, 3, what)
+    axes = None if axis is None else point_pair(axis, 3, what, "axis")
     places = JointPlaces((body_1, body_2), (p1, p2), axes)
     turning = None
     if axes is not None:
@@ -111,7 +111,7 @@ def revolute(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any
 
 
 def universal(
-    model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis_1: ArrayLike, axis_2: ArrayLike
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, axis_1: ArrayLike, axis_2: ArrayLike
 ) -> Joint:
     """Shared point, and the angle between an axis of each body stays what it is (one quadratic row)."""
     what = f"universal joint '{name}'"

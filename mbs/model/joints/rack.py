@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
+from mbs.checks import not_zero
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import number
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.core import Coordinate
+from mbs.model.ends import different
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joints.joint import Joint
-from mbs.model.joints.points import different
-from mbs.model.joints.transmission import not_zero, turned, turning_rate, wheel
+from mbs.model.joints.transmission import turned, turning_rate, wheel
 from mbs.model.spin import Spin
 
 
 def rack(
-    model: ModelCore,
+    model: BodyVocabulary,
     name: str,
     pinion: Coordinate,
     body: Body,
@@ -35,7 +36,7 @@ def rack(
         raise ModelError(f"The carrier of {what} needs axes; '{carrier.name}' is a point mass.")
     if model.owned(body, f"The {what}").is_ground:
         raise ModelError(f"The rack of {what} is the ground; it must be a moving body, with the ground as its carrier.")
-    r = not_zero(number(radius, f"The radius of {what}"), f"The radius of {what}")
+    r = not_zero(radius, f"The radius of {what}")
     place = body.com if point is None else point
     gap = model.anchor(body, place, what) - model.anchor(carrier, place, what)
     e = model.anchor_axis(carrier, axis, what)

@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
+from mbs.checks import Vector, direction, number, positive
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import Vector, direction, number, perpendicular, positive
-from mbs.model.core import ModelCore
+from mbs.model.checks import perpendicular
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint
 from mbs.model.spin import Spin
@@ -32,7 +33,7 @@ FLAT = 0.05  # s below which a wheel lies rather than stands
 
 
 def rolling(
-    model: ModelCore,
+    model: BodyVocabulary,
     name: str,
     wheel: Body | Spin,
     radius: float,
@@ -50,6 +51,7 @@ def rolling(
             raise ModelError(f"The {what} takes centre and axis from the spin '{wheel.name}'; leave them out.")
         model.owned_coordinate(wheel, f"The {what}")
         c, n = wheel.centre, wheel.axis
+        model.remember(wheel.carrier)
         wheel.carrier.joint_points.append(_at_reference(model, c) - wheel.carrier.com)
     else:
         body = model.owned(wheel, f"The {what}")
@@ -77,7 +79,7 @@ def rolling(
 
 
 def skate(
-    model: ModelCore, name: str, body: Body, point: ArrayLike, direction_: ArrayLike, switch: bool | None
+    model: BodyVocabulary, name: str, body: Body, point: ArrayLike, direction_: ArrayLike, switch: bool | None
 ) -> Joint:
     """A knife edge: the point of the body moves along the direction only, as seen from above (planar: in the plane).
 
@@ -97,8 +99,8 @@ def skate(
     return joint
 
 
-def _at_reference(model: ModelCore, v: AffineVector) -> Vector:
-    return v.value(np.array([c.reference for c in model.coordinates]))
+def _at_reference(model: BodyVocabulary, v: AffineVector) -> Vector:
+    return v.value(model.drawn())
 
 
 def _touches(height: float, n_z: float, R: float, what: str) -> None:

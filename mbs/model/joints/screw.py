@@ -6,15 +6,16 @@ import math
 
 from numpy.typing import ArrayLike
 
+from mbs.checks import not_zero
 from mbs.errors import ModelError
 from mbs.model.angle import relative_angle
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import number
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.core import Coordinate
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.sliding import cylindrical
-from mbs.model.joints.transmission import not_zero, turned
+from mbs.model.joints.transmission import turned
 
 
 class Screw(Joint):
@@ -24,13 +25,13 @@ class Screw(Joint):
 
 
 def screw(
-    model: ModelCore, name: str, body_1: Body, body_2: Body, point: ArrayLike, axis: ArrayLike, pitch: float
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: ArrayLike, axis: ArrayLike, pitch: float
 ) -> tuple[Screw, Joint]:
     """``(p_1 - p_2) . e = pitch / (2 pi) * theta`` on top of a cylindrical joint, and the joint of its angle."""
     what = f"screw joint '{name}'"
     if model.dimension == 2:
         raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-    lead = not_zero(number(pitch, f"The pitch of {what}"), f"The pitch of {what}")
+    lead = not_zero(pitch, f"The pitch of {what}")
     shaft = cylindrical(model, name, body_1, body_2, point, axis)
     angle, angle_joint = relative_angle(model, f"{name}.angle", body_2, body_1, axis, 0.0)
     gap = model.anchor(body_1, point, what) - model.anchor(body_2, point, what)

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
+from mbs.checks import direction
 from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import direction, perpendicular
-from mbs.model.core import ModelCore
+from mbs.model.checks import perpendicular
+from mbs.model.ends import PointPair, body_and_point, different
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import Interface, bends, located
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
-from mbs.model.joints.points import different, may_share, points_of, shared_axis, shared_point, turning_about
+from mbs.model.joints.points import may_share, points_of, shared_axis, shared_point, turning_about
 from mbs.model.reactions import Turning
 
 
-def _normals(model: ModelCore, body: Body, axis: ArrayLike, what: str) -> list[AffineVector]:
+def _normals(model: BodyVocabulary, body: Body, axis: ArrayLike, what: str) -> list[AffineVector]:
     """Vectors of `body` that are perpendicular to the axis: one in the plane, two in space."""
     if model.dimension == 2:
         u = direction(axis, 2, f"the axis of {what}")
@@ -28,7 +28,12 @@ def _normals(model: ModelCore, body: Body, axis: ArrayLike, what: str) -> list[A
 
 
 def on_line(
-    model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike, what: str
+    model: BodyVocabulary,
+    name: str,
+    end_1: tuple[Body, ArrayLike],
+    end_2: tuple[Body, ArrayLike],
+    axis: ArrayLike,
+    what: str,
 ) -> tuple[list[Equation], list[AffineVector]]:
     """The point of body 1 stays on the line through the point of body 2 along an axis fixed in body 2; also the
     normals of the line.
@@ -41,7 +46,9 @@ def on_line(
     return [Equation(name, "line", dot_products(gap, n)) for n in normals], normals
 
 
-def _sliding_ends(end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike, what: str) -> JointEnds:
+def _sliding_ends(
+    end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], axis: ArrayLike, what: str
+) -> JointEnds:
     """The point of body 1 slides along the axis of body 2."""
     (body_1, p1), (body_2, p2) = end_1, end_2
     # a vector of a node that bends would bring rows of its own
@@ -50,7 +57,7 @@ def _sliding_ends(end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayL
     return JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), along, slides=True)
 
 
-def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, what: str) -> list[Equation]:
+def same_orientation(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, what: str) -> list[Equation]:
     """Body 1 does not turn against body 2: all axes are shared (linear); of nodes that bend, their directions."""
     axes = np.eye(model.dimension)[: 1 if model.dimension == 2 else 3]
     for body in (body_1, body_2):
@@ -66,7 +73,7 @@ def same_orientation(model: ModelCore, name: str, body_1: Body, body_2: Body, wh
     return [Equation(name, "axis", dot_products(u, v)) for u, v in pairs]
 
 
-def no_turning(body_1: Body, p1: Any, body_2: Body, p2: Any) -> Turning:
+def no_turning(body_1: Body, p1: ArrayLike, body_2: Body, p2: ArrayLike) -> Turning:
     """Axes of body 1 stay square to other axes of body 2."""
     axes = np.eye(len(body_1.com))
     pairs = [(0, 1)] if len(axes) == 2 else [(0, 1), (0, 2), (1, 2)]
@@ -75,10 +82,11 @@ def no_turning(body_1: Body, p1: Any, body_2: Body, p2: Any) -> Turning:
 
 
 def point_on_line(
-    model: ModelCore, name: str, end_1: tuple[Body, Any], end_2: tuple[Body, Any], axis: ArrayLike
+    model: BodyVocabulary, name: str, end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], axis: ArrayLike
 ) -> Joint:
     """Point of body 1 on a line fixed in body 2."""
     what = f"point-on-line joint '{name}'"
+    end_1, end_2 = (body_and_point(end, what, "(body, point)") for end in (end_1, end_2))
     different(end_1[0], end_2[0], what)
     line, normals = on_line(model, name, end_1, end_2, axis, what)
     joint = Joint(name, "point_on_line", line, normals=normals)
@@ -93,7 +101,9 @@ def point_on_line(
     return joint
 
 
-def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
+def cylindrical(
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, axis: PointPair
+) -> Joint:
     """Shared axis direction, and the point of body 1 on the axis of body 2."""
     what = f"cylindrical joint '{name}'"
     if model.dimension == 2:
@@ -102,12 +112,12 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
     p1, p2 = point_pair(point, 3, what)
     body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
     equations = shared_axis(model, name, body_1, body_2, axis, what)
-    line, normals = on_line(model, name, (body_1, p1), (body_2, p2), axis, what)
-    a1, a2 = point_pair(axis, 3, what)
+    axes = point_pair(axis, 3, what, "axis")
+    a1, a2 = axes
+    line, normals = on_line(model, name, (body_1, p1), (body_2, p2), a2, what)
     turning = lambda: turning_about(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
     joint = Joint(name, "cylindrical", equations + line, normals=normals, turning=turning)
-    joint.ends = _sliding_ends((body_1, p1), (body_2, p2), point_pair(axis, 3, what)[1], what)
-    axes: Any = point_pair(axis, 3, what)
+    joint.ends = _sliding_ends((body_1, p1), (body_2, p2), a2, what)
     joint.drawing = Drawing(
         (body_1, body_2),
         (p1, p2),
@@ -118,7 +128,9 @@ def cylindrical(model: ModelCore, name: str, body_1: Body, body_2: Body, point: 
     return joint
 
 
-def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: Any, axis: ArrayLike) -> Joint:
+def prismatic(
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair | None, axis: ArrayLike
+) -> Joint:
     """Shared orientation, and the point of body 1 on the axis of body 2; without a point, the centre of mass of a
     moving body.
     """
@@ -143,7 +155,7 @@ def prismatic(model: ModelCore, name: str, body_1: Body, body_2: Body, point: An
     return joint
 
 
-def weld(model: ModelCore, name: str, body_1: Body, body_2: Body) -> Joint:
+def weld(model: BodyVocabulary, name: str, body_1: Body, body_2: Body) -> Joint:
     """Both bodies move as one; all equations are linear."""
     what = f"weld '{name}'"
     different(body_1, body_2, what)

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from mbs.affine import Affine
-from mbs.errors import ModelError
-from mbs.model.core import Coordinate, ModelCore
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.core import Coordinate
 from mbs.model.equation import Product
 from mbs.model.spin import Spin
 
 ONE = Affine({}, 1.0)
 
 
-def wheel(model: ModelCore, given: Coordinate, what: str) -> Coordinate:
+def wheel(model: BodyVocabulary, given: Coordinate, what: str) -> Coordinate:
     """`given` if it is a relative angle or a spin of this model."""
     return model.owned_coordinate(given, f"The {what}")
 
 
-def turned(model: ModelCore, angle: Coordinate) -> Affine:
+def turned(model: BodyVocabulary, angle: Coordinate) -> Affine:
     """A relative angle from where it is drawn."""
     return angle.affine - model.coordinates[angle.index].reference
 
@@ -30,10 +30,3 @@ def turning_rate(wheel: Coordinate, factor: float) -> list[Product]:
     if not isinstance(wheel, Spin):
         return own
     return own + [(-factor, g, f) for f, g in zip(wheel.f.components, wheel.g.components, strict=True)]
-
-
-def not_zero(value: float, what: str) -> float:
-    """`value` if it is not zero."""
-    if value == 0.0:
-        raise ModelError(f"{what} is 0; it must not be zero.")
-    return value

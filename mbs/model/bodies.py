@@ -1,0 +1,312 @@
+"""Bodies of a model: how they are added, and what a joint asks of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import AffineVector
+from mbs.checks import Vector, array, capital, direction, instance_of, is_number, mapping, positive, shown, vector
+from mbs.errors import ModelError
+from mbs.flexible.reduced_body import ReducedBody
+from mbs.model.body import Body, Ground, PointMass
+from mbs.model.checks import inertia_matrix
+from mbs.model.core import ModelCore
+from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.ports import PortedBody
+
+ROTATION = 1e-9
+"""How far a matrix of axes may be from a rotation."""
+
+
+class BodyVocabulary(ModelCore):
+    """The bodies of a model.
+
+    Parameters
+    ----------
+    name, dimension, gravity, length
+        See `Model`.
+    """
+
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
+        super().__init__(name, dimension, gravity, length=length)
+        self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
+        self.bodies: list[Body] = []
+        self.body_velocities: dict[int, tuple[Vector | None, Vector | None]] = {}  # None: left to the joints
+
+    def body(self, name: str, *, mass: float, com: ArrayLike, inertia: ArrayLike) -> Body:
+        """A rigid body.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the bodies.
+        mass : float
+            kg.
+        com : array_like, shape (dimension,)
+            Centre of mass in earth axes in the reference configuration, m.
+        inertia : float or array_like
+            About the centre of mass in earth axes in the reference configuration, kg m2: planar a number, spatial
+            3 principal values or a 3x3 matrix.
+
+        Returns
+        -------
+        Body
+            For joints, forces and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, a number is not one or not positive, or no mass distribution has this inertia.
+        """
+        m = positive(mass, f"The mass of body {shown(name)}")
+        centre = vector(com, self.dimension, f"the centre of mass of body {shown(name)}")
+        I = inertia_matrix(inertia, self.dimension, f"The inertia of body {shown(name)}")
+        # second moments of mass from moments of inertia: J = tr(I)/2 - I; planar: only the polar moment counts
+        J = 0.5 * np.trace(I) * np.eye(3) - I if self.dimension == 3 else np.diag([0.5 * I[2, 2], 0.5 * I[2, 2], 0.0])
+        new = Body(self, self.unique("body", name), centre, len(self.coordinates))
+        new.add_mass(m, centre, J)
+        self._register(new)
+        return new
+
+    def point_mass(self, name: str, *, mass: float, position: ArrayLike) -> PointMass:
+        """A particle.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the bodies.
+        mass : float
+            kg.
+        position : array_like, shape (dimension,)
+            In earth axes in the reference configuration, m.
+
+        Returns
+        -------
+        PointMass
+            For joints, forces and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, or a number is not one or not positive.
+        """
+        m = positive(mass, f"The mass of point mass {shown(name)}")
+        centre = vector(position, self.dimension, f"the position of point mass {shown(name)}")
+        new = PointMass(self, self.unique("body", name), centre, len(self.coordinates))
+        new.add_mass(m, centre, np.zeros((3, 3)))
+        self._register(new)
+        return new
+
+    def flexible_body(
+        self, name: str, reduced: ReducedBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None
+    ) -> FlexibleBody:
+        """A flexible body from a reduced finite-element model.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the bodies.
+        reduced : ReducedBody
+            For instance of `mbs.flexible.craig_bampton.craig_bampton`.
+        origin : array_like, shape (3,)
+            Where the origin of the finite-element model is in the reference configuration, earth axes, m.
+        axes : array_like, shape (3, 3), optional
+            Columns: axes of the finite-element model in earth axes there; by default the same.
+
+        Returns
+        -------
+        FlexibleBody
+            Its nodes, `FlexibleBody.interface`, take joints, forces and sensors.
+
+        Raises
+        ------
+        ModelError
+            The model is planar, the name is taken, the axes are no rotation, or all mass lies on a line.
+        ArgumentTypeError
+            `reduced` is no ReducedBody.
+        """
+        what = f"flexible body {shown(name)}"
+        if self.dimension != 3:
+            raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
+        instance_of(ReducedBody, reduced, f"The model of {what}", "a ReducedBody, such as craig_bampton makes")
+        place = vector(origin, 3, f"the origin of {what}")
+        R = np.eye(3) if axes is None else array(axes, (3, 3), f"The axes of {what}")
+        if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
+            raise ModelError(f"The axes of {what} must be the columns of a rotation matrix.")
+        new = FlexibleBody(self, self.unique("body", name), reduced, place, R, len(self.coordinates))
+        self._register(new)
+        return new
+
+    def ported(self, body: Body, ports: Mapping[str, ArrayLike]) -> PortedBody:
+        """A rigid body with ports: joints and springs given the result leave the forces there to be read.
+
+        Parameters
+        ----------
+        body : Body
+            A rigid body of this spatial model.
+        ports : mapping of str to array_like, shape (3,)
+            Places by name, earth axes in the reference configuration, m.
+
+        Returns
+        -------
+        PortedBody
+            To be used in place of the body.
+
+        Raises
+        ------
+        ModelError
+            The body is none of this model or not rigid, the model is planar, or a place is not three numbers.
+        ArgumentTypeError
+            `ports` is no mapping.
+        """
+        self.owned(body, "The ports")
+        if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
+            raise ModelError(f"Ports belong to a rigid body in space, not to '{body.name}'.")
+        given = mapping(ports, f"The ports of body '{body.name}'", "names to places")
+        if not given:
+            raise ModelError(f"The ports of body '{body.name}' are {shown(ports)}; it needs one at least.")
+        places = {n: vector(p, 3, f"the port {shown(n)} of body '{body.name}'") for n, p in given.items()}
+        return PortedBody(body, places)
+
+    def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
+        """Start velocity of a body: of its centre of mass, its angular velocity, or both.
+
+        What is left out follows from the joints: of all velocities that have the given part, the start takes the one
+        with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
+        rest. What the joints do not allow of the given part is left away, as little of it as they ask for.
+
+        Parameters
+        ----------
+        body : Body
+            Of this model; not the ground and not a node of a flexible body.
+        linear : array_like, shape (dimension,), optional
+            Velocity of its centre of mass, earth axes, m/s.
+        angular : float or array_like, shape (3,), optional
+            Angular velocity, earth axes, rad/s; planar a number.
+
+        Raises
+        ------
+        ModelError
+            The body cannot have one, or a velocity is not the numbers it must be.
+        """
+        what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
+        self.owned(body, f"The {what}")
+        if body.is_ground or isinstance(body, Interface):
+            raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
+        d, size = self.dimension, 1 if self.dimension == 2 else 3
+        if linear is None and angular is None:
+            linear, angular = np.zeros(d), np.zeros(size)
+        v = None if linear is None else vector(linear, d, f"the linear {what}")
+        w = None if angular is None else _angular(angular, size, f"the angular {what}")
+        if body.is_point and v is None:
+            raise ModelError(f"The {what} is angular; a point mass has a linear one only.")
+        self.body_velocities[body.number] = (v, w)
+
+    def owned(self, body: Body, what: str) -> Body:
+        """A body, if it is one of this model.
+
+        Parameters
+        ----------
+        body : Body
+            A body, a point mass, the ground, or a node of a flexible body.
+        what : str
+            What needs it, for the message.
+
+        Returns
+        -------
+        Body
+            The same.
+
+        Raises
+        ------
+        ModelError
+            It is none, or one of another model.
+        """
+        if not isinstance(body, Body):
+            raise ModelError(f"{capital(what)} needs a body, got {shown(body)}.")
+        if body.model is not self:
+            raise ModelError(
+                f"{capital(what)}: body '{body.name}' belongs to model '{body.model.name}', not to '{self.name}'."
+            )
+        return body
+
+    def anchor(self, body: Body, position: ArrayLike | None, what: str) -> AffineVector:
+        """A joint point of a body; remembered so that compile can choose short rigid-body equations.
+
+        Parameters
+        ----------
+        body : Body
+            Of this model.
+        position : array_like, shape (dimension,)
+            In earth axes in the reference configuration, m; of a point mass None.
+        what : str
+            What joins there, for the message.
+
+        Returns
+        -------
+        AffineVector
+            The point.
+
+        Raises
+        ------
+        ModelError
+            The body is none of this model, or the position is not the numbers it must be.
+        """
+        self.owned(body, what)
+        if body.is_point:
+            return body.point(position)  # type: ignore[arg-type]
+        local = vector(position, self.dimension, f"the point of {what} on body '{body.name}'")
+        self.remember(body)
+        self.grounded = self.grounded or body.is_ground
+        body.joint_points.append(local - body.com)
+        return body.point(local)
+
+    def anchor_axis(self, body: Body, axis: ArrayLike, what: str) -> AffineVector:
+        """A unit joint axis of a body; remembered like a joint point.
+
+        Parameters
+        ----------
+        body : Body
+            Of this model.
+        axis : array_like, shape (dimension,)
+            In earth axes in the reference configuration, of any length.
+        what : str
+            What joins there, for the message.
+
+        Returns
+        -------
+        AffineVector
+            The unit vector.
+
+        Raises
+        ------
+        ModelError
+            The body is none of this model or has no axes, or the axis is zero or not the numbers it must be.
+        """
+        self.owned(body, what)
+        unit = direction(axis, self.dimension, f"the axis of {what} on body '{body.name}'")
+        if isinstance(body, FlexibleBody):
+            raise ModelError(
+                f"The {what} needs an axis of flexible body '{body.name}': name the node, {body.name}.interface(node)."
+            )
+        if body.is_ground:
+            self.grounded = True
+        elif not body.is_point:
+            self.remember(body)
+            body.joint_axes.append(unit)
+        return body.vector(unit)
+
+    def _register(self, body: Body) -> None:
+        self.coordinates += body.coordinates()
+        body.number = len(self.bodies)
+        self.bodies.append(body)
+
+
+def _angular(value: ArrayLike, size: int, what: str) -> Vector:
+    """Angular velocity, shape (size,); in the plane a number will do."""
+    return vector([value] if size == 1 and is_number(value) else value, size, what)

@@ -1,0 +1,254 @@
+"""Sensors of forces and energies: outputs of force elements, work, energy, and what a flexible body recovers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.checks import instance_of, number, one_of, shown, whole
+from mbs.elements.record import ElementRecord
+from mbs.errors import ModelError
+from mbs.flexible.inertia_relief import InertiaRelief
+from mbs.kernel.header import SensorType
+from mbs.model.flexible import FlexibleBody
+from mbs.model.ports import PortedBody
+from mbs.model.sensors import Sensor, SensorBase
+
+WORKS = ("work", "nonconservative")
+ENERGIES = ("kinetic", "gravity", "elastic", "total")
+
+
+class ForceSensorVocabulary(SensorBase):
+    """What can be read of force elements and of bodies under load."""
+
+    def sense_element(
+        self,
+        name: str,
+        element: ElementRecord | str,
+        output: str,
+        scale: float = 1.0,
+        unit: str = "",
+        description: str = "",
+    ) -> Sensor:
+        """An output of a force element, such as the force of a spring.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        element : ElementRecord or str
+            A force element of this model or its name.
+        output : str
+            Name of one of its outputs.
+        scale : float
+            Factor on it.
+        unit, description : str
+            For files, plots and hosts; by default those of the output.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, or there is no such element or output; the message lists what there is.
+        """
+        element_name = element.name if isinstance(element, ElementRecord) else element
+        if not isinstance(element_name, str) or not isinstance(output, str):
+            raise ModelError(
+                f"The sensor '{name}' needs a force element, or its name, and the name of an output, got "
+                f"{shown(element)} and {shown(output)}."
+            )
+        factor = number(scale, f"The scale of sensor '{name}'")
+        for index, record in enumerate(self.elements):
+            if record.name == element_name:
+                for k, out in enumerate(record.outputs):
+                    if out.name == output:
+                        return self._sense(
+                            name,
+                            self._unit(unit, out.unit),
+                            self._unit(description, out.description),
+                            SensorType.ELEMENT_OUTPUT,
+                            integers=[index, k],
+                            reals=[factor],
+                            whole=out.whole and factor == 1.0,
+                            display_unit=out.display_unit if isinstance(unit, str) and not unit else "",
+                        )
+                known = ", ".join(o.name for o in record.outputs) or "none"
+                raise ModelError(
+                    f"The sensor '{name}' asks for {shown(output)} of element '{element_name}', which has: {known}."
+                )
+        raise ModelError(
+            f"The sensor '{name}' asks for element {shown(element_name)}, but the model has no such element."
+        )
+
+    def sense_work(
+        self,
+        name: str,
+        elements: ElementRecord | str | Sequence[ElementRecord | str],
+        kind: str = "work",
+        unit: str = "J",
+        description: str = "",
+    ) -> Sensor:
+        """Work of force elements on the mechanism since the start, J; the works of several are added.
+
+        The sums of all elements, of kind "nonconservative", and the work of driven joints are the change of the total
+        energy (`sense_energy`), but for what the steps err by (`sense_solver`, "energy_error"). Each method adds up its
+        own steps: with mean forces times ways by the trapezoidal rule (second order), with the forces of discrete
+        gradients by energy-momentum (exact), with powers of the stages by the others.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        elements : ElementRecord, str or sequence of them
+            Force elements of this model or their names.
+        kind : {"work", "nonconservative"}
+            Of all forces of the elements; or together with the change of their own potential energy, so that springs
+            have none. Work that is lost, in a damper or a brake, is negative.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            An element that the model does not have or that comes twice, none at all, or another kind.
+        """
+        one_of(kind, WORKS, f"The work of sensor '{name}'")
+        if not isinstance(elements, (ElementRecord, str, list, tuple)):
+            raise ModelError(f"The sensor '{name}' needs force elements or their names, got {shown(elements)}.")
+        given = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
+        known = {record.name: k for k, record in enumerate(self.elements)}
+        names = [e.name if isinstance(e, ElementRecord) else e for e in given]
+        for element in names:
+            if not isinstance(element, str) or element not in known:
+                raise ModelError(
+                    f"The sensor '{name}' asks for element {shown(element)}, but the model has no such element; it "
+                    f"has: {', '.join(known) or 'none'}."
+                )
+        if not names or len(set(names)) < len(names):
+            raise ModelError(f"The sensor '{name}' needs at least one element and each once, got {names}.")
+        numbers = [known[element] for element in names]
+        return self._sense(
+            name, unit, description, SensorType.WORK, integers=[WORKS.index(kind), len(numbers), *numbers]
+        )
+
+    def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
+        """Energy of the mechanism, J.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        kind : {"kinetic", "gravity", "elastic", "total"}
+            Which energy; the elastic one is that of springs and flexible bodies.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, or there is no such energy.
+        """
+        one_of(kind, ENERGIES, f"The energy of sensor '{name}'")
+        return self._sense(name, unit, description, SensorType.ENERGY, integers=[ENERGIES.index(kind)])
+
+    def sense_recovery(
+        self, name: str, body: FlexibleBody, weights: ArrayLike, unit: str = "", description: str = ""
+    ) -> Sensor:
+        """A constant row times the amplitudes of a flexible body, such as a stress of `ReducedBody.recovery`.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        body : FlexibleBody
+            Of this model.
+        weights : array_like, shape (n_modes,)
+            Output per unit amplitude.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, the body is not a flexible one of this model, or the weights are not one per mode.
+        """
+        if not isinstance(self.owned(body, f"The sensor '{name}'"), FlexibleBody):
+            raise ModelError(f"The sensor '{name}' needs a flexible body, not '{body.name}'.")
+        return self._sense(name, unit, description, SensorType.SIGNAL, [body.combination(weights)], reals=[1.0])
+
+    def sense_quasi_static(
+        self,
+        name: str,
+        body: PortedBody,
+        relief: InertiaRelief,
+        output: int,
+        origin: ArrayLike,
+        unit: str = "",
+        description: str = "",
+    ) -> Sensor:
+        """An output of a structure that follows the forces at the ports of a rigid body and its motion at once.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        body : PortedBody
+            Of this model.
+        relief : InertiaRelief
+            Interfaces in the order of the ports, axes those of the earth in the reference configuration.
+        output : int
+            Row of its matrices.
+        origin : array_like, shape (3,)
+            Its origin in the reference configuration, m.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, the body has no ports, or the matrices have other ports or no such row.
+        ArgumentTypeError
+            `relief` is no InertiaRelief.
+        """
+        what = f"sensor '{name}'"
+        if not isinstance(self.owned(body, f"The {what}"), PortedBody):
+            raise ModelError(f"The {what} needs a body with ports, not '{body.name}'.")
+        instance_of(InertiaRelief, relief, f"The relief of {what}", "an InertiaRelief")
+        n, row = len(body.ports), whole(output, f"The output of {what}", 0)
+        if relief.forces.shape[1] != 3 * n or not row < len(relief.forces):
+            raise ModelError(
+                f"The {what} needs matrices of {n} interfaces and a row of them; they have "
+                f"{relief.forces.shape[1] // 3} and {len(relief.forces)} rows, the row is {shown(output)}."
+            )
+        signals = [*body.point(origin).components, *(s for e in np.eye(3) for s in body.vector(e).components)]
+        weights = np.concatenate([relief.forces[row], relief.acceleration[row], relief.rotation[row]])
+        reals = [*self.gravity, *weights]
+        return self._sense(
+            name, unit, description, SensorType.QUASI_STATIC, signals, [n], reals, joints=list(body.ports.values())
+        )

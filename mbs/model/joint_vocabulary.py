@@ -1,0 +1,462 @@
+"""Joints and transmissions by name: thin wrappers around the functions of `mbs.model.joints`."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from mbs.affine import Affine
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.body import Body
+from mbs.model.core import Coordinate
+from mbs.model.ends import End, PointPair
+from mbs.model.guides import Guide
+from mbs.model.joints.distance import distance
+from mbs.model.joints.drive import drive
+from mbs.model.joints.gear import gear
+from mbs.model.joints.joint import Joint
+from mbs.model.joints.pin import pin
+from mbs.model.joints.points import revolute, spherical, universal
+from mbs.model.joints.rack import rack
+from mbs.model.joints.rolling import rolling, skate
+from mbs.model.joints.screw import Screw, screw
+from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
+from mbs.model.spin import Spin
+
+
+class JointVocabulary(BodyVocabulary):
+    """The joints and transmissions of a model; each method returns the joint, for sensors.
+
+    Points and axes are given in earth axes in the reference configuration. Where the drawing does not close, `point`
+    (or `axis`) may be a pair, one per body.
+    """
+
+    def _join(self, joint: Joint) -> Joint:
+        self.unique("joint", joint.name)
+        self.joints.append(joint)
+        return joint
+
+    # --- joints ---
+    def revolute(
+        self, name: str, body_1: Body, body_2: Body, *, point: PointPair, axis: PointPair | None = None
+    ) -> Joint:
+        """Revolute joint: the bodies share a point and, in space, an axis.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body_1, body_2 : Body
+            Bodies, the ground, or nodes of flexible bodies.
+        point : array_like, shape (dimension,), or pair of them
+            Earth axes in the reference configuration, m; a pair is one point per body.
+        axis : array_like, shape (3,), or pair of them, optional
+            Of any length; in space only.
+
+        Returns
+        -------
+        Joint
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The bodies are one or not of this model, the axis is missing or superfluous, or a number is not one.
+        """
+        return self._join(revolute(self, name, body_1, body_2, point, axis))
+
+    def spherical(self, name: str, body_1: Body, body_2: Body, *, point: PointPair) -> Joint:
+        """Spherical joint: the bodies share a point.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body_1, body_2 : Body
+            Bodies, point masses, the ground, or nodes of flexible bodies.
+        point : array_like, shape (dimension,), or pair of them
+            Earth axes in the reference configuration, m; a pair is one point per body.
+
+        Returns
+        -------
+        Joint
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The bodies are one or not of this model, or the point is not the numbers it must be.
+        """
+        return self._join(spherical(self, name, body_1, body_2, point))
+
+    def universal(
+        self, name: str, body_1: Body, body_2: Body, *, point: PointPair, axis_1: ArrayLike, axis_2: ArrayLike
+    ) -> Joint:
+        """Universal joint: the bodies share a point, and the angle between an axis of each is constant.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body_1, body_2 : Body
+            Bodies, the ground, or nodes of flexible bodies of a spatial model.
+        point : array_like, shape (3,), or pair of them
+            Earth axes in the reference configuration, m; a pair is one point per body.
+        axis_1, axis_2 : array_like, shape (3,)
+            Axis fixed in body 1 and axis fixed in body 2, of any length and not parallel.
+
+        Returns
+        -------
+        Joint
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The model is planar, the bodies are one or not of this model, the axes are parallel, or a number is not one.
+        """
+        return self._join(universal(self, name, body_1, body_2, point, axis_1, axis_2))
+
+    def prismatic(
+        self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike, point: PointPair | None = None
+    ) -> Joint:
+        """Prismatic joint: the bodies share their orientation, and body 1 slides along an axis of body 2.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body_1, body_2 : Body
+            Bodies, the ground, or nodes of flexible bodies.
+        axis : array_like, shape (dimension,)
+            Direction of the slide, fixed in body 2, of any length.
+        point : array_like, shape (dimension,), or pair of them, optional
+            Point of body 1 on the axis, m; by default the centre of mass of body 1, of body 2 where body 1 is the
+            ground.
+
+        Returns
+        -------
+        Joint
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The bodies are one, have no axes or are not of this model, or a number is not one.
+        """
+        return self._join(prismatic(self, name, body_1, body_2, point, axis))
+
+    def cylindrical(self, name: str, body_1: Body, body_2: Body, *, point: PointPair, axis: PointPair) -> Joint:
+        """Cylindrical joint: the bodies share an axis, along which they slide and about which they turn.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body_1, body_2 : Body
+            Bodies, the ground, or nodes of flexible bodies of a spatial model.
+        point : array_like, shape (3,), or pair of them
+            Point of body 1 on the axis of body 2, m.
+        axis : array_like, shape (3,), or pair of them
+            Of any length; a pair is one axis per body.
+
+        Returns
+        -------
+        Joint
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The model is planar, the bodies are one or not of this model, or a number is not one.
+        """
+        return self._join(cylindrical(self, name, body_1, body_2, point, axis))
+
+    def weld(self, name: str, body_1: Body, body_2: Body) -> Joint:
+        """Weld: the bodies move as one.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body_1, body_2 : Body
+            Bodies, point masses, the ground, or nodes of flexible bodies.
+
+        Returns
+        -------
+        Joint
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The bodies are one or not of this model.
+        """
+        return self._join(weld(self, name, body_1, body_2))
+
+    def point_on_line(
+        self, name: str, end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], *, axis: ArrayLike
+    ) -> Joint:
+        """A point of body 1 stays on a line fixed in body 2.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        end_1 : (Body, array_like)
+            Body 1 and its point, m.
+        end_2 : (Body, array_like)
+            Body 2 and a point of the line, m.
+        axis : array_like, shape (dimension,)
+            Direction of the line, fixed in body 2, of any length.
+
+        Returns
+        -------
+        Joint
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The bodies are one or not of this model, body 2 is a point mass, or a number is not one.
+        """
+        return self._join(point_on_line(self, name, end_1, end_2, axis))
+
+    def distance(self, name: str, end_1: End, end_2: End, *, length: float | None = None) -> Joint:
+        """Massless rod: the distance of two points is constant.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        end_1, end_2 : (Body, array_like), Body or SlidingPoint
+            A body and its point, m; a body alone for its centre of mass; or a point that a guide slides (one of the
+            two at most).
+        length : float, optional
+            m; by default as drawn.
+
+        Returns
+        -------
+        Joint
+            For sensors: its force is the tension.
+
+        Raises
+        ------
+        ModelError
+            Both ends are on one body, an end is not of this model, or the length is not positive.
+        """
+        return self._join(distance(self, name, end_1, end_2, length))
+
+    def drive(self, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide) -> Joint:
+        """Prescribed motion: a coordinate, a component of a point, or the distance of two points follows a guide.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        driven : Coordinate, Affine or (end, end)
+            A relative angle; an expression such as ``body.point(p)[0]``; or two ends as of `distance`.
+        guide : Guide
+            Of this model, rad or m.
+
+        Returns
+        -------
+        Joint
+            For sensors: its force is that of the drive.
+
+        Raises
+        ------
+        ModelError
+            What is driven cannot move or is not of this model, an end slides, or a driven distance starts at zero.
+        """
+        return self._join(drive(self, name, driven, guide))
+
+    def pin(self, name: str, body: Body, point: ArrayLike | None = None, *, on: bool = False) -> Joint:
+        """Hold a point of a body by a switch of the same name, which a running `Simulation` turns on and off.
+
+        The point stays where it is when the switch is turned on.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints and the switches.
+        body : Body
+            A body or a point mass that can move.
+        point : array_like, shape (dimension,), optional
+            Earth axes in the reference configuration, m; by default the centre of mass.
+        on : bool
+            Whether it holds from the start, where it is drawn.
+
+        Returns
+        -------
+        Joint
+            For sensors.
+
+        Raises
+        ------
+        ModelError
+            The body is the ground or not of this model, or a value is not what it must be.
+        """
+        return self._join(pin(self, name, body, point, on))
+
+    def rolling(
+        self,
+        name: str,
+        wheel: Body | Spin,
+        *,
+        radius: float,
+        centre: ArrayLike | None = None,
+        axis: ArrayLike | None = None,
+        level: float = 0.0,
+    ) -> Joint:
+        """A wheel with a knife edge that rolls without slip on a level plane; it always touches.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        wheel : Body or Spin
+            A rigid body, or a spin on its carrier.
+        radius : float
+            m.
+        centre, axis : array_like, shape (3,)
+            As drawn, in earth axes, m and without unit; of a body, a spin has them.
+        level : float
+            Height z of the plane, m.
+
+        Returns
+        -------
+        Joint
+            It has no force that can be read.
+
+        Raises
+        ------
+        ModelError
+            The wheel lies flat, misses the plane by more than a thousandth of its radius, or is no rigid body of this
+            spatial model.
+        """
+        return self._join(rolling(self, name, wheel, radius, centre, axis, level))
+
+    def skate(
+        self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, switch: bool | None = None
+    ) -> Joint:
+        """A knife edge: a point of a body moves along a direction of the body only, seen from above.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body : Body
+            A rigid body.
+        point, direction : array_like, shape (2,) or (3,)
+            As drawn, in earth axes, m and without unit; the height is free.
+        switch : bool, optional
+            With a switch of the same name, on or off at the start.
+
+        Returns
+        -------
+        Joint
+            It has no force that can be read.
+
+        Raises
+        ------
+        ModelError
+            The direction is upright, or the body is not a rigid one of this model.
+        """
+        return self._join(skate(self, name, body, point, direction, switch))
+
+    # --- transmissions ---
+    def gear(self, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
+        """Two wheels that turn in a constant ratio.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        wheel_1, wheel_2 : Coordinate
+            Relative angles of the wheels against what carries them, or spins.
+        ratio : float
+            Turns of the first wheel for one of the second, each against its carrier; negative where they turn opposite
+            ways about the axes of their angles (-z2/z1 for external teeth on parallel axes).
+
+        Returns
+        -------
+        Joint
+            For sensors: its torque on the first wheel.
+
+        Raises
+        ------
+        ModelError
+            The ratio is zero or not finite, or both wheels are one.
+        """
+        return self._join(gear(self, name, wheel_1, wheel_2, ratio))
+
+    def rack(
+        self,
+        name: str,
+        pinion: Coordinate,
+        body: Body,
+        *,
+        carrier: Body,
+        axis: ArrayLike,
+        radius: float,
+        point: ArrayLike | None = None,
+    ) -> Joint:
+        """A rack that slides on a carrier by the radius of a pinion per radian; it guides nothing (see `prismatic`).
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        pinion : Coordinate
+            Relative angle of the pinion against the carrier, or a spin on it.
+        body, carrier : Body
+            The rack and what it slides on.
+        axis : array_like, shape (dimension,)
+            Direction of the slide, fixed in the carrier, earth axes as drawn.
+        radius : float
+            m per rad; negative where the rack goes against `axis` when the pinion turns positively.
+        point : array_like, shape (dimension,), optional
+            Of the rack, as drawn, m; by default its centre of mass.
+
+        Returns
+        -------
+        Joint
+            For sensors: its force on the rack along the axis.
+
+        Raises
+        ------
+        ModelError
+            The radius is zero or not finite, the carrier is a point mass, the rack is the ground or the carrier.
+        """
+        return self._join(rack(self, name, pinion, body, carrier, axis, radius, point))
+
+    def screw(self, name: str, body_1: Body, body_2: Body, *, point: ArrayLike, axis: ArrayLike, pitch: float) -> Screw:
+        """Screw joint: a shared axis along which body 1 moves in proportion to its turn against body 2.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        body_1, body_2 : Body
+            Bodies or the ground of a spatial model.
+        point : array_like, shape (3,)
+            On the axis, m.
+        axis : array_like, shape (3,)
+            Of any length.
+        pitch : float
+            Way along the axis per turn, m; positive for a right-hand thread.
+
+        Returns
+        -------
+        Screw
+            Its `angle` is that turn, rad, a coordinate for sensors and torques.
+
+        Raises
+        ------
+        ModelError
+            The model is planar, the pitch is zero, or the bodies are one or not of this model.
+        """
+        joint, angle = screw(self, name, body_1, body_2, point, axis, pitch)
+        self._join(joint)
+        self._join(angle)
+        return joint

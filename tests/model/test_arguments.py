@@ -1,0 +1,293 @@
+"""Every argument of every method of a model, given wrong values: each is refused in a sentence of ours that names what
+is wrong, and the model stays as it was.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import is_dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbs import Model
+from mbs.elements import ContactPoints, Drag, EndStops, KerbRoad, PlaneRoad
+from mbs.flexible import InertiaRelief
+from mbs.model.body import Body
+from mbs.model.joints.joint import Joint
+from tests.flexible_engine.bodies import bar
+from tests.wrong_values import WRONG, arguments_of, as_scalars, problem_of
+
+BAR = bar((0, 0, 0), (1, 0, 0), dynamic=1)
+
+
+class Bench:
+    """A spatial model with one of each thing."""
+
+    def __init__(self) -> None:
+        m = self.m = Model("bench")
+        self.arm = m.body("arm", mass=1.0, com=(0.5, 0.0, 0.0), inertia=(0.01, 0.1, 0.1))
+        self.box = m.body("box", mass=2.0, com=(1.5, 0.0, 0.0), inertia=(0.1, 0.1, 0.1))
+        self.ball = m.point_mass("ball", mass=1.0, position=(0.0, 2.0, 0.0))
+        self.beam = m.flexible_body("beam", BAR, origin=(5.0, 0.0, 0.0))
+        self.hinge = m.revolute("hinge", m.ground, self.arm, point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+        self.angle = m.relative_angle("angle", m.ground, self.arm, axis=(0.0, 1.0, 0.0))
+        self.other = m.relative_angle("other", self.arm, self.box, axis=(0.0, 1.0, 0.0))
+        self.wheel = m.spin(
+            "wheel",
+            carrier=self.box,
+            centre=(1.5, 0.0, 0.0),
+            axis=(0.0, 1.0, 0.0),
+            mass=1.0,
+            spin_inertia=0.1,
+            diametral_inertia=0.05,
+        )
+        self.pedal = m.input("pedal", min=-1.0, max=1.0)
+        self.guide = m.guide_input("guide", input=self.pedal, frequency=5.0, unit="m")
+        self.road = m.road(KerbRoad(1.0, 0.1))
+        self.spring = m.spring_damper("spring", (self.arm, (1.0, 0.0, 0.0)), self.ball, stiffness=10.0)
+        self.sensor = m.sense_position("place", self.arm)
+        self.ported = m.ported(self.box, {"left": (1.5, 1.0, 0.0)})
+
+
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+O = (0.0, 0.0, 0.0)
+JOINED: dict[str, Any] = {"name": "new", "body_1": None, "body_2": None}
+RELIEF = InertiaRelief(np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((6, 3)))
+
+
+def between(b: Bench, **more: Any) -> dict[str, Any]:
+    return {"name": "new", "body_1": b.arm, "body_2": b.box, **more}
+
+
+def seen(bench: Bench, /, **more: Any) -> dict[str, Any]:
+    return {"name": "new", **more, "unit": "m", "description": "what it is"}
+
+
+CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
+    "body": lambda b: {"name": "new", "mass": 1.0, "com": X, "inertia": (1.0, 1.0, 1.0)},
+    "point_mass": lambda b: {"name": "new", "mass": 1.0, "position": X},
+    "flexible_body": lambda b: {"name": "new", "reduced": BAR, "origin": X, "axes": np.eye(3)},
+    "ported": lambda b: {"body": b.arm, "ports": {"left": X}},
+    "initial_velocity": lambda b: {"body": b.arm, "linear": X, "angular": Y},
+    "initial_rate": lambda b: {"coordinate": b.angle, "rate": 1.0},
+    "revolute": lambda b: between(b, point=X, axis=Y),
+    "spherical": lambda b: between(b, point=X),
+    "universal": lambda b: between(b, point=X, axis_1=Y, axis_2=Z),
+    "prismatic": lambda b: between(b, axis=X, point=X),
+    "cylindrical": lambda b: between(b, point=X, axis=X),
+    "weld": lambda b: between(b),
+    "point_on_line": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": (b.box, X), "axis": X},
+    "distance": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": b.ball, "length": 2.0},
+    "drive": lambda b: {"name": "new", "driven": b.angle, "guide": b.guide},
+    "pin": lambda b: {"name": "new", "body": b.arm, "point": X, "on": False},
+    "rolling": lambda b: {
+        "name": "new",
+        "wheel": b.box,
+        "radius": 0.5,
+        "centre": (1.5, 0.0, 0.5),
+        "axis": Y,
+        "level": 0.0,
+    },
+    "skate": lambda b: {"name": "new", "body": b.arm, "point": X, "direction": X, "switch": True},
+    "gear": lambda b: {"name": "new", "wheel_1": b.angle, "wheel_2": b.other, "ratio": 2.0},
+    "rack": lambda b: {
+        "name": "new",
+        "pinion": b.angle,
+        "body": b.arm,
+        "carrier": b.box,
+        "axis": X,
+        "radius": 0.1,
+        "point": X,
+    },
+    "screw": lambda b: between(b, point=X, axis=X, pitch=0.01),
+    "relative_angle": lambda b: between(b, axis=Y, zero=0.5),
+    "armature": lambda b: {"name": "new", "coordinate": b.angle, "inertia": 1.0},
+    "spin": lambda b: {
+        "name": "new",
+        "carrier": b.arm,
+        "centre": X,
+        "axis": Y,
+        "mass": 1.0,
+        "spin_inertia": 1.0,
+        "diametral_inertia": 1.0,
+        "rolling_radius": 0.5,
+    },
+    "anti_roll_bar": lambda b: {
+        "name": "new",
+        "left": b.arm,
+        "right": b.box,
+        "stiffness": 1.0,
+        "damping": 1.0,
+        "carrier": b.m.ground,
+        "axis": Y,
+        "free_twist": 0.5,
+        "mirrored": True,
+    },
+    "input": lambda b: {
+        "name": "new",
+        "start": 0.0,
+        "min": -1.0,
+        "max": 1.0,
+        "unit": "N",
+        "description": "a force",
+    },
+    "guide_input": lambda b: {"name": "new", "input": b.pedal, "gain": 1.0, "frequency": 5.0, "unit": "m"},
+    "guide_time": lambda b: {"name": "new", "motion": ([0.0, 1.0, 2.0], [0.0, 1.0, 1.0]), "unit": "m"},
+    "constant": lambda b: {"name": "new", "value": 1.0, "unit": "m", "description": "a length"},
+    "slide": lambda b: {"name": "new", "body": b.arm, "point": X, "direction": X, "guide": b.guide},
+    "parameter": lambda b: {
+        "name": "new",
+        "value": 1.0,
+        "min": 0.5,
+        "max": 2.0,
+        "unit": "N/m",
+        "description": "a spring",
+        "targets": [(b.spring, "stiffness", 1.0)],
+    },
+    "spring_damper": lambda b: {
+        "name": "new",
+        "end_1": (b.arm, X),
+        "end_2": b.ball,
+        "stiffness": 1.0,
+        "damping": 1.0,
+        "free_length": 1.0,
+        "stops": EndStops(),
+    },
+    "torsional_spring_damper": lambda b: {
+        "name": "new",
+        "angle": b.angle,
+        "stiffness": 1.0,
+        "damping": 1.0,
+        "free_angle": 0.5,
+    },
+    "force": lambda b: {"name": "new", "body": b.arm, "point": X, "inputs": [b.pedal, None, None], "axes": "body"},
+    "torque": lambda b: {"name": "new", "body": b.arm, "inputs": [b.pedal, None, None], "axes": "body"},
+    "torque_on": lambda b: {"name": "new", "angle": b.angle, "input": b.pedal, "gain": 2.0},
+    "drag": lambda b: {"name": "new", "body": b.arm, "point": X, "drag_area": 1.0, "air_density": 1.0},
+    "road": lambda b: {"road": PlaneRoad()},
+    "contact_points": lambda b: {
+        "name": "new",
+        "body": b.arm,
+        "points": [X, Y],
+        "road": 0,
+        "contact": ContactPoints.for_mass(1.0),
+    },
+    "contact_point": lambda b: {
+        "name": "new",
+        "body": b.arm,
+        "point": X,
+        "road": 0,
+        "contact": ContactPoints.for_mass(1.0),
+    },
+    "sense_position": lambda b: seen(b, body=b.arm, point=X, component="x", axes=b.box),
+    "sense_velocity": lambda b: seen(b, body=b.arm, point=X, component="x", axes=b.box),
+    "sense_acceleration": lambda b: seen(b, body=b.arm, point=X, component="x", axes="body"),
+    "sense_component": lambda b: seen(b, vector=b.arm.point(X), axis=b.box.vector(X), order=1),
+    "sense_coordinate": lambda b: {**seen(b, coordinate=b.angle, order=1, scale=2.0), "display_unit": "deg"},
+    "sense_angular_rate": lambda b: seen(b, body=b.arm, component="x"),
+    "sense_yaw": lambda b: seen(b, body=b.arm),
+    "sense_pitch": lambda b: seen(b, body=b.arm),
+    "sense_roll": lambda b: seen(b, body=b.arm),
+    "sense_quaternion": lambda b: seen(b, body=b.arm, component="w"),
+    "sense_norm": lambda b: seen(b, vector=b.arm.point(X), order=1),
+    "sense_direction": lambda b: seen(b, point=b.arm.point(X), axis_1=b.arm.vector(X), axis_2=b.arm.vector(Y), order=1),
+    "sense_angle_between": lambda b: seen(b, a=b.arm.vector(X), b=b.box.vector(X), c=b.box.vector(Z)),
+    "sense_element": lambda b: seen(b, element=b.spring, output="force", scale=2.0),
+    "sense_work": lambda b: seen(b, elements=[b.spring], kind="work"),
+    "sense_energy": lambda b: seen(b, kind="total"),
+    "sense_recovery": lambda b: seen(b, body=b.beam, weights=np.ones(BAR.n_modes)),
+    "sense_quasi_static": lambda b: seen(b, body=b.ported, relief=RELIEF, output=1, origin=X),
+    "sense_joint_force": lambda b: seen(b, joint=b.hinge, component="x"),
+    "sense_joint_moment": lambda b: seen(b, joint=b.hinge, component="x", on="first", axes=b.arm, point=X),
+    "sense_constant": lambda b: {**seen(b, value=1.0), "whole": True},
+    "sense_input": lambda b: seen(b, input=b.pedal),
+    "sense_guide": lambda b: seen(b, guide=b.guide, order=1, scale=2.0),
+    "sense_solver": lambda b: {"name": "new", "kind": "violation", "description": "what it is"},
+    "notice": lambda b: {"sensor": b.sensor, "text": "The arm is away"},
+    "add": lambda b: {"element": Drag(1.0).record("new", b.arm.point(X))},
+    "joint_named": lambda b: {"name": "hinge"},
+}
+REGISTER = {"remember", "unique", "new_coordinate", "drawn", "owned_coordinate", "expression", "expressions", "owned"}
+REGISTER |= {"anchor", "anchor_axis"}
+"""What the vocabulary itself calls."""
+
+
+def flat(thing: Any) -> Any:
+    """What a thing is made of, to be compared."""
+    if isinstance(thing, (Body, Joint)):
+        return type(thing).__name__, thing.name
+    if isinstance(thing, np.ndarray):
+        return thing.tobytes()
+    if isinstance(thing, (list, tuple)):
+        return [flat(part) for part in thing]
+    if isinstance(thing, dict):
+        return [(key, flat(value)) for key, value in thing.items()]
+    if is_dataclass(thing) and not hasattr(thing, "node_names"):
+        return type(thing).__name__, repr(thing)
+    return thing if isinstance(thing, (str, int, float, set, type(None))) else type(thing).__name__
+
+
+def fingerprint(m: Model) -> Any:
+    """All that a call may change."""
+    parts = [m, m.ground, *m.bodies, *m.joints]
+    return [{key: flat(value) for key, value in vars(part).items()} for part in parts]
+
+
+def allowed(function: Any, parameter: inspect.Parameter, label: str, value: Any) -> bool:
+    """Whether a value is right for an argument after all."""
+    kind = str(parameter.annotation)
+    if value is None:
+        return "None" in kind
+    if label == "True":
+        return kind.startswith("bool")
+    if isinstance(value, str) and parameter.name in ("name", "unit", "description", "display_unit", "text"):
+        return label == "text" or (label == "empty" and parameter.name not in ("name", "text"))
+    return parameter.name in ("min", "max") and function == "input" and label == "inf"
+
+
+def test_every_method_is_in_the_table():
+    methods = {name for name, _ in inspect.getmembers(Model, inspect.isfunction) if not name.startswith("_")}
+    assert methods - REGISTER == set(CALLS)
+
+
+@pytest.mark.parametrize("method", CALLS)
+def test_the_right_values_pass(method):
+    bench = Bench()
+    getattr(bench.m, method)(**CALLS[method](bench))
+
+
+@pytest.mark.parametrize("method", CALLS)
+def test_wrong_values_are_refused_and_change_nothing(method):
+    bench, problems = Bench(), []
+    kwargs = CALLS[method](bench)
+    before = fingerprint(bench.m)
+    for parameter in arguments_of(getattr(Model, method)):
+        assert parameter.name in kwargs, f"the table lacks {parameter.name}"
+        for label, value in WRONG.items():
+            if allowed(method, parameter, label, value):
+                continue
+            problem = "accepted"
+            try:
+                getattr(bench.m, method)(**(kwargs | {parameter.name: value}))
+            except Exception as error:
+                problem = problem_of(error, parameter.name, value)
+                if fingerprint(bench.m) != before:
+                    problem += " and the model was changed"
+                problem += f": {error}" if problem else ""
+            if problem:
+                problems.append(ascii(f"{parameter.name} = {label}: {problem}"))
+                bench = Bench()
+                kwargs = CALLS[method](bench)
+                before = fingerprint(bench.m)
+    assert not problems, "\n".join(problems)
+
+
+@pytest.mark.parametrize("method", CALLS)
+def test_numbers_of_numpy_are_numbers(method):
+    for name, value in CALLS[method](Bench()).items():
+        for same in as_scalars(value):
+            bench = Bench()
+            getattr(bench.m, method)(**(CALLS[method](bench) | {name: same}))

@@ -1,0 +1,81 @@
+"""Values that no argument may take in silence, and how a good refusal of them reads."""
+
+from __future__ import annotations
+
+import inspect
+import math
+import re
+from typing import Any
+
+import numpy as np
+
+from mbs.checks import shown
+from mbs.errors import ArgumentTypeError, ModelError
+
+WRONG: dict[str, Any] = {
+    "None": None,
+    "nan": math.nan,
+    "inf": math.inf,
+    "1e300": 1e300,
+    "a huge integer": 10**400,
+    "True": True,
+    "text": "1",
+    "half a character": "\ud800",
+    "a control character": "a\x01b",
+    "empty": "",
+    "a list of text": ["1", "2", "3"],
+    "a ragged list": [[1.0], [1.0, 2.0]],
+    "a mapping": {},
+    "a set": {1.0},
+    "a function": len,
+    "an object": object(),
+    "a complex number": 1.0 + 2.0j,
+    "a matrix": np.ones((2, 5)),
+    "an array of text": np.array(["a", "b", "c"]),
+    "an array of nan": np.full(3, math.nan),
+    "an array of nothing": np.array([]),
+    "a pair of wrong things": (object(), "x"),
+}
+BEGINNINGS = ("every =", "n =", "side =", "estimate_error =")
+OURS = (ModelError, ArgumentTypeError, ValueError, KeyError)
+
+
+def as_scalars(value: Any) -> list[Any]:
+    """The same number or truth value as NumPy has it; what is neither has none."""
+    if isinstance(value, bool):
+        return [np.bool_(value)]
+    if isinstance(value, float):
+        same = [np.float64(value), np.array(value)]
+        return [*same, *([np.int64(value), int(value)] if value == int(value) else [])]
+    return [np.int64(value), np.int32(value), float(value)] if isinstance(value, int) else []
+
+
+def problem_of(error: Exception, argument: str, value: Any) -> str:
+    """What is wrong with a refusal; empty where it is one sentence of ours that names the argument or the value."""
+    message = str(error.args[0]) if error.args else ""
+    if not isinstance(error, OURS) or type(error).__module__ == "numpy.linalg":
+        return f"{type(error).__name__} is none of ours"
+    if not (
+        (message.endswith(".") and message[:1].isupper())
+        or message.startswith(BEGINNINGS)
+    ):
+        return "no sentence"
+    if "\n" in message or " at 0x" in message or len(message) > 500:
+        return "more than a sentence shows"
+    if re.search(r"could not convert|unsupported operand|object is not|cannot unpack|has no attribute", message):
+        return "words of Python"
+    if "\ud800" in message:
+        return "cannot be printed"
+    words = [argument, argument.replace("_", " "), *re.split(r"_\d?", argument)]
+    named = any(word and word in message for word in words)
+    told = shown(value) in message or (isinstance(value, float) and f"{value:g}" in message)
+    if isinstance(value, (list, tuple)):
+        told = told or any(shown(part) in message for part in value)
+    if isinstance(value, np.ndarray):
+        told = told or str(value.shape) in message or "nan" in message
+    return "" if named or told else "neither the argument nor the value is named"
+
+
+def arguments_of(function: Any) -> list[inspect.Parameter]:
+    """Arguments of a function beside `self`."""
+    return [p for p in inspect.signature(function).parameters.values() if p.name != "self"]
