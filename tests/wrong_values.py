@@ -55,10 +55,7 @@ def problem_of(error: Exception, argument: str, value: Any) -> str:
     message = str(error.args[0]) if error.args else ""
     if not isinstance(error, OURS) or type(error).__module__ == "numpy.linalg":
         return f"{type(error).__name__} is none of ours"
-    if not (
-        (message.endswith(".") and message[:1].isupper())
-        or message.startswith(BEGINNINGS)
-    ):
+    if not ((message.endswith(".") and message[:1].isupper()) or message.startswith(BEGINNINGS)):
         return "no sentence"
     if "\n" in message or " at 0x" in message or len(message) > 500:
         return "more than a sentence shows"
