@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.files import whole_file
 from mbs.checks import instance_of
 from mbs.frames import Frames
 from mbs.meta_check import problem_of
@@ -185,14 +186,15 @@ class System:
         Parameters
         ----------
         path : str or Path
-            File to write; one that exists is replaced.
+            File to write; one that exists is replaced when the new one is whole.
 
         Raises
         ------
         OSError
             The file cannot be written.
         """
-        Path(path).write_bytes(self.to_bytes())
+        with whole_file(path, make_parents=False) as made:
+            made.write_bytes(self.to_bytes())
 
     @classmethod
     def load(cls, path: str | Path) -> System:
