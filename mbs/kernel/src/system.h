@@ -78,7 +78,7 @@ typedef struct {
 } ali3_guide_term;
 
 typedef struct ali3_element_type ali3_element_type; /* elements/element.h */
-typedef struct ali3_tree ali3_tree;           /* tree/tree.h: what relative coordinates need of a System */
+typedef struct ali3_tree ali3_tree;           /* tree/tree.h: the part of a System for relative coordinates */
 
 struct ali3_system {
 #define ALI3_DECLARE(type, number, name) const type *name;
