@@ -137,6 +137,18 @@ def test_gear_changes_only_between_accepted_steps() -> None:
     assert r.out["gear"] == 1.0
 
 
+def test_the_clock_of_a_shift_starts_where_the_shift_speed_was_crossed() -> None:
+    """The wheels went from `before` to `now` at a steady rate; the step ends so long after the crossing."""
+    element, h = drive_element(), 0.01
+    ratio, before, now = DRIVE.ratios[0], 30.0, 80.0
+    limit = DRIVE.up_open / ratio
+    assert before < limit < now
+    u, ud = signals_of(now, now)
+    r = element(u, ud, [1.0, 1.0, 1e3, before], h, inputs=[1.0], accept=True)
+    assert r.y[0] == 2.0
+    assert r.y[2] == pytest.approx(h * (now - limit) / (now - before), rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [

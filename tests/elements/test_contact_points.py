@@ -128,6 +128,14 @@ def test_the_cheap_look_never_misses_a_touch(name):
         assert together == sum(e(u, np.zeros(12)).out["touching"] for e in one)
 
 
+def test_the_cheap_look_knows_that_a_grid_swells_between_its_points():
+    """Two points of 0.1 m beside two of 0: the surface between the two is 0.1125 m high."""
+    heights = np.tile([0.0, 0.1, 0.1, 0.0], (4, 1)).T
+    road = GridRoad((0.0, 0.0), (1.0, 1.0), heights, 0.8)
+    low = element(road, points=[[0.0, 0.0, 0.0]])
+    assert low(np.r_[1.5, 1.5, 0.107, np.eye(3).ravel()], np.zeros(12)).out["depth"] == pytest.approx(0.0055, abs=1e-4)
+
+
 def test_kerb_lets_a_point_rest_on_its_top_and_stops_it_at_its_face():
     kerb = element(KerbRoad(0.0, 0.2, 0.0, "after", 0.8), ContactPoints(2e5, 2e5, 1e4), [[0.0, 0.0, 0.0]])
 
