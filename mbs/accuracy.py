@@ -1,5 +1,5 @@
-"""What a run with fixed steps finds out about its own error: from the books of energy at no cost, and where these make
-it suspect from a repeat with shorter steps.
+"""What a run with fixed steps finds about its own error: from the energy balance at no cost, and for suspect runs from
+a repeated run with shorter steps.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ STILL = 1e-4  # of the largest value in the unit: a smaller range is rest
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 BLIND_MISS, BLIND = 0.6, 0.01
 """The first of these is enough where the energy is better than the angle of a step lets expect, by the second: a free
-body that tumbles keeps its energy to third order, and turns over at times that hang on its phase."""
+body that tumbles keeps its energy to third order, and flips at times that depend on its phase."""
 LONG_MISS, LONG = 0.05, 30.0
 """The same of motions that have turned by more radians than the second: unstable ones double an error every few."""
 COORDINATES = "1"
@@ -63,7 +63,7 @@ class Accuracy:
     sensors : dict of str to float
         Estimated largest error of the sensors that were judged, in their units.
     message : str
-        What speaks against the result, with a remedy; empty where nothing does.
+        Evidence against the result, with a remedy; empty where there is none.
     """
 
     energy_balance: float | None
@@ -118,19 +118,19 @@ def judged_sensors(system: System) -> dict[str, list[str]]:
 
 
 def has_motion_sensor(system: System) -> bool:
-    """Whether some sensor tells where things are or how fast; else the coordinates of the System are judged."""
+    """Whether some sensor measures positions or velocities; else the coordinates of the System are compared."""
     return any(unit != "N" for unit in judged_sensors(system))
 
 
 def is_suspect(report: Report, steps: int, halvings: int, method: str) -> bool:
-    """Whether a run should be repeated before it is believed."""
+    """Whether a run should be repeated to check it."""
     if halvings > SUSPECT_HALVINGS * steps or report.energy_balance > WRONG_BALANCE:
         return True
     speed = report.speed_peak or math.inf
     miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
     turned = report.velocity_path / speed
     blind = (
-        METHOD_TABLE[method].books_decide
+        METHOD_TABLE[method].balance_decides
         and turned > 0.0
         and report.energy_balance < BLIND * (2.0 * miss / turned) ** 2
     )
@@ -205,24 +205,24 @@ def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> f
     """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
     most = float(METHOD_TABLE[method].order)
     first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if not METHOD_TABLE[method].books_decide or not (second > 0.0 and first > second):
+    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
         return most
     return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
 
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     """What is known without a repeat."""
-    books = report.kinetic_peak > 0.0
+    known = report.kinetic_peak > 0.0
     return Accuracy(
-        report.energy_balance if books else None,
-        report.energy_error if books else None,
+        report.energy_balance if known else None,
+        report.energy_error if known else None,
         halvings / max(steps, 1),
     )
 
 
 def balance_says(report: Report, method: str, driven: bool) -> bool:
-    """Whether the energy balance alone says that a result is wrong; a drive whose rate jumps gives energy at once."""
-    return METHOD_TABLE[method].books_decide and not driven and report.energy_balance > WRONG_BALANCE
+    """Whether the energy balance alone shows that a result is wrong; a drive whose rate jumps adds energy instantly."""
+    return METHOD_TABLE[method].balance_decides and not driven and report.energy_balance > WRONG_BALANCE
 
 
 def balance_text(report: Report) -> str:
@@ -238,7 +238,7 @@ def remedy(system: System, method: str, h: float, accuracy: Accuracy, report: Re
     """A step or a method with which the result would be right to about a hundredth, in a sentence."""
     order = accuracy.order or float(METHOD_TABLE[method].order)
     made = h / (1.0 + accuracy.halvings_per_step)
-    shares = [GOAL_DRIFT / drift(report)] if METHOD_TABLE[method].books_decide and drift(report) > GOAL_DRIFT else []
+    shares = [GOAL_DRIFT / drift(report)] if METHOD_TABLE[method].balance_decides and drift(report) > GOAL_DRIFT else []
     if accuracy.error:
         shares.append(GOAL_ERROR / accuracy.error)
     step = _rounded_down(made * min([*shares, 0.5**order]) ** (1.0 / order))
