@@ -51,7 +51,7 @@ def compiled(library: Path) -> tuple[str, dict[str, str]]:
         if not preload:
             continue
         shared = [] if "gcc" in compiler else ["-shared-libsan"]
-        flags = [*FLAGS, "-fsanitize=address", *UNDEFINED, *shared]
+        flags = [*FLAGS, "-fsanitize=address", "-DALI3_GAPS", *UNDEFINED, *shared]
         subprocess.run([compiler, *flags, "-o", library, *build.sources(), "-lm"], check=True)
         return f"addresses and undefined behaviour ({compiler})", OPTIONS | {"LD_PRELOAD": ":".join(preload)}
     flags = [*FLAGS, *UNDEFINED, "-fsanitize-trap=undefined"]

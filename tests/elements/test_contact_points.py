@@ -81,6 +81,17 @@ def test_force_equals_the_law_and_is_held_by_friction():
         assert stick.f[0] == pytest.approx(-(1e4 + 0.005 * 2e5) * 1e-4)
 
 
+def test_what_sticks_is_a_spring_and_a_damper():
+    """The force is k z + c z' of the deflection and its rate, and z' is the velocity; both at the end of the step."""
+    e = element(PlaneRoad(0.0, 0.0, 0.0, 0.8), points=[[0.0, 0.0, 0.0]])
+    u, v, h = np.r_[0.0, 0.0, -0.012, np.eye(3).ravel()], 1e-4, 0.01
+    y = np.array([2e-5, -1e-5, 3e-3, 1e-3])
+    r = e(u, np.r_[v, 0.0, np.zeros(10)], y, h)
+    np.testing.assert_allclose(-r.f[:2], 2e5 * r.y[:2] + 1e4 * r.y[2:], rtol=1e-12)
+    np.testing.assert_allclose(r.y[2:], [v, 0.0], atol=1e-15)
+    np.testing.assert_allclose(r.y[:2], y[:2] + 0.5 * h * (y[2:] + r.y[2:]), rtol=1e-12)
+
+
 def test_friction_never_gives_energy():
     e = element(PlaneRoad(0.0, 0.0, 0.0, 0.8), points=[[0.0, 0.0, 0.0]])
     rng, y, taken = np.random.default_rng(5), np.zeros(4), 0.0

@@ -278,6 +278,15 @@ def test_double_four_bar_follows_its_exact_reduction() -> None:
     assert 3.6 < error[1] / error[2] < 4.4
 
 
+def test_a_linear_oscillator_takes_one_iteration_a_step() -> None:
+    """Its tangent is exact, damping too, and Newton's method solves a linear equation at once."""
+    b = SystemBuilder(np.eye(1), [0.5], [1.0])
+    b.elements = [Element(2, [b.signal({0: 1.0})], [300.0, 40.0, 0.0, 0.0], outputs=1)]
+    instance = start(b, tolerance_r=1e-13)
+    run(instance, 0.02, 50)
+    assert instance.report()["iterations"] == 50
+
+
 def test_unsymmetric_damping_costs_few_iterations() -> None:
     """A strong damper that swings has an unsymmetric tangent; its symmetric part is kept, so Newton is linear there.
 
