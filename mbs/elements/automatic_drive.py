@@ -61,9 +61,30 @@ class AutomaticDrive:
     def record(
         self, name: str, left: Affine, right: Affine, f: AffineVector, g: AffineVector, throttle: int, gear: int = 1
     ) -> ElementRecord:
-        """Element on the absolute spins of two wheels and orthonormal vectors f, g of the frame, f x g to the left.
+        """The force element; the frame carries the reaction.
 
-        The frame carries the reaction; `throttle` is the number of an input (0..1), `gear` the gear at the start.
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        left, right : Affine
+            Absolute spins of the two wheels, rad.
+        f, g : AffineVector
+            Orthonormal vectors of the frame, f x g to the left.
+        throttle : int
+            Number of an input, 0 to 1.
+        gear : int
+            Gear at the start, from 1.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range, the ratios do not fall, or a gear is left once engaged.
         """
         what = f"the drive '{name}'"
         size(f, (3,), f"The vector f of {what}")

@@ -24,9 +24,27 @@ class BodyForce:
     inputs: Sequence[int | None]
 
     def record(self, name: str, point: AffineVector, axes: Sequence[AffineVector]) -> ElementRecord:
-        """Element at `point`; `axes` are three unit vectors in space, one in the plane (the second is it turned left).
+        """The force element.
 
-        Axes fixed in the earth are constant expressions.
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        point : AffineVector
+            Where the force acts.
+        axes : sequence of AffineVector
+            Three unit vectors in space, one in the plane (the second is it turned left); constant ones are fixed in the
+            earth.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            Point, axes and inputs are not of one dimension.
         """
         what = f"the force '{name}'"
         size(point, (2, 3), f"The point of {what}")

@@ -28,7 +28,25 @@ class BodyTorque:
     axes: Literal["earth", "body"] = "earth"
 
     def record(self, name: str, frame: Sequence[AffineVector]) -> ElementRecord:
-        """Element on the orthonormal vectors of a body: a, b, c in space, a alone in the plane."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        frame : sequence of AffineVector
+            Orthonormal vectors of a body: a, b, c in space, a alone in the plane.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            Frame and inputs are not of one dimension, or the axes are none.
+        """
         what = f"the torque '{name}'"
         lengths = [len(v) for v in frame]
         if lengths not in ([3, 3, 3], [2]):

@@ -28,7 +28,25 @@ class InputForce:
     weights: Sequence[float] = (1.0,)
 
     def record(self, name: str, signals: Sequence[Affine]) -> ElementRecord:
-        """Element on as many expressions as there are weights."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        signals : sequence of Affine
+            As many expressions as there are weights.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            There is not one weight for each expression, or a number is not one.
+        """
         what = f"the input force '{name}'"
         if len(signals) != len(self.weights) or not signals:
             raise ValueError(f"T{what[1:]} has {len(self.weights)} weights for {len(signals)} signals, not one each.")

@@ -33,7 +33,25 @@ class ScalarSpringDamper:
     unit: str = "N m"
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
-        """Element on one coordinate, an angle or a length."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        coordinate : Affine
+            An angle, rad, or a length, m.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range; the message names it.
+        """
         what = f"the spring-damper '{name}'"
         return ElementRecord(
             name,

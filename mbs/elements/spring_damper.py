@@ -52,7 +52,23 @@ class EndStops:
     rebound_loss: float = 0.0
 
     def progressive(self, what: str) -> dict[str, float]:
-        """Checked numbers beside lengths and stiffnesses, in the order of the kernel; none for linear stops."""
+        """Checked numbers beside lengths and stiffnesses, in the order of the kernel.
+
+        Parameters
+        ----------
+        what : str
+            What has the stops, for the message.
+
+        Returns
+        -------
+        dict of str to float
+            Empty for linear stops.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or negative.
+        """
         names = ("bump_progression", "bump_travel", "rebound_progression", "rebound_travel", "metal_stiffness")
         numbers = {
             name: not_negative(getattr(self, name), f"The {name.replace('_', ' ')} of {what}")
@@ -89,7 +105,25 @@ class SpringDamper:
     stops: EndStops | None = None
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
-        """Element on the difference p2 - p1 of two points in earth axes, 2 or 3 components."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        difference : AffineVector
+            Difference p2 - p1 of two points in earth axes, two or three components, m.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or negative, or the bump length is not below the rebound length.
+        """
         what = f"the spring-damper '{name}'"
         stops = self.stops or EndStops()
         size(difference, (2, 3), f"The distance of {what}")

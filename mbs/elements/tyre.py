@@ -90,7 +90,31 @@ class Tyre:
         return self.longitudinal.max_force[0] / self.nominal_load
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
-        """Element of a wheel: centre, unit spin axis (pointing left), absolute spin, number of the road."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        centre : AffineVector
+            Centre of the wheel, m.
+        axis : AffineVector
+            Unit spin axis, pointing left.
+        spin : Affine
+            Absolute spin, rad.
+        road : int
+            Number of the road, from `Model.road`.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range, or a curve is not in order at some load up to the largest.
+        """
         what = f"the tyre '{name}'"
         size(centre, (3,), f"The centre of {what}")
         size(axis, (3,), f"The axis of {what}")

@@ -70,7 +70,23 @@ def external_model(
 
 
 def read_matrix(path: str | Path) -> sp.csc_array:
-    """Sparse matrix from Matrix Market (``.mtx``, ``.mtx.gz``) or SciPy's ``.npz``."""
+    """Sparse matrix from Matrix Market (``.mtx``, ``.mtx.gz``) or SciPy's ``.npz``.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    sparse array
+        As stored.
+
+    Raises
+    ------
+    ModelError
+        There is no such file, or it is of neither kind.
+    """
     path = Path(path)
     if not path.is_file():
         raise ModelError(f"There is no file {path}.")
@@ -86,7 +102,25 @@ def read_matrix(path: str | Path) -> sp.csc_array:
 
 
 def read_model(stiffness: str | Path, mass: str | Path, nodes: str | Path) -> FiniteElementModel:
-    """Model from two matrix files and a CSV file of nodes with the columns ``name,x,y,z`` (a line of titles first)."""
+    """Model from two matrix files and a file of nodes.
+
+    Parameters
+    ----------
+    stiffness, mass : str or Path
+        Files for `read_matrix`.
+    nodes : str or Path
+        CSV with the columns ``name,x,y,z`` (m), a line of titles first.
+
+    Returns
+    -------
+    FiniteElementModel
+        Checked as by `external_model`.
+
+    Raises
+    ------
+    ModelError
+        A file is missing or not of that form, or the matrices are no free model.
+    """
     names, positions = [], []
     for line in Path(nodes).read_text(encoding="utf-8").splitlines()[1:]:
         if not line.strip() or line.startswith("#"):

@@ -86,19 +86,64 @@ class Frame:
             object.__setattr__(self, name, value)
 
     def element_axes(self, element: int) -> tuple[float, np.ndarray]:
-        """Length and local axes (rows) of a beam."""
+        """Length and local axes of a beam.
+
+        Parameters
+        ----------
+        element : int
+            Number of the beam.
+
+        Returns
+        -------
+        float
+            Length, m.
+        ndarray, shape (3, 3)
+            Local axes, one per row.
+
+        Raises
+        ------
+        ModelError
+            There is no such beam.
+        """
         if not 0 <= element < len(self.beams):
             raise ModelError(f"There is no beam {element}: the frame has the beams 0 to {len(self.beams) - 1}.")
         beam = self.beams[element]
         return beam_axes(self.positions[beam.i], self.positions[beam.j])
 
     def element_freedoms(self, element: int) -> np.ndarray:
-        """Numbers of the twelve degrees of freedom of a beam: six of node i, six of node j."""
+        """Numbers of the twelve degrees of freedom of a beam.
+
+        Parameters
+        ----------
+        element : int
+            Number of the beam.
+
+        Returns
+        -------
+        ndarray of int, shape (12,)
+            Six of node i, six of node j.
+        """
         beam = self.beams[element]
         return np.concatenate([6 * beam.i + np.arange(6), 6 * beam.j + np.arange(6)])
 
     def element_stiffness(self, element: int) -> np.ndarray:
-        """Stiffness of a beam in its local axes, shape (12, 12)."""
+        """Stiffness of a beam in its local axes.
+
+        Parameters
+        ----------
+        element : int
+            Number of the beam.
+
+        Returns
+        -------
+        ndarray, shape (12, 12)
+            N/m, N and N m per m and rad.
+
+        Raises
+        ------
+        ModelError
+            There is no such beam.
+        """
         beam = self.beams[element]
         return beam_stiffness(beam.section, beam.material, self.element_axes(element)[0], self.theory)
 

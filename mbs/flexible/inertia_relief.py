@@ -43,7 +43,22 @@ class InertiaRelief:
     acceleration_of_forces: np.ndarray
 
     def outputs(self, forces: np.ndarray, specific_acceleration: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Outputs under forces (3 n_interfaces,), s (3,) and W (3, 3), shape (n_outputs,)."""
+        """Outputs under forces and a motion.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (3 n_interfaces,)
+            F, N.
+        specific_acceleration : ndarray, shape (3,)
+            s, m/s2.
+        rotation : ndarray, shape (3, 3)
+            W, 1/s2.
+
+        Returns
+        -------
+        ndarray, shape (n_outputs,)
+            In the units of the outputs.
+        """
         return np.asarray(
             self.forces @ forces + self.acceleration @ specific_acceleration + self.rotation @ np.ravel(rotation)
         )

@@ -69,7 +69,25 @@ def load_path_deformations(body: ReducedBody, loads: np.ndarray, frame_loads: np
 
 
 def reduced_eigenmodes(body: ReducedBody, up_to: float = np.inf) -> ReducedBody:
-    """Body in its own eigenmodes with the reference held, up to a frequency in Hz; K and M become diagonal."""
+    """Body in its own eigenmodes with the reference held; K and M become diagonal.
+
+    Parameters
+    ----------
+    body : ReducedBody
+        Whose modes span the eigenmodes.
+    up_to : float
+        Largest frequency, Hz.
+
+    Returns
+    -------
+    ReducedBody
+        With the eigenmodes up to there.
+
+    Raises
+    ------
+    ModelError
+        No mode lies below the frequency.
+    """
     squares, V = eigh(body.K, body.M)
     hertz = np.sqrt(squares) / (2 * np.pi)
     keep = hertz <= up_to
