@@ -10,6 +10,13 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 from packaging.tags import sys_tags
 
+_OLDEST = {
+    "x86_64-linux-gnu.2.17": "manylinux_2_17_x86_64",
+    "aarch64-linux-gnu.2.17": "manylinux_2_17_aarch64",
+    "x86_64-macos.10.13": "macosx_10_13_x86_64",
+    "aarch64-macos.11.0": "macosx_11_0_arm64",
+}
+
 
 class KernelBuildHook(BuildHookInterface):  # type: ignore[type-arg]
     """Puts the shared library into `mbs/kernel/lib`, where wheels and editable installations find it."""
@@ -18,11 +25,12 @@ class KernelBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         """Compile before the files are collected; a source distribution carries sources only."""
         if self.target_name != "wheel":
             return
-        library = _kernel_build_module(Path(self.root)).compile_library()
+        kernel = _kernel_build_module(Path(self.root))
+        library = kernel.compile_library()
         self.app.display_info(f"kernel compiled: {library}")
         # ctypes, no Python ABI: one wheel per platform serves every Python.
         build_data["pure_python"] = False
-        build_data["tag"] = f"py3-none-{_platform_tag()}"
+        build_data["tag"] = f"py3-none-{_platform_tag(kernel.host_target())}"
 
 
 def _kernel_build_module(root: Path) -> ModuleType:
@@ -36,6 +44,10 @@ def _kernel_build_module(root: Path) -> ModuleType:
     return module
 
 
-def _platform_tag() -> str:
-    """Plain platform of this machine (linux_x86_64, win_amd64, macosx_11_0_arm64)."""
-    return next(t.platform for t in sys_tags() if not t.platform.startswith(("manylinux", "musllinux")))
+def _platform_tag(target: str) -> str:
+    """Tag of the oldest system that the compiler's target runs on; that of this machine if it is none of these."""
+    known = [tag.platform for tag in sys_tags()]
+    oldest = _OLDEST.get(target)
+    if oldest in known:
+        return oldest
+    return next(name for name in known if not name.startswith(("manylinux", "musllinux")))

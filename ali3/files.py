@@ -54,6 +54,12 @@ def whole_file(file: str | os.PathLike[str]) -> Iterator[Path]:
             shutil.rmtree(folder, ignore_errors=True)
 
 
+def write_text(file: str | os.PathLike[str], text: str) -> None:
+    """Write a whole text file in UTF-8; see `whole_file`."""
+    with whole_file(file) as made:
+        made.write_text(text, encoding="utf-8")
+
+
 def make_folder(folder: str | os.PathLike[str]) -> Path:
     """Make a folder and its parents unless they are there.
 

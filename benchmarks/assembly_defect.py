@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import mbs
+from ali3.running import run_command
 from benchmarks.paper.assembly_defect import STEP, draw, measure, refusal
 from benchmarks.references.assembly_defect import ORIGIN, reference
 from benchmarks.shared.command import parser_of, save_rows, watched
@@ -63,4 +64,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

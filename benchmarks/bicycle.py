@@ -11,6 +11,7 @@ import sys
 from collections.abc import Sequence
 
 import mbs
+from ali3.running import run_command
 from benchmarks.methods.bicycle import linear, measure
 from benchmarks.methods.kernel_methods import suits
 from benchmarks.references.cases import system_of
@@ -48,4 +49,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -16,6 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from ali3.files import write_text
+from ali3.running import run_command
 from benchmarks.car.calculix import (
     STORED,
     clamped_frequencies,
@@ -55,9 +57,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         stored[name] = {"meshes": meshes.tolist(), "extrapolated": np.round(extrapolated, 8).tolist()}
         print(f"{name}: {meshes.tolist()} -> {np.round(extrapolated, 6).tolist()}")
     STORED.parent.mkdir(parents=True, exist_ok=True)
-    STORED.write_text(json.dumps(stored, indent=2) + "\n")
+    write_text(STORED, json.dumps(stored, indent=2) + "\n")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

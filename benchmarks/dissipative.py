@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 
 import mbs
+from ali3.running import run_command
 from benchmarks.methods.dissipative import SCENES, measure
 from benchmarks.methods.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TREE_ONLY
 from benchmarks.shared.command import parser_of, save_rows, watched
@@ -50,4 +51,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import mbs
+from ali3.running import run_command
 from benchmarks.methods.error_control import CHOSEN, ROUNDS, TABLE, compare, measure, methods_of, misses
 from benchmarks.references.cases import CASES
 from benchmarks.shared.command import parser_of, save_rows, watched
@@ -47,4 +48,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
+from ali3.running import run_command
 from benchmarks.car.fidelity import COMPARED, chart, measure, verdict
 from benchmarks.car.fidelity_runs import NAMES
 from benchmarks.shared.command import parser_of, save_rows, watched
@@ -53,4 +54,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
+from ali3.running import run_command
 from benchmarks.car.fidelity_references import write
 from benchmarks.car.fidelity_runs import NAMES
 from benchmarks.shared.command import parser_of, watched
@@ -29,4 +30,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import fmpy
 
+from ali3.running import run_command
 from benchmarks.car.fmu_calls import QUANTITIES, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
-from hosts.errors import HostError
 
 KINDS = ("native", "python")
 
@@ -68,7 +68,4 @@ def _value(rows: Sequence[dict[str, str | float | None]], quantity: str, kind: s
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except HostError as error:
-        sys.exit(f"error: {error}")
+    sys.exit(run_command(main))

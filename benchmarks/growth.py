@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 
 import mbs
+from ali3.running import run_command
 from benchmarks.methods.growth import (
     CHASSIS_EXPONENTS,
     CHASSIS_ROUNDS,
@@ -95,4 +96,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -1,7 +1,7 @@
-"""Whether a run says that it is wrong: ``python -m benchmarks.honesty [--json FILE] [--quick]``.
+"""Whether a run reports that it is wrong: ``python -m benchmarks.honesty [--json FILE] [--quick]``.
 
 Every scene, method and manoeuvre of the car at coarse and fine steps, as `mbs.simulate` runs it: the true error beside
-the error told. A run is wrong when a judged sensor is off by more than 5 % of the largest range in its unit at one of
+its estimate. A run is wrong when a judged sensor is off by more than 5 % of the largest range in its unit at one of
 51 instants; a warning then is right, and is a false alarm elsewhere.
 """
 
@@ -11,6 +11,7 @@ import sys
 from collections.abc import Sequence
 
 import mbs
+from ali3.running import run_command
 from benchmarks.methods.honesty import SUMMARY, measure, summary
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
@@ -26,7 +27,7 @@ TABLE = {
     "h_s": ".4g",
     "ended": "",
     "error": ".1e",
-    "told": ".1e",
+    "estimate": ".1e",
     "balance": ".1e",
     "halvings_per_step": ".2g",
     "repeated": "",
@@ -60,4 +61,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

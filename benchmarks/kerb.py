@@ -12,6 +12,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
+from ali3.running import run_command
 from benchmarks.car.fidelity import COMPARED, fidelity_of
 from benchmarks.paper.kerb import COLUMNS, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
@@ -40,4 +41,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -13,6 +13,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ali3.files import write_text
+from ali3.running import run_command
 from benchmarks.car.load_paths import GUIDED, mirrored, port_forces
 from benchmarks.shared.command import parser_of, watched
 from mbs.scenes.prototype_car.chassis import LOAD_FILE, deformation_energy, settled_loads
@@ -43,11 +45,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     ]
     for k, row in enumerate(loads):
         lines.append(",".join([INTERFACES[k // 3], "xyz"[k % 3], *(f"{v:.7g}" for v in row)]))
-    LOAD_FILE.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(LOAD_FILE, "\n".join(lines) + "\n")
     sizes = np.array2string(size[keep] / size[0], precision=2)
     print(f"{snapshots.shape[1]} snapshots, {loads.shape[1]} loads; sizes {sizes}")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

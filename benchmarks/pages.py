@@ -12,6 +12,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ali3.files import write_text
+from ali3.running import run_command
 from benchmarks.methods.pages import (
     control_blocks,
     dissipative_blocks,
@@ -60,10 +62,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= {"machine honesty": machine(honesty[0]["meta"])}
     for page in PAGES:
         file = o.docs / page
-        file.write_text(replace(file.read_text(encoding="utf-8"), blocks), encoding="utf-8")
+        write_text(file, replace(file.read_text(encoding="utf-8"), blocks))
     print(f"{len(blocks)} tables written")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

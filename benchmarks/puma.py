@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 
 import mbs
+from ali3.running import run_command
 from benchmarks.paper.puma import LARGE, SMALL, measure, split
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
@@ -53,4 +54,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from ali3.running import run_command
 from benchmarks.methods.stability import (
     ENERGY,
     FEW_CLASSICAL,
@@ -93,4 +94,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.running import run_command
 from benchmarks.car.stress_picture import amplitudes, draw, draw_plain, motion_of
 from benchmarks.shared.command import parser_of
 from mbs.scenes.prototype_car.chassis import reduced_chassis
@@ -40,4 +41,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -28,6 +28,7 @@ from fmpy.fmi2 import (
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
+from ali3.files import reason
 from ali3.running import command_name
 from hosts.errors import HostError
 
@@ -89,6 +90,8 @@ class Fmu:
             shutil.rmtree(self._folder, ignore_errors=True)
             if not isinstance(error, Exception):
                 raise
+            if isinstance(error, OSError) and error.errno is not None:
+                raise HostError(f"{path} cannot be unpacked into {self._folder}: {reason(error)}.") from None
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {self._last_message() or error}") from None
 
     def __enter__(self) -> Fmu:

@@ -16,6 +16,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.running import run_command
 from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.accuracy import LOAD_BOUND, PATH_BOUND, _build_fmu, chart, measure, verdict
 from benchmarks.shared.command import parser_of, save_rows, watched
@@ -74,4 +75,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_command(main))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ali3.files import write_text
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import FILTERED, FOLDER, INTERVAL, LOADS, MOMENTS, POSITION
 from mbs.scenes.prototype_car.fidelity import Fidelity
@@ -37,7 +38,7 @@ def write(name: str) -> str:
     for row in np.column_stack([t, *(values[s] for s in signals)]):
         lines.append(",".join(f"{v:.7g}" for v in row))
     FOLDER.mkdir(parents=True, exist_ok=True)
-    (FOLDER / f"{name}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(FOLDER / f"{name}.csv", "\n".join(lines) + "\n")
     _write_peaks(name, fidelity_runs.peaks(fine, STEP))
     return f"{name}: " + "; ".join(said)
 
@@ -48,4 +49,4 @@ def _write_peaks(name: str, peaks: dict[str, float]) -> None:
         "signal,largest change",
         *(f"{signal},{value:.7g}" for signal, value in peaks.items()),
     ]
-    (FOLDER / f"{name}_peaks.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(FOLDER / f"{name}_peaks.csv", "\n".join(lines) + "\n")

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.files import whole_file
 from benchmarks.shared.command import pyplot, watched
 from mbs import Simulation, compile
 from mbs.flexible import Frame, ReducedBody
@@ -138,6 +139,7 @@ def draw_plain(frame: Frame, motion: Motion, folder: Path) -> list[Path]:
     figure.colorbar(tubes, ax=axes, label="largest normal stress, MPa", shrink=0.6)
     axes.set_title(f"t = {motion.t[k]:.2f} s, deformation x {SCALE:g}")
     picture = folder / "frame_stress.png"
-    figure.savefig(picture, dpi=100)
+    with whole_file(picture) as made:
+        figure.savefig(made, dpi=100)
     plt.close(figure)
     return [picture]

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.files import write_text
 from benchmarks.car import manoeuvres
 from mbs import Settings, Trajectory
 
@@ -87,7 +88,7 @@ def write(name: str) -> str:
     table = np.column_stack([fine.t[::every], *values.values()])
     lines += [",".join(f"{v:.8g}" for v in row) for row in table]
     FOLDER.mkdir(parents=True, exist_ok=True)
-    (FOLDER / f"{name}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(FOLDER / f"{name}.csv", "\n".join(lines) + "\n")
     return (
         f"{name:<26} path {length:8.3f} m, order {order:5.2f}, own error {own:.1e} m, "
         f"iterations {report.mean_iterations:.2f} (at most {report.max_iterations}), {report.halvings} halvings"
@@ -101,7 +102,7 @@ def write_replay() -> None:
     head = ",".join(f'"{n}"' for n in ("time", "steering", "throttle", "brake"))
     lines = [head, *(",".join(f"{v:.6g}" for v in row) for row in rows)]
     name = manoeuvres.OWN[0]
-    (manoeuvres.FOLDER / f"{name}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(manoeuvres.FOLDER / f"{name}.csv", "\n".join(lines) + "\n")
     text = "# What the host's driver did in the double lane change; made by python -m benchmarks.car_references\n"
     text += "[start]\n" + "".join(f"{k} = {v:g}\n" for k, v in closed.start.items())
-    (manoeuvres.FOLDER / f"{name}.ini").write_text(text, encoding="utf-8")
+    write_text(manoeuvres.FOLDER / f"{name}.ini", text)

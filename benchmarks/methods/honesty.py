@@ -1,4 +1,4 @@
-"""The true error of a run beside the error it told, and a summary of right, wrong and warned runs."""
+"""The true error of a run beside its estimate, and a summary of right, wrong and warned runs."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
 from mbs.accuracy import WRONG_BALANCE, WRONG_ERROR
 
-HOLDS = 1e-3  # of the range: a smaller error need not be told
-FACTOR = 10.0  # by which an error may be larger than what was told
-VERDICTS = ("right, quiet", "false alarm", "wrong, said", "wrong, missed")
+HOLDS = 1e-3  # of the range: a smaller error needs no estimate
+FACTOR = 10.0  # by which an error may be larger than its estimate
+VERDICTS = ("right, no warning", "false alarm", "wrong, warned", "wrong, missed")
 SUMMARY = {
     "method": "",
     "runs": "d",
@@ -25,9 +25,9 @@ SUMMARY = {
     "false alarms": "d",
     "wrong": "d",
     "missed": "d",
-    "said by the balance": "d",
+    "found by the balance": "d",
     "right without a repeat": ".0%",
-    "off by more than told": "d",
+    "above the estimate": "d",
 }
 
 
@@ -35,7 +35,7 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
     """One run."""
     scene = SCENES[name]
     row: dict[str, Any] = {"scene": name, "method": method, "h_s": h, "ended": "refused", "verdict": "refused"}
-    row |= dict.fromkeys(("error", "told", "balance", "halvings_per_step", "warning"))
+    row |= dict.fromkeys(("error", "estimate", "balance", "halvings_per_step", "warning"))
     row["repeated"] = ""
     begin = time.process_time()
     try:
@@ -47,16 +47,16 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
     accuracy = found.accuracy
     assert accuracy is not None
     row["cpu_s"] = time.process_time() - begin
-    error, told = scene.error(found)
-    wrong, said = not error <= WRONG_ERROR, bool(caught)
+    error, estimate = scene.error(found)
+    wrong, warned = not error <= WRONG_ERROR, bool(caught)
     return row | {
         "ended": "finished",
         "error": error,
-        "told": told if np.isfinite(told) else None,
+        "estimate": estimate if np.isfinite(estimate) else None,
         "balance": accuracy.energy_balance,
         "halvings_per_step": accuracy.halvings_per_step,
         "repeated": "yes" if accuracy.repeated_with is not None else "no",
-        "verdict": VERDICTS[2 * wrong + (said != wrong if wrong else said)],
+        "verdict": VERDICTS[2 * wrong + (warned != wrong if wrong else warned)],
         "warning": accuracy.message,
     }
 
@@ -68,8 +68,8 @@ def summary(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         part = [r for r in rows if r["method"] == method]
         done = [r for r in part if r["ended"] == "finished"]
         right = [r for r in done if r["error"] <= WRONG_ERROR]
-        quiet = sum(r["repeated"] == "no" for r in right)
-        told = [r for r in done if r["told"] is not None and r["error"] > HOLDS]
+        once = sum(r["repeated"] == "no" for r in right)
+        estimated = [r for r in done if r["estimate"] is not None and r["error"] > HOLDS]
         lines.append(
             {
                 "method": TITLES[method],
@@ -79,9 +79,9 @@ def summary(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
                 "false alarms": sum(r["verdict"] == VERDICTS[1] for r in done),
                 "wrong": len(done) - len(right),
                 "missed": sum(r["verdict"] == VERDICTS[3] for r in done),
-                "said by the balance": sum((r["balance"] or 0.0) > WRONG_BALANCE for r in done),
-                "right without a repeat": quiet / len(right) if right else None,
-                "off by more than told": sum(r["error"] > FACTOR * r["told"] for r in told),
+                "found by the balance": sum((r["balance"] or 0.0) > WRONG_BALANCE for r in done),
+                "right without a repeat": once / len(right) if right else None,
+                "above the estimate": sum(r["error"] > FACTOR * r["estimate"] for r in estimated),
             }
         )
     return lines

@@ -68,10 +68,10 @@ class Scene:
     steps: tuple[float, ...]
 
     def error(self, found: mbs.Trajectory) -> tuple[float, float]:
-        """Largest error over the largest range of a unit, and the error told of the sensor it is in over that range
-        (nan: none told).
+        """Largest error over the largest range of a unit, and the estimated error of its sensor over that range
+        (nan: none).
         """
-        worst, told = 0.0, float("nan")
+        worst, estimated = 0.0, float("nan")
         estimate = found.accuracy.sensors if found.accuracy is not None else {}
         for unit, names in self.units().items():
             true = self.truth()
@@ -80,8 +80,8 @@ class Scene:
             for name in names:
                 error = float(np.abs(found[name] - true[name])[rows].max()) / size
                 if error >= worst:
-                    worst, told = error, estimate.get(name, float("nan")) / size
-        return worst, told
+                    worst, estimated = error, estimate.get(name, float("nan")) / size
+        return worst, estimated
 
 
 def _case_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:

@@ -132,10 +132,10 @@ def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
         ]
         best = min(others, key=lambda x: x["cpu_ms"], default=None)
         miss = [
-            what for what, there in (("dear", (r["ratio"] or 0.0) > MOST_TIME), ("refused", not r["cpu_ms"])) if there
+            what for what, there in (("slow", (r["ratio"] or 0.0) > MOST_TIME), ("refused", not r["cpu_ms"])) if there
         ]
         if (r["error_over_tolerance"] or 0.0) > MOST_ERROR:
-            miss.append("wrong" + (", said" if r["warned"] else ""))
+            miss.append("wrong" + (", warned" if r["warned"] else ""))
         lines.append(
             {**r, "chosen": r["method"].removeprefix(f"{CHOSEN}: "), "best": best and best["method"]}
             | {"best_ms": best and best["cpu_ms"], "miss": ", ".join(miss)}
@@ -153,13 +153,13 @@ def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
             runs = (f"{r['scene']} at {r['h_s']:g} s ({r['error']:.2g})" for r in found if r["method"] == method)
             said.append(f"- {TITLES[method]}, {verdict.replace('wrong, ', '')}: {'; '.join(runs)}.")
     short = [
-        f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, told {r['told']:.1e}"
+        f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, estimate {r['estimate']:.1e}"
         for r in rows
-        if r["told"] is not None and r["error"] > max(HOLDS, FACTOR * r["told"])
+        if r["estimate"] is not None and r["error"] > max(HOLDS, FACTOR * r["estimate"])
     ]
-    said += [f"- More than {FACTOR:g} times what was told: {'; '.join(short) or 'none'}."]
+    said += [f"- More than {FACTOR:g} times the estimate: {'; '.join(short) or 'none'}."]
     crank = [r for r in rows if r["scene"] == "printed_crank_slider" and r["method"] == "ali3p"]
-    columns = {"h_s": "g", "ended": "", "error": ".1e", "told": ".1e", "balance": ".1e", "halvings_per_step": ".2g"}
+    columns = {"h_s": "g", "ended": "", "error": ".1e", "estimate": ".1e", "balance": ".1e", "halvings_per_step": ".2g"}
     return {
         "honesty": table(summary(list(rows)), SUMMARY),
         "honesty exceptions": "\n".join(said),

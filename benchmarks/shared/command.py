@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
+from ali3.files import whole_file
 from benchmarks.shared.tables import write_json
 from mbs.progress import DELAY, progress_for
 
@@ -68,8 +69,8 @@ def pyplot() -> Any:
 
 def save_chart(figure: Any, file: Path) -> None:
     """Write a figure as PNG, say where, and close it; the same figure gives the same bytes with the same Matplotlib."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=DPI, metadata={"Software": None})
+    with whole_file(file) as made:
+        figure.savefig(made, dpi=DPI, metadata={"Software": None})
     pyplot().close(figure)
     print(f"written: {file}")
 

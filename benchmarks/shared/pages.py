@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -34,8 +35,19 @@ def machine(meta: Row) -> str:
 
 
 def replace(text: str, blocks: Mapping[str, str]) -> str:
-    """The page with its tables exchanged; what was not measured stays."""
+    """The page with its tables exchanged, sentences in lines of at most 120 characters; what was not measured stays."""
     for name, content in blocks.items():
         mark = re.compile(rf"(<!-- begin {re.escape(name)} -->\n).*?(<!-- end {re.escape(name)} -->)", re.DOTALL)
-        text = mark.sub(lambda m, content=content: f"{m[1]}{content.strip()}\n{m[2]}", text)
+        text = mark.sub(lambda m, content=content: f"{m[1]}{_wrapped(content.strip())}\n{m[2]}", text)
     return text
+
+
+def _wrapped(content: str) -> str:
+    """The lines that are no rows of a table, wrapped; an item of a list is indented."""
+    lines = []
+    for line in content.splitlines():
+        hang = "  " if line.startswith("- ") else ""
+        plain = line and not line.startswith(("|", "!"))
+        wrapped = textwrap.wrap(line, 120, subsequent_indent=hang, break_long_words=False, break_on_hyphens=False)
+        lines += wrapped if plain else [line]
+    return "\n".join(lines)

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from ali3.files import write_text
+
 
 def print_table(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str] | None = None) -> None:
     """Print rows as aligned columns.
@@ -36,8 +38,7 @@ def print_table(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str] | 
 def write_json(file: Path, meta: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> None:
     """Write ``{"meta": ..., "rows": [...]}``; numbers that are not finite become null."""
     text = json.dumps({"meta": _plain(meta), "rows": _plain(rows)}, indent=1, allow_nan=False)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(text + "\n", encoding="utf-8")
+    write_text(file, text + "\n")
 
 
 def _cell(value: Any, form: str) -> str:

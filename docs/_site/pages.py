@@ -1,4 +1,4 @@
-"""Pages of the site that are files of the repository: README, CHANGELOG, CONTRIBUTING, examples."""
+"""Pages of the site that are files elsewhere in the repository, such as the README."""
 
 from __future__ import annotations
 
@@ -9,7 +9,13 @@ from sphinx.application import Sphinx
 
 ROOT = Path(__file__).parents[2]
 DECISIONS = "\n```{toctree}\n:hidden:\n:glob:\n\n0*\n```\n"
-PAGES = {"index": "README.md", "changelog": "CHANGELOG.md", "contributing": "CONTRIBUTING.md"}
+PAGES = {
+    "index": "README.md",
+    "changelog": "CHANGELOG.md",
+    "contributing": "CONTRIBUTING.md",
+    "method_contract": "mbs/kernel/src/methods/README.md",
+}
+LINK = re.compile(r"(\]\()(?!https?:|#|mailto:)([^)\s]+)\)")
 
 
 def with_file(app: Sphinx, page: str, source: list[str]) -> None:
@@ -18,17 +24,19 @@ def with_file(app: Sphinx, page: str, source: list[str]) -> None:
         source[0] += DECISIONS
     if page not in PAGES:
         return
-    text = (ROOT / PAGES[page]).read_text(encoding="utf-8")
-    text = re.sub(r"(\]\()(?!https?:|#|mailto:)([^)\s]+)\)", _link, text)
+    file = ROOT / PAGES[page]
+    app.env.note_dependency(str(file))
+    text = LINK.sub(lambda m: f"{m[1]}{_target(file, m[2])})", file.read_text(encoding="utf-8"))
     source[0] = text + "\n" + source[0]
 
 
-def _link(match: re.Match[str]) -> str:
-    target = match[2]
-    for page, file in PAGES.items():
-        if target.partition("#")[0] == file:
-            return match[1] + target.replace(file, f"{page}.md") + ")"
-    return match[1] + (target.removeprefix("docs/") if target.startswith("docs/") else f"../{target}") + ")"
+def _target(file: Path, link: str) -> str:
+    """What a link of the file leads to, as seen from `docs/`."""
+    path, mark, anchor = link.partition("#")
+    place = (file.parent / path).resolve().relative_to(ROOT).as_posix()
+    page = next((page for page, source in PAGES.items() if source == place), None)
+    seen = f"{page}.md" if page else place.removeprefix("docs/") if place.startswith("docs/") else f"../{place}"
+    return seen + mark + anchor
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

@@ -13,6 +13,7 @@ from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2Ca
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelDescription, ScalarVariable
 
+from ali3.files import reason
 from hosts.errors import HostError
 
 
@@ -177,6 +178,8 @@ def open_subject(path: Path, folder: Path, steps: int) -> Subject:
     try:
         description = read_model_description(str(path), validate=False)
         extract(str(path), unzipdir=str(folder))
+    except OSError as error:
+        raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
     except Exception as error:
         raise HostError(f"{path} is not an FMU that can be read: {error}") from None
     if description.coSimulation is None or description.fmiVersion[0] not in "23":

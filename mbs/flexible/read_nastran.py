@@ -1,4 +1,4 @@
-"""Models written by Nastran: matrices in OUTPUT4 or DMIG, nodes in the bulk data (reader: pyNastran, extra `fem`)."""
+"""Models written by Nastran: matrices in OUTPUT4, grid points in the bulk data (reader: pyYeti, extra `fem`)."""
 
 from __future__ import annotations
 
@@ -31,31 +31,35 @@ def read_nastran(
         Names of the matrices in the file.
     """
     try:
-        from pyNastran.bdf.bdf import read_bdf
-        from pyNastran.op4.op4 import read_op4
+        from pyyeti.nastran import bulk, op4
     except ImportError as error:
-        raise ModelError("Nastran files are read with pyNastran: install it with pip install 'ali3[fem]'.") from error
+        raise ModelError("Nastran files are read with pyYeti: install it with pip install 'ali3[fem]'.") from error
     for path in (bulk_data, matrices):
         if not Path(path).is_file():
             raise ModelError(f"There is no file {path}.")
-    deck = read_bdf(str(bulk_data), xref=True, punch=_is_punch(bulk_data), validate=False, debug=None)
-    numbers = sorted(deck.nodes)
-    for number in numbers:
-        if deck.nodes[number].Cd() != 0:
-            raise ModelError(f"Grid point {number} has displacements in a system of its own; use the basic system.")
-    positions = np.array([deck.nodes[number].get_position() for number in numbers])
-    found = read_op4(str(matrices), debug=None)
+    try:
+        # one row per freedom, the first of six: grid point, freedom, set, place in the basic system
+        points = bulk.bulk2uset(str(bulk_data))[0].reset_index().to_numpy(float)[::6]
+        cards = bulk.rdgrids(str(bulk_data))
+    except Exception as error:
+        raise ModelError(f"{bulk_data} holds no grid points that can be read: {error}.") from error
+    if cards is None:
+        raise ModelError(f"{bulk_data} holds no grid points.")
+    for number, own in cards[:, (0, 5)]:
+        if own != 0:
+            raise ModelError(f"Grid point {number:.0f} has displacements in a system of its own; use the basic system.")
+    points = points[np.argsort(points[:, 0])]
+    numbers, positions = points[:, 0].astype(int), points[:, 3:6]
+    try:
+        read = op4.read(str(matrices), sparse=True)
+    except Exception as error:
+        raise ModelError(f"{matrices} is no OUTPUT4 file that can be read: {error}.") from error
+    found = {name.upper(): matrix for name, matrix in read.items()}
     for name in (stiffness, mass):
-        if name not in found:
+        if name.upper() not in found:
             raise ModelError(f"{Path(matrices).name} has no matrix {name}; it has {', '.join(sorted(found))}.")
-    K, M = (_symmetric(found[name].data) for name in (stiffness, mass))
+    K, M = (_symmetric(found[name.upper()]) for name in (stiffness, mass))
     return external_model(K, M, positions, [str(number) for number in numbers])
-
-
-def _is_punch(path: str | Path) -> bool:
-    """Whether a deck has bulk data only, without executive and case control."""
-    lines = Path(path).read_text(encoding="latin-1").upper().splitlines()
-    return not any(line.strip().startswith("CEND") for line in lines)
 
 
 def _symmetric(data: np.ndarray | Sparse) -> sp.csc_array:

@@ -172,7 +172,10 @@ def compile_c(
             command += ["-lm", "-ldl"]
         result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         if result.returncode != 0:
-            raise RuntimeError(f"{what} did not compile for {target}:\n{result.stderr}")
+            words = result.stderr.strip()
+            if not words:  # the linker ends so when it cannot write
+                words = f"the compiler ended with {result.returncode} and no message; is there room in {path.parent}?"
+            raise RuntimeError(f"{what} did not compile for {target}:\n{words}")
         made.replace(path)  # at once, so that a program that has the old library loaded keeps it whole
 
 

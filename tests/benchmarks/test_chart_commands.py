@@ -89,45 +89,61 @@ def test_the_default_is_right_on_the_spinning_beam_and_the_standing_car(tmp_path
     assert "spinning_beam" in capsys.readouterr().out
 
 
-def test_the_default_says_where_it_is_wrong_and_is_quiet_where_it_is_right(tmp_path, capsys):
+def test_the_default_warns_where_it_is_wrong_and_nowhere_else(tmp_path, capsys):
     assert honesty.main(["--quick", "--json", str(tmp_path / "h.json")]) == 0
     meta, rows = read(tmp_path / "h.json")
     verdicts = {(r["scene"], r["h_s"]): r["verdict"] for r in rows}
-    assert set(verdicts.values()) == {"wrong, said", "right, quiet"}
-    assert verdicts["pendulum", 0.01] == verdicts["printed_crank_slider", 2e-5] == "right, quiet"
-    assert verdicts["printed_crank_slider", 1e-3] == verdicts["tumbling_body", 0.01] == "wrong, said"
-    told = {(r["scene"], r["h_s"]): r["told"] / r["error"] for r in rows if r["told"] is not None}
-    assert 0.8 < told["pendulum", 0.05] < 1.2
-    assert 0.8 < told["printed_crank_slider", 2e-5] < 1.3
+    assert set(verdicts.values()) == {"wrong, warned", "right, no warning"}
+    assert verdicts["pendulum", 0.01] == verdicts["printed_crank_slider", 2e-5] == "right, no warning"
+    assert verdicts["printed_crank_slider", 1e-3] == verdicts["tumbling_body", 0.01] == "wrong, warned"
+    estimate = {(r["scene"], r["h_s"]): r["estimate"] / r["error"] for r in rows if r["estimate"] is not None}
+    assert 0.8 < estimate["pendulum", 0.05] < 1.2
+    assert 0.8 < estimate["printed_crank_slider", 2e-5] < 1.3
     (line,) = meta["summary"]
     assert (line["missed"], line["false alarms"]) == (0, 0)
     blocks = pages.honesty_blocks(rows)
     assert "| ALi3-P | 7 | 0 |" in blocks["honesty"]
-    assert "told: none." in blocks["honesty exceptions"]
-    assert "wrong, said" in blocks["honesty crank"]
+    assert "estimate: none." in blocks["honesty exceptions"]
+    assert "wrong, warned" in blocks["honesty crank"]
     assert "tumbling_body" in capsys.readouterr().out
 
 
 def test_what_goes_against_the_rule_is_counted_and_named():
-    def row(error, told, said):
+    def row(error, estimate, warned):
         wrong = error > 0.05
-        verdict = VERDICTS[2 * wrong + (said != wrong if wrong else said)]
-        return {"scene": "s", "method": "radau_5", "h_s": error, "ended": "finished", "error": error, "told": told} | {
-            "repeated": "yes" if told else "no",
+        verdict = VERDICTS[2 * wrong + (warned != wrong if wrong else warned)]
+        return {
+            "scene": "s",
+            "method": "radau_5",
+            "h_s": error,
+            "ended": "finished",
+            "error": error,
+            "estimate": estimate,
+        } | {
+            "repeated": "yes" if estimate else "no",
             "balance": None,
             "verdict": verdict,
         }
 
     rows = [row(0.2, 0.1, True), row(0.3, 0.01, False), row(0.01, None, False), row(0.02, 0.1, True)]
-    assert [r["verdict"] for r in rows] == ["wrong, said", "wrong, missed", "right, quiet", "false alarm"]
+    assert [r["verdict"] for r in rows] == ["wrong, warned", "wrong, missed", "right, no warning", "false alarm"]
     (line,) = honesty.summary(rows)
     assert (line["right"], line["wrong"], line["missed"], line["false alarms"]) == (2, 2, 1, 1)
     assert line["right without a repeat"] == 0.5
-    assert line["off by more than told"] == 1
+    assert line["above the estimate"] == 1
     said = pages.honesty_blocks(rows)["honesty exceptions"]
     assert "missed: s at 0.3 s (0.3)" in said
     assert "false alarm: s at 0.02 s (0.02)" in said
-    assert "told 1.0e-02" in said
+    assert "estimate 1.0e-02" in said
+
+
+def test_written_sentences_are_wrapped_and_tables_are_not():
+    row = "| " + "x" * 200 + " |"
+    page = replace("<!-- begin a -->\nold\n<!-- end a -->", {"a": f"{row}\n- {'word ' * 60}"})
+    lines = page.splitlines()
+    assert row in lines
+    assert max(len(line) for line in lines if line != row) <= 120
+    assert sum(line.startswith(("- ", "  ")) for line in lines) == 3
 
 
 def test_growth_counts_arithmetic_and_finds_the_non_zeros_linear(tmp_path):

@@ -19,7 +19,7 @@ def test_the_table_holds_every_method_and_the_choice(tmp_path: Path) -> None:
     for row in rows:
         assert row["ended"] == "finished"
         assert row["error_over_tolerance"] < MOST_ERROR
-        assert 0.0 < row["told_over_tolerance"] < 1.5
+        assert 0.0 < row["estimate_over_tolerance"] < 1.5
     assert rows[0]["steps"] > 20 * rows[2]["steps"]
 
 

@@ -54,6 +54,13 @@ def test_each_command_helps_under_its_name(command: object, capsys: pytest.Captu
     assert capsys.readouterr().out.startswith(f"usage: ali3 {command.name} ")
 
 
+def test_each_command_is_in_the_documents() -> None:
+    page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    assert [line.split("`")[1] for line in page.splitlines() if line.startswith("| `ali3 ")] == [
+        f"ali3 {c.name}" for c in COMMANDS
+    ]
+
+
 def test_the_list_of_commands_imports_nothing_heavy(tmp_path: Path) -> None:
     text = "import sys; from ali3.command import main\ntry: main(['--help'])\nfinally: print('\\n', *sys.modules)"
     done = ran(["-c", text], tmp_path)
@@ -104,7 +111,7 @@ def test_files_of_the_user_cannot_break_a_command(script: Path, crowded: Path) -
     assert "nothing bad found" in done.stdout
     done = ran([script, "drive", "-m", "double_lane_change", "dist/Pendulum.fmu"], crowded)
     assert done.returncode == 2
-    assert "The driver needs variables" in done.stderr
+    assert "The driver needs the wheelbase" in done.stderr
 
 
 def test_as_a_module_it_forgets_the_current_folder(crowded: Path) -> None:

@@ -21,7 +21,8 @@ from mbs.settings import METHODS
 
 ROOT = Path(__file__).parents[2]
 PLATFORM = fmpy.platform
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = ("README.md", "CONTRIBUTING.md", "mbs/kernel/src/methods/README.md")
+DOCUMENTS = [*(ROOT / page for page in PAGES), *sorted((ROOT / "docs").rglob("*.md"))]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
 FILE = r"[\w./]+\.(?:c|h|py|md|cff)"
@@ -94,7 +95,7 @@ def test_readme_lists_the_manoeuvres_and_the_scene_of_ones_own():
 
 
 def test_readme_has_every_group_of_variables_and_no_other(car):
-    names = {v.name for v in variable_table(car.meta, pose=True, step_size=0.002, fidelities=4)}
+    names = {v.name for v in variable_table(car.meta, pose=True, step_size=0.002, fidelities=("",) * 4)}
     table = re.search(r"\| variables \|.*?\n\n", README, re.DOTALL)[0]
     cells = re.findall(r"`([^`]+)`", "\n".join(line.split("|")[1] for line in table.splitlines() if line))
     shown = {c.partition(".")[0] for c in cells if c[0] not in "._"}
@@ -108,6 +109,12 @@ def test_links_and_named_files_exist(file):
         assert (file.parent / target).exists(), target
     for name in re.findall(rf"`((?:mbs|fmu_src|hosts|benchmarks|tests|docs|examples)/{FILE})`", text):
         assert (ROOT / name).is_file(), name
+
+
+@pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)
+def test_lines_have_at_most_120_characters(file):
+    text = re.sub(r"^```.*?^```", "", file.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    assert [line for line in text.splitlines() if len(line) > 120 and not line.startswith(("|", "    "))] == []
 
 
 @pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)

@@ -87,16 +87,16 @@ def test_freedoms_may_come_in_any_order() -> None:
         external_model(model.K, np.ones(9), frame.positions, dof=np.zeros((4, 6)))
 
 
-def test_a_nastran_model_is_read(tmp_path: Path) -> None:
-    pytest.importorskip("pyNastran", reason="extra 'fem'")
-    from pyNastran.op4.op4 import OP4
+@pytest.mark.parametrize(("binary", "sparse"), [(False, "dense"), (True, "dense"), (True, "bigmat")])
+def test_a_nastran_model_is_read(tmp_path: Path, binary: bool, sparse: str) -> None:
+    op4 = pytest.importorskip("pyyeti.nastran.op4", reason="extra 'fem'")
 
     from mbs.flexible.read_nastran import read_nastran
 
     frame = portal()
     model = frame.finite_element_model("lumped", rotary=False)
     K, M = model.K.toarray(), model.mass_matrix().toarray()
-    OP4().write_op4(str(tmp_path / "frame.op4"), {"KGG": (6, K), "MGG": (6, M)}, is_binary=False)
+    op4.write(str(tmp_path / "frame.op4"), {"KGG": K, "MGG": M}, binary=binary, sparse=sparse)
     grid = [f"GRID,{10 + i},,{x[0]:.6f},{x[1]:.6f},{x[2]:.6f}" for i, x in enumerate(frame.positions)]
     (tmp_path / "frame.bdf").write_text("\n".join(grid) + "\n")
     found = read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
@@ -105,6 +105,31 @@ def test_a_nastran_model_is_read(tmp_path: Path) -> None:
     np.testing.assert_allclose(natural_modes(found, 9)[0], natural_modes(model, 9)[0], rtol=PRINTED, atol=1e-3)
     with pytest.raises(ModelError, match="has no matrix KAA; it has KGG, MGG"):
         read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4", stiffness="KAA")
+
+
+def test_nastran_places_are_those_of_the_basic_system(tmp_path: Path) -> None:
+    op4 = pytest.importorskip("pyyeti.nastran.op4", reason="extra 'fem'")
+
+    from mbs.flexible.read_nastran import read_nastran
+
+    frame = portal()
+    model = frame.finite_element_model("lumped", rotary=False)
+    op4.write(str(tmp_path / "frame.op4"), {"KGG": model.K.toarray(), "MGG": model.mass_matrix().toarray()})
+    # system 5 has its origin at (1, 2, 3) and is turned a quarter about z: its x axis is the basic y axis
+    turned = [(x[1] - 2.0, -(x[0] - 1.0), x[2] - 3.0) for x in frame.positions]
+    grid = [f"GRID,{10 + i},5,{x[0]:.6f},{x[1]:.6f},{x[2]:.6f}" for i, x in enumerate(turned)]
+    system = ["CORD2R,5,0,1.,2.,3.,1.,2.,4.", ",1.,3.,3."]
+    deck = ["SOL 103", "CEND", "BEGIN BULK", *reversed(grid), *system, "ENDDATA"]
+    (tmp_path / "frame.bdf").write_text("\n".join(deck) + "\n")
+    found = read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
+    assert found.names == tuple(str(10 + i) for i in range(9))
+    np.testing.assert_allclose(found.positions, frame.positions, atol=1e-6)
+    (tmp_path / "frame.bdf").write_text("\n".join([*grid[:-1], grid[-1] + ",5", *system]) + "\n")
+    with pytest.raises(ModelError, match="Grid point 18 has displacements in a system of its own"):
+        read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
+    (tmp_path / "frame.bdf").write_text("$ nothing\n")
+    with pytest.raises(ModelError, match=r"frame\.bdf holds no grid points"):
+        read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
 
 
 def test_a_calculix_model_is_read() -> None:
@@ -141,14 +166,12 @@ def test_a_calculix_model_with_supports_is_refused(tmp_path: Path) -> None:
         read_calculix(tmp_path / "bar.inp")
 
 
-@pytest.mark.parametrize(("module", "reader"), [("read_nastran", "pyNastran"), ("read_calculix", "meshio")])
+@pytest.mark.parametrize(("module", "reader"), [("read_nastran", "pyyeti.nastran"), ("read_calculix", "meshio")])
 def test_a_missing_library_says_what_to_install(module: str, reader: str, monkeypatch: pytest.MonkeyPatch) -> None:
     import importlib
     import sys
 
     monkeypatch.setitem(sys.modules, reader, None)
-    for name in ("bdf.bdf", "op4.op4"):
-        monkeypatch.setitem(sys.modules, f"pyNastran.{name}", None)
     function = getattr(importlib.import_module(f"mbs.flexible.{module}"), module)
     arguments = ("a.bdf", "a.op4") if module == "read_nastran" else ("a.inp",)
     with pytest.raises(ModelError, match=r"pip install 'ali3\[fem\]'"):

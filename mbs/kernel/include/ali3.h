@@ -95,9 +95,9 @@ typedef struct {
   int32_t worst_row, worst_coordinate;
   double energy_jump; /* change of the kinetic energy by the last switching, J */
   double energy_error; /* work of constraint forces and projections, J; 0: exact, or not measured */
-  /* what says whether the run is right, see ali3_energy_balance; the first three of methods with books of energy */
+  /* what says whether the run is right, see ali3_energy_balance; the first three of methods with an energy balance */
   double energy; /* kinetic and potential energy of the state, J */
-  double work; /* what inputs, drives, dampers and tyres gave and took: sum of their shares of the steps, J */
+  double work; /* what inputs and forces without a potential gave and took: sum over the steps, J */
   double kinetic_peak; /* largest kinetic energy, at least that of 1e-6 m/s, J */
   /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity (over the largest: radians
    * that the motion has turned), sum of what steps are off v + h a of their start */
@@ -147,8 +147,9 @@ ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double val
  * state; ali3_reset takes it away. */
 typedef int32_t ali3_input_function(void *context, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context);
-/* Such a function, whose context is an ali3_input_tables: straight lines between the points of each table, held outside;
- * a time given twice is a jump, and times within `tolerance` of a jump are at it. A table of one point is a constant. */
+/* Such a function, whose context is an ali3_input_tables: straight lines between the points of each table, held
+ * outside; a time given twice is a jump, and times within `tolerance` of a jump are at it. A table of one point is a
+ * constant. */
 typedef struct {
   int32_t input; /* its number */
   int64_t n;
@@ -174,8 +175,8 @@ ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, in
  * Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
  * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
-/* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements. Which
- * element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
+/* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
+ * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
 ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);
 /* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m);
  * then as ali3_initialise. */
@@ -214,7 +215,8 @@ ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, 
 /* Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs. */
 ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
-/* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] = 0). */
+/* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] =
+ * 0). */
 ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);
 /* d(sensors at the end of the last step)/d(inputs of that step) times direction (nu), the state before it held; from
  * the factorised tangent (23). ALI3_NOT_INITIALISED before the first step. */
@@ -229,8 +231,9 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
  * any time, no run was right that was tried; below it a run may be wrong. */
 #define ALI3_BALANCE_WRONG 0.036
 ALI3_API double ali3_energy_balance(const ali3_report *report);
-/* What a run can say without being repeated: nothing; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a balance
- * above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps say nothing: they have no motion to compare with. */
+/* What a run can say without being repeated: nothing; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a
+ * balance above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps say nothing: they have no motion to compare
+ * with. */
 #define ALI3_HALVINGS_SUSPECT 0.1
 #define ALI3_DOUBT_FROM 100
 typedef enum { ALI3_DOUBT_NONE, ALI3_DOUBT_HALVINGS, ALI3_DOUBT_BALANCE } ali3_doubt;

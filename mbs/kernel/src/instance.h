@@ -18,8 +18,8 @@ typedef struct {
   double *y_last, *h_last;   /* of the last step: slots at its start (ny), its size; 0 at a start */
   double *on, *anchor;       /* switches: 0 or 1; nc where there are any: what a switched row holds */
   /* of the methods that carry more than q, qd, qdd */
-  double *memory;            /* whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
-  double *own;               /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
+  double *history; /* of a method: whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
+  double *own; /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
   /* work.c: since the start; potential at the start; power, then forces, at the end of the last step; of the last step
    * mean forces, ways of their signals */
@@ -27,7 +27,7 @@ typedef struct {
 } ali3_vectors;
 
 enum { ALI3_STAGES = 12, ALI3_RADAU = 3 }; /* of runge_kutta.c, radau.c */
-enum { ALI3_PAST = 4, ALI3_MEMORY_OWNER = 0, ALI3_MEMORY_COUNT, ALI3_MEMORY_TIME, ALI3_MEMORY = 2 + ALI3_PAST };
+enum { ALI3_PAST = 4, ALI3_HISTORY_OWNER = 0, ALI3_HISTORY_COUNT, ALI3_HISTORY_TIME, ALI3_HISTORY = 2 + ALI3_PAST };
 
 /* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
 typedef struct {
@@ -44,12 +44,12 @@ struct ali3_instance {
   bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count;
   int32_t initialised;
-  /* start: of a step that may be halved; whole: of a composed one; tangent: a direction in the space of states */
-  ali3_vectors now, next, start, whole, tangent;
+  /* start: of a step that may be halved; whole: of a composed one; direction: one in the space of states */
+  ali3_vectors now, next, start, whole, direction;
   ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
   ali3_rule rule;
-  bool kept; /* in->start holds the state before the step */
-  bool discrete, quiet; /* forces by discrete gradients; nobody will look at the state of this step */
+  bool backed_up; /* in->start holds the state before the step */
+  bool discrete, unobserved; /* forces by discrete gradients; nobody will look at the state of this step */
   bool sampled; /* only sensors will look at it */
   bool controlled; /* steps change from one to the next, and may be forgotten */
   size_t n_vector;
@@ -77,8 +77,8 @@ struct ali3_instance {
   double *shifted; /* nq */
   double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
   double wC, wK; /* weights of the last forces */
-  /* of radau.c, empty where states have memory: stages of the rows, of Phi_q, of where the tangent saw it, of
-   * corrections */
+  /* of radau.c, empty where there are element states or filtered guides: stages of the rows, of Phi_q, of where the
+   * tangent saw it, of corrections */
   double *stage_Phi, *stage_lam, *stage_J, *stage_J_tangent, *stage_x;
   double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;
@@ -92,7 +92,7 @@ struct ali3_instance {
    * loops that left their modes */
   double *mode_sine, *mode_cosine, *sine_before, *sine_after, *sine_few, *mode_left;
   ali3_vectors before; /* the state before a step where branches may be near */
-  bool mode_known, branch_kept;
+  bool mode_known, branch_near;
   /* of start_equilibrium.c: where a start is and how a pose moves it; the last pose; who placed the present start */
   double *start_q, *pose_0, *pose_cos, *pose_sin, pose[5];
   int32_t placed;

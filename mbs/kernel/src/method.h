@@ -11,18 +11,18 @@ typedef enum { ALI3_ROUND_OFF_INDEX_3 = 0, ALI3_ROUND_OFF_COLLOCATION, ALI3_ROUN
 typedef struct {
   /* A step h from in->now that ends at time t; ali3_inputs_begin was told of it. Before, in->next is a copy of in->now,
    * so that what a method leaves as it is, switches among it, is there. A good step ends with ali3_accept; one that is
-   * refused, with a status, leaves in->now as it was, or has called ali3_keep before it changed it. It does not
+   * refused, with a status, leaves in->now as it was, or has called ali3_back_up before it changed it. It does not
    * allocate, counts iterations, factorizations and solves in in->report and takes no NaN for a number. */
   ali3_status (*step)(ali3_instance *in, double t, double h);
   /* The following may be NULL. */
-  void (*before)(ali3_instance *in, double h);   /* what a step changes in in->now first, after ali3_keep */
-  void (*motion)(ali3_instance *in, double h);   /* ali3_books_change after a good step; NULL: the step does it */
-  bool (*keeps_books)(const ali3_instance *in);  /* whether its steps end with ali3_energy_watch; NULL: never */
+  void (*before)(ali3_instance *in, double h);   /* what a step changes in in->now first, after ali3_back_up */
+  void (*motion)(ali3_instance *in, double h);   /* ali3_balance_change after a good step; NULL: the step does it */
+  bool (*has_balance)(const ali3_instance *in);  /* whether its steps end with ali3_energy_watch; NULL: never */
   ali3_status (*takes)(const ali3_instance *in); /* ALI3_OK, or why it cannot take the System; NULL: it takes all */
-  /* What readers of in->now need after steps without a reader: those with in->quiet, those with in->sampled. */
-  void (*after_quiet)(ali3_instance *in);
+  /* What readers of in->now need after steps without a reader: those with in->unobserved, those with in->sampled. */
+  void (*after_unobserved)(ali3_instance *in);
   void (*after_sampled)(ali3_instance *in);
-  int32_t owner;      /* ALI3_METHOD_* that its steps leave in the memory of the state: its own, or one it shares */
+  int32_t owner;      /* ALI3_METHOD_* that its steps leave in the history of the state: its own, or one it shares */
   bool relative;      /* steps relative coordinates: no copy to in->next, which is filled where there is a reader */
   double stable_rate; /* of an explicit rule: largest step times rate that it follows, of negative rates; else 0 */
   ali3_round_off round_off;

@@ -27,19 +27,27 @@ typedef struct {
   double plus, minus; /* ends of the difference, PART or 0 where an input may not go further */
 } linear_step;
 
-/* At now + part * tangent: in->x = M(q) qdd + Phi_q' lam - Q, in->Phi = the rows of a stage, out_work and
+/* At now + part * direction: in->x = M(q) qdd + Phi_q' lam - Q, in->Phi = the rows of a stage, out_work and
  * potential_work; qdd are the present ones, and without flexible bodies, whose M changes, its term is left out. */
 static void look(ali3_instance *in, const linear_step *step, double part, int stage) {
   const ali3_system *S = in->system;
-  const double *now = in->now.q, *tangent = in->tangent.q;
+  const double *now = in->now.q, *direction = in->direction.q;
   ali3_vectors *at = &in->next;
-  for (size_t i = 0; i < in->n_vector; i++) at->q[i] = now[i] + part * tangent[i];
+  for (size_t i = 0; i < in->n_vector; i++) at->q[i] = now[i] + part * direction[i];
   memcpy(in->input, at->used, (size_t)S->size.nu * sizeof(double));
   ali3_constraints(in, at->q, at->s, in->Phi, in->J);
   if (stage == POSITION) {
     ali3_velocity_values(in, in->J, at->qd, 2.0 / step->h, in->Phi);
-    const ali3_force_call call = {at->q, at->qd, in->now.y_last, step->h,      0.5 * step->h,     step->c,
-                                  false, in->Q,  in->y_work,     in->out_work, in->potential_work};
+    const ali3_force_call call = {.q = at->q,
+                                  .qd = at->qd,
+                                  .y_old = in->now.y_last,
+                                  .h = step->h,
+                                  .wC = 0.5 * step->h,
+                                  .wK = step->c,
+                                  .Q = in->Q,
+                                  .y_new = in->y_work,
+                                  .out = in->out_work,
+                                  .potential = in->potential_work};
     ali3_forces(in, &call);
     ali3_rows_transposed(S, in->J, at->lam, in->x);
     for (int32_t i = 0; i < S->size.nq; i++) in->x[i] -= in->Q[i];
@@ -56,7 +64,7 @@ static void look(ali3_instance *in, const linear_step *step, double part, int st
   for (int32_t k = 0; k < S->size.nc; k++) in->Phi[k] += in->Phit[k];
 }
 
-static void keep(double *to, const double *from, int32_t n) {
+static void copy(double *to, const double *from, int32_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
 
@@ -69,27 +77,27 @@ static void changes(ali3_instance *in, const linear_step *step, int stage) {
   const ali3_sizes *z = &in->system->size;
   const int32_t n_watched = in->system->n_work + in->system->n_work_force;
   look(in, step, step->plus, stage);
-  keep(in->r, in->x, z->nq);
-  keep(in->mu, in->Phi, z->nc);
+  copy(in->r, in->x, z->nq);
+  copy(in->mu, in->Phi, z->nc);
   if (stage == POSITION) {
-    keep(in->tangent.out, in->out_work, z->nout);
-    keep(in->tangent.potential, in->potential_work, z->ne);
-    keep(in->tangent.watched, in->watched, n_watched);
+    copy(in->direction.out, in->out_work, z->nout);
+    copy(in->direction.potential, in->potential_work, z->ne);
+    copy(in->direction.watched, in->watched, n_watched);
   }
   look(in, step, step->minus, stage);
   const double span = step->plus - step->minus;
   difference(in->r, in->x, z->nq, span);
   difference(in->mu, in->Phi, z->nc, span);
   if (stage != POSITION) return;
-  difference(in->tangent.out, in->out_work, z->nout, span);
-  difference(in->tangent.potential, in->potential_work, z->ne, span);
-  difference(in->tangent.watched, in->watched, n_watched, span);
+  difference(in->direction.out, in->out_work, z->nout, span);
+  difference(in->direction.potential, in->potential_work, z->ne, span);
+  difference(in->direction.watched, in->watched, n_watched, span);
 }
 
 /* Filtered guides: ali3_guides_step differentiated with respect to the input at the end of the step. */
 static void guides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
-  ali3_vectors *d = &in->tangent;
+  ali3_vectors *d = &in->direction;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
     const double *real = in->guide_real + S->guide_real_ptr[g];
@@ -104,8 +112,17 @@ static void guides(ali3_instance *in, double h) {
 static ali3_status factorise(ali3_instance *in, const linear_step *step) {
   const ali3_system *S = in->system;
   const ali3_vectors *v = &in->now;
-  const ali3_force_call call = {v->q, v->qd, v->y_last,  step->h,      0.5 * step->h,     step->c,
-                                true, in->Q, in->y_work, in->out_work, in->potential_work};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y_last,
+                                .h = step->h,
+                                .wC = 0.5 * step->h,
+                                .wK = step->c,
+                                .tangent = true,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
   ali3_constraints(in, v->q, v->s, in->Phi, in->J_tangent);
   ali3_forces(in, &call);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
@@ -119,7 +136,7 @@ static ali3_status factorise(ali3_instance *in, const linear_step *step) {
 static double correct(ali3_instance *in, const linear_step *step) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  ali3_vectors *d = &in->tangent;
+  ali3_vectors *d = &in->direction;
   double last = 0.0, size = 0.0;
   changes(in, step, POSITION);
   ali3_flexible_prepare(in, in->now.q);
@@ -151,12 +168,12 @@ static void project(ali3_instance *in, const linear_step *step, double *rate, in
     for (int32_t i = 0; i < S->size.nq; i++) rate[i] -= in->x[i];
     if (stage != ACCELERATION) continue;
     ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
-    for (int32_t k = 0; k < S->size.nc; k++) in->tangent.lam[k] += in->mu[k] - step->c * step->alpha * in->gamma[k];
+    for (int32_t k = 0; k < S->size.nc; k++) in->direction.lam[k] += in->mu[k] - step->c * step->alpha * in->gamma[k];
   }
 }
 
 static ali3_status solve(ali3_instance *in, const linear_step *step) {
-  ali3_vectors *d = &in->tangent;
+  ali3_vectors *d = &in->direction;
   guides(in, step->h);
   const ali3_status status = factorise(in, step);
   if (status != ALI3_OK) return status;
@@ -188,7 +205,7 @@ static double scale_direction(ali3_instance *in, const double *direction, linear
   step->minus = -PART;
   for (int32_t i = 0; i < S->size.nu && scale > 0.0; i++) {
     const double d = direction[i] / scale, up = in->now.used[i] + PART * d, down = in->now.used[i] - PART * d;
-    in->tangent.used[i] = d;
+    in->direction.used[i] = d;
     if (up < S->input_min[i] || up > S->input_max[i]) step->plus = 0.0;
     if (down < S->input_min[i] || down > S->input_max[i]) step->minus = 0.0;
   }
@@ -204,17 +221,17 @@ ali3_status ali3_input_derivative(ali3_instance *in, const double *direction, do
   const ali3_report report = in->report;
   const double h = in->now.h_last[0];
   linear_step step = {h, 0.25 * h * h, ali3_penalty(in, h), 0.0, 0.0};
-  memset(in->tangent.q, 0, in->n_vector * sizeof(double));
+  memset(in->direction.q, 0, in->n_vector * sizeof(double));
   memset(out, 0, (size_t)z->ns * sizeof(double));
   const double scale = scale_direction(in, direction, &step);
   if (!(scale > 0.0)) return ALI3_OK;
-  keep(in->input_work, in->input, z->nu);
-  keep(in->input, in->now.used, z->nu);
+  copy(in->input_work, in->input, z->nu);
+  copy(in->input, in->now.used, z->nu);
   const ali3_status status = solve(in, &step);
-  keep(in->input, in->input_work, z->nu);
+  copy(in->input, in->input_work, z->nu);
   in->report = report;
   if (status != ALI3_OK) return status;
-  ali3_sensors_tangent(in, out);
+  ali3_sensors_derivative(in, out);
   for (int32_t i = 0; i < z->ns; i++) out[i] *= scale;
   return ALI3_OK;
 }

@@ -39,8 +39,13 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   ali3_constraints(in, q, work->s, in->Phi, in->J);
   ali3_constraint_rate(in, q, work, in->Phit);
   ali3_constraint_gamma(in, q, qd, work, in->gamma);
-  const ali3_force_call call = {q,          qd,           y != NULL ? y : in->now.y, 0.0, 0.0, 0.0, false, in->Q,
-                                in->y_work, in->out_work, in->potential_work};
+  const ali3_force_call call = {.q = q,
+                                .qd = qd,
+                                .y_old = y != NULL ? y : in->now.y,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
   ali3_forces(in, &call);
   copy(phi, in->Phi, z->nc);
   copy(jacobian_values, in->J, z->nnz_rows);
@@ -82,8 +87,17 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
   const ali3_system *S = in->system;
   const double c = 0.25 * h * h;
   const ali3_vectors *v = &in->now;
-  const ali3_force_call call = {
-      v->q, v->qd, v->y, h, 0.5 * h, c, true, in->Q, in->y_work, in->out_work, in->potential_work};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y,
+                                .h = h,
+                                .wC = 0.5 * h,
+                                .wK = c,
+                                .tangent = true,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
   ali3_forces(in, &call);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
@@ -100,17 +114,16 @@ ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *
   const ali3_sizes *z = &in->system->size;
   if (!ali3_finite(q, z->nq) || !ali3_finite(qd, z->nq) || (y_old != NULL && !ali3_finite(y_old, z->ny)))
     return ALI3_BAD_ARGUMENT;
-  const ali3_force_call call = {q,
-                                qd,
-                                y_old != NULL ? y_old : in->now.y,
-                                h,
-                                0.5 * h,
-                                0.25 * h * h,
-                                false,
-                                in->Q,
-                                in->y_work,
-                                in->out_work,
-                                in->potential_work};
+  const ali3_force_call call = {.q = q,
+                                .qd = qd,
+                                .y_old = y_old != NULL ? y_old : in->now.y,
+                                .h = h,
+                                .wC = 0.5 * h,
+                                .wK = 0.25 * h * h,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
   ali3_forces(in, &call);
   copy(y_new, in->y_work, z->ny);
   copy(force, in->Q, z->nq);

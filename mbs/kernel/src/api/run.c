@@ -21,13 +21,13 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
     in->report.failures++;
     return status;
   }
-  memset(in->now.memory, 0, ALI3_MEMORY * sizeof(double));
+  memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
   in->t_base = t0;
   in->h_last = 0.0;
   in->count = 0;
   in->mode_known = false;
   in->initialised = 1;
-  ali3_books_open(in);
+  ali3_balance_open(in);
   return ALI3_OK;
 }
 
@@ -59,16 +59,16 @@ static ali3_status step(ali3_instance *in, double h) {
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const ali3_report before = in->report;
-  in->kept = false; /* only halves and a new owner of the memory change in->now before a step is good */
+  in->backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
   in->t_now = ali3_time(in);
   ali3_branch_before(in);
   ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
   if (status == ALI3_OK) status = ali3_branch_after(in, t_base + (double)count * h, h);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    if (in->kept) ali3_vectors_copy(in, &in->now, &in->start);
+    if (in->backed_up) ali3_vectors_copy(in, &in->now, &in->start);
     if (in->input_function != NULL) memcpy(in->input, in->now.used, (size_t)in->system->size.nu * sizeof(double));
-    ali3_books_back(&in->report, &before);
+    ali3_balance_restore(&in->report, &before);
     in->report.failures++;
     return status;
   }
@@ -82,16 +82,16 @@ static ali3_status step(ali3_instance *in, double h) {
 ali3_status ali3_step(ali3_instance *in, double h) {
   if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const ali3_status status = ali3_check_method(in);
-  in->quiet = in->sampled = false;
+  in->unobserved = in->sampled = false;
   return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h), h) : status;
 }
 
-/* After a quiet or sampled step the last good state lacks what only a reader needs. */
-static ali3_status give_up(ali3_instance *in, ali3_status status, bool quiet, bool sampled) {
+/* After a unobserved or sampled step the last good state lacks what only a reader needs. */
+static ali3_status give_up(ali3_instance *in, ali3_status status, bool unobserved, bool sampled) {
   const ali3_method *method = ali3_method_of(in);
   ali3_vectors_copy(in, &in->start, &in->now);
   in->force_input = in->start.used; /* the present inputs are those of the step that failed */
-  if (quiet && method->after_quiet != NULL) method->after_quiet(in);
+  if (unobserved && method->after_unobserved != NULL) method->after_unobserved(in);
   if (sampled && method->after_sampled != NULL) method->after_sampled(in);
   in->force_input = in->input;
   if (!ali3_finite(in->now.q, (int64_t)in->n_vector)) ali3_vectors_copy(in, &in->now, &in->start);
@@ -105,19 +105,19 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   const int32_t nu = in->system->size.nu, ns = in->system->size.ns;
   const ali3_status method = ali3_check_method(in);
   if (method != ALI3_OK) return method;
-  bool quiet = false, sampled = false; /* the last good step */
+  bool unobserved = false, sampled = false; /* the last good step */
   for (int64_t n = 0; n < n_steps; n++) {
     if (inputs != NULL)
       for (int32_t i = 0; i < nu; i++) {
         const ali3_status status = ali3_set_input(in, i, inputs[n * nu + i]);
-        if (status != ALI3_OK) return give_up(in, status, quiet, sampled);
+        if (status != ALI3_OK) return give_up(in, status, unobserved, sampled);
       }
     const bool recorded = out != NULL && (n + 1) % every == 0;
-    in->quiet = !recorded && n + 1 < n_steps;
+    in->unobserved = !recorded && n + 1 < n_steps;
     in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h);
-    if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, quiet, sampled), h);
-    quiet = in->quiet;
+    if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, unobserved, sampled), h);
+    unobserved = in->unobserved;
     sampled = in->sampled;
     if (done != NULL) *done = n + 1;
     if (recorded) ali3_sensors_evaluate(in, out + ((n + 1) / every - 1) * ns);

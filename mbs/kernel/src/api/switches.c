@@ -51,8 +51,8 @@ ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
     return status;
   }
   in->report.energy_jump = kinetic_energy(in) - before;
-  memset(in->now.memory, 0, ALI3_MEMORY * sizeof(double));
-  ali3_books_open(in);
+  memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
+  ali3_balance_open(in);
   return ALI3_OK;
 }
 

@@ -10,8 +10,8 @@
  * the engine turns at sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over
  * in RAMP seconds, so torque is continuous; the clock of a shift starts where the wheel rate crossed the shift speed
  * within the step, so its time does not depend on the step. */
+#include "../algebra/small_vectors.h"
 #include "element.h"
-#include "element_math.h"
 
 enum {
   MAX_TORQUE,

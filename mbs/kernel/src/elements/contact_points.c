@@ -143,17 +143,17 @@ static void rub(ali3_element_args *a, const double local[3], const touch *t, con
     first[0] = 1.0, first[2] = 0.0;
   ali3_cross(n, first, second);
   place(a->ud, foot, velocity);
-  const double *tangent[2] = {first, second};
+  const double *plane[2] = {first, second};
   for (int i = 0; i < 2; i++) {
     wound[i] = k * (y_old[i] + half * y_old[2 + i]);
-    trial[i] = wound[i] + D * ali3_dot(tangent[i], velocity);
-    lever(tangent[i], foot, row[i]);
+    trial[i] = wound[i] + D * ali3_dot(plane[i], velocity);
+    lever(plane[i], foot, row[i]);
   }
   const double most = ali3_hypot(trial[0], trial[1]), share = most > bound ? bound / most : 1.0;
   for (int i = 0; i < 2; i++) {
     const double force = share * trial[i];
     for (int j = 0; j < SIGNALS; j++) a->f[j] -= force * row[i][j];
-    for (int j = 0; j < 3; j++) a->out[FORCE + j] -= force * tangent[i][j];
+    for (int j = 0; j < 3; j++) a->out[FORCE + j] -= force * plane[i][j];
     y_new[i] = y_old[i];
     y_new[2 + i] = y_old[2 + i];
     if (a->h > 0.0) {

@@ -1,7 +1,7 @@
 /* Aerodynamic drag F = -rho CdA |v| v / 2 at a point in still air.
  * Signals: p (2 or 3). Reals: air density kg/m^3, drag area m^2. Outputs: drag N (size of the force). */
+#include "../algebra/small_vectors.h"
 #include "element.h"
-#include "element_math.h"
 
 static void evaluate(ali3_element_args *a) {
   const int32_t n = a->nsig;

@@ -1,40 +1,14 @@
-/* Small vector helpers shared by the force elements. */
+/* What force elements share: friction in the tangent, inputs that may be missing, first-order states. */
 #ifndef ALI3_ELEMENT_MATH_H
 #define ALI3_ELEMENT_MATH_H
-#include <math.h>
 #include <stdint.h>
+
+#include "../algebra/small_vectors.h"
 
 /* Friction saturates, and Newton's method with its true, flat tangent may jump between both signs for ever. The secant
  * of friction over rate majorises it: any tangent of more than half the secant makes every iteration a descent. This
  * is the least share used. */
 #define ALI3_SECANT_SHARE 0.55
-
-static inline double ali3_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static inline void ali3_cross(const double a[3], const double b[3], double out[3]) {
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static inline double ali3_norm(const double a[3]) { return sqrt(ali3_dot(a, a)); }
-
-/* sqrt is exactly rounded everywhere, hypot is not */
-static inline double ali3_hypot(double a, double b) { return sqrt(a * a + b * b); }
-
-static inline double ali3_clamp(double v, double lo, double hi) { return v < lo ? lo : v > hi ? hi : v; }
-
-/* S += w b b' for an n x n row-major matrix */
-static inline void ali3_add_outer(double *S, int32_t n, double w, const double *b) {
-  for (int32_t i = 0; i < n; i++)
-    for (int32_t j = 0; j < n; j++) S[i * n + j] += w * (b[i] * b[j]);
-}
-
-/* S += w (b c' + c b') / 2 */
-static inline void ali3_add_symmetric(double *S, int32_t n, double w, const double *b, const double *c) {
-  for (int32_t i = 0; i < n; i++)
-    for (int32_t j = 0; j < n; j++) S[i * n + j] += 0.5 * w * (b[i] * c[j] + c[i] * b[j]);
-}
 
 static inline double ali3_input_or_zero(const double *input, int32_t index) { return index >= 0 ? input[index] : 0.0; }
 

@@ -1,6 +1,6 @@
 /* Plane, kerb and regular grid. A wheel is a disc: its nearest point is sought within the wheel plane. */
 #include "road.h"
-#include "element_math.h"
+#include "../algebra/small_vectors.h"
 
 #define FLATTEST 0.05 /* least cosine of an edge used as a divisor */
 /* Sine between wheel axis and road normal below which the width of a wheel tells: lying flat it touches with its

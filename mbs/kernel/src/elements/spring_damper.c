@@ -3,9 +3,9 @@
  * Outputs: length m, force N (tension positive), rate m/s. */
 #include <math.h>
 
+#include "../algebra/small_vectors.h"
 #include "contact_law.h"
 #include "element.h"
-#include "element_math.h"
 
 enum { /* reals; progression and travel of bump, then of rebound; loss of bump, then of rebound */
        STIFFNESS,

@@ -16,7 +16,8 @@
  * Hence F (v_s + x') = -F^2/g <= 0: sliding only takes energy. With x = a + b x' (theta rule, a and b known) and
  * D = d + b c the step is
  *   F = g (c a - D v_s)/(g + D),   x' = (F - c a)/D,
- * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the largest force of its direction.
+ * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the largest force of its
+ * direction.
  *
  * The tangent leaves out the coupling of load and horizontal force and the turning of the frames. */
 #include "../algebra/elementary.h"
@@ -206,10 +207,10 @@ static void evaluate(ali3_element_args *a) {
   const double rolls = transport / ROLL_SPEED, moving = rolls < 1.0 ? rolls * rolls * (2.0 - rolls * rolls) : 1.0;
   const double ratio =
       loaded > 1e-6 ? 1.0 + moving * (rolling / loaded - 1.0) : 1.0; /* slip radius over loaded radius */
-  const double *tangent[2] = {forward, left};
+  const double *along[2] = {forward, left};
   double row[2][7], travel[2];
   for (int i = 0; i < 2; i++) {
-    const double *t = tangent[i], spin = ali3_dot(t, push), lean = ali3_dot(t, e);
+    const double *t = along[i], spin = ali3_dot(t, push), lean = ali3_dot(t, e);
     travel[i] = ali3_dot(t, rd) - lean * turn;
     v[i] = travel[i] + ratio * spin * omega;
     for (int k = 0; k < 3; k++) row[i][k] = t[k], row[i][3 + k] = -lean * rho[k];
@@ -243,8 +244,8 @@ static void evaluate(ali3_element_args *a) {
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, n), upright);
 }
 
-/* A start with the wheel's centre below the surface: no spring of a tyre means that, and it would shoot the scene up. The
- * rise is the depth along the road's normal; walls are climbed a depth at a time. */
+/* A start with the wheel's centre below the surface: no spring of a tyre means that, and it would shoot the scene up.
+ * The rise is the depth along the road's normal; walls are climbed a depth at a time. */
 static ali3_start_verdict start(const ali3_element_args *a, double raised) {
   const double *axis = a->u + 3, length = ali3_norm(axis), radius = a->real[RADIUS];
   double centre[3], e[3], deepest = 0.0, climb = 0.0;

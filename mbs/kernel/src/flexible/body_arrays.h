@@ -7,8 +7,9 @@ enum {
   ALI3_FLEX_AXES = 0,
   ALI3_FLEX_FIRST = 9,
   ALI3_FLEX_SECOND = 12,
-  ALI3_FLEX_COUPLING = 21
-}; /* places in the work */
+  ALI3_FLEX_COUPLING = 21,
+  ALI3_FLEX_OF_MODE = 9
+}; /* places in the work of a body; numbers of each of its modes after them */
 
 typedef struct {
   int32_t n;                          /* modes */
@@ -20,22 +21,22 @@ typedef struct {
 static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b) {
   const ali3_system *s = in->system;
   const int64_t first = s->flex_mode_ptr[b], n = s->flex_mode_ptr[b + 1] - first, square = s->flex_square[b];
-  double *work = in->flex + ALI3_FLEX_COUPLING * (int64_t)b + 9 * first;
-  const ali3_flexible f = {(int32_t)n,
-                           s->flex_frame + 12 * (int64_t)b,
-                           s->flex_mode + first,
-                           s->flex_loc + 12 * (int64_t)b + first,
-                           s->flex_P + 3 * first,
-                           s->flex_c + 9 * first,
-                           s->flex_T + 9 * square,
-                           s->flex_T + 9 * square + 6 * n * n,
-                           s->flex_K + square,
-                           s->flex_C + square,
-                           s->flex_gravity + 3 * (int64_t)b,
-                           work + ALI3_FLEX_AXES,
-                           work + ALI3_FLEX_FIRST,
-                           work + ALI3_FLEX_SECOND,
-                           work + ALI3_FLEX_COUPLING};
+  double *work = in->flex + ALI3_FLEX_COUPLING * (int64_t)b + ALI3_FLEX_OF_MODE * first;
+  const ali3_flexible f = {.n = (int32_t)n,
+                           .frame = s->flex_frame + 12 * (int64_t)b,
+                           .mode = s->flex_mode + first,
+                           .loc = s->flex_loc + 12 * (int64_t)b + first,
+                           .P = s->flex_P + 3 * first,
+                           .c = s->flex_c + 9 * first,
+                           .E = s->flex_T + 9 * square,
+                           .H = s->flex_T + 9 * square + 6 * n * n,
+                           .K = s->flex_K + square,
+                           .C = s->flex_C + square,
+                           .gravity = s->flex_gravity + 3 * (int64_t)b,
+                           .A = work + ALI3_FLEX_AXES,
+                           .S = work + ALI3_FLEX_FIRST,
+                           .J = work + ALI3_FLEX_SECOND,
+                           .D = work + ALI3_FLEX_COUPLING};
   return f;
 }
 

@@ -1,9 +1,9 @@
 /* What watches over the assembly modes of closed loops, step by step, and reports a change once it is made.
  *
  * Left: a loop is in none of its modes, as after a dead centre that it was not meant to reach.
- * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes its
- * sign is made again in 4 and in 8 parts: where these agree with each other and not with it, the step has jumped. On
- * the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
+ * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes
+ * its sign is made again in 4 and in 8 parts: where these agree with each other and not with it, the step has jumped.
+ * On the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
 #include <math.h>
 #include <string.h>
 
@@ -52,23 +52,23 @@ static void report(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind,
 /* Before a step: the angles it starts from, and the whole state where branches may be near. */
 void ali3_branch_before(ali3_instance *in) {
   const ali3_system *S = in->system;
-  in->branch_kept = false;
+  in->branch_near = false;
   if (!watches(in)) return;
   if (!in->mode_known) look(in);
   in->mode_known = true;
   for (int64_t k = 0; k < ali3_triad_count(S); k++) in->sine_before[k] = in->mode_sine[k];
   if (ali3_method_of(in)->relative) return; /* its state is not always that of the last step */
-  for (int64_t loop = 0; loop < ali3_loop_count(S) && !in->branch_kept; loop++) {
+  for (int64_t loop = 0; loop < ali3_loop_count(S) && !in->branch_near; loop++) {
     const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
-    for (int32_t k = first; k < end && !in->branch_kept; k++)
-      in->branch_kept = in_line(in, in->mode_sine, k, first, end);
+    for (int32_t k = first; k < end && !in->branch_near; k++)
+      in->branch_near = in_line(in, in->mode_sine, k, first, end);
   }
-  if (!in->branch_kept) return;
+  if (!in->branch_near) return;
   ali3_vectors_copy(in, &in->before, &in->now);
   in->report_before = in->report;
 }
 
-/* Back to before the step, with the books that go with it: they take part in the judgement of a step. */
+/* Back to before the step, with the energy balance that goes with it: it takes part in the judgement of a step. */
 static void again(ali3_instance *in) {
   ali3_vectors_copy(in, &in->now, &in->before);
   in->report = in->report_before;
@@ -79,7 +79,7 @@ static void again(ali3_instance *in) {
 static bool in_parts(ali3_instance *in, double t, double h, int n) {
   again(in);
   for (int i = 1; i <= n; i++) {
-    in->kept = false;
+    in->backed_up = false;
     if (ali3_advance(in, t - h + h * (double)i / n, h / n, 0) != ALI3_OK) return false;
   }
   ali3_mode_angles(in, in->now.q);
@@ -121,7 +121,7 @@ static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
   const ali3_report whole = in->report;
   const int32_t triad = jumped(in, t, h, first, end);
   again(in);
-  in->kept = false;
+  in->backed_up = false;
   const ali3_status status = ali3_advance(in, t, h, in->settings.max_halvings);
   in->report = whole;
   if (status == ALI3_OK && triad >= 0) report(in, loop, triad, ALI3_BRANCH_JUMP, t);
@@ -148,12 +148,12 @@ ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);
   if (!watches(in)) return ALI3_OK;
-  if (ali3_method_of(in)->relative && in->quiet) {
+  if (ali3_method_of(in)->relative && in->unobserved) {
     in->mode_known = false;
     return ALI3_OK;
   }
   left_modes(in, t);
-  if (!in->branch_kept) return ALI3_OK;
+  if (!in->branch_near) return ALI3_OK;
   memcpy(in->sine_after, in->mode_sine, all);
   ali3_status status = ALI3_OK;
   for (int64_t loop = 0; loop < ali3_loop_count(S) && status == ALI3_OK; loop++) status = judge(in, t, h, loop);

@@ -3,7 +3,7 @@
 #include "../elements/element.h"
 #include "../instance.h"
 #include "../method.h"
-#include "../system/without_memory.h"
+#include "../system/without_states.h"
 
 static bool conservative(const ali3_instance *in, int32_t e) {
   const ali3_element_type *type = in->system->el_kind[e];
@@ -28,6 +28,6 @@ ali3_status ali3_check_method(const ali3_instance *in) {
 }
 
 /* ALI3_WRONG_METHOD where stages inside a step need more than q, qd and the time. */
-ali3_status ali3_needs_no_memory(const ali3_instance *in) {
-  return ali3_without_memory(in->system) ? ALI3_OK : ALI3_WRONG_METHOD;
+ali3_status ali3_needs_no_states(const ali3_instance *in) {
+  return ali3_without_states(in->system) ? ALI3_OK : ALI3_WRONG_METHOD;
 }

@@ -4,6 +4,6 @@
 #include "../instance.h"
 
 ali3_status ali3_check_method(const ali3_instance *in);
-ali3_status ali3_needs_no_memory(const ali3_instance *in);
+ali3_status ali3_needs_no_states(const ali3_instance *in);
 bool ali3_conservative(const ali3_instance *in);
 #endif

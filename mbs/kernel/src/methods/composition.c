@@ -21,7 +21,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   for (int stage = 0; stage < STAGES; stage++) {
     done = stage == STAGES - 1 ? 0.0 : done + share[stage];
     const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, 1.0 + done - 0.5 * share[stage],
-                                                    stage == STAGES - 1 && !in->quiet);
+                                                    stage == STAGES - 1 && !in->unobserved);
     if (status != ALI3_OK) {
       ali3_vectors_copy(in, &in->now, &in->whole);
       return status;
@@ -36,7 +36,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
 static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->whole, h); }
 
 static ali3_status takes(const ali3_instance *in) {
-  const ali3_status status = ali3_needs_no_memory(in);
+  const ali3_status status = ali3_needs_no_states(in);
   if (status != ALI3_OK) return status;
   return ali3_conservative(in) ? ALI3_OK : ALI3_WRONG_METHOD;
 }
@@ -45,6 +45,6 @@ const ali3_method ali3_method_energy_momentum_4 = {.step = step,
                                                    .before = before,
                                                    .motion = motion,
                                                    .takes = takes,
-                                                   .after_quiet = ali3_energy_momentum_report,
+                                                   .after_unobserved = ali3_energy_momentum_report,
                                                    .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -1,7 +1,8 @@
 /* The state at any time of a controlled step: positions, velocities and accelerations at its start, centre and end give
  * the polynomial of degree eight (Hermite interpolation), accelerations, multipliers and outputs of the elements come
  * from the equations of index one there. Where these say that the polynomial errs by more than the tolerance, and
- * where states have memory, a step of the method is made to that time instead, and forgotten. */
+ * where there are element states or filtered guides, a step of the method is made to that time instead, and
+ * forgotten. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +14,7 @@
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
-#include "../system/without_memory.h"
+#include "../system/without_states.h"
 #include "energy_balance.h"
 #include "error_control.h"
 
@@ -85,7 +86,8 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
   return ali3_distance(in, measure, in->w, in->r, ali3_rate(in, measure)) <= measure->control->tolerance;
 }
 
-/* Where states have memory, just behind the start: its forces and states with the motion of the polynomial. */
+/* Where there are element states or filtered guides, just behind the start: its forces and states with the motion of
+ * the polynomial. */
 static void beside_start(ali3_instance *in, double t, double h, double when) {
   ali3_vectors_copy(in, &in->next, &in->origin);
   interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
@@ -107,7 +109,7 @@ static ali3_status side_step(ali3_instance *in, double t, double h, double when)
   in->sampled = sampled;
   if (status == ALI3_OK) ali3_vectors_copy(in, &in->next, &in->now);
   ali3_vectors_copy(in, &in->now, &in->coarse);
-  ali3_books_back(&in->report, &before);
+  ali3_balance_restore(&in->report, &before);
   return status;
 }
 
@@ -122,7 +124,7 @@ ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, do
   const bool relative = ali3_method_of(in)->relative;
   const bool at_end = when >= t + h - NEAR * h;
   const bool sums = in->system->n_work > 0; /* work is known at the ends of steps */
-  const bool smooth = ali3_without_memory(in->system) && (at_end || !sums);
+  const bool smooth = ali3_without_states(in->system) && (at_end || !sums);
   if (at_end && !relative) {
     look(in, out, positions);
     return ALI3_OK;

@@ -1,5 +1,5 @@
-/* What tells at no cost whether a run is right: energy that no force gave, beside the energy that was in the motion, and
- * how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
+/* What tells at no cost whether a run is right: energy that no force gave, beside the energy that was in the motion,
+ * and how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
 #include <math.h>
 
 #include "../flexible/flexible_body.h"
@@ -26,10 +26,10 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
 }
 
 /* The energy of in->now, from which the next step counts. */
-void ali3_books_open(ali3_instance *in) {
+void ali3_balance_open(ali3_instance *in) {
   in->report.open_power = 0.0;
   const ali3_method *method = ali3_method_of(in);
-  if (method->keeps_books == NULL || !method->keeps_books(in)) return;
+  if (method->has_balance == NULL || !method->has_balance(in)) return;
   ali3_flexible_prepare(in, in->now.q);
   const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
   double rest = 0.0;
@@ -39,7 +39,7 @@ void ali3_books_open(ali3_instance *in) {
 }
 
 /* A step to in->next with the kinetic energy there and an error of the energy: what else has changed is work. */
-void ali3_books_energy(ali3_instance *in, double error, double kinetic) {
+void ali3_balance_energy(ali3_instance *in, double error, double kinetic) {
   ali3_report *r = &in->report;
   const double energy = kinetic + potential(in, &in->next);
   r->energy_error += error;
@@ -48,14 +48,14 @@ void ali3_books_energy(ali3_instance *in, double error, double kinetic) {
 }
 
 /* Squares of the velocity at the end of a step, of its change, and of its distance from v + h a. */
-void ali3_books_motion(ali3_report *report, double speed, double change, double miss) {
+void ali3_balance_motion(ali3_report *report, double speed, double change, double miss) {
   report->speed_peak = fmax(report->speed_peak, sqrt(speed));
   report->velocity_path += sqrt(change);
   report->predictor_path += sqrt(miss);
 }
 
 /* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
-void ali3_books_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
+void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
   const double *m = in->system->mass_floor;
   double speed = 0.0, change = 0.0, miss = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
@@ -64,14 +64,16 @@ void ali3_books_change(ali3_instance *in, double h, const double *v0, const doub
     change += m[i] * d * d;
     miss += m[i] * e * e;
   }
-  ali3_books_motion(&in->report, speed, change, miss);
+  ali3_balance_motion(&in->report, speed, change, miss);
 }
 
 /* The same where velocities and accelerations of the states tell: what was in->now is in in->next. */
-void ali3_books_step(ali3_instance *in, double h) { ali3_books_change(in, h, in->next.qd, in->next.qdd, in->now.qd); }
+void ali3_balance_step(ali3_instance *in, double h) {
+  ali3_balance_change(in, h, in->next.qd, in->next.qdd, in->now.qd);
+}
 
-/* The books as they were before a step that was refused. */
-void ali3_books_back(ali3_report *report, const ali3_report *before) {
+/* The energy balance as it was before a step that was refused. */
+void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->energy_error = before->energy_error;
   report->open_power = before->open_power;
   report->energy = before->energy;

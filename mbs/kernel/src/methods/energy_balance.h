@@ -3,10 +3,10 @@
 #define ALI3_METHODS_ENERGY_BALANCE_H
 #include "../instance.h"
 
-void ali3_books_open(ali3_instance *in);
-void ali3_books_energy(ali3_instance *in, double error, double kinetic);
-void ali3_books_motion(ali3_report *report, double speed, double change, double miss);
-void ali3_books_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1);
-void ali3_books_step(ali3_instance *in, double h);
-void ali3_books_back(ali3_report *report, const ali3_report *before);
+void ali3_balance_open(ali3_instance *in);
+void ali3_balance_energy(ali3_instance *in, double error, double kinetic);
+void ali3_balance_motion(ali3_report *report, double speed, double change, double miss);
+void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1);
+void ali3_balance_step(ali3_instance *in, double h);
+void ali3_balance_restore(ali3_report *report, const ali3_report *before);
 #endif

@@ -86,8 +86,17 @@ static void evaluate(ali3_instance *in, double h) {
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_discrete_rows(in, in->D, to->q, &in->now, to);
   ali3_velocity_middle(in, in->A, in->D, in->Phi, in->J);
-  const ali3_force_call call = {in->middle, in->rate, in->now.y, 0.5 * h, 0.5 * h,      0.25 * h * h,
-                                true,       in->Q,    to->y,     to->out, to->potential};
+  const ali3_force_call call = {.q = in->middle,
+                                .qd = in->rate,
+                                .y_old = in->now.y,
+                                .h = 0.5 * h,
+                                .wC = 0.5 * h,
+                                .wK = 0.25 * h * h,
+                                .tangent = true,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
   in->discrete = true;
   in->force_input = in->input_middle;
   ali3_forces(in, &call);
@@ -190,9 +199,9 @@ static double change_of(const ali3_instance *in) {
 static double need_of(const ali3_instance *in, double h) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq;
-  const double *time = v->memory + ALI3_MEMORY_TIME;
+  const double *time = v->history + ALI3_HISTORY_TIME;
   double change = 0.0, size = 0.0;
-  if (!(v->memory[ALI3_MEMORY_COUNT] >= 2.0) || time[0] == time[1]) return ROUND_OFF;
+  if (!(v->history[ALI3_HISTORY_COUNT] >= 2.0) || time[0] == time[1]) return ROUND_OFF;
   for (int32_t i = 0; i < nq; i++) {
     const double a = v->past_a[i], difference = a - v->past_a[nq + i], m = in->system->mass_floor[i];
     change += m * difference * difference;
@@ -295,8 +304,16 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   ali3_history_append(in, h, in->d0);
   if (S->size.ny > 0) {
     ali3_history_velocity(in, h, in->w);
-    const ali3_force_call call = {to->q, in->w, from->y, h,       0.5 * h,      0.25 * h * h,
-                                  false, in->Q, to->y,   to->out, to->potential};
+    const ali3_force_call call = {.q = to->q,
+                                  .qd = in->w,
+                                  .y_old = from->y,
+                                  .h = h,
+                                  .wC = 0.5 * h,
+                                  .wK = 0.25 * h * h,
+                                  .Q = in->Q,
+                                  .y_new = to->y,
+                                  .out = to->out,
+                                  .potential = to->potential};
     ali3_forces(in, &call);
     ali3_forces_accept(in, &call);
   }
@@ -310,14 +327,14 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
 }
 
 static ali3_status step(ali3_instance *in, double t, double h) {
-  return ali3_energy_momentum(in, t, h, 0.5, !in->quiet);
+  return ali3_energy_momentum(in, t, h, 0.5, !in->unobserved);
 }
 
 /* Of the carried velocities, after steps from `from`. */
 void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h) {
-  const bool past =
-      from->memory[ALI3_MEMORY_COUNT] >= 1.0 && from->memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
-  ali3_books_change(in, h, past ? from->own : from->qd, past ? from->past_a : from->qdd, in->now.own);
+  const bool past = from->history[ALI3_HISTORY_COUNT] >= 1.0 &&
+                    from->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ENERGY_MOMENTUM;
+  ali3_balance_change(in, h, past ? from->own : from->qd, past ? from->past_a : from->qdd, in->now.own);
 }
 
 static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->next, h); }
@@ -325,6 +342,6 @@ static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in
 const ali3_method ali3_method_energy_momentum = {.step = step,
                                                  .before = ali3_energy_momentum_restart,
                                                  .motion = motion,
-                                                 .after_quiet = ali3_energy_momentum_report,
+                                                 .after_unobserved = ali3_energy_momentum_report,
                                                  .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                  .round_off = ALI3_ROUND_OFF_INDEX_3};

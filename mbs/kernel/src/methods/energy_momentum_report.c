@@ -53,13 +53,14 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
 
 /* v->qd is the carried velocity without what it has off the rows, taken away in the metric of the masses: multipliers
  * move velocities along M^-1 Phi_q', and any other direction would leave driven motion with one order less. v->qdd and
- * v->lam are those of the forces there: of the order of positions and velocities, and of nothing but the state, whatever
- * steps led to it. Middles of past steps would tell them less well, for the carried velocity errs along driven rows with
- * a sign that changes from step to step. Needs Phi_q in in->J. */
+ * v->lam are those of the forces there: of the order of positions and velocities, and of nothing but the state,
+ * whatever steps led to it. Middles of past steps would tell them less well, for the carried velocity errs along driven
+ * rows with a sign that changes from step to step. Needs Phi_q in in->J. */
 ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int64_t factorizations = in->report.factorizations, solves = in->report.solves;
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
+  const ali3_force_call call = {
+      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = in->Q, .y_new = in->y_work, .out = v->out, .potential = v->potential};
   ali3_status status = ali3_index_one_factorise(in, v->q);
   if (status == ALI3_OK) {
     memcpy(in->J_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
@@ -77,7 +78,7 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   return status;
 }
 
-/* After quiet steps. */
+/* After unobserved steps. */
 void ali3_energy_momentum_report(ali3_instance *in) {
   ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
   ali3_energy_momentum_show(in, &in->now);
@@ -87,10 +88,11 @@ void ali3_energy_momentum_report(ali3_instance *in) {
  * the size that belongs to the step it comes from; in a step a hundred times as short it would be a force a hundred
  * times as large, as it would stay what it is. */
 void ali3_energy_momentum_restart(ali3_instance *in, double h) {
-  const double *memory = in->now.memory, last = -2.0 * memory[ALI3_MEMORY_TIME];
-  if (memory[ALI3_MEMORY_OWNER] != (double)ALI3_METHOD_ENERGY_MOMENTUM || !(memory[ALI3_MEMORY_COUNT] >= 1.0)) return;
+  const double *history = in->now.history, last = -2.0 * history[ALI3_HISTORY_TIME];
+  if (history[ALI3_HISTORY_OWNER] != (double)ALI3_METHOD_ENERGY_MOMENTUM || !(history[ALI3_HISTORY_COUNT] >= 1.0))
+    return;
   if (!in->controlled && fabs(h - last) <= SAME_STEP * fabs(h)) return;
-  ali3_keep(in);
-  if (!in->controlled) ali3_energy_momentum_report(in); /* after a quiet step nothing is reported yet */
+  ali3_back_up(in);
+  if (!in->controlled) ali3_energy_momentum_report(in); /* after a unobserved step nothing is reported yet */
   memcpy(in->now.own, in->now.qd, (size_t)in->system->size.nq * sizeof(double));
 }

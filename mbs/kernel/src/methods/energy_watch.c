@@ -49,9 +49,10 @@ double ali3_projection_work(ali3_instance *in, double h, double *kinetic, double
   return given + 0.5 * h * in->report.open_power;
 }
 
-/* Books an error of the energy and, where no row is driven, judges it beside the kinetic energy, what the forces in
- * in->Q can give in a step and what the tolerance of the residual leaves open; so also with what the forces left
- * without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its end. */
+/* Adds an error of the energy to the balance and, where no row is driven, judges it beside the kinetic energy, what the
+ * forces in in->Q can give in a step and what the tolerance of the residual leaves open; so also with what the forces
+ * left without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its
+ * end. */
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open) {
   const ali3_system *S = in->system;
   const double left = 2.0 * in->settings.tolerance_r / h;
@@ -62,7 +63,7 @@ ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double 
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
   const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps gives energy in no time */
   if (!driven && !(worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size)) return ALI3_UNRESOLVED;
-  ali3_books_energy(in, error, end);
+  ali3_balance_energy(in, error, end);
   in->report.open_power = open;
   return ALI3_OK;
 }

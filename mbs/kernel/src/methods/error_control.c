@@ -1,8 +1,8 @@
 /* Step sizes from the error: each step may err by its share of the tolerance (error per unit step), so that the errors
- * of a run add up to it. Where a shorter step does not err less in proportion (a kink of a force, a velocity kicked at a
- * singular position) it may err by a fixed share, and where it errs no less at all it is taken and counted.
- * Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential
- * Equations II", second edition, IV.2). */
+ * of a run add up to it. Where a shorter step does not err less in proportion (a kink of a force, a velocity kicked at
+ * a singular position) it may err by a fixed share, and where it errs no less at all it is taken and counted.
+ * Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential Equations II",
+ * second edition, IV.2). */
 #include <math.h>
 #include <string.h>
 
@@ -76,7 +76,7 @@ ali3_status ali3_refresh(ali3_instance *in) {
     ali3_vectors_copy(in, &in->now, &in->start);
     return status;
   }
-  memset(in->now.memory, 0, ALI3_MEMORY * sizeof(double));
+  memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
   return ALI3_OK;
 }
 
@@ -193,7 +193,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     seen.rejected = true;
     ali3_vectors_copy(in, &in->now, &in->origin);
     in->report.steps = before.steps;
-    ali3_books_back(&in->report, &before);
+    ali3_balance_restore(&in->report, &before);
   }
 }
 
@@ -201,7 +201,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
 static void finish(ali3_instance *in) {
   in->sampled = false;
   const ali3_method *method = ali3_method_of(in);
-  if (method->after_sampled != NULL && in->now.memory[ALI3_MEMORY_OWNER] == (double)method->owner)
+  if (method->after_sampled != NULL && in->now.history[ALI3_HISTORY_OWNER] == (double)method->owner)
     method->after_sampled(in);
 }
 
@@ -250,7 +250,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST * control->span);
   if (jumped(in)) status = ali3_refresh(in);
   ali3_branch_before(in); /* the modes of the start, where nobody has looked yet */
-  in->quiet = false;
+  in->unobserved = false;
   in->sampled = in->controlled = true;
   if (status == ALI3_OK) status = run(in, &measure, t_end, most_steps, record, done);
   in->controlled = false;

@@ -1,4 +1,4 @@
-/* Rule of generalised-alpha, and the quiet start of flexible systems, which is its most damped form. */
+/* Rule of generalised-alpha, and the damped start of flexible systems, which is its most damped form. */
 #include <string.h>
 
 #include "../instance.h"
@@ -8,7 +8,7 @@
 #include "history.h"
 #include "steps.h"
 
-enum { QUIET_STEPS = 6 };
+enum { DAMPED_STEPS = 6 };
 static const double UNRESOLVED = 2.0; /* step times frequency of a mode, rad */
 
 /* Generalised-alpha of Chung and Hulbert in the form of Arnold and Bruels: an algorithmic acceleration a (in->now.own)
@@ -19,34 +19,36 @@ typedef struct {
 
 static ali3_alpha alpha_of(double rho) {
   const double am = (2.0 * rho - 1.0) / (rho + 1.0), af = rho / (rho + 1.0), gamma = 0.5 + af - am;
-  const ali3_alpha x = {am, af, 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma};
+  const ali3_alpha x = {.am = am, .af = af, .beta = 0.25 * (gamma + 0.5) * (gamma + 0.5), .gamma = gamma};
   return x;
 }
 
 /* At a start, light nodes of flexible bodies have the accelerations of loads they have not bent under yet. Where the
- * step does not resolve the fastest mode, the trapezoidal rule would let that ring: the first steps have no memory of
- * it at high frequencies. */
-bool ali3_quiet_start(const ali3_instance *in, double h) {
+ * step does not resolve the fastest mode, the trapezoidal rule would let that ring: the first steps forget it at
+ * high frequencies. */
+bool ali3_damped_start(const ali3_instance *in, double h) {
   return in->system->n_flexible > 0 && h * h * in->system->flex_rate > UNRESOLVED * UNRESOLVED &&
-         in->settings.method == ALI3_METHOD_ALI3P && in->settings.project && in->report.steps < QUIET_STEPS;
+         in->settings.method == ALI3_METHOD_ALI3P && in->settings.project && in->report.steps < DAMPED_STEPS;
 }
 
-/* The first quiet step has one acceleration, that at its end. */
-static bool quiet_first(const ali3_instance *in, double h) { return ali3_quiet_start(in, h) && in->report.steps == 0; }
+/* The first damped step has one acceleration, that at its end. */
+static bool damped_first(const ali3_instance *in, double h) {
+  return ali3_damped_start(in, h) && in->report.steps == 0;
+}
 
 static double rho_of(const ali3_instance *in, double h) {
-  return ali3_quiet_start(in, h) ? 0.0 : in->settings.rho_infinity;
+  return ali3_damped_start(in, h) ? 0.0 : in->settings.rho_infinity;
 }
 
 void ali3_alpha_rule(ali3_instance *in, double h) {
   const ali3_alpha x = alpha_of(rho_of(in, h));
   const double c = (1.0 - x.af) * x.beta * h * h / (1.0 - x.am), rate = x.gamma / (x.beta * h);
-  const ali3_rule rule = {c, rate, c * rate};
+  const ali3_rule rule = {.c = c, .rate = rate, .wC = c * rate};
   const ali3_vectors *from = &in->now;
   in->rule = rule;
   ali3_history_own(in, ALI3_METHOD_GENERALISED_ALPHA, from->qdd);
-  if (quiet_first(in, h)) {
-    const ali3_rule first = {0.5 * h * h, 2.0 / h, h};
+  if (damped_first(in, h)) {
+    const ali3_rule first = {.c = 0.5 * h * h, .rate = 2.0 / h, .wC = h};
     in->rule = first;
     for (int32_t i = 0; i < in->system->size.nq; i++) {
       in->d0[i] = h * from->qd[i];
@@ -64,15 +66,15 @@ void ali3_alpha_rule(ali3_instance *in, double h) {
 
 void ali3_alpha_accept(ali3_instance *in, double h) {
   const double beta = alpha_of(rho_of(in, h)).beta;
-  const bool first = quiet_first(in, h);
-  memcpy(in->next.memory, in->now.memory, ALI3_MEMORY * sizeof(double));
+  const bool first = damped_first(in, h);
+  memcpy(in->next.history, in->now.history, ALI3_HISTORY * sizeof(double));
   for (int32_t i = 0; i < in->system->size.nq; i++)
     in->next.own[i] = first ? (in->D[i] - in->d0[i]) / in->rule.c
                             : (in->D[i] - h * in->now.qd[i] - (0.5 - beta) * h * h * in->now.own[i]) / (beta * h * h);
 }
 
 const ali3_method ali3_method_generalised_alpha = {.step = ali3_augmented_lagrangian,
-                                                   .motion = ali3_books_step,
-                                                   .keeps_books = ali3_projects,
+                                                   .motion = ali3_balance_step,
+                                                   .has_balance = ali3_projects,
                                                    .owner = ALI3_METHOD_GENERALISED_ALPHA,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -3,7 +3,7 @@
 #define ALI3_GENERALISED_ALPHA_H
 #include "../instance.h"
 
-bool ali3_quiet_start(const ali3_instance *in, double h);
+bool ali3_damped_start(const ali3_instance *in, double h);
 void ali3_alpha_rule(ali3_instance *in, double h);
 void ali3_alpha_accept(ali3_instance *in, double h);
 #endif

@@ -14,17 +14,17 @@ static const double CONTROLLED_FAR = 4.5; /* of a controlled one: the last was a
 
 /* Number of past steps, at most `most`; a restored state may hold any number there. */
 static int32_t past(const ali3_vectors *v, int32_t most) {
-  const double count = v->memory[ALI3_MEMORY_COUNT];
+  const double count = v->history[ALI3_HISTORY_COUNT];
   return count < (double)most ? (count > 0.0 ? (int32_t)count : 0) : most;
 }
 
-/* The memory belongs to `method`; a new owner starts from `own` (nq) and without a past. */
+/* The history belongs to `method`; a new owner starts from `own` (nq) and without a past. */
 void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
-  double *memory = in->now.memory;
-  if (memory[ALI3_MEMORY_OWNER] == (double)method) return;
-  ali3_keep(in);
-  memset(memory, 0, ALI3_MEMORY * sizeof *memory);
-  memory[ALI3_MEMORY_OWNER] = (double)method;
+  double *history = in->now.history;
+  if (history[ALI3_HISTORY_OWNER] == (double)method) return;
+  ali3_back_up(in);
+  memset(history, 0, ALI3_HISTORY * sizeof *history);
+  history[ALI3_HISTORY_OWNER] = (double)method;
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
 }
 
@@ -47,7 +47,7 @@ static void lagrange(const double *time, int32_t n, double t, double *weight) {
 int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, n = past(v, most);
-  const double *time = v->memory + ALI3_MEMORY_TIME;
+  const double *time = v->history + ALI3_HISTORY_TIME;
   double least = HUGE_VAL, weight[ALI3_PAST];
   int32_t best = n;
   if (n <= 2) return n;
@@ -73,9 +73,9 @@ int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
 /* Whether the n steps before the last would have told the last much better than that nothing changes. */
 bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   const int32_t nq = in->system->size.nq;
-  const double *memory = in->now.memory, *time = memory + ALI3_MEMORY_TIME, *a = in->now.past_a;
+  const double *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a;
   double weight[ALI3_PAST], error = 0.0, change = 0.0;
-  if (!(memory[ALI3_MEMORY_COUNT] > (double)n && h < (in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1])))
+  if (!(history[ALI3_HISTORY_COUNT] > (double)n && h < (in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1])))
     return false;
   lagrange(time + 1, n, time[0], weight);
   for (int32_t i = 0; i < nq; i++) {
@@ -102,7 +102,7 @@ void ali3_history_predict(const ali3_instance *in, double when, int32_t most, do
   }
   memset(a, 0, (size_t)nq * sizeof *a);
   memset(lam, 0, (size_t)nc * sizeof *lam);
-  lagrange(v->memory + ALI3_MEMORY_TIME, n, when, weight);
+  lagrange(v->history + ALI3_HISTORY_TIME, n, when, weight);
   for (int32_t k = 0; k < n; k++) {
     const double *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
     for (int32_t i = 0; i < nq; i++) a[i] += weight[k] * past_a[i];
@@ -115,10 +115,11 @@ void ali3_history_append(ali3_instance *in, double h, const double *a) {
   const ali3_vectors *from = &in->now, *to = &in->next;
   const size_t nq = (size_t)in->system->size.nq, nc = (size_t)in->system->size.nc;
   const int32_t n = past(from, ALI3_PAST);
-  to->memory[ALI3_MEMORY_OWNER] = from->memory[ALI3_MEMORY_OWNER];
-  to->memory[ALI3_MEMORY_COUNT] = n < ALI3_PAST ? n + 1 : n;
-  to->memory[ALI3_MEMORY_TIME] = -0.5 * h;
-  for (int32_t k = 1; k < ALI3_PAST; k++) to->memory[ALI3_MEMORY_TIME + k] = from->memory[ALI3_MEMORY_TIME + k - 1] - h;
+  to->history[ALI3_HISTORY_OWNER] = from->history[ALI3_HISTORY_OWNER];
+  to->history[ALI3_HISTORY_COUNT] = n < ALI3_PAST ? n + 1 : n;
+  to->history[ALI3_HISTORY_TIME] = -0.5 * h;
+  for (int32_t k = 1; k < ALI3_PAST; k++)
+    to->history[ALI3_HISTORY_TIME + k] = from->history[ALI3_HISTORY_TIME + k - 1] - h;
   memcpy(to->past_a, a, nq * sizeof *a);
   memcpy(to->past_lam, to->lam, nc * sizeof *a);
   memcpy(to->past_a + nq, from->past_a, (ALI3_PAST - 1) * nq * sizeof *a);
@@ -131,8 +132,8 @@ void ali3_history_append(ali3_instance *in, double h, const double *a) {
 void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
   const ali3_vectors *from = &in->now;
   const int32_t nq = in->system->size.nq;
-  const double half = -from->memory[ALI3_MEMORY_TIME]; /* of the last step */
-  if (!(from->memory[ALI3_MEMORY_COUNT] >= 1.0)) {
+  const double half = -from->history[ALI3_HISTORY_TIME]; /* of the last step */
+  if (!(from->history[ALI3_HISTORY_COUNT] >= 1.0)) {
     memcpy(v, in->next.own, (size_t)nq * sizeof *v);
     return;
   }

@@ -69,8 +69,16 @@ static void place(ali3_instance *in, double t, double h, int i) {
 
 static void forces(ali3_instance *in, double wC, double wK) {
   ali3_vectors *to = &in->next;
-  const ali3_force_call call = {to->q,         to->qd, in->now.y, 0.0,     wC,           wK,
-                                wC + wK > 0.0, in->Q,  to->y,     to->out, to->potential};
+  const ali3_force_call call = {.q = to->q,
+                                .qd = to->qd,
+                                .y_old = in->now.y,
+                                .wC = wC,
+                                .wK = wK,
+                                .tangent = wC + wK > 0.0,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
   ali3_forces(in, &call);
 }
 
@@ -205,9 +213,9 @@ static double opening(const ali3_instance *in) {
 }
 
 /* Until the tolerances hold and what is left, told from the last correction and the ratio of the last two errors, is
- * small beside the error of the method: a guess from the last collocation polynomial (`near`) errs by h^3, the method by
- * h^5. A tolerance in metres alone spoils the order at small steps, where it lets through accelerations of 2 / h^2 times
- * itself. */
+ * small beside the error of the method: a guess from the last collocation polynomial (`near`) errs by h^3, the method
+ * by h^5. A tolerance in metres alone spoils the order at small steps, where it lets through accelerations of 2 / h^2
+ * times itself. */
 static ali3_status newton(ali3_instance *in, double t, double h, double alpha, bool near) {
   const ali3_settings *settings = &in->settings;
   double last, change = 0.0, need = ROUND_OFF;
@@ -234,7 +242,7 @@ static ali3_status newton(ali3_instance *in, double t, double h, double alpha, b
 
 /* Stages from the collocation polynomial of the last step, or as the state is; returns whether the former. */
 static bool predict(ali3_instance *in, double h) {
-  const double *time = in->now.memory + ALI3_MEMORY_TIME;
+  const double *time = in->now.history + ALI3_HISTORY_TIME;
   const bool near = -time[LAST] > 0.0 && (1.0 - node[0]) * h <= LONGEST * -time[LAST];
   for (int i = 0; i < STAGES; i++)
     ali3_history_predict(in, node[i] * h, near ? STAGES : 1, acceleration(in, i), of_rows(in, in->stage_lam, i));
@@ -261,15 +269,15 @@ static void clean(ali3_instance *in, double h, double alpha) {
 static void remember(ali3_instance *in, double h) {
   const size_t nq = (size_t)in->system->size.nq, nc = (size_t)in->system->size.nc;
   ali3_vectors *to = &in->next;
-  memset(to->memory, 0, ALI3_MEMORY * sizeof(double));
+  memset(to->history, 0, ALI3_HISTORY * sizeof(double));
   memset(to->past_a, 0, ALI3_PAST * nq * sizeof(double));
   memset(to->past_lam, 0, ALI3_PAST * nc * sizeof(double));
   memcpy(to->own, in->now.own, nq * sizeof(double));
-  to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_RADAU_5;
-  to->memory[ALI3_MEMORY_COUNT] = STAGES;
+  to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_RADAU_5;
+  to->history[ALI3_HISTORY_COUNT] = STAGES;
   for (int i = 0; i < STAGES; i++) {
     const int place = LAST - i;
-    to->memory[ALI3_MEMORY_TIME + place] = (node[i] - 1.0) * h;
+    to->history[ALI3_HISTORY_TIME + place] = (node[i] - 1.0) * h;
     memcpy(to->past_a + (size_t)place * nq, acceleration(in, i), nq * sizeof(double));
     memcpy(to->past_lam + (size_t)place * nc, of_rows(in, in->stage_lam, i), nc * sizeof(double));
   }
@@ -327,7 +335,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   memcpy(to->qdd, acceleration(in, LAST), nq * sizeof(double));
   memcpy(to->lam, of_rows(in, in->stage_lam, LAST), (size_t)S->size.nc * sizeof(double));
   for (int i = 0; i < STAGES; i++) ali3_work_stage(in, h * first[LAST][i], power_of(in, i), to->work);
-  ali3_work_keep(in, to);
+  ali3_work_store(in, to);
   clean(in, h, alpha);
   remember(in, h);
   status = project(in, h, alpha);
@@ -340,11 +348,11 @@ static ali3_status step(ali3_instance *in, double t, double h) {
 
 /* The tangent of the stages has no rate of the rows. */
 static ali3_status takes(const ali3_instance *in) {
-  return in->system->n_velocity_row > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_memory(in);
+  return in->system->n_velocity_row > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_states(in);
 }
 
 const ali3_method ali3_method_radau_5 = {.step = step,
-                                         .motion = ali3_books_step,
+                                         .motion = ali3_balance_step,
                                          .takes = takes,
                                          .owner = ALI3_METHOD_RADAU_5,
                                          .round_off = ALI3_ROUND_OFF_COLLOCATION};

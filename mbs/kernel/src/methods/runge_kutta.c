@@ -92,7 +92,7 @@ static ali3_status after_jump(ali3_instance *in) {
   const ali3_status status = ali3_inputs_at(in, 0.0);
   if (status != ALI3_OK) return status;
   const ali3_status solved = ali3_index_one(in, &in->next);
-  ali3_work_keep(in, &in->next);
+  ali3_work_store(in, &in->next);
   return solved;
 }
 
@@ -127,26 +127,26 @@ static ali3_status step(ali3_instance *in, double t, double h) {
     status = close(in);
   }
   if (status == ALI3_OK) status = ali3_index_one(in, to);
-  ali3_work_keep(in, to);
+  ali3_work_store(in, to);
   if (status == ALI3_OK && watched) {
     const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->r) - kinetic;
     status = ali3_energy_watch(in, h, gained - work, kinetic + fmax(gained, 0.0), kinetic + gained, 0.0);
   }
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
-  to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
+  to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
   for (int32_t i = 0; i < nq; i++) in->D[i] = to->q[i] - from->q[i];
   ali3_predict_rates(in, h);
   to->h_last[0] = 0.0;
   return ali3_accept(in);
 }
 
-static bool keeps_books(const ali3_instance *in) { return in->system->n_flexible == 0; }
+static bool has_balance(const ali3_instance *in) { return in->system->n_flexible == 0; }
 
 const ali3_method ali3_method_runge_kutta_8 = {.step = step,
-                                               .motion = ali3_books_step,
-                                               .keeps_books = keeps_books,
-                                               .takes = ali3_needs_no_memory,
+                                               .motion = ali3_balance_step,
+                                               .has_balance = has_balance,
+                                               .takes = ali3_needs_no_states,
                                                .owner = ALI3_METHOD_RUNGE_KUTTA_8,
                                                .stable_rate = 5.0,
                                                .round_off = ALI3_ROUND_OFF_INDEX_1};

@@ -1,7 +1,7 @@
 /* Semi-recursive formulation: explicit Runge-Kutta rules on the relative coordinates of a spanning tree (J. Garcia de
  * Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapters 5 and 8). Loops are closed by a
  * second transformation to independent rates; positions and velocities return to the rows at the end of a step. What
- * goes from step to step lies in the state's memory of the method; natural coordinates are written when somebody
+ * goes from step to step lies in the state's history of the method; natural coordinates are written when somebody
  * looks. */
 #include <math.h>
 #include <string.h>
@@ -28,7 +28,7 @@ static const double BROKEN = 1e3; /* m: the rows are lost */
 
 /* Numbers of the method in a state: q, qd, qdd, turned angles, rank, order of rows, order of joints. They begin at
  * `own`. */
-static void keep(const ali3_instance *in, double *own) {
+static void store(const ali3_instance *in, double *own) {
   const ali3_tree *T = in->system->tree;
   const ali3_tree_work *w = in->tree;
   const size_t n = (size_t)T->n;
@@ -96,7 +96,13 @@ static ali3_status accelerations(ali3_instance *in, const double *qd, double *qd
   if (S->size.ne > 0) {
     ali3_vectors *v = &in->next;
     ali3_tree_write(in, v->q, v->qd, NULL);
-    const ali3_force_call call = {v->q, v->qd, in->now.y, 0.0, 0.0, 0.0, false, in->Q, v->y, v->out, v->potential};
+    const ali3_force_call call = {.q = v->q,
+                                  .qd = v->qd,
+                                  .y_old = in->now.y,
+                                  .Q = in->Q,
+                                  .y_new = v->y,
+                                  .out = v->out,
+                                  .potential = v->potential};
     ali3_forces(in, &call);
     ali3_tree_load(in, in->Q);
   }
@@ -221,7 +227,7 @@ static void turn_back(const ali3_system *S, ali3_tree_work *w) {
 
 /* In the metric of the diagonal of the mass matrix; w->stage[0] has rates and accelerations at the start of the step,
  * w->sum the rates at its end. */
-static void books(ali3_instance *in, double h) {
+static void balance(ali3_instance *in, double h) {
   const ali3_tree *T = in->system->tree;
   const ali3_tree_work *w = in->tree;
   const double *v0 = w->stage[0], *a = v0 + T->n, *v1 = w->sum + T->n;
@@ -235,7 +241,7 @@ static void books(ali3_instance *in, double h) {
     change += m * d * d;
     miss += m * e * e;
   }
-  ali3_books_motion(&in->report, speed, change, miss);
+  ali3_balance_motion(&in->report, speed, change, miss);
 }
 
 /* From in->now by a step h; in->now changes only when the step is good. */
@@ -244,7 +250,7 @@ static ali3_status step(ali3_instance *in, double h, const ali3_tableau *rule) {
   const ali3_tree *T = S->tree;
   const int32_t n = T->n;
   const int64_t before = in->report.iterations;
-  const bool mine = in->now.memory[ALI3_MEMORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
+  const bool mine = in->now.history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
   ali3_tree_work *w = in->tree;
   ali3_status status = ali3_inputs_at(in, 0.0);
   if (status != ALI3_OK) return status;
@@ -277,26 +283,26 @@ static ali3_status step(ali3_instance *in, double h, const ali3_tableau *rule) {
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   if (!ali3_finite(w->sum, 2 * n) || !ali3_finite(w->qdd, n)) return ALI3_NOT_FINITE;
-  books(in, h);
+  balance(in, h);
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
   turn_back(S, w);
-  ali3_vectors *v = in->quiet ? &in->now : &in->next;
-  if (!in->quiet) ali3_vectors_copy(in, v, &in->now);
+  ali3_vectors *v = in->unobserved ? &in->now : &in->next;
+  if (!in->unobserved) ali3_vectors_copy(in, v, &in->now);
   ali3_work_stage(in, 1.0, in->work_sum, v->work);
-  ali3_work_keep(in, v);
-  if (!in->quiet) {
+  ali3_work_store(in, v);
+  if (!in->unobserved) {
     status = show(in, v);
     if (status != ALI3_OK) return status;
   }
-  keep(in, v->own);
-  v->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_SEMI_RECURSIVE;
-  v->memory[ALI3_MEMORY_COUNT] = 0.0;
+  store(in, v->own);
+  v->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_SEMI_RECURSIVE;
+  v->history[ALI3_HISTORY_COUNT] = 0.0;
   v->h_last[0] = 0.0;
   memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
-  return in->quiet ? ALI3_OK : ali3_accept(in);
+  return in->unobserved ? ALI3_OK : ali3_accept(in);
 }
 
-/* After quiet steps: the natural coordinates of the last one. */
+/* After unobserved steps: the natural coordinates of the last one. */
 static void report(ali3_instance *in) {
   ali3_tree_work *w = in->tree;
   if (!recall(in, in->now.own)) return;
@@ -314,7 +320,7 @@ static void report(ali3_instance *in) {
 }
 
 static ali3_status takes(const ali3_instance *in) {
-  return in->system->tree == NULL ? ALI3_NO_TREE : ali3_needs_no_memory(in);
+  return in->system->tree == NULL ? ALI3_NO_TREE : ali3_needs_no_states(in);
 }
 
 static ali3_status step_8(ali3_instance *in, double t, double h) {

@@ -41,8 +41,17 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
-  const ali3_force_call call = {to->q,   to->qd, in->now.y, h,       in->rule.wC,  c,
-                                tangent, in->Q,  to->y,     to->out, to->potential};
+  const ali3_force_call call = {.q = to->q,
+                                .qd = to->qd,
+                                .y_old = in->now.y,
+                                .h = h,
+                                .wC = in->rule.wC,
+                                .wK = c,
+                                .tangent = tangent,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
   ali3_forces(in, &call);
   ali3_mass_times(in, in->w, in->r);
   for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
@@ -107,7 +116,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
 
 /* Trapezoidal rule (17), (18). */
 static void trapezoidal(ali3_instance *in, double h) {
-  const ali3_rule rule = {0.25 * h * h, 2.0 / h, 0.5 * h};
+  const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
   in->rule = rule;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
     in->d0[i] = h * in->now.qd[i] + rule.c * in->now.qdd[i];
@@ -121,7 +130,7 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   const int32_t nq = S->size.nq;
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
-  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_quiet_start(in, h);
+  const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
   ali3_guides_step(in, from, to, t, h);
   const bool from_past = ali3_predict(in, h, true);
   if (is_alpha)
@@ -131,7 +140,7 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   const double c = in->rule.c;
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
-  /* derivatives of a step are those of the trapezoidal rule, also in a quiet start */
+  /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
   ali3_status status = newton(in, h, alpha);
   if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
@@ -143,8 +152,17 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   if (is_alpha)
     ali3_alpha_accept(in, h);
   else
-    to->memory[ALI3_MEMORY_OWNER] = ALI3_METHOD_ALI3P;
-  const ali3_force_call call = {to->q, to->qd, from->y, h, in->rule.wC, c, false, in->Q, to->y, to->out, to->potential};
+    to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_ALI3P;
+  const ali3_force_call call = {.q = to->q,
+                                .qd = to->qd,
+                                .y_old = from->y,
+                                .h = h,
+                                .wC = in->rule.wC,
+                                .wK = c,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
   ali3_forces_accept(in, &call);
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
@@ -167,7 +185,7 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
 bool ali3_projects(const ali3_instance *in) { return in->settings.project; }
 
 const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
-                                       .motion = ali3_books_step,
-                                       .keeps_books = ali3_projects,
+                                       .motion = ali3_balance_step,
+                                       .has_balance = ali3_projects,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};

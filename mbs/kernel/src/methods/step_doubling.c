@@ -12,7 +12,7 @@
 
 /* A step from time t that is never halved inside; what a failed one leaves behind is for the caller to mend. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
-  in->kept = false;
+  in->backed_up = false;
   in->t_now = t;
   return ali3_advance(in, t + h, h, 0);
 }
@@ -43,14 +43,14 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure) {
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
-/* From in->now, which stays in in->origin, to in->now by way of in->centre; *error in parts of the length. A failed step
- * leaves in->now as it was. */
+/* From in->now, which stays in in->origin, to in->now by way of in->centre; *error in parts of the length. A failed
+ * step leaves in->now as it was. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;
   ali3_vectors_copy(in, &in->origin, &in->now);
   ali3_status status = ali3_trial_step(in, t, h);
-  ali3_books_back(&in->report, &before);
+  ali3_balance_restore(&in->report, &before);
   ali3_vectors_copy(in, &in->coarse, &in->now);
   ali3_vectors_copy(in, &in->now, &in->origin);
   if (status == ALI3_OK) status = ali3_trial_step(in, t, 0.5 * h);
@@ -70,7 +70,7 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
     if (*error < 1e300) return ALI3_OK;
     status = ALI3_NOT_FINITE;
   }
-  ali3_books_back(&in->report, &before);
+  ali3_balance_restore(&in->report, &before);
   in->report.steps = before.steps;
   ali3_vectors_copy(in, &in->now, &in->origin);
   return status;

@@ -21,7 +21,8 @@ ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
   const int32_t nq = S->size.nq, nc = S->size.nc;
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  const ali3_force_call call = {v->q, v->qd, in->now.y, 0.0, 0.0, 0.0, false, in->Q, v->y, v->out, v->potential};
+  const ali3_force_call call = {
+      .q = v->q, .qd = v->qd, .y_old = in->now.y, .Q = in->Q, .y_new = v->y, .out = v->out, .potential = v->potential};
   ali3_forces(in, &call);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
   if (S->n_flexible > 0) ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);

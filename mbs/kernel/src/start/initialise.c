@@ -104,7 +104,8 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   if (status == ALI3_OK) status = close_velocity(in);
   if (status != ALI3_OK) return status;
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, v->out, v->potential};
+  const ali3_force_call call = {
+      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = in->Q, .y_new = in->y_work, .out = v->out, .potential = v->potential};
   memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
   memcpy(v->y_last, v->y, (size_t)S->size.ny * sizeof(double));
   v->h_last[0] = 0.0;
@@ -115,7 +116,7 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
     ali3_forces(in, &call);
   }
   if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
-  ali3_work_keep(in, v);
+  ali3_work_store(in, v);
   if (start) ali3_work_start(in, v);
   if (S->n_flexible > 0) {
     memcpy(v->mean, v->qd, (size_t)S->size.nq * sizeof(double));

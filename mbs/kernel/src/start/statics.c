@@ -29,8 +29,15 @@ static double balance(ali3_instance *in, double c) {
   ali3_vectors *v = &in->next;
   double largest = 0.0, scale = 0.0;
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  const ali3_force_call call = {v->q,       v->qd,        in->now.y,         0.0, 0.0, c, true, in->Q,
-                                in->y_work, in->out_work, in->potential_work};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = in->now.y,
+                                .wK = c,
+                                .tangent = true,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
   ali3_forces(in, &call);
   ali3_rows_transposed(S, in->J, v->lam, in->r);
   for (int32_t i = 0; i < S->size.nq; i++) {

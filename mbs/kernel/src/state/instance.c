@@ -6,166 +6,62 @@
 #include "../algebra/finite.h"
 #include "../elements/road.h"
 #include "../instance.h"
-#include "../rows/assembly_mode.h"
 #include "../rows/guides.h"
 #include "../system/loading.h"
-#include "../system/without_memory.h"
 #include "../tree/tree.h"
 #include "parameters.h"
 #include "vectors.h"
+#include "workspace.h"
 
 const char *ali3_status_text(ali3_status s) {
   static const char *const text[ALI3_STATUS_COUNT] = {
-      "ok",
-      "an argument is missing, not finite or out of range",
-      "the bytes are not a valid System file",
-      "the bytes are not a state of this System",
-      "there is not enough memory",
-      "the instance must be initialised first",
-      "the position problem does not close",
-      "the iteration did not converge, also not in smaller steps",
-      "the tangent is singular",
-      "the motion or a force became infinite",
-      "this method takes no element states or filtered guides (energy_momentum_4: no damping; radau_5: no rolling)",
-      "an element refuses the start",
-      "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
-      "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
-      "the step is too long for an explicit method, which must follow the fastest motion",
-      "the start is too far away or too fast: positions must stay within 1e8 m, speeds within 1e6 m/s",
-      "with these parameters there is no static equilibrium near the drawing to start from",
-      "a closed loop changed its assembly mode",
+      [ALI3_OK] = "ok",
+      [ALI3_BAD_ARGUMENT] = "an argument is missing, not finite or out of range",
+      [ALI3_BAD_FILE] = "the bytes are not a valid System file",
+      [ALI3_BAD_STATE] = "the bytes are not a state of this System",
+      [ALI3_NO_MEMORY] = "there is not enough memory",
+      [ALI3_NOT_INITIALISED] = "the instance must be initialised first",
+      [ALI3_NOT_ASSEMBLED] = "the position problem does not close",
+      [ALI3_NOT_CONVERGED] = "the iteration did not converge, also not in smaller steps",
+      [ALI3_SINGULAR] = "the tangent is singular",
+      [ALI3_NOT_FINITE] = "the motion or a force became infinite",
+      [ALI3_WRONG_METHOD] =
+          "this method takes no element states or filtered guides (energy_momentum_4: no damping; radau_5: no rolling)",
+      [ALI3_START_REFUSED] = "an element refuses the start",
+      [ALI3_UNRESOLVED] =
+          "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
+      [ALI3_NO_TREE] =
+          "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
+      [ALI3_TOO_STIFF] = "the step is too long for an explicit method, which must follow the fastest motion",
+      [ALI3_TOO_FAR] = "the start is too far away or too fast: positions must stay within 1e8 m, speeds within 1e6 m/s",
+      [ALI3_NO_EQUILIBRIUM] = "with these parameters there is no static equilibrium near the drawing to start from",
+      [ALI3_BRANCH_CHANGED] = "a closed loop changed its assembly mode",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
 
 uint32_t ali3_version(void) { return ALI3_SYSTEM_VERSION; }
 
-static size_t signal_work(const ali3_system *s) {
-  size_t largest = 0;
-  for (int32_t e = 0; e < s->size.ne; e++) {
-    const size_t n = (size_t)(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e]);
-    const size_t m = (size_t)(s->el_coordinate_ptr[e + 1] - s->el_coordinate_ptr[e]);
-    if (n * m > largest) largest = n * m;
-  }
-  return largest;
-}
-
 ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   if (s == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
-  const ali3_sizes *z = &s->size;
-  const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ny = (size_t)z->ny, nout = (size_t)z->nout, ne = (size_t)z->ne;
-  const size_t n_vector = ali3_vector_count(s);
-  const size_t n_S = (size_t)s->el_S_off[z->ne], n_work = signal_work(s), nu = (size_t)z->nu, np = (size_t)z->np;
-  const size_t data = (size_t)s->n_el_real + (size_t)s->n_guide_real + (size_t)s->n_road_real;
-  const size_t stages = ali3_without_memory(s) ? ALI3_RADAU : 0;
-  const size_t total = 8 * n_vector + (4 + ALI3_RADAU) * nu + 2 * np + data + (11 + ALI3_STAGES) * nq + 7 * nc +
-                       5 * (size_t)z->nnz_rows + (size_t)z->front_size + 2 * nq + (size_t)z->ng + (size_t)z->n_switch +
-                       2 * (size_t)z->nsig + n_S + n_work + ALI3_RADAU * (size_t)s->max_front + ny + nout + ne +
-                       stages * (2 * nc + 2 * (size_t)z->nnz_rows + nq + stages * (size_t)z->front_size) +
-                       (stages > 0 ? 2 * (size_t)z->front_size : 0);
-  const size_t triads = (size_t)ali3_triad_count(s), loops = (size_t)ali3_loop_count(s);
-  const size_t n_modes = 5 * triads + loops + (triads > 0 ? n_vector : 0), n_start = 4 * nq;
-  const size_t n_sensed = (2 + ALI3_RADAU) * (size_t)s->n_work + (size_t)s->n_work_force;
-  const size_t n_flex = 21 * (size_t)s->n_flexible + 9 * (size_t)s->n_flex_mode, n_flex_work = 3 * (size_t)s->max_modes;
-  const size_t head = (sizeof(ali3_instance) + 15u) / 16u * 16u,
-               roads = ((size_t)s->nr * sizeof(ali3_road) + 15u) / 16u * 16u,
-               tree = s->tree != NULL ? (sizeof(ali3_tree_work) + 15u) / 16u * 16u : 0;
   *out = NULL;
-  const size_t numbers = (total + n_flex + n_flex_work + n_modes + n_start + n_sensed) * sizeof(double);
-  char *block = s->memory.allocate(1, head + roads + tree + numbers + ne);
-  if (block == NULL) return ALI3_NO_MEMORY;
-  ali3_instance *in = (ali3_instance *)block;
-  double *pool = (double *)(block + head + roads + tree);
+  ali3_instance counted;
+  ali3_pool pool = {.block = NULL, .used = 0};
+  ali3_pool_items(&pool, 1, sizeof counted);
+  ali3_workspace_place(s, &counted, &pool);
+  pool.block = s->memory.allocate(1, pool.used);
+  if (pool.block == NULL) return ALI3_NO_MEMORY;
+  pool.used = 0;
+  ali3_instance *in = ali3_pool_items(&pool, 1, sizeof *in);
+  ali3_workspace_place(s, in, &pool);
   in->system = s;
   in->release = s->memory.release;
-  in->road = (ali3_road *)(block + head);
-  in->idle = (unsigned char *)(block + head + roads + tree + numbers);
-  if (s->tree != NULL) {
-    in->tree = (ali3_tree_work *)(block + head + roads);
-    ali3_tree_start(s, in->tree);
-  }
-  in->n_vector = n_vector;
-  ali3_vectors_place(s, &in->now, &pool);
-  ali3_vectors_place(s, &in->next, &pool);
-  ali3_vectors_place(s, &in->start, &pool);
-  ali3_vectors_place(s, &in->whole, &pool);
-  ali3_vectors_place(s, &in->tangent, &pool);
-  ali3_vectors_place(s, &in->origin, &pool);
-  ali3_vectors_place(s, &in->centre, &pool);
-  ali3_vectors_place(s, &in->coarse, &pool);
-  in->input = ali3_take(&pool, nu);
-  in->input_work = ali3_take(&pool, nu);
-  in->input_middle = ali3_take(&pool, nu);
-  in->input_begin = ali3_take(&pool, nu);
-  in->stage_input = ali3_take(&pool, ALI3_RADAU * nu);
+  in->n_vector = ali3_vector_count(s);
   in->force_input = in->input;
-  in->parameter = ali3_take(&pool, np);
-  in->parameter_work = ali3_take(&pool, np);
-  in->el_real = ali3_take(&pool, (size_t)s->n_el_real);
-  in->guide_real = ali3_take(&pool, (size_t)s->n_guide_real);
-  in->road_real = ali3_take(&pool, (size_t)s->n_road_real);
-  in->D = ali3_take(&pool, nq);
-  in->d0 = ali3_take(&pool, nq);
-  in->r = ali3_take(&pool, nq);
-  in->x = ali3_take(&pool, nq);
-  in->w = ali3_take(&pool, nq);
-  in->shifted = ali3_take(&pool, nq);
-  in->hat = ali3_take(&pool, nq);
-  in->middle = ali3_take(&pool, nq);
-  in->rate = ali3_take(&pool, nq);
-  in->stage = ali3_take(&pool, ALI3_STAGES * nq);
-  in->Q = ali3_take(&pool, nq);
-  in->Phi = ali3_take(&pool, nc);
-  in->Phit = ali3_take(&pool, nc);
-  in->gamma = ali3_take(&pool, nc);
-  in->mu = ali3_take(&pool, nc);
-  in->lam = ali3_take(&pool, nc);
-  in->correction_q = ali3_take(&pool, nq);
-  in->step_q = ali3_take(&pool, nq);
-  in->correction_lam = ali3_take(&pool, nc);
-  in->step_lam = ali3_take(&pool, nc);
-  in->J = ali3_take(&pool, (size_t)z->nnz_rows);
-  in->J_tangent = ali3_take(&pool, (size_t)z->nnz_rows);
-  in->J0 = ali3_take(&pool, (size_t)z->nnz_rows);
-  in->at_J0 = ali3_take(&pool, nq + (size_t)z->ng + (size_t)z->n_switch);
-  in->A = ali3_take(&pool, (size_t)z->nnz_rows);
-  in->A_tangent = ali3_take(&pool, (size_t)z->nnz_rows);
-  in->F = ali3_take(&pool, (size_t)z->front_size);
-  in->u = ali3_take(&pool, (size_t)z->nsig);
-  in->ud = ali3_take(&pool, (size_t)z->nsig);
-  in->S = ali3_take(&pool, n_S);
-  in->SB = ali3_take(&pool, n_work);
-  in->local = ali3_take(&pool, ALI3_RADAU * (size_t)s->max_front);
-  in->stage_Phi = ali3_take(&pool, stages * nc);
-  in->stage_lam = ali3_take(&pool, stages * nc);
-  in->stage_J = ali3_take(&pool, stages * (size_t)z->nnz_rows);
-  in->stage_J_tangent = ali3_take(&pool, stages * (size_t)z->nnz_rows);
-  in->stage_x = ali3_take(&pool, stages * nq);
-  in->F_stages = ali3_take(&pool, stages * stages * (size_t)z->front_size);
-  in->F_C = ali3_take(&pool, stages > 0 ? (size_t)z->front_size : 0);
-  in->F_K = ali3_take(&pool, stages > 0 ? (size_t)z->front_size : 0);
-  in->flex = ali3_take(&pool, n_flex);
-  in->flex_work = ali3_take(&pool, n_flex_work);
-  in->y_work = ali3_take(&pool, ny);
-  in->out_work = ali3_take(&pool, nout);
-  in->potential_work = ali3_take(&pool, ne);
-  in->mode_sine = ali3_take(&pool, triads);
-  in->mode_cosine = ali3_take(&pool, triads);
-  in->sine_before = ali3_take(&pool, triads);
-  in->sine_after = ali3_take(&pool, triads);
-  in->sine_few = ali3_take(&pool, triads);
-  in->mode_left = ali3_take(&pool, loops);
-  if (triads > 0) ali3_vectors_place(s, &in->before, &pool);
-  in->start_q = ali3_take(&pool, nq);
-  in->pose_0 = ali3_take(&pool, nq);
-  in->pose_cos = ali3_take(&pool, nq);
-  in->pose_sin = ali3_take(&pool, nq);
-  in->watched = ali3_take(&pool, (size_t)s->n_work + (size_t)s->n_work_force);
-  in->work_sum = ali3_take(&pool, (size_t)s->n_work);
-  in->stage_power = ali3_take(&pool, ALI3_RADAU * (size_t)s->n_work);
+  if (s->tree != NULL) ali3_tree_start(s, in->tree);
   const ali3_status status = ali3_reset(in);
   if (status != ALI3_OK) {
-    s->memory.release(block);
+    in->release(in);
     return status;
   }
   *out = in;
@@ -177,8 +73,18 @@ void ali3_instance_free(ali3_instance *in) {
 }
 
 ali3_settings ali3_default_settings(void) {
-  const ali3_settings settings = {
-      0.0, 1e-7, 1e-10, 1e-11, 0.8, 30, 8, 1, ALI3_UPDATE_LINEARISED, 1, ALI3_METHOD_ALI3P, ALI3_PREDICTOR_PARABOLA};
+  const ali3_settings settings = {.alpha = 0.0,
+                                  .eps_rel = 1e-7,
+                                  .tolerance_r = 1e-10,
+                                  .tolerance_phi = 1e-11,
+                                  .rho_infinity = 0.8,
+                                  .max_iterations = 30,
+                                  .max_halvings = 8,
+                                  .project = 1,
+                                  .update = ALI3_UPDATE_LINEARISED,
+                                  .geometric = 1,
+                                  .method = ALI3_METHOD_ALI3P,
+                                  .predictor = ALI3_PREDICTOR_PARABOLA};
   return settings;
 }
 
@@ -235,8 +141,9 @@ ali3_status ali3_reset(ali3_instance *in) {
   for (int32_t g = 0; g < S->size.ng; g++)
     if (S->guide_type[g] == ALI3_GUIDE_OF_INPUT) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {
-    const ali3_road road = {S->road_type[r], S->road_real_ptr[r + 1] - S->road_real_ptr[r],
-                            in->road_real + S->road_real_ptr[r]};
+    const ali3_road road = {.type = S->road_type[r],
+                            .nreal = S->road_real_ptr[r + 1] - S->road_real_ptr[r],
+                            .real = in->road_real + S->road_real_ptr[r]};
     in->road[r] = road;
   }
   return ali3_parameters_apply(in);

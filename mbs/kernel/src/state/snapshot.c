@@ -1,5 +1,5 @@
-/* A copy in memory of what inputs, parameters and steps change, for steps that are taken back. It returns to the instance
- * it was taken of, so it needs no header, checksum or checks of ali3_state_restore. */
+/* A copy in memory of what inputs, parameters and steps change, for steps that are taken back. It returns to the
+ * instance it was taken of, so it needs no header, checksum or checks of ali3_state_restore. */
 #include <string.h>
 
 #include "../instance.h"

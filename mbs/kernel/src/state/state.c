@@ -35,7 +35,11 @@ static void put(unsigned char **to, const void *from, size_t size) {
 ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size) {
   if (in == NULL || bytes == NULL || size != ali3_state_size(in->system)) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &in->system->size;
-  ali3_state_header header = {{0}, ALI3_STATE_VERSION, in->system->crc, size, 0, (uint32_t)in->initialised, in->count};
+  ali3_state_header header = {.version = ALI3_STATE_VERSION,
+                              .system_crc = in->system->crc,
+                              .size = size,
+                              .initialised = (uint32_t)in->initialised,
+                              .count = in->count};
   memcpy(header.magic, MAGIC, sizeof MAGIC);
   unsigned char *p = bytes;
   put(&p, &header, sizeof header);

@@ -2,11 +2,11 @@
 #ifndef ALI3_STATE_VECTORS_H
 #define ALI3_STATE_VECTORS_H
 #include "../instance.h"
+#include "../system/pool.h"
 
-double *ali3_take(double **pool, size_t n);
 size_t ali3_vector_count(const ali3_system *s); /* doubles in ali3_vectors */
-void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, double **pool);
+void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, ali3_pool *pool);
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from);
-void ali3_keep(ali3_instance *in);
+void ali3_back_up(ali3_instance *in);
 ali3_status ali3_accept(ali3_instance *in);
 #endif

@@ -1,8 +1,8 @@
-/* Work of force elements on the mechanism, of those that sensors of type 19 name: by the quadrature that the method of a
- * step itself uses, so that the work of all forces is the change of the energy but for what the method errs by.
+/* Work of force elements on the mechanism, of those that sensors of type 19 name: by the quadrature that the method of
+ * a step itself uses, so that the work of all forces is the change of the energy but for what the method errs by.
  *
- * Trapezoidal rule: D'(f0 + f1)/2 with the forces that Newton's loop balanced. Energy-momentum: D'f of the middle, where
- * f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages. */
+ * Trapezoidal rule: D'(f0 + f1)/2 with the forces that Newton's loop balanced. Energy-momentum: D'f of the middle,
+ * where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages. */
 #include <string.h>
 
 #include "../elements/forces.h"
@@ -14,7 +14,7 @@ static void copy(double *to, const double *from, int32_t n) {
 }
 
 /* v has the forces of the last ali3_forces. */
-void ali3_work_keep(const ali3_instance *in, ali3_vectors *v) {
+void ali3_work_store(const ali3_instance *in, ali3_vectors *v) {
   copy(v->watched, in->watched, in->system->n_work + in->system->n_work_force);
 }
 
@@ -31,12 +31,17 @@ void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
 void ali3_work_reopen(ali3_instance *in) {
   ali3_vectors *v = &in->now;
   if (in->system->n_work == 0) return;
-  const ali3_force_call call = {
-      v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, in->out_work, in->potential_work};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
   in->force_input = v->used;
   ali3_forces(in, &call);
   in->force_input = in->input;
-  ali3_work_keep(in, v);
+  ali3_work_store(in, v);
 }
 
 /* Change of a signal along D of a step. */
@@ -62,7 +67,7 @@ void ali3_work_step(ali3_instance *in, double share) {
     }
     in->next.work[k] = in->now.work[k] + sum;
   }
-  ali3_work_keep(in, &in->next);
+  ali3_work_store(in, &in->next);
 }
 
 /* sum (n_work) gets the share of a stage, `weight` in s. */
@@ -82,7 +87,13 @@ void ali3_work_first(ali3_instance *in, double weight) {
 void ali3_work_beside(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
   if (in->system->n_work == 0) return;
-  const ali3_force_call call = {v->q, v->qd, v->y, 0.0, 0.0, 0.0, false, in->Q, in->y_work, in->out_work, v->potential};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y,
+                                .Q = in->Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = v->potential};
   ali3_forces(in, &call);
   ali3_work_stage(in, dt, in->watched, v->work);
 }
@@ -98,10 +109,10 @@ double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int
   return sum;
 }
 
-/* Its change along in->tangent, of the end of a step by the trapezoidal rule. */
+/* Its change along in->direction, of the end of a step by the trapezoidal rule. */
 double ali3_work_change(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element) {
   const ali3_system *S = in->system;
-  const ali3_vectors *d = &in->tangent;
+  const ali3_vectors *d = &in->direction;
   double sum = 0.0;
   for (int32_t j = 0; j < n; j++) {
     const int32_t e = element[j], k = S->work_of[e], *signal = S->el_sig + S->el_sig_ptr[e];

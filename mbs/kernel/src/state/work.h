@@ -3,7 +3,7 @@
 #define ALI3_WORK_H
 #include "../instance.h"
 
-void ali3_work_keep(const ali3_instance *in, ali3_vectors *v);
+void ali3_work_store(const ali3_instance *in, ali3_vectors *v);
 void ali3_work_start(const ali3_instance *in, ali3_vectors *v);
 void ali3_work_reopen(ali3_instance *in);
 void ali3_work_step(ali3_instance *in, double share);

@@ -1,6 +1,6 @@
 /* The types of sensors of a System file, in one list. From it come the enumeration below, the loader's checks
- * (check_sensors.c), the functions that sensors.c and sensor_tangent.c must have, `SensorType` in Python and the table
- * of docs/system_file.md; the last two are written by `python mbs/kernel/read_headers.py`. */
+ * (check_sensors.c), the functions that sensors.c and sensor_derivative.c must have, `SensorType` in Python and the
+ * table of docs/system_file.md; the last two are written by `python mbs/kernel/read_headers.py`. */
 #ifndef ALI3_SENSOR_TYPES_H
 #define ALI3_SENSOR_TYPES_H
 #include <stdint.h>

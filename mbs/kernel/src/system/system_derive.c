@@ -10,55 +10,44 @@
 #include "../tree/tree.h"
 #include "loading.h"
 #include "message.h"
+#include "pool.h"
 #include "sensor_types.h"
 
 enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
 
-/* Hands out aligned pieces of one block; with a NULL block it only counts. */
-typedef struct {
-  char *block;
-  size_t used;
-} ali3_pool;
-
-static void *take(ali3_pool *pool, size_t count, size_t item) {
-  void *piece = pool->block != NULL ? pool->block + pool->used : NULL;
-  pool->used += (count * item + 15u) / 16u * 16u;
-  return piece;
-}
-
 static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne, na = (size_t)s->n_angle_row;
-  s->hess_ptr = take(p, (size_t)s->n_row_col + 1, sizeof(int32_t));
-  s->hess_col = take(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
-  s->hess_val = take(p, 2 * (size_t)s->n_quad_a, sizeof(double));
-  s->row_round = take(p, (size_t)s->size.nc, sizeof(double));
-  s->row_wide = take(p, (size_t)s->size.nc, 1);
-  s->quad = take(p, (size_t)s->n_quad_a, sizeof *s->quad);
-  s->angle = take(p, (size_t)s->n_angle_a, sizeof *s->angle);
-  s->angle_theta_col = take(p, na, sizeof(int32_t));
-  s->angle_theta_j = take(p, na, sizeof(int32_t));
-  s->angle_theta_pos = take(p, na, sizeof(int32_t));
-  s->gterm = take(p, (size_t)s->n_gterm_row, sizeof *s->gterm);
-  s->velocity = take(p, (size_t)s->n_velocity_a, sizeof *s->velocity);
-  s->front_mass = take(p, (size_t)s->size.front_size, sizeof(double));
-  s->mass_floor = take(p, nq, sizeof(double));
-  s->mass_floor_inverse = take(p, nq, sizeof(double));
-  s->mass_missing = take(p, nq, sizeof(double));
-  s->diagonal_pos = take(p, nq, sizeof(int32_t));
-  s->el_kind = take(p, ne, sizeof *s->el_kind);
-  s->el_S_off = take(p, ne + 1, sizeof(int32_t));
-  s->work_of = take(p, ne, sizeof(int32_t));
-  s->work_element = take(p, ne, sizeof(int32_t));
-  s->work_ptr = take(p, ne + 1, sizeof(int32_t));
-  s->el_entry_ptr = take(p, ne + 1, sizeof(int32_t));
-  s->el_entry_signal = take(p, n_entry, sizeof(int32_t));
-  s->el_entry_local = take(p, n_entry, sizeof(int32_t));
-  s->el_entry_value = take(p, n_entry, sizeof(double));
-  s->el_coordinate_ptr = take(p, ne + 1, sizeof(int32_t));
-  s->el_coordinate_loc = take(p, n_entry, sizeof(int32_t));
-  s->active_signal = take(p, (size_t)s->size.nsig, sizeof(int32_t));
-  s->flex_square = take(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
-  s->tree = s->n_tree_parent > 0 ? take(p, 1, sizeof *s->tree) : NULL;
+  s->hess_ptr = ali3_pool_items(p, (size_t)s->n_row_col + 1, sizeof(int32_t));
+  s->hess_col = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
+  s->hess_val = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(double));
+  s->row_round = ali3_pool_items(p, (size_t)s->size.nc, sizeof(double));
+  s->row_wide = ali3_pool_items(p, (size_t)s->size.nc, 1);
+  s->quad = ali3_pool_items(p, (size_t)s->n_quad_a, sizeof *s->quad);
+  s->angle = ali3_pool_items(p, (size_t)s->n_angle_a, sizeof *s->angle);
+  s->angle_theta_col = ali3_pool_items(p, na, sizeof(int32_t));
+  s->angle_theta_j = ali3_pool_items(p, na, sizeof(int32_t));
+  s->angle_theta_pos = ali3_pool_items(p, na, sizeof(int32_t));
+  s->gterm = ali3_pool_items(p, (size_t)s->n_gterm_row, sizeof *s->gterm);
+  s->velocity = ali3_pool_items(p, (size_t)s->n_velocity_a, sizeof *s->velocity);
+  s->front_mass = ali3_pool_items(p, (size_t)s->size.front_size, sizeof(double));
+  s->mass_floor = ali3_pool_items(p, nq, sizeof(double));
+  s->mass_floor_inverse = ali3_pool_items(p, nq, sizeof(double));
+  s->mass_missing = ali3_pool_items(p, nq, sizeof(double));
+  s->diagonal_pos = ali3_pool_items(p, nq, sizeof(int32_t));
+  s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
+  s->el_S_off = ali3_pool_items(p, ne + 1, sizeof(int32_t));
+  s->work_of = ali3_pool_items(p, ne, sizeof(int32_t));
+  s->work_element = ali3_pool_items(p, ne, sizeof(int32_t));
+  s->work_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
+  s->el_entry_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
+  s->el_entry_signal = ali3_pool_items(p, n_entry, sizeof(int32_t));
+  s->el_entry_local = ali3_pool_items(p, n_entry, sizeof(int32_t));
+  s->el_entry_value = ali3_pool_items(p, n_entry, sizeof(double));
+  s->el_coordinate_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
+  s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
+  s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
+  s->flex_square = ali3_pool_items(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
+  s->tree = s->n_tree_parent > 0 ? ali3_pool_items(p, 1, sizeof *s->tree) : NULL;
 }
 
 /* Front storage index of the product of entries i >= j of the Jacobian in row k. */
@@ -69,7 +58,7 @@ static int32_t row_pos(const ali3_system *s, int32_t k, int32_t i, int32_t j) {
 }
 
 static ali3_term make_term(const ali3_system *s, int32_t k, int32_t a, int32_t b, double h) {
-  ali3_term t = {-1, -1, -1, -1, -1, h};
+  ali3_term t = {.a = -1, .b = -1, .ja = -1, .jb = -1, .pos = -1, .h = h};
   if (a >= 0) {
     t.ja = s->row_ptr[k] + a;
     t.a = s->row_col[t.ja];
@@ -88,8 +77,10 @@ static void derive_rows(ali3_system *s) {
       s->quad[t] = make_term(s, k, s->quad_a[t], s->quad_b[t], s->quad_h[t]);
   for (int64_t t = 0; t < s->n_gterm_row; t++) {
     const int32_t k = s->gterm_row[t];
-    const ali3_guide_term g = {make_term(s, k, s->gterm_a[t], s->gterm_b[t], s->gterm_h[t]), k, s->gterm_guide[t],
-                               s->gterm_power[t]};
+    const ali3_guide_term g = {.term = make_term(s, k, s->gterm_a[t], s->gterm_b[t], s->gterm_h[t]),
+                               .row = k,
+                               .guide = s->gterm_guide[t],
+                               .power = s->gterm_power[t]};
     s->gterm[t] = g;
   }
   for (int64_t i = 0; i < s->n_velocity_row; i++)
@@ -102,15 +93,15 @@ static void derive_rows(ali3_system *s) {
     s->angle_theta_pos[i] = row_pos(s, k, theta, theta);
     for (int32_t t = s->angle_ptr[i]; t < s->angle_ptr[i + 1]; t++) {
       const ali3_term base = make_term(s, k, s->angle_a[t], s->angle_b[t], 0.0);
-      const ali3_angle_term term = {base.a,
-                                    base.b,
-                                    base.ja,
-                                    base.jb,
-                                    base.pos,
-                                    base.ja < 0 ? -1 : row_pos(s, k, theta, base.ja),
-                                    base.jb < 0 ? -1 : row_pos(s, k, theta, base.jb),
-                                    s->angle_hc[t],
-                                    s->angle_hs[t]};
+      const ali3_angle_term term = {.a = base.a,
+                                    .b = base.b,
+                                    .ja = base.ja,
+                                    .jb = base.jb,
+                                    .pos = base.pos,
+                                    .pos_a = base.ja < 0 ? -1 : row_pos(s, k, theta, base.ja),
+                                    .pos_b = base.jb < 0 ? -1 : row_pos(s, k, theta, base.jb),
+                                    .hc = s->angle_hc[t],
+                                    .hs = s->angle_hs[t]};
       s->angle[t] = term;
     }
   }

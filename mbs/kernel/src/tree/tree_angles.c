@@ -1,5 +1,5 @@
-/* Relative angles of a tree: an angle is where it is when its joints are at zero, plus the sum of their coordinates, each
- * with its sign, because all of them turn about the axis of the angle. Nothing has to be wrapped or unwrapped. */
+/* Relative angles of a tree: an angle is where it is when its joints are at zero, plus the sum of their coordinates,
+ * each with its sign, because all of them turn about the axis of the angle. Nothing has to be wrapped or unwrapped. */
 #include "../system.h"
 #include "tree.h"
 

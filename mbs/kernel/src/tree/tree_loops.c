@@ -3,7 +3,7 @@
  *     J_d x_d + J_i x_i = -b,     x_d = g - G x_i,     R' M R x_i = R' (load - M (g, 0)),     R = (-G, 1). */
 #include <math.h>
 
-#include "../elements/element_math.h"
+#include "../algebra/small_vectors.h"
 #include "../system.h"
 #include "tree.h"
 

@@ -1,6 +1,6 @@
 /* Between the relative coordinates of a tree and the natural coordinates of its System. */
 #include "../algebra/elementary.h"
-#include "../elements/element_math.h"
+#include "../algebra/small_vectors.h"
 #include "../instance.h"
 #include "tree.h"
 

@@ -1,10 +1,10 @@
-/* Whether a System has a memory beside q and qd. */
-#include "without_memory.h"
+/* Whether q and qd are all states of a System. */
+#include "without_states.h"
 #include "../rows/guides.h"
 #include "../system.h"
 
 /* No element states and no filtered guides: what a stage inside a step needs is then known from q, qd and the time. */
-bool ali3_without_memory(const ali3_system *S) {
+bool ali3_without_states(const ali3_system *S) {
   if (S->size.ny > 0) return false;
   for (int32_t g = 0; g < S->size.ng; g++)
     if (S->guide_type[g] == ALI3_GUIDE_OF_INPUT) return false;

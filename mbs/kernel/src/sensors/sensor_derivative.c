@@ -1,4 +1,4 @@
-/* Change of the sensor values along in->tangent, a direction in the space of states: a function for each type.
+/* Change of the sensor values along in->direction, a direction in the space of states: a function for each type.
  * Along (qd, qdd, ...) it is the rate of a sensor. */
 #include <math.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static moving vector(const ali3_instance *in, const int32_t *v, int32_t order, i
   moving m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (int32_t i = 0; i < n; i++) {
     m.v[i] = signal(in->system, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
-    m.d[i] = signal(in->system, &in->tangent, v[i], order);
+    m.d[i] = signal(in->system, &in->direction, v[i], order);
   }
   return m;
 }
@@ -47,15 +47,15 @@ static double angle_change(double y, double x, double dy, double dx) {
 }
 
 static double change_signal(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in->system, &in->tangent, v[0], 0);
+  return real[0] * signal(in->system, &in->direction, v[0], 0);
 }
 
 static double change_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in->system, &in->tangent, v[0], 1);
+  return real[0] * signal(in->system, &in->direction, v[0], 1);
 }
 
 static double change_signal_second_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in->system, &in->tangent, v[0], 2);
+  return real[0] * signal(in->system, &in->direction, v[0], 2);
 }
 
 static double change_component(const ali3_instance *in, const int32_t *v, const double *real) {
@@ -104,7 +104,7 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
   const int32_t nq = in->system->size.nq;
   for (int side = -1; side <= 1; side += 2) {
     double twice = 0.0, of_weight = 0.0, of_strain = 0.0;
-    for (int32_t i = 0; i < nq; i++) in->w[i] = in->now.q[i] + side * in->tangent.q[i];
+    for (int32_t i = 0; i < nq; i++) in->w[i] = in->now.q[i] + side * in->direction.q[i];
     ali3_flexible_prepare(in, in->w);
     ali3_flexible_energy(in, in->w, &of_weight, &of_strain);
     memset(in->x, 0, (size_t)nq * sizeof(double));
@@ -117,7 +117,7 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
 }
 
 static double change_element_output(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * in->tangent.out[in->system->el_out_ptr[v[0]] + v[1]];
+  return real[0] * in->direction.out[in->system->el_out_ptr[v[0]] + v[1]];
 }
 
 static double change_energy(const ali3_instance *in, const int32_t *v, const double *real) {
@@ -128,17 +128,17 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
   ali3_flexible_prepare(in, in->now.q);
   ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    kinetic += in->x[i] * in->tangent.qd[i];
-    gravity -= S->gravity_force[i] * in->tangent.q[i];
+    kinetic += in->x[i] * in->direction.qd[i];
+    gravity -= S->gravity_force[i] * in->direction.q[i];
   }
-  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->tangent.potential[e];
+  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->direction.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
 }
 
 static double change_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
-  for (int32_t i = 0; i < v[0]; i++) sum += weight[i] * in->system->row_scale[v[1 + i]] * in->tangent.lam[v[1 + i]];
+  for (int32_t i = 0; i < v[0]; i++) sum += weight[i] * in->system->row_scale[v[1 + i]] * in->direction.lam[v[1 + i]];
   return sum;
 }
 
@@ -148,14 +148,14 @@ static double change_reaction_products(const ali3_instance *in, const int32_t *v
   for (int32_t k = 0; k < v[0]; k++) {
     const int32_t *term = v + 1 + 5 * k, row = term[0], guide = term[4];
     const double scale = weight[k] * in->system->row_scale[row];
-    double value = scale * in->now.lam[row], change = scale * in->tangent.lam[row];
+    double value = scale * in->now.lam[row], change = scale * in->direction.lam[row];
     for (int i = 1; i < 4; i++) {
       if (term[i] < 0) continue;
       const moving u = vector(in, term + i, 0, 1);
       change = change * u.v[0] + value * u.d[0];
       value *= u.v[0];
     }
-    if (guide >= 0) change = change * in->now.s[guide] + value * in->tangent.s[guide];
+    if (guide >= 0) change = change * in->now.s[guide] + value * in->direction.s[guide];
     sum += change;
   }
   return sum;
@@ -200,7 +200,7 @@ static double change_quasi_static(const ali3_instance *in, const int32_t *v, con
     moving force;
     for (int k = 0; k < 3; k++) {
       force.v[k] = in->system->row_scale[row[k]] * in->now.lam[row[k]];
-      force.d[k] = in->system->row_scale[row[k]] * in->tangent.lam[row[k]];
+      force.d[k] = in->system->row_scale[row[k]] * in->direction.lam[row[k]];
     }
     for (int i = 0; i < 3; i++) sum += weight[i] * dot_change(&axis[i], &force);
   }
@@ -215,11 +215,11 @@ static double change_quasi_static(const ali3_instance *in, const int32_t *v, con
 
 static double change_input(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
-  return in->tangent.used[v[0]];
+  return in->direction.used[v[0]];
 }
 
 static double change_guide(const ali3_instance *in, const int32_t *v, const double *real) {
-  const double *of_order[3] = {in->tangent.s, in->tangent.sd, in->tangent.sdd};
+  const double *of_order[3] = {in->direction.s, in->direction.sd, in->direction.sdd};
   return real[0] * of_order[v[1]][v[0]];
 }
 
@@ -241,7 +241,7 @@ static sensor_function *const change_of[ALI3_SENSOR_TYPE_COUNT] = {
 #undef ALI3_SENSOR_TYPE
 };
 
-void ali3_sensors_tangent(const ali3_instance *in, double *out) {
+void ali3_sensors_derivative(const ali3_instance *in, double *out) {
   const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.ns; i++)
     out[i] = change_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
@@ -266,7 +266,7 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const ali3_system *S = in->system;
   const ali3_vectors *now = &in->now;
-  ali3_vectors *d = &in->tangent;
+  ali3_vectors *d = &in->direction;
   const size_t nq = (size_t)S->size.nq * sizeof(double), ng = (size_t)S->size.ng * sizeof(double);
   memset(d->q, 0, in->n_vector * sizeof(double));
   if (nq > 0) {
@@ -277,7 +277,7 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
     memcpy(d->s, now->sd, ng);
     memcpy(d->sd, now->sdd, ng);
   }
-  ali3_sensors_tangent(in, rates);
+  ali3_sensors_derivative(in, rates);
   for (int32_t i = 0; i < S->size.ns; i++) {
     known[i] = rate_known(S->sen_type[i], S->sen_int + S->sen_int_ptr[i]);
     if (!known[i]) rates[i] = 0.0;

@@ -1,0 +1,71 @@
+"""Whether a release is ready: ``python .ci/check_release.py [TAG]`` prints its notes, or says what does not fit.
+
+The version stands in pyproject.toml; the tag, the section of CHANGELOG.md, CITATION.cff and the date that FMUs carry
+must agree with it. Without a tag, only the places that must agree at any time are compared.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def problems(root: Path, tag: str | None) -> list[str]:
+    """Sentences about what does not fit."""
+    version = version_of(root)
+    found = []
+    cited = _first(r"^version: *(\S+)$", root / "CITATION.cff")
+    if cited != version:
+        found.append(f"CITATION.cff says version {cited}, pyproject.toml {version}.")
+    if tag is None:
+        return found
+    if tag != f"v{version}":
+        found.append(f"The tag is {tag}; pyproject.toml says version {version}, whose tag is v{version}.")
+    date, text = section(root, version)
+    if date is None:
+        return [*found, f"CHANGELOG.md has no heading '## [{version}] - YYYY-MM-DD'."]
+    if not text:
+        found.append(f"The section [{version}] of CHANGELOG.md is empty.")
+    for name, pattern in (
+        ("CITATION.cff", r"^date-released: *[\"']?([\d-]+)"),
+        ("fmu_src/description.py", r'^RELEASE_DATE = "([\d-]+)T'),
+    ):
+        other = _first(pattern, root / name)
+        if other != date:
+            found.append(f"CHANGELOG.md says that {version} is of {date}, {name} says {other or 'nothing'}.")
+    return found
+
+
+def version_of(root: Path) -> str | None:
+    """The version of pyproject.toml."""
+    return _first(r'^version = "(.+)"$', root / "pyproject.toml")
+
+
+def section(root: Path, version: str | None) -> tuple[str | None, str]:
+    """Date and text of a version in CHANGELOG.md; None without a heading with a date."""
+    text = (root / "CHANGELOG.md").read_text(encoding="utf-8")
+    found = re.search(rf"^## \[{re.escape(str(version))}\] - (\d{{4}}-\d\d-\d\d)\n(.*?)(?=^## |\Z)", text, re.M | re.S)
+    return (found[1], found[2].strip()) if found else (None, "")
+
+
+def _first(pattern: str, file: Path) -> str | None:
+    found = re.search(pattern, file.read_text(encoding="utf-8"), re.M)
+    return found[1] if found else None
+
+
+def main() -> int:
+    """Run the command."""
+    tag = sys.argv[1] if len(sys.argv) > 1 else None
+    found = problems(ROOT, tag)
+    for sentence in found:
+        print(f"error: {sentence}", file=sys.stderr)
+    if not found and tag is not None:
+        print(section(ROOT, version_of(ROOT))[1])
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,8 @@
+/* The memory of an instance. */
+#ifndef ALI3_WORKSPACE_H
+#define ALI3_WORKSPACE_H
+#include "../instance.h"
+#include "../system/pool.h"
+
+void ali3_workspace_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool);
+#endif
