@@ -39,6 +39,17 @@ def external_model(
     dof : array_like of int, shape (n, 6), optional
         Number of each freedom, -1 for none. By default node after node with the six freedoms x, y, z, rx, ry, rz, or
         with x, y, z when the matrices have three freedoms per node.
+
+    Returns
+    -------
+    FiniteElementModel
+        With symmetric matrices.
+
+    Raises
+    ------
+    ModelError
+        A matrix is not symmetric or not of the right size, the stiffness holds the model to the ground, a mass is
+        negative, or the units cannot be SI.
     """
     x = np.array(positions, float)
     if x.ndim != 2 or x.shape[1] != 3 or not np.isfinite(x).all():

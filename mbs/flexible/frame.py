@@ -160,6 +160,16 @@ class Frame:
             "consistent" or "lumped", see `beam_mass_points`.
         rotary : bool
             Whether the sections of the beams carry their rotary inertia.
+
+        Returns
+        -------
+        FiniteElementModel
+            Free, with the nodes of the frame.
+
+        Raises
+        ------
+        ModelError
+            The kind of mass is none, or the units cannot be SI.
         """
         n = len(self.positions)
         rows, columns, values = [], [], []

@@ -19,6 +19,10 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
 
     Parameters
     ----------
+    model : FiniteElementModel
+        Free or held.
+    count : int
+        How many.
     held : array_like of int
         Degrees of freedom held to zero.
 
@@ -28,6 +32,11 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
         Hz, ascending.
     shapes : ndarray, shape (n_dof, count)
         Mass-normalised; the largest entry of each is positive.
+
+    Raises
+    ------
+    ModelError
+        More modes are asked for than there are, or a motion has neither stiffness nor mass.
     """
     free = np.setdiff1d(np.arange(model.n_dof), np.asarray(held, int))
     K = sp.csc_array(model.K[free][:, free])

@@ -81,6 +81,16 @@ def inertia_relief(
         Nodes where forces act.
     rows : ndarray or sparse array, shape (n_outputs, n_dof)
         Outputs per unit nodal displacement, e.g. of `recovery.gauge_rows`.
+
+    Returns
+    -------
+    InertiaRelief
+        Its matrices.
+
+    Raises
+    ------
+    ModelError
+        The rows have not one column for each freedom, or a node does not exist.
     """
     fixed = FixedInterface(model, reference, ())
     if rows.shape[1] != model.n_dof:

@@ -55,6 +55,12 @@ def modes_for_output(
 
     Parameters
     ----------
+    model : FiniteElementModel
+        Free model.
+    reference : str, int or three of them
+        Node of the floating frame.
+    interfaces : sequence of Interface, str or int
+        Nodes of joints and forces, held.
     rows : ndarray or sparse array, shape (n_outputs, n_dof)
         Outputs per unit nodal displacement.
     tolerance : float
@@ -65,6 +71,16 @@ def modes_for_output(
         Highest frequency of the accelerations that matters, Hz; 0 for steady ones.
     inertia_modes : bool
         Whether the reduction will have the inertia modes.
+
+    Returns
+    -------
+    ModeChoice
+        The modes, and what they leave out.
+
+    Raises
+    ------
+    ModelError
+        The tolerance is no fraction, or the candidates leave a larger error.
     """
     if not 0 < tolerance < 1:
         raise ModelError(f"The tolerance on an output is {tolerance:g}; a fraction between 0 and 1 is needed.")
