@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import not_negative, positive
-from mbs.elements.checks import index, size
+from mbs.elements.checks import index, several, size
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -91,7 +91,7 @@ class AutomaticDrive:
         size(g, (3,), f"The vector g of {what}")
         names = tuple(field.name for field in fields(self) if field.name != "ratios")
         values = [not_negative(getattr(self, n), f"The {n.replace('_', ' ')} of {what}") for n in names]
-        ratios = [positive(r, f"A ratio of {what}") for r in self.ratios]
+        ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
         if not ratios or any(b >= a for a, b in pairwise(ratios)):
             raise ValueError(f"The ratios of {what} are {ratios}; they must fall, with at least one.")
         if not 1 <= gear <= len(ratios):

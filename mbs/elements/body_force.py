@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import index, size
+from mbs.elements.checks import channels, size
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header import ElementType
 
@@ -52,8 +52,6 @@ class BodyForce:
         if len(axes) != (3 if dimension == 3 else 1) or any(len(a) != dimension for a in axes):
             wanted = "three vectors" if dimension == 3 else "one vector"
             raise ValueError(f"The axes of {what} must be {wanted} of {dimension} components.")
-        if len(self.inputs) != dimension:
-            raise ValueError(f"T{what[1:]} has {len(self.inputs)} inputs; it needs {dimension}, None for no force.")
-        numbers = [-1 if i is None else index(i, f"An input of {what}") for i in self.inputs]
+        numbers = channels(self.inputs, dimension, what)
         signals = [s for vector in (point, *axes) for s in vector.components]
         return ElementRecord(name, ElementType.BODY_FORCE, signals, (), (*numbers, -1)[:3])

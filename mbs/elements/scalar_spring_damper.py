@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import Affine
-from mbs.checks import not_negative, number
+from mbs.checks import not_negative, number, text
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -63,7 +63,7 @@ class ScalarSpringDamper:
                 number(self.free_value, f"The free value of {what}"),
                 number(self.constant, f"The constant force of {what}"),
             ),
-            outputs=(Output("force", self.unit, "generalised force on the coordinate"),),
+            outputs=(Output("force", text(self.unit, f"The unit of {what}"), "generalised force on the coordinate"),),
             real_names=("stiffness", "damping", "free_value", "constant"),
             real_checks=(not_negative, not_negative, number, number),
             elastic=True,

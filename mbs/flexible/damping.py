@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.checks import number
 from mbs.errors import ModelError
 
 
@@ -37,8 +38,9 @@ class RayleighDamping:
         ModelError
             The ratio is negative, or the frequencies are not 0 < low < high.
         """
-        if ratio < 0:
+        if number(ratio, "The modal damping ratio") < 0:
             raise ModelError(f"The modal damping ratio is {ratio:g}; it cannot be negative.")
+        low, high = number(low, "The low frequency of the fit"), number(high, "The high frequency of the fit")
         if not 0 < low < high:
             raise ModelError(f"The frequencies of the fit are {low:g} and {high:g} Hz; 0 < first < second is needed.")
         w1, w2 = 2 * np.pi * low, 2 * np.pi * high

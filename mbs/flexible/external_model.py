@@ -9,9 +9,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
+from mbs.checks import numbers
 from mbs.errors import ModelError
 from mbs.flexible.checks import check_free, check_masses, check_symmetric, check_units
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.frame import node_labels
 from mbs.flexible.lumping import lumped_masses
 from mbs.flexible.mass_points import nodal_mass_points
 from mbs.flexible.sparse import Sparse
@@ -51,13 +53,11 @@ def external_model(
         A matrix is not symmetric or not of the right size, the stiffness holds the model to the ground, a mass is
         negative, or the units cannot be SI.
     """
-    x = np.array(positions, float)
+    x = numbers(positions, "the node positions", ModelError, "finite numbers of shape (n, 3)")
     if x.ndim != 2 or x.shape[1] != 3 or not np.isfinite(x).all():
         raise ModelError(f"Node positions have shape {x.shape}; finite numbers of shape (n, 3) are needed.")
     n = len(x)
-    labels = tuple(names) if names is not None else tuple(str(i) for i in range(n))
-    if len(labels) != n or len(set(labels)) != n:
-        raise ModelError(f"{n} nodes need {n} different names, not {len(set(labels))}.")
+    labels = node_labels(names, n)
     K = sp.csc_array(stiffness)
     check_symmetric(K, "stiffness")
     table = _freedom_table(dof, n, int(K.shape[0]))

@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import qr
 
+from mbs.checks import flag, is_finite, shown
 from mbs.errors import ModelError
 from mbs.flexible.mass_points import MassPoints
 
@@ -96,8 +97,10 @@ class FiniteElementModel:
             if which not in self.names:
                 raise ModelError(f"There is no node {which!r} among the {len(self.names)} nodes of the model.")
             return self.names.index(which)
-        if not 0 <= which < len(self.names):
-            raise ModelError(f"There is no node number {which}: the model has the nodes 0 to {len(self.names) - 1}.")
+        if not is_finite(which) or int(which) != which or not 0 <= which < len(self.names):
+            raise ModelError(
+                f"There is no node number {shown(which)}: the model has the nodes 0 to {len(self.names) - 1}."
+            )
         return int(which)
 
     def freedoms(self, which: str | int, rotations: bool = False) -> np.ndarray:
@@ -121,7 +124,9 @@ class FiniteElementModel:
             There is no such node, or it has no rotations.
         """
         node = self.node(which)
-        numbers = self.dof[node, 3:] if rotations else self.dof[node, :3]
+        numbers = (
+            self.dof[node, 3:] if flag(rotations, f"The rotations of node {self.names[node]!r}") else self.dof[node, :3]
+        )
         if (numbers < 0).any():
             raise ModelError(f"Node {self.names[node]!r} has no rotations: only nodes of beams and shells have them.")
         return numbers
@@ -147,7 +152,7 @@ class FiniteElementModel:
         ModelError
             There is no such node, it has no rotations, or the three nodes are on one line.
         """
-        if isinstance(reference, str | int):
+        if isinstance(reference, str) or not isinstance(reference, Sequence):
             return np.concatenate([self.freedoms(reference), self.freedoms(reference, rotations=True)])
         if len(reference) != 3:
             raise ModelError(f"The reference is one node with rotations or three nodes, not {len(reference)} nodes.")
@@ -179,5 +184,5 @@ class FiniteElementModel:
         ModelError
             There is no such node.
         """
-        first = reference if isinstance(reference, str | int) else reference[0]
+        first = reference if isinstance(reference, str) or not isinstance(reference, Sequence) else reference[0]
         return np.array(self.positions[self.node(first)])

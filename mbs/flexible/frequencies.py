@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import eigh
 from scipy.sparse.linalg import ArpackError, eigsh
 
+from mbs.checks import instance_of, whole
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 
@@ -38,6 +39,8 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
     ModelError
         More modes are asked for than there are, or a motion has neither stiffness nor mass.
     """
+    instance_of(FiniteElementModel, model, "The model", "a FiniteElementModel")
+    count = whole(count, "The count of modes", 0, 10**6)
     free = np.setdiff1d(np.arange(model.n_dof), np.asarray(held, int))
     K = sp.csc_array(model.K[free][:, free])
     M = sp.csc_array(model.mass_matrix()[free][:, free])

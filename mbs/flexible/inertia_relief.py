@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.checks import shown
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface
@@ -93,6 +94,8 @@ def inertia_relief(
         The rows have not one column for each freedom, or a node does not exist.
     """
     fixed = FixedInterface(model, reference, ())
+    if not isinstance(interfaces, (list, tuple)):
+        raise ModelError(f"The interfaces must be a list of nodes, not {shown(interfaces)}.")
     if rows.shape[1] != model.n_dof:
         raise ModelError(f"The output rows have {rows.shape[1]} columns; the model has {model.n_dof} freedoms.")
     loads = np.zeros((model.n_dof, 3 * len(interfaces)))

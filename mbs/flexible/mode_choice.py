@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.checks import is_finite, shown
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface, Interface
@@ -82,8 +83,8 @@ def modes_for_output(
     ModelError
         The tolerance is no fraction, or the candidates leave a larger error.
     """
-    if not 0 < tolerance < 1:
-        raise ModelError(f"The tolerance on an output is {tolerance:g}; a fraction between 0 and 1 is needed.")
+    if not is_finite(tolerance) or not 0 < tolerance < 1:
+        raise ModelError(f"The tolerance on an output is {shown(tolerance)}; a fraction between 0 and 1 is needed.")
     fixed = FixedInterface(model, reference, interfaces)
     hertz, modes = natural_modes(model, candidates, fixed.held_numbers())
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(reference)))

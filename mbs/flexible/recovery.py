@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from mbs.checks import instance_of, is_finite, shown
 from mbs.errors import ModelError
 from mbs.flexible.frame import Frame
 
@@ -47,8 +48,9 @@ def section_forces(frame: Frame, element: int, xi: float) -> sp.csr_array:
     ModelError
         The place is outside the beam, or there is no such beam.
     """
-    if not 0.0 <= xi <= 1.0:
-        raise ModelError(f"The place {xi:g} on beam {element} is outside the beam: 0 is its start and 1 its end.")
+    instance_of(Frame, frame, "The frame of the section forces", "a Frame")
+    if not is_finite(xi) or not 0.0 <= xi <= 1.0:
+        raise ModelError(f"The place {shown(xi)} on beam {element} is outside the beam: 0 is its start and 1 its end.")
     length, _ = frame.element_axes(element)
     end = end_forces(frame, element)[6:]
     shift = np.eye(6)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbs.checks import shown
 from mbs.errors import ModelError
 
 
@@ -106,8 +107,8 @@ class ReducedBody:
         ModelError
             The node is no interface; the message lists what there is.
         """
-        if name not in self.interfaces:
-            raise ModelError(f"Node {name!r} is not an interface; these are: {', '.join(self.interfaces)}.")
+        if not isinstance(name, str) or name not in self.interfaces:
+            raise ModelError(f"Node {shown(name)} is not an interface; these are: {', '.join(self.interfaces)}.")
         return self.interfaces[name]
 
     def interface_translation(self, name: str) -> np.ndarray:

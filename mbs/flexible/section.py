@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.checks import LARGEST, is_finite, shown
 from mbs.errors import ModelError
 
 
@@ -141,5 +142,5 @@ def _round_fibres(radius: float) -> tuple[tuple[float, float], ...]:
 
 def _positive(what: str, **lengths: float) -> None:
     for name, value in lengths.items():
-        if not (np.isfinite(value) and value > 0):
-            raise ModelError(f"The {name} of a {what} is {value} m; it must be positive.")
+        if not (is_finite(value) and 0.0 < value < LARGEST):
+            raise ModelError(f"The {name} of a {what} is {shown(value)} m; it must be positive.")

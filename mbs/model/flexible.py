@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector, vector
+from mbs.checks import Vector, is_finite, shown, vector
 from mbs.errors import ModelError
 from mbs.flexible.checks import check_turning_inertia
 from mbs.flexible.reduced_body import ReducedBody
@@ -112,8 +112,9 @@ class FlexibleBody(Body):
             if mode not in names:
                 raise ModelError(f"Flexible body '{self.name}' has no mode '{mode}'; it has: {', '.join(names)}.")
             mode = names.index(mode)
-        if not 0 <= mode < self.n_modes:
-            raise ModelError(f"Flexible body '{self.name}' has the modes 0 to {self.n_modes - 1}, not {mode}.")
+        if not is_finite(mode) or int(mode) != mode or not 0 <= mode < self.n_modes:
+            raise ModelError(f"Flexible body '{self.name}' has the modes 0 to {self.n_modes - 1}, not {shown(mode)}.")
+        mode = int(mode)
         return Affine({self.start + 12 + mode: 1.0})
 
     def combination(self, weights: ArrayLike) -> Affine:
@@ -214,8 +215,8 @@ class FlexibleBody(Body):
         ModelError
             No node is there.
         """
-        place = np.asarray(position, dtype=float)
-        if place.shape == (3,) and np.linalg.norm(place - self.com) <= SAME_PLACE:
+        place = vector(position, 3, f"a point of flexible body '{self.name}'")
+        if np.linalg.norm(place - self.com) <= SAME_PLACE:
             return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(3)))
         return self.interface_at(position, "a point").point()
 
@@ -324,8 +325,8 @@ class FlexibleBody(Body):
                 known = ", ".join(self.reduced.interfaces) or "none"
                 raise ModelError(f"Flexible body '{self.name}' has no node '{node}'; its interfaces are: {known}.")
             return names.index(node)
-        if not 0 <= node < len(names):
-            raise ModelError(f"Flexible body '{self.name}' has the nodes 0 to {len(names) - 1}, not {node}.")
+        if not is_finite(node) or int(node) != node or not 0 <= node < len(names):
+            raise ModelError(f"Flexible body '{self.name}' has the nodes 0 to {len(names) - 1}, not {shown(node)}.")
         return int(node)
 
     def _named(self) -> list[int]:

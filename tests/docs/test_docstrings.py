@@ -39,9 +39,9 @@ def _functions() -> dict[str, Any]:
         elif inspect.isclass(thing) and thing.__module__.startswith("mbs"):
             for method, given in inspect.getmembers(thing):
                 function = getattr(given, "__func__", given)
-                if inspect.isfunction(function) and not method.startswith("_"):
-                    if function.__module__.startswith("mbs"):
-                        found.setdefault(function, f"{name}.{method}")
+                public = inspect.isfunction(function) and not method.startswith("_")
+                if public and function.__module__.startswith("mbs"):
+                    found.setdefault(function, f"{name}.{method}")
     return {name: function for function, name in found.items()}
 
 
