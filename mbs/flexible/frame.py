@@ -108,7 +108,7 @@ class Frame:
         """
         if not is_finite(element) or int(element) != element or not 0 <= element < len(self.beams):
             raise ModelError(f"There is no beam {shown(element)}: the frame has the beams 0 to {len(self.beams) - 1}.")
-        beam = self.beams[element]
+        beam = self.beams[int(element)]
         return beam_axes(self.positions[beam.i], self.positions[beam.j])
 
     def element_freedoms(self, element: int) -> np.ndarray:

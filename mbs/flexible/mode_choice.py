@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.checks import is_finite, shown
+from mbs.checks import flag, is_finite, not_negative, shown, whole
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface, Interface
@@ -83,6 +83,9 @@ def modes_for_output(
     ModelError
         The tolerance is no fraction, or the candidates leave a larger error.
     """
+    flag(inertia_modes, "inertia_modes")
+    candidates = whole(candidates, "The number of candidates", 0, 10**6)
+    not_negative(frequency, "The frequency of the accelerations")
     if not is_finite(tolerance) or not 0 < tolerance < 1:
         raise ModelError(f"The tolerance on an output is {shown(tolerance)}; a fraction between 0 and 1 is needed.")
     fixed = FixedInterface(model, reference, interfaces)

@@ -66,7 +66,7 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
     "inertia_relief": (inertia_relief, {"model": MODEL, "reference": 0, "interfaces": [2]}),
     "modes_for_output": (
         modes_for_output,
-        {"model": MODEL, "reference": 0, "interfaces": [2], "tolerance": 0.5, "candidates": 5},
+        {"model": MODEL, "reference": 0, "interfaces": [2], "tolerance": 0.5, "candidates": 5, "inertia_modes": True},
     ),
     "fitted": (RayleighDamping.fitted, {"ratio": 0.02, "low": 1.0, "high": 100.0}),
     "section_forces": (section_forces, {"frame": FRAME, "element": 1, "xi": 0.5}),
@@ -86,7 +86,12 @@ def allowed(name: str, argument: str, kind: str, label: str, value: Any) -> bool
         return "None" in kind
     if label == "True":
         return kind.startswith("bool")
-    return (argument, label) in {("masses", "a mapping"), ("reference", "text"), ("names", "a list of text")}
+    return (argument, label) in {
+        ("masses", "a mapping"),
+        ("reference", "text"),
+        ("which", "text"),
+        ("names", "a list of text"),
+    }
 
 
 @pytest.mark.parametrize("name", CALLS)
