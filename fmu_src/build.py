@@ -126,7 +126,7 @@ class FmuBuilder:
             meta,
             pose=bool(meta["floating"]),
             step_size=float(meta["experiment"]["step_s"]),
-            fidelities=[k.name.lower() if isinstance(k, Enum) else "" for k in sorted(offered)],
+            fidelities=[_label(k) for k in sorted(offered)],
             fidelity=fidelity,
         )
         description = meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
@@ -173,6 +173,14 @@ class FmuBuilder:
         else:
             pack_native(contents, _FACES[kind], platforms, file, self._told, self._libraries)
         return file
+
+
+def _label(number: int) -> str:
+    """Name of a fidelity that is a member of an enumeration, with its description where it has one."""
+    if not isinstance(number, Enum):
+        return ""
+    text = getattr(number, "description", "")
+    return f"{number.name.lower()} ({text})" if text else str(number.name.lower())
 
 
 @contextmanager

@@ -103,8 +103,8 @@ def variable_table(
     step_size : float
         Default inner step, s.
     fidelities : sequence of str
-        Names of the Systems to choose from, empty where they have none; all must share inputs, parameters and sensors
-        (`check_fidelities`).
+        What to call the Systems to choose from, empty where they have no names; all must share inputs, parameters and
+        sensors (`check_fidelities`).
     fidelity : int
         The default one.
 
@@ -150,7 +150,7 @@ def variable_table(
     )
     if len(fidelities) > 1:
         named = ", ".join(f"{k} {name}" for k, name in enumerate(fidelities) if name)
-        text = "Level of detail of the model, from the least to the most" + (f": {named}" if named else "")
+        text = "Level of detail of the model" + (f": {named}" if named else "")
         last = float(len(fidelities) - 1)
         table.append(
             Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)

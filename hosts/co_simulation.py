@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.driver import ACTS, SENSES, Driver
+from hosts.driver import ACTS, SENSES, Driver, make_driver
 from hosts.errors import HostError
 from hosts.fmu import Fmu, StepRefusedError
 from hosts.manoeuvre import Manoeuvre
@@ -100,6 +100,27 @@ def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | N
         return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
 
 
+def driver_of(fmu: Fmu, manoeuvre: Manoeuvre) -> Driver | None:
+    """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
+
+    Raises
+    ------
+    HostError
+        If the FMU is no car for a driver, or a setting is wrong or missing.
+    """
+    if not manoeuvre.driver:
+        return None
+    _check_drivable(fmu)
+    return make_driver(manoeuvre.driver, fmu.constants())
+
+
+def _check_drivable(fmu: Fmu) -> None:
+    inputs, outputs = fmu.names("input"), fmu.names("output")
+    missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
+    if missing:
+        raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+
+
 def run(
     fmu: Fmu,
     manoeuvre: Manoeuvre,
@@ -134,9 +155,7 @@ def run(
                 f"its inputs are: {', '.join(inputs) or 'none'}."
             )
     if driver is not None:
-        missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
-        if missing:
-            raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+        _check_drivable(fmu)
     used = list(dict.fromkeys([*manoeuvre.inputs, *(ACTS if driver is not None else ())]))
     set_inputs, get_outputs = fmu.setter(used), fmu.getter(outputs)
     senses = [outputs.index(n) for n in SENSES] if driver is not None else []

@@ -48,8 +48,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.dr
 def _drive(
     path: Path, name: str, step: float | None, out: Path, fidelity: float | None, known: Mapping[str, float]
 ) -> int:
-    from hosts.co_simulation import communication_step, run_with_bar
-    from hosts.driver import make_driver
+    from hosts.co_simulation import communication_step, driver_of, run_with_bar
     from hosts.fmu import Fmu
     from hosts.manoeuvre import load_manoeuvre
     from hosts.result_files import print_result, result_paths, write_csv
@@ -63,7 +62,7 @@ def _drive(
         raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
     manoeuvre = replace(manoeuvre, driver=dict(manoeuvre.driver) | {k: repr(v) for k, v in known.items()})
     with Fmu(path) as fmu:
-        driver = make_driver(manoeuvre.driver, fmu.constants()) if manoeuvre.driver else None
+        driver = driver_of(fmu, manoeuvre)
         table, picture = result_paths(out, f"{_words(path.stem)}_{manoeuvre.name}")
         step = communication_step(fmu, manoeuvre, step)
         result = run_with_bar(fmu, manoeuvre, step, driver)

@@ -1,4 +1,4 @@
-"""What a run with fixed steps finds out about its own error: from the books of energy at no cost, and where these make
+"""What a run with fixed steps finds out about its own error: from its energy balance at no cost, and where that makes
 it suspect from a repeat with shorter steps.
 """
 
@@ -130,7 +130,7 @@ def is_suspect(report: Report, steps: int, halvings: int, method: str) -> bool:
     miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
     turned = report.velocity_path / speed
     blind = (
-        METHOD_TABLE[method].books_decide
+        METHOD_TABLE[method].balance_decides
         and turned > 0.0
         and report.energy_balance < BLIND * (2.0 * miss / turned) ** 2
     )
@@ -205,24 +205,24 @@ def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> f
     """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
     most = float(METHOD_TABLE[method].order)
     first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if not METHOD_TABLE[method].books_decide or not (second > 0.0 and first > second):
+    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
         return most
     return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
 
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     """What is known without a repeat."""
-    books = report.kinetic_peak > 0.0
+    balanced = report.kinetic_peak > 0.0
     return Accuracy(
-        report.energy_balance if books else None,
-        report.energy_error if books else None,
+        report.energy_balance if balanced else None,
+        report.energy_error if balanced else None,
         halvings / max(steps, 1),
     )
 
 
 def balance_says(report: Report, method: str, driven: bool) -> bool:
     """Whether the energy balance alone says that a result is wrong; a drive whose rate jumps gives energy at once."""
-    return METHOD_TABLE[method].books_decide and not driven and report.energy_balance > WRONG_BALANCE
+    return METHOD_TABLE[method].balance_decides and not driven and report.energy_balance > WRONG_BALANCE
 
 
 def balance_text(report: Report) -> str:
@@ -238,7 +238,7 @@ def remedy(system: System, method: str, h: float, accuracy: Accuracy, report: Re
     """A step or a method with which the result would be right to about a hundredth, in a sentence."""
     order = accuracy.order or float(METHOD_TABLE[method].order)
     made = h / (1.0 + accuracy.halvings_per_step)
-    shares = [GOAL_DRIFT / drift(report)] if METHOD_TABLE[method].books_decide and drift(report) > GOAL_DRIFT else []
+    shares = [GOAL_DRIFT / drift(report)] if METHOD_TABLE[method].balance_decides and drift(report) > GOAL_DRIFT else []
     if accuracy.error:
         shares.append(GOAL_ERROR / accuracy.error)
     step = _rounded_down(made * min([*shares, 0.5**order]) ** (1.0 / order))

@@ -25,7 +25,7 @@ class Method:
     suspect_miss : float
         Summed predictor differences of velocity over the largest one, from which on a run is suspect; a third to half
         of the smallest of a wrong run in the survey.
-    books_decide : bool
+    balance_decides : bool
         Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
         runge_kutta_8 errs where it is stiff.
     looks_at_ends : bool
@@ -41,7 +41,7 @@ class Method:
     order: int = 2
     project: bool | None = None
     suspect_miss: float = math.inf
-    books_decide: bool = False
+    balance_decides: bool = False
     looks_at_ends: bool = False
     conservative_only: bool = False
     tree_only: bool = False
@@ -65,7 +65,7 @@ METHOD_TABLE = {
         number=MethodNumber.ALI3P,
         title="ALi3-P",
         suspect_miss=1.3,
-        books_decide=True,
+        balance_decides=True,
         looks_at_ends=True,
     ),
     "ali3p_no_projection": Method(
@@ -79,7 +79,7 @@ METHOD_TABLE = {
         number=MethodNumber.GENERALISED_ALPHA,
         title="ALi3-P, generalised-α",
         suspect_miss=1.3,
-        books_decide=True,
+        balance_decides=True,
         looks_at_ends=True,
     ),
     "energy_momentum": Method(

@@ -111,7 +111,7 @@ def test_files_of_the_user_cannot_break_a_command(script: Path, crowded: Path) -
     assert "nothing bad found" in done.stdout
     done = ran([script, "drive", "-m", "double_lane_change", "dist/Pendulum.fmu"], crowded)
     assert done.returncode == 2
-    assert "The driver needs the wheelbase" in done.stderr
+    assert "The driver needs variables" in done.stderr
 
 
 def test_as_a_module_it_forgets_the_current_folder(crowded: Path) -> None:

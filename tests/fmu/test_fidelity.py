@@ -165,6 +165,7 @@ def test_names_of_fidelities_stand_in_the_description(tmp_path: Path) -> None:
         "from enum import IntEnum\n"
         "from mbs.scenes import pendulum\n"
         "class Level(IntEnum):\n    RIGID = 0\n    QUASI_STATIC = 1\n"
+        "Level.RIGID.description = 'no stresses'\n"
         "def build(fidelity=Level.QUASI_STATIC): return pendulum.build()\n"
         "def fidelities(): return {k: build for k in reversed(Level)}\n"
     )
@@ -172,7 +173,7 @@ def test_names_of_fidelities_stand_in_the_description(tmp_path: Path) -> None:
     assert (list(systems), default) == ([0, 1], 1)
     fmu = build_fmu(systems, name, tmp_path, [fmpy.platform], fidelity=default)
     (v,) = (v for v in read_model_description(str(fmu)).modelVariables if v.name == "fidelity")
-    assert v.description.endswith("from the least to the most: 0 rigid, 1 quasi_static")
+    assert v.description == "Level of detail of the model: 0 rigid (no stresses), 1 quasi_static"
     assert (v.type, v.start, v.min, v.max) == ("Integer", "1", "0", "1")
 
 
