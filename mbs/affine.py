@@ -64,7 +64,18 @@ class Affine:
     __rmul__ = __mul__
 
     def value(self, q_full: NDArray[np.float64]) -> float:
-        """Value at full coordinates `q_full`."""
+        """Value at full coordinates.
+
+        Parameters
+        ----------
+        q_full : ndarray, shape (n,)
+            Full coordinates.
+
+        Returns
+        -------
+        float
+            In the unit of the expression.
+        """
         return self.constant + sum(c * float(q_full[i]) for i, c in self.terms.items())
 
 
@@ -92,16 +103,49 @@ class AffineVector:
     __rmul__ = __mul__
 
     def dot(self, constant: ArrayLike) -> Affine:
-        """Product with a constant vector."""
+        """Product with a constant vector.
+
+        Parameters
+        ----------
+        constant : array_like, shape (2,) or (3,)
+            As many numbers as there are components.
+
+        Returns
+        -------
+        Affine
+            The expression.
+        """
         return sum_affine(a * float(c) for a, c in zip(self.components, np.asarray(constant, float), strict=True))
 
     def value(self, q_full: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Value at full coordinates `q_full`, shape (2,) or (3,)."""
+        """Value at full coordinates.
+
+        Parameters
+        ----------
+        q_full : ndarray, shape (n,)
+            Full coordinates.
+
+        Returns
+        -------
+        ndarray, shape (2,) or (3,)
+            In earth axes.
+        """
         return np.array([a.value(q_full) for a in self.components])
 
     @staticmethod
     def constant(values: ArrayLike) -> AffineVector:
-        """A point or vector fixed in the earth."""
+        """A point or vector fixed in the earth.
+
+        Parameters
+        ----------
+        values : array_like, shape (2,) or (3,)
+            Earth axes, m or without unit.
+
+        Returns
+        -------
+        AffineVector
+            Whose expressions hold no coordinate.
+        """
         return AffineVector(tuple(Affine({}, float(v)) for v in np.asarray(values, float)))
 
 

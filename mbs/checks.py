@@ -119,9 +119,13 @@ def whole(
     elif least is not None:
         span = ", zero or above" if least == 0 else f", {least} or above"
     good = is_finite(value) and int(value) == value  # type: ignore[call-overload]
+    if least is not None and most is not None and most - least < 3:
+        few = [str(k) for k in range(least, most + 1)]
+        span = f": {', '.join(few[:-1])} or {few[-1]}" if len(few) > 1 else f": {few[0]}"
     n = int(value) if good else 0  # type: ignore[call-overload]
     if not good or (least is not None and n < least) or (most is not None and n > most):
-        raise error(f"{capital(what)} is {shown(value)}; it must be a whole number{span}.")
+        must = span[2:] if span.startswith(":") else f"a whole number{span}"
+        raise error(f"{capital(what)} is {shown(value)}; it must be {must}.")
     return n
 
 
@@ -152,7 +156,7 @@ def named(value: object, what: str, error: Error = ModelError) -> str:
 def one_of(value: object, words: Collection[str], what: str, error: Error = ModelError) -> str:
     """One of some words."""
     if not isinstance(value, str) or value not in words:
-        known = [repr(w) for w in words]
+        known = [repr(w) for w in words] if len(words) < 4 or all(len(w) == 1 for w in words) else list(words)
         said = " or ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
         raise error(f"{capital(what)} is {shown(value)}; it must be {said}.")
     return str(value)

@@ -41,3 +41,7 @@ class SimulationError(RuntimeError):
         self.time = time
         self.status = status
         self.trajectory = trajectory
+
+
+class PoseError(SimulationError, ValueError):
+    """A pose for a System that takes none: a start that is refused, and an argument that cannot be."""

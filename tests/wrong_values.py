@@ -36,6 +36,7 @@ WRONG: dict[str, Any] = {
     "an array of nothing": np.array([]),
     "a pair of wrong things": (object(), "x"),
 }
+PYTHON = r"could not convert|unsupported operand|object is not (?!an interface)|cannot unpack|has no attribute"
 BEGINNINGS = ("every =", "n =", "side =", "estimate_error =")
 OURS = (ModelError, ArgumentTypeError, ValueError, KeyError)
 
@@ -59,7 +60,7 @@ def problem_of(error: Exception, argument: str, value: Any) -> str:
         return "no sentence"
     if "\n" in message or " at 0x" in message or len(message) > 500:
         return "more than a sentence shows"
-    if re.search(r"could not convert|unsupported operand|object is not|cannot unpack|has no attribute", message):
+    if re.search(PYTHON, message):
         return "words of Python"
     if "\ud800" in message:
         return "cannot be printed"

@@ -55,10 +55,10 @@ def _must_vanish(
         return
     bodies = sorted({r.name for r in rows if r.joint < 0})
     names = sorted({r.name for r in rows if r.joint >= 0} | {j for body in bodies for j in joints.get(body, ())})
-    shape = f" and the shape of {', '.join(map(repr, bodies))}" if bodies else ""
+    parts = [f"joints {', '.join(map(repr, names))}"] if names else []
+    parts += [f"shape of {', '.join(map(repr, bodies))}"] if bodies else []
     raise ModelError(
-        f"The joints {', '.join(map(repr, names))}{shape} contradict each other by {abs(constant):.3g}; "
-        "no position can satisfy them."
+        f"The {' and the '.join(parts)} contradict each other by {abs(constant):.3g}; no position can satisfy them."
     )
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import not_negative, positive
-from mbs.elements.checks import index, size
+from mbs.elements.checks import index, several, size
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -61,16 +61,37 @@ class AutomaticDrive:
     def record(
         self, name: str, left: Affine, right: Affine, f: AffineVector, g: AffineVector, throttle: int, gear: int = 1
     ) -> ElementRecord:
-        """Element on the absolute spins of two wheels and orthonormal vectors f, g of the frame, f x g to the left.
+        """The force element; the frame carries the reaction.
 
-        The frame carries the reaction; `throttle` is the number of an input (0..1), `gear` the gear at the start.
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        left, right : Affine
+            Absolute spins of the two wheels, rad.
+        f, g : AffineVector
+            Orthonormal vectors of the frame, f x g to the left.
+        throttle : int
+            Number of an input, 0 to 1.
+        gear : int
+            Gear at the start, from 1.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range, the ratios do not fall, or a gear is left once engaged.
         """
         what = f"the drive '{name}'"
         size(f, (3,), f"The vector f of {what}")
         size(g, (3,), f"The vector g of {what}")
         names = tuple(field.name for field in fields(self) if field.name != "ratios")
         values = [not_negative(getattr(self, n), f"The {n.replace('_', ' ')} of {what}") for n in names]
-        ratios = [positive(r, f"A ratio of {what}") for r in self.ratios]
+        ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
         if not ratios or any(b >= a for a, b in pairwise(ratios)):
             raise ValueError(f"The ratios of {what} are {ratios}; they must fall, with at least one.")
         if not 1 <= gear <= len(ratios):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import index, size
+from mbs.elements.checks import channels, size
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header import ElementType
 
@@ -24,9 +24,27 @@ class BodyForce:
     inputs: Sequence[int | None]
 
     def record(self, name: str, point: AffineVector, axes: Sequence[AffineVector]) -> ElementRecord:
-        """Element at `point`; `axes` are three unit vectors in space, one in the plane (the second is it turned left).
+        """The force element.
 
-        Axes fixed in the earth are constant expressions.
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        point : AffineVector
+            Where the force acts.
+        axes : sequence of AffineVector
+            Three unit vectors in space, one in the plane (the second is it turned left); constant ones are fixed in the
+            earth.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            Point, axes and inputs are not of one dimension.
         """
         what = f"the force '{name}'"
         size(point, (2, 3), f"The point of {what}")
@@ -34,8 +52,6 @@ class BodyForce:
         if len(axes) != (3 if dimension == 3 else 1) or any(len(a) != dimension for a in axes):
             wanted = "three vectors" if dimension == 3 else "one vector"
             raise ValueError(f"The axes of {what} must be {wanted} of {dimension} components.")
-        if len(self.inputs) != dimension:
-            raise ValueError(f"T{what[1:]} has {len(self.inputs)} inputs; it needs {dimension}, None for no force.")
-        numbers = [-1 if i is None else index(i, f"An input of {what}") for i in self.inputs]
+        numbers = channels(self.inputs, dimension, what)
         signals = [s for vector in (point, *axes) for s in vector.components]
         return ElementRecord(name, ElementType.BODY_FORCE, signals, (), (*numbers, -1)[:3])

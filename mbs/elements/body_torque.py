@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import index
+from mbs.checks import shown
+from mbs.elements.checks import channels
 from mbs.elements.record import ElementRecord
+from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
 
@@ -28,16 +30,32 @@ class BodyTorque:
     axes: Literal["earth", "body"] = "earth"
 
     def record(self, name: str, frame: Sequence[AffineVector]) -> ElementRecord:
-        """Element on the orthonormal vectors of a body: a, b, c in space, a alone in the plane."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        frame : sequence of AffineVector
+            Orthonormal vectors of a body: a, b, c in space, a alone in the plane.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            Frame and inputs are not of one dimension, or the axes are none.
+        """
         what = f"the torque '{name}'"
         lengths = [len(v) for v in frame]
         if lengths not in ([3, 3, 3], [2]):
             raise ValueError(f"The frame of {what} must be three spatial or one planar vector, not {lengths} numbers.")
-        if len(self.inputs) != len(frame):
-            raise ValueError(f"T{what[1:]} has {len(self.inputs)} inputs; it needs {len(frame)}, None for no torque.")
-        if self.axes not in ("earth", "body"):
-            raise ValueError(f"The axes of {what} are {self.axes!r}; they must be 'earth' or 'body'.")
-        numbers = [-1 if i is None else index(i, f"An input of {what}") for i in self.inputs]
+        numbers = channels(self.inputs, len(frame), what)
+        if not isinstance(self.axes, str) or self.axes not in ("earth", "body"):
+            raise ModelError(f"The axes of {what} are {shown(self.axes)}; they must be 'earth' or 'body'.")
         signals = [s for vector in frame for s in vector.components]
         integers = (*numbers, int(self.axes == "body")) if len(frame) == 3 else (-1, -1, *numbers, 0)
         return ElementRecord(name, ElementType.BODY_TORQUE, signals, (), integers)

@@ -30,7 +30,29 @@ class Brake:
 
     @staticmethod
     def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.9e-3) -> Brake:
-        """Brake that lets the tread give by `travel` (m) at full torque, critically damped with the wheel's inertia."""
+        """Brake that lets the tread give by a travel at full torque, critically damped with the wheel's inertia.
+
+        Parameters
+        ----------
+        max_torque : float
+            Torque at full pedal, N m.
+        radius : float
+            Of the wheel, m.
+        spin_inertia : float
+            Of the wheel about its axis, kg m2.
+        travel : float
+            By which the tread gives, m.
+
+        Returns
+        -------
+        Brake
+            With its stick stiffness and damping.
+
+        Raises
+        ------
+        ModelError
+            A number is not positive.
+        """
         torque, r = (
             positive(max_torque, "The largest torque of a brake"),
             positive(radius, "The radius of a braked wheel"),
@@ -40,7 +62,29 @@ class Brake:
         return Brake(torque, stiffness, 2.0 * math.sqrt(stiffness * inertia))
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine, input: int) -> ElementRecord:
-        """Element on orthonormal carrier vectors f, g (f x g along the axis), the absolute spin, the pedal (0..1)."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        f, g : AffineVector
+            Orthonormal vectors of the carrier, f x g along the axis.
+        spin : Affine
+            Absolute spin of the wheel, rad.
+        input : int
+            Number of the input of the pedal, 0 to 1.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range; the message names it.
+        """
         what = f"the brake '{name}'"
         size(f, (3,), f"The vector f of {what}")
         size(g, (3,), f"The vector g of {what}")

@@ -4,14 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from mbs.affine import AffineVector
-from mbs.checks import capital, shown, whole
+from mbs.checks import capital, number, shown, whole
 from mbs.errors import ModelError
+
+MOST = 2**31 - 1
+"""Largest number of the System file."""
 
 
 def index(value: int, what: str) -> int:
     """Number of an input or a road."""
-    return whole(value, what, 0)
+    n = whole(value, what, 0)
+    if n > MOST:
+        raise ModelError(f"{capital(what)} is {shown(value)}; it must be a whole number, at most {MOST}.")
+    return n
 
 
 def size(vector: AffineVector, sizes: Sequence[int], what: str) -> None:
@@ -21,3 +29,18 @@ def size(vector: AffineVector, sizes: Sequence[int], what: str) -> None:
         raise ModelError(f"{capital(what)} must be a point or a vector of {wanted} expressions, not {shown(vector)}.")
     if len(vector) not in sizes:
         raise ModelError(f"{capital(what)} has {len(vector)} components; it must have {wanted}.")
+
+
+def channels(inputs: Sequence[int | None], count: int, what: str) -> list[int]:
+    """Numbers of the inputs of a force or a torque, one per component; -1 for none."""
+    if not isinstance(inputs, (list, tuple)) or len(inputs) != count:
+        said = f"has {len(inputs)} inputs" if isinstance(inputs, (list, tuple)) else f"has the inputs {shown(inputs)}"
+        raise ModelError(f"{capital(what)} {said}; it needs {count}, None for no component.")
+    return [-1 if i is None else index(i, f"An entry of the inputs of {what}") for i in inputs]
+
+
+def several(values: Sequence[float], what: str) -> list[float]:
+    """Finite numbers, one at least."""
+    if not isinstance(values, (list, tuple, np.ndarray)) or np.ndim(np.asarray(values, dtype=object)) != 1:
+        raise ModelError(f"{capital(what)} must be a sequence of numbers, not {shown(values)}.")
+    return [number(v, f"an entry of {what}") for v in values]

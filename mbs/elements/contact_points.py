@@ -62,23 +62,70 @@ class ContactPoints:
         radius: float = 0.0,
         gravity: float = 9.81,
     ) -> ContactPoints:
-        """Points of which one carries `mass` (kg) at rest at a depth (m); stick as stiff, critically damped."""
+        """Points of which one carries a mass at rest at a depth; stick as stiff, critically damped.
+
+        Parameters
+        ----------
+        mass : float
+            That one point carries, kg.
+        depth : float
+            At rest, m.
+        onset : float
+            Depth over which the stiffness sets in, m.
+        loss : float
+            chi, s/m.
+        friction_factor : float
+            Multiplies the friction of the road.
+        radius : float
+            Of the spheres around the points, m.
+        gravity : float
+            m/s2.
+
+        Returns
+        -------
+        ContactPoints
+            With these numbers.
+
+        Raises
+        ------
+        ModelError
+            Mass, depth, onset or gravity is not positive.
+        """
         m, d, w = (
             positive(v, f"The {name} of contact points")
             for v, name in ((mass, "mass"), (depth, "depth"), (onset, "onset"))
         )
-        stiffness = m * gravity / (0.5 * d * d / w if d < w else d - 0.5 * w)
+        g = positive(gravity, "The gravity of contact points")
+        stiffness = m * g / (0.5 * d * d / w if d < w else d - 0.5 * w)
         return ContactPoints(stiffness, stiffness, 2.0 * math.sqrt(stiffness * m), w, loss, friction_factor, radius)
 
     def record(
         self, name: str, origin: AffineVector, axes: Sequence[AffineVector], points: ArrayLike, road: int
     ) -> ElementRecord:
-        """Element on the origin and the three axes of a body.
+        """The force element.
 
         Parameters
         ----------
+        name : str
+            Unique among the elements of a model.
+        origin : AffineVector
+            Origin of the body.
+        axes : sequence of AffineVector
+            Its three axes.
         points : array_like, shape (n, 3)
             From the origin along the axes, m.
+        road : int
+            Number of the road, from `Model.road`.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range, or the points are not of that shape.
         """
         what = f"the contact points '{name}'"
         for vector in (origin, *axes):

@@ -27,7 +27,25 @@ class Drag:
     air_density: float = 1.225
 
     def record(self, name: str, point: AffineVector) -> ElementRecord:
-        """Element at a point, earth axes, 2 or 3 components."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        point : AffineVector
+            Where the force acts, two or three components.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range; the message names it.
+        """
         what = f"the drag '{name}'"
         size(point, (2, 3), f"The point of {what}")
         return ElementRecord(

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from mbs.affine import Affine
 from mbs.checks import number
-from mbs.elements.checks import index
+from mbs.elements.checks import index, several
 from mbs.elements.record import ElementRecord
+from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
 
@@ -28,15 +29,34 @@ class InputForce:
     weights: Sequence[float] = (1.0,)
 
     def record(self, name: str, signals: Sequence[Affine]) -> ElementRecord:
-        """Element on as many expressions as there are weights."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        signals : sequence of Affine
+            As many expressions as there are weights.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            There is not one weight for each expression, or a number is not one.
+        """
         what = f"the input force '{name}'"
-        if len(signals) != len(self.weights) or not signals:
-            raise ValueError(f"T{what[1:]} has {len(self.weights)} weights for {len(signals)} signals, not one each.")
+        weights = several(self.weights, f"the weights of {what}")
+        if len(signals) != len(weights) or not signals:
+            raise ModelError(f"T{what[1:]} has {len(weights)} weights for {len(signals)} signals, not one each.")
         return ElementRecord(
             name,
             ElementType.INPUT_FORCE,
             signals,
-            tuple(number(w, f"A weight of {what}") for w in self.weights),
+            tuple(weights),
             (index(self.input, f"The input of {what}"),),
             real_checks=(number,) * len(self.weights),
             tangent=False,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import Affine
-from mbs.checks import not_negative, number
+from mbs.checks import not_negative, number, text
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 
@@ -33,7 +33,25 @@ class ScalarSpringDamper:
     unit: str = "N m"
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
-        """Element on one coordinate, an angle or a length."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        coordinate : Affine
+            An angle, rad, or a length, m.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range; the message names it.
+        """
         what = f"the spring-damper '{name}'"
         return ElementRecord(
             name,
@@ -45,7 +63,7 @@ class ScalarSpringDamper:
                 number(self.free_value, f"The free value of {what}"),
                 number(self.constant, f"The constant force of {what}"),
             ),
-            outputs=(Output("force", self.unit, "generalised force on the coordinate"),),
+            outputs=(Output("force", text(self.unit, f"The unit of {what}"), "generalised force on the coordinate"),),
             real_names=("stiffness", "damping", "free_value", "constant"),
             real_checks=(not_negative, not_negative, number, number),
             elastic=True,

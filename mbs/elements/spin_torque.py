@@ -27,7 +27,27 @@ class SpinTorque:
     gain: float = 1.0
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """Element on orthonormal carrier vectors f, g (f x g along the axis) and the absolute spin."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        f, g : AffineVector
+            Orthonormal vectors of the carrier, f x g along the axis.
+        spin : Affine
+            Absolute spin of the wheel, rad.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range; the message names it.
+        """
         what = f"the spin torque '{name}'"
         size(f, (3,), f"The vector f of {what}")
         size(g, (3,), f"The vector g of {what}")

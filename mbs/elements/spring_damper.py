@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import AffineVector
-from mbs.checks import not_negative, positive
+from mbs.checks import instance_of, not_negative, positive
 from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord, Output
+from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
 
@@ -52,7 +53,23 @@ class EndStops:
     rebound_loss: float = 0.0
 
     def progressive(self, what: str) -> dict[str, float]:
-        """Checked numbers beside lengths and stiffnesses, in the order of the kernel; none for linear stops."""
+        """Checked numbers beside lengths and stiffnesses, in the order of the kernel.
+
+        Parameters
+        ----------
+        what : str
+            What has the stops, for the message.
+
+        Returns
+        -------
+        dict of str to float
+            Empty for linear stops.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or negative.
+        """
         names = ("bump_progression", "bump_travel", "rebound_progression", "rebound_travel", "metal_stiffness")
         numbers = {
             name: not_negative(getattr(self, name), f"The {name.replace('_', ' ')} of {what}")
@@ -89,13 +106,36 @@ class SpringDamper:
     stops: EndStops | None = None
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
-        """Element on the difference p2 - p1 of two points in earth axes, 2 or 3 components."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        difference : AffineVector
+            Difference p2 - p1 of two points in earth axes, two or three components, m.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or negative, or the bump length is not below the rebound length.
+        """
         what = f"the spring-damper '{name}'"
-        stops = self.stops or EndStops()
+        stops = EndStops()
+        if self.stops is not None:
+            stops = instance_of(EndStops, self.stops, f"The stops of {what}", "EndStops")
         size(difference, (2, 3), f"The distance of {what}")
-        bump, rebound = stops.bump_length, stops.rebound_length
-        if stops.bump_stiffness > 0.0 and stops.rebound_stiffness > 0.0 and not bump < rebound:
-            raise ValueError(
+        bump, bump_stiffness, rebound, rebound_stiffness = (
+            not_negative(getattr(stops, key), f"The {key.replace('_', ' ')} of {what}")
+            for key in ("bump_length", "bump_stiffness", "rebound_length", "rebound_stiffness")
+        )
+        if bump_stiffness > 0.0 and rebound_stiffness > 0.0 and not bump < rebound:
+            raise ModelError(
                 f"The bump length {bump:g} m of {what} must be less than the rebound length {rebound:g} m."
             )
         progressive = stops.progressive(what)
@@ -107,10 +147,10 @@ class SpringDamper:
                 not_negative(self.stiffness, f"The stiffness of {what}"),
                 not_negative(self.damping, f"The damping of {what}"),
                 not_negative(self.free_length, f"The free length of {what}"),
-                not_negative(bump, f"The bump length of {what}"),
-                not_negative(stops.bump_stiffness, f"The bump stiffness of {what}"),
-                not_negative(rebound, f"The rebound length of {what}"),
-                not_negative(stops.rebound_stiffness, f"The rebound stiffness of {what}"),
+                bump,
+                bump_stiffness,
+                rebound,
+                rebound_stiffness,
                 *progressive.values(),
             ),
             outputs=(

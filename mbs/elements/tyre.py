@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
-from mbs.checks import not_negative, number, positive
+from mbs.checks import instance_of, not_negative, number, positive, vector
 from mbs.elements.checks import index, size
 from mbs.elements.record import Check, ElementRecord, Output
 from mbs.kernel.header import ElementType
@@ -90,11 +90,37 @@ class Tyre:
         return self.longitudinal.max_force[0] / self.nominal_load
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
-        """Element of a wheel: centre, unit spin axis (pointing left), absolute spin, number of the road."""
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        centre : AffineVector
+            Centre of the wheel, m.
+        axis : AffineVector
+            Unit spin axis, pointing left.
+        spin : Affine
+            Absolute spin, rad.
+        road : int
+            Number of the road, from `Model.road`.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or outside its range, or a curve is not in order at some load up to the largest.
+        """
         what = f"the tyre '{name}'"
         size(centre, (3,), f"The centre of {what}")
         size(axis, (3,), f"The axis of {what}")
+        positive(self.radius, f"The radius of {what}")
         positive(self.bottoming_radius, f"The bottoming radius of {what}")
+        self._check_kinds(what)
         if not self.bottoming_radius < self.radius:
             raise ValueError(
                 f"The bottoming radius {self.bottoming_radius:g} m of {what} must be less than {self.radius:g} m."
@@ -149,6 +175,15 @@ class Tyre:
             x, y = getattr(self, key)
             named += [(f"{key}_x", x), (f"{key}_y", y)]
         return [*named, ("rolling_resistance", self.rolling_resistance), ("friction_factor", self.friction_factor)]
+
+    def _check_kinds(self, what: str) -> None:
+        """Curves are curves, pairs are pairs of numbers."""
+        for key in ("longitudinal", "lateral"):
+            curve = instance_of(TyreCurve, getattr(self, key), f"The {key} of {what}", "a TyreCurve")
+            for part in ("slope", "max_force", "max_slip", "slide_force", "slide_slip"):
+                vector(getattr(curve, part), 2, f"the {key} {part.replace('_', ' ')} of {what}")
+        for key in ("trail", "trail_zero", "trail_end", "carcass_stiffness", "carcass_damping"):
+            vector(getattr(self, key), 2, f"the {key.replace('_', ' ')} of {what}")
 
     def _check_curves(self, what: str) -> None:
         """Every force and slip stays positive and in order over the whole range of loads."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbs.checks import shown
 from mbs.errors import ModelError
 from mbs.flexible.beam_interpolation import section_motion
 from mbs.flexible.material import Material
@@ -35,8 +36,8 @@ def beam_mass_points(
     interpolation : ndarray, shape (p, 3, 12)
         Displacement of each point in local axes from the local displacements of the ends.
     """
-    if kind not in MASS_KINDS:
-        raise ModelError(f"The mass kind {kind!r} is unknown; one of {', '.join(MASS_KINDS)}.")
+    if not isinstance(kind, str) or kind not in MASS_KINDS:
+        raise ModelError(f"The mass kind {shown(kind)} is unknown; one of {', '.join(MASS_KINDS)}.")
     if kind == "lumped":
         stations, weights = np.array([0.0, 1.0]), np.array([0.5, 0.5])
     else:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.linalg import eigh
 
+from mbs.checks import flag, instance_of, is_number, positive, whole
 from mbs.errors import ModelError
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel, Reference
@@ -15,6 +16,7 @@ from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.reduced_body import InterfaceModes, ReducedBody
 
 DEPENDENT = 1e-10  # of the mass norm: inertia modes that add nothing new are left out
+MOST_MODES = 10**6
 FIRST_BATCH = 20  # modes considered first when they are chosen by frequency
 
 
@@ -53,6 +55,12 @@ def craig_bampton(
     ReducedBody
         In the unit-interface basis: dynamic modes are mass-normalised and zero at the interfaces.
     """
+    instance_of(FiniteElementModel, model, "The model to reduce", "a FiniteElementModel")
+    flag(inertia_modes, "inertia_modes")
+    if up_to is not None:
+        positive(up_to, "The frequency up_to of the modes")
+    if damping is not None:
+        instance_of(RayleighDamping, damping, "The damping of the modes", "a RayleighDamping")
     fixed = FixedInterface(model, reference, interfaces)
     static = fixed.static_modes()
     hertz, dynamic = _dynamic_modes(fixed, dynamic_modes, up_to)
@@ -99,7 +107,7 @@ def _dynamic_modes(
 ) -> tuple[np.ndarray, np.ndarray]:
     held = fixed.held_numbers()
     if up_to is not None:
-        if wanted != 0:
+        if not (is_number(wanted) and wanted == 0):
             raise ModelError("Dynamic modes are chosen by number or by frequency, not by both.")
         available = fixed.model.n_dof - held.size
         massive = int((fixed.model.mass_matrix().diagonal()[fixed.inner] > 0).sum())
@@ -110,11 +118,18 @@ def _dynamic_modes(
             hertz, shapes = natural_modes(fixed.model, count, held)
         chosen = np.flatnonzero(hertz <= up_to)
     else:
-        chosen = np.arange(wanted) if isinstance(wanted, int) else np.asarray(wanted, int)
+        chosen = _numbers_of(wanted)
         if chosen.size and (chosen.min() < 0 or np.unique(chosen).size != chosen.size):
             raise ModelError(f"Dynamic modes are different numbers from 0 up, not {chosen.tolist()}.")
         hertz, shapes = natural_modes(fixed.model, int(chosen.max(initial=-1)) + 1, held)
     return hertz[chosen], shapes[:, chosen]
+
+
+def _numbers_of(wanted: int | Sequence[int]) -> np.ndarray:
+    """Numbers of the dynamic modes: of so many of the lowest, or as given."""
+    if isinstance(wanted, Sequence) and not isinstance(wanted, (str, bytes)):
+        return np.array([whole(k, "An entry of dynamic_modes") for k in wanted], dtype=int)
+    return np.arange(whole(wanted, "The number of dynamic_modes", 0, MOST_MODES))
 
 
 def _with_inertia_modes(fixed: FixedInterface, dynamic: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

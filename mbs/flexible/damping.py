@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.checks import number
 from mbs.errors import ModelError
 
 
@@ -18,14 +19,44 @@ class RayleighDamping:
 
     @classmethod
     def fitted(cls, ratio: float, low: float, high: float) -> RayleighDamping:
-        """The damping with modal ratio `ratio` at the two frequencies `low` and `high`, Hz."""
-        if ratio < 0:
+        """The damping with one modal ratio at two frequencies.
+
+        Parameters
+        ----------
+        ratio : float
+            Damping over the critical one.
+        low, high : float
+            The frequencies, Hz.
+
+        Returns
+        -------
+        RayleighDamping
+            With its alpha and beta.
+
+        Raises
+        ------
+        ModelError
+            The ratio is negative, or the frequencies are not 0 < low < high.
+        """
+        if number(ratio, "The modal damping ratio") < 0:
             raise ModelError(f"The modal damping ratio is {ratio:g}; it cannot be negative.")
+        low, high = number(low, "The low frequency of the fit"), number(high, "The high frequency of the fit")
         if not 0 < low < high:
             raise ModelError(f"The frequencies of the fit are {low:g} and {high:g} Hz; 0 < first < second is needed.")
         w1, w2 = 2 * np.pi * low, 2 * np.pi * high
         return cls(2 * ratio * w1 * w2 / (w1 + w2), 2 * ratio / (w1 + w2))
 
     def matrix(self, M: np.ndarray, K: np.ndarray) -> np.ndarray:
-        """Damping matrix of the shape of `M` and `K`."""
+        """Damping matrix.
+
+        Parameters
+        ----------
+        M, K : ndarray, shape (n, n)
+            Mass and stiffness.
+
+        Returns
+        -------
+        ndarray, shape (n, n)
+            ``alpha M + beta K``.
+        """
         return self.alpha * M + self.beta * K

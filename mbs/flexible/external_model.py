@@ -9,9 +9,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
+from mbs.checks import numbers
 from mbs.errors import ModelError
 from mbs.flexible.checks import check_free, check_masses, check_symmetric, check_units
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.frame import node_labels
 from mbs.flexible.lumping import lumped_masses
 from mbs.flexible.mass_points import nodal_mass_points
 from mbs.flexible.sparse import Sparse
@@ -39,14 +41,23 @@ def external_model(
     dof : array_like of int, shape (n, 6), optional
         Number of each freedom, -1 for none. By default node after node with the six freedoms x, y, z, rx, ry, rz, or
         with x, y, z when the matrices have three freedoms per node.
+
+    Returns
+    -------
+    FiniteElementModel
+        With symmetric matrices.
+
+    Raises
+    ------
+    ModelError
+        A matrix is not symmetric or not of the right size, the stiffness holds the model to the ground, a mass is
+        negative, or the units cannot be SI.
     """
-    x = np.array(positions, float)
+    x = numbers(positions, "the node positions", ModelError, "finite numbers of shape (n, 3)")
     if x.ndim != 2 or x.shape[1] != 3 or not np.isfinite(x).all():
         raise ModelError(f"Node positions have shape {x.shape}; finite numbers of shape (n, 3) are needed.")
     n = len(x)
-    labels = tuple(names) if names is not None else tuple(str(i) for i in range(n))
-    if len(labels) != n or len(set(labels)) != n:
-        raise ModelError(f"{n} nodes need {n} different names, not {len(set(labels))}.")
+    labels = node_labels(names, n)
     K = sp.csc_array(stiffness)
     check_symmetric(K, "stiffness")
     table = _freedom_table(dof, n, int(K.shape[0]))
@@ -70,7 +81,23 @@ def external_model(
 
 
 def read_matrix(path: str | Path) -> sp.csc_array:
-    """Sparse matrix from Matrix Market (``.mtx``, ``.mtx.gz``) or SciPy's ``.npz``."""
+    """Sparse matrix from Matrix Market (``.mtx``, ``.mtx.gz``) or SciPy's ``.npz``.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    sparse array
+        As stored.
+
+    Raises
+    ------
+    ModelError
+        There is no such file, or it is of neither kind.
+    """
     path = Path(path)
     if not path.is_file():
         raise ModelError(f"There is no file {path}.")
@@ -86,7 +113,25 @@ def read_matrix(path: str | Path) -> sp.csc_array:
 
 
 def read_model(stiffness: str | Path, mass: str | Path, nodes: str | Path) -> FiniteElementModel:
-    """Model from two matrix files and a CSV file of nodes with the columns ``name,x,y,z`` (a line of titles first)."""
+    """Model from two matrix files and a file of nodes.
+
+    Parameters
+    ----------
+    stiffness, mass : str or Path
+        Files for `read_matrix`.
+    nodes : str or Path
+        CSV with the columns ``name,x,y,z`` (m), a line of titles first.
+
+    Returns
+    -------
+    FiniteElementModel
+        Checked as by `external_model`.
+
+    Raises
+    ------
+    ModelError
+        A file is missing or not of that form, or the matrices are no free model.
+    """
     names, positions = [], []
     for line in Path(nodes).read_text(encoding="utf-8").splitlines()[1:]:
         if not line.strip() or line.startswith("#"):

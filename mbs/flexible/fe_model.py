@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import qr
 
+from mbs.checks import flag, is_finite, shown
 from mbs.errors import ModelError
 from mbs.flexible.mass_points import MassPoints
 
@@ -51,7 +52,18 @@ class FiniteElementModel:
         return self.mass.mass_matrix()
 
     def rigid_motions(self, origin: np.ndarray | None = None) -> np.ndarray:
-        """Displacements for unit translations and unit small rotations about `origin`, shape (n_dof, 6)."""
+        """Displacements for unit translations and unit small rotations.
+
+        Parameters
+        ----------
+        origin : ndarray, shape (3,), optional
+            About which the model turns, m; by default that of its axes.
+
+        Returns
+        -------
+        ndarray, shape (n_dof, 6)
+            m and rad per m and rad.
+        """
         x = self.positions - (np.zeros(3) if origin is None else origin)
         R = np.zeros((self.n_dof, 6))
         for axis in range(3):
@@ -64,19 +76,57 @@ class FiniteElementModel:
         return R
 
     def node(self, which: str | int) -> int:
-        """Number of a node from its name or number."""
+        """Number of a node.
+
+        Parameters
+        ----------
+        which : str or int
+            Name or number of the node.
+
+        Returns
+        -------
+        int
+            Its number.
+
+        Raises
+        ------
+        ModelError
+            There is no such node.
+        """
         if isinstance(which, str):
             if which not in self.names:
                 raise ModelError(f"There is no node {which!r} among the {len(self.names)} nodes of the model.")
             return self.names.index(which)
-        if not 0 <= which < len(self.names):
-            raise ModelError(f"There is no node number {which}: the model has the nodes 0 to {len(self.names) - 1}.")
+        if not is_finite(which) or int(which) != which or not 0 <= which < len(self.names):
+            raise ModelError(
+                f"There is no node number {shown(which)}: the model has the nodes 0 to {len(self.names) - 1}."
+            )
         return int(which)
 
     def freedoms(self, which: str | int, rotations: bool = False) -> np.ndarray:
-        """Numbers of the three translations, or of the three rotations, of a node, shape (3,)."""
+        """Numbers of the three translations, or of the three rotations, of a node.
+
+        Parameters
+        ----------
+        which : str or int
+            Name or number of the node.
+        rotations : bool
+            Whether the rotations are wanted.
+
+        Returns
+        -------
+        ndarray of int, shape (3,)
+            Numbers in the matrices.
+
+        Raises
+        ------
+        ModelError
+            There is no such node, or it has no rotations.
+        """
         node = self.node(which)
-        numbers = self.dof[node, 3:] if rotations else self.dof[node, :3]
+        numbers = (
+            self.dof[node, 3:] if flag(rotations, f"The rotations of node {self.names[node]!r}") else self.dof[node, :3]
+        )
         if (numbers < 0).any():
             raise ModelError(f"Node {self.names[node]!r} has no rotations: only nodes of beams and shells have them.")
         return numbers
@@ -86,8 +136,23 @@ class FiniteElementModel:
 
         Of three nodes the first is held, and of the others the three translations that best resist rotations about it
         (rank-revealing QR).
+
+        Parameters
+        ----------
+        reference : str, int or three of them
+            A node with rotations, or three nodes of solid elements.
+
+        Returns
+        -------
+        ndarray of int, shape (6,)
+            Numbers in the matrices.
+
+        Raises
+        ------
+        ModelError
+            There is no such node, it has no rotations, or the three nodes are on one line.
         """
-        if isinstance(reference, str | int):
+        if isinstance(reference, str) or not isinstance(reference, Sequence):
             return np.concatenate([self.freedoms(reference), self.freedoms(reference, rotations=True)])
         if len(reference) != 3:
             raise ModelError(f"The reference is one node with rotations or three nodes, not {len(reference)} nodes.")
@@ -102,6 +167,22 @@ class FiniteElementModel:
         return np.concatenate([first, np.sort(numbers[order[:3]])])
 
     def origin(self, reference: Reference) -> np.ndarray:
-        """Origin of the floating frame: the reference node, or the first of three, shape (3,)."""
-        first = reference if isinstance(reference, str | int) else reference[0]
+        """Origin of the floating frame: the reference node, or the first of three.
+
+        Parameters
+        ----------
+        reference : str, int or three of them
+            A node with rotations, or three nodes of solid elements.
+
+        Returns
+        -------
+        ndarray, shape (3,)
+            m.
+
+        Raises
+        ------
+        ModelError
+            There is no such node.
+        """
+        first = reference if isinstance(reference, str) or not isinstance(reference, Sequence) else reference[0]
         return np.array(self.positions[self.node(first)])

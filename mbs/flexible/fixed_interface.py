@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import SuperLU, splu
 
+from mbs.checks import instance_of, shown
 from mbs.errors import ModelError
 from mbs.flexible.checks import check_connected
 from mbs.flexible.fe_model import FiniteElementModel, Reference
@@ -44,6 +45,9 @@ class FixedInterface:
         self, model: FiniteElementModel, reference: Reference, interfaces: Sequence[Interface | str | int]
     ) -> None:
         self.model, self.reference = model, reference
+        instance_of(FiniteElementModel, model, "The model", "a FiniteElementModel")
+        if not isinstance(interfaces, (list, tuple)):
+            raise ModelError(f"The interfaces must be a list of nodes, not {shown(interfaces)}.")
         self.interfaces = tuple(i if isinstance(i, Interface) else Interface(i) for i in interfaces)
         self.held = model.reference_freedoms(reference)
         numbers: list[np.ndarray] = []

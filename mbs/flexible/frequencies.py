@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import eigh
 from scipy.sparse.linalg import ArpackError, eigsh
 
+from mbs.checks import instance_of, whole
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 
@@ -19,6 +20,10 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
 
     Parameters
     ----------
+    model : FiniteElementModel
+        Free or held.
+    count : int
+        How many.
     held : array_like of int
         Degrees of freedom held to zero.
 
@@ -28,7 +33,14 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
         Hz, ascending.
     shapes : ndarray, shape (n_dof, count)
         Mass-normalised; the largest entry of each is positive.
+
+    Raises
+    ------
+    ModelError
+        More modes are asked for than there are, or a motion has neither stiffness nor mass.
     """
+    instance_of(FiniteElementModel, model, "The model", "a FiniteElementModel")
+    count = whole(count, "The count of modes", 0, 10**6)
     free = np.setdiff1d(np.arange(model.n_dof), np.asarray(held, int))
     K = sp.csc_array(model.K[free][:, free])
     M = sp.csc_array(model.mass_matrix()[free][:, free])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.checks import shown
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface
@@ -43,7 +44,22 @@ class InertiaRelief:
     acceleration_of_forces: np.ndarray
 
     def outputs(self, forces: np.ndarray, specific_acceleration: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Outputs under forces (3 n_interfaces,), s (3,) and W (3, 3), shape (n_outputs,)."""
+        """Outputs under forces and a motion.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (3 n_interfaces,)
+            F, N.
+        specific_acceleration : ndarray, shape (3,)
+            s, m/s2.
+        rotation : ndarray, shape (3, 3)
+            W, 1/s2.
+
+        Returns
+        -------
+        ndarray, shape (n_outputs,)
+            In the units of the outputs.
+        """
         return np.asarray(
             self.forces @ forces + self.acceleration @ specific_acceleration + self.rotation @ np.ravel(rotation)
         )
@@ -66,8 +82,20 @@ def inertia_relief(
         Nodes where forces act.
     rows : ndarray or sparse array, shape (n_outputs, n_dof)
         Outputs per unit nodal displacement, e.g. of `recovery.gauge_rows`.
+
+    Returns
+    -------
+    InertiaRelief
+        Its matrices.
+
+    Raises
+    ------
+    ModelError
+        The rows have not one column for each freedom, or a node does not exist.
     """
     fixed = FixedInterface(model, reference, ())
+    if not isinstance(interfaces, (list, tuple)):
+        raise ModelError(f"The interfaces must be a list of nodes, not {shown(interfaces)}.")
     if rows.shape[1] != model.n_dof:
         raise ModelError(f"The output rows have {rows.shape[1]} columns; the model has {model.n_dof} freedoms.")
     loads = np.zeros((model.n_dof, 3 * len(interfaces)))

@@ -10,13 +10,25 @@ from mbs.flexible.reduced_body import ReducedBody
 
 
 def interface_loads(body: ReducedBody, directions: dict[str, np.ndarray]) -> np.ndarray:
-    """Unit forces at interfaces, shape (3 n_interfaces, n_loads), stacked in the order of `ReducedBody.interfaces`.
+    """Unit forces at interfaces, stacked in the order of `ReducedBody.interfaces`.
 
     Parameters
     ----------
+    body : ReducedBody
+        With the interfaces.
     directions : dict of str to ndarray, shape (k, 3)
         Per interface the directions in which its joint can push, body axes: one along a rod or a spring, three at a
         spherical joint.
+
+    Returns
+    -------
+    ndarray, shape (3 n_interfaces, n_loads)
+        N.
+
+    Raises
+    ------
+    ModelError
+        There is no direction at all, or a node is no interface.
     """
     order = list(body.interfaces)
     columns = []
@@ -43,12 +55,24 @@ def load_path_modes(
 
     Parameters
     ----------
+    body : ReducedBody
+        With the inertia modes.
     loads : ndarray, shape (3 n_interfaces, n_loads)
         Forces at the interfaces, of `interface_loads` or snapshots of a simulation.
     tolerance : float
         Square root of the energy, as a fraction of the largest, below which a combination of loads is left out.
     frame_loads : ndarray, shape (6, n_loads), optional
         Forces and moments on the floating frame that act together with the loads (drag, a guide), N and N m.
+
+    Returns
+    -------
+    ReducedBody
+        With one mode per combination of loads that is kept.
+
+    Raises
+    ------
+    ModelError
+        The loads have not three rows for each interface.
     """
     deformation = load_path_deformations(body, loads, frame_loads)
     energy = deformation.T @ body.K @ deformation
@@ -69,7 +93,25 @@ def load_path_deformations(body: ReducedBody, loads: np.ndarray, frame_loads: np
 
 
 def reduced_eigenmodes(body: ReducedBody, up_to: float = np.inf) -> ReducedBody:
-    """Body in its own eigenmodes with the reference held, up to a frequency in Hz; K and M become diagonal."""
+    """Body in its own eigenmodes with the reference held; K and M become diagonal.
+
+    Parameters
+    ----------
+    body : ReducedBody
+        Whose modes span the eigenmodes.
+    up_to : float
+        Largest frequency, Hz.
+
+    Returns
+    -------
+    ReducedBody
+        With the eigenmodes up to there.
+
+    Raises
+    ------
+    ModelError
+        No mode lies below the frequency.
+    """
     squares, V = eigh(body.K, body.M)
     hertz = np.sqrt(squares) / (2 * np.pi)
     keep = hertz <= up_to

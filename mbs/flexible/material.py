@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
+from mbs.checks import is_finite, shown
 from mbs.errors import ModelError
 
 # from foam and wood to tungsten and diamond, SI
@@ -22,8 +21,10 @@ class Material:
     rho: float
 
     def __post_init__(self) -> None:
-        if not np.isfinite([self.E, self.nu, self.rho]).all():
-            raise ModelError(f"A material has E {self.E}, nu {self.nu}, rho {self.rho}; all must be finite.")
+        if not all(is_finite(value) for value in (self.E, self.nu, self.rho)):
+            raise ModelError(
+                f"A material has E {shown(self.E)}, nu {shown(self.nu)}, rho {shown(self.rho)}; all must be finite."
+            )
         if not YOUNG_RANGE[0] <= self.E <= YOUNG_RANGE[1]:
             raise ModelError(f"Young's modulus {self.E:g} does not look like pascals (steel has 2.1e11 Pa).")
         if not -1.0 < self.nu <= 0.5:

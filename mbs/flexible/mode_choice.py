@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.checks import flag, is_finite, not_negative, shown, whole
 from mbs.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface, Interface
@@ -55,6 +56,12 @@ def modes_for_output(
 
     Parameters
     ----------
+    model : FiniteElementModel
+        Free model.
+    reference : str, int or three of them
+        Node of the floating frame.
+    interfaces : sequence of Interface, str or int
+        Nodes of joints and forces, held.
     rows : ndarray or sparse array, shape (n_outputs, n_dof)
         Outputs per unit nodal displacement.
     tolerance : float
@@ -65,9 +72,22 @@ def modes_for_output(
         Highest frequency of the accelerations that matters, Hz; 0 for steady ones.
     inertia_modes : bool
         Whether the reduction will have the inertia modes.
+
+    Returns
+    -------
+    ModeChoice
+        The modes, and what they leave out.
+
+    Raises
+    ------
+    ModelError
+        The tolerance is no fraction, or the candidates leave a larger error.
     """
-    if not 0 < tolerance < 1:
-        raise ModelError(f"The tolerance on an output is {tolerance:g}; a fraction between 0 and 1 is needed.")
+    flag(inertia_modes, "inertia_modes")
+    candidates = whole(candidates, "The number of candidates", 0, 10**6)
+    not_negative(frequency, "The frequency of the accelerations")
+    if not is_finite(tolerance) or not 0 < tolerance < 1:
+        raise ModelError(f"The tolerance on an output is {shown(tolerance)}; a fraction between 0 and 1 is needed.")
     fixed = FixedInterface(model, reference, interfaces)
     hertz, modes = natural_modes(model, candidates, fixed.held_numbers())
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(reference)))

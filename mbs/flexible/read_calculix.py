@@ -22,6 +22,16 @@ def read_calculix(deck: str | Path) -> FiniteElementModel:
     ----------
     deck : str or Path
         Input deck.
+
+    Returns
+    -------
+    FiniteElementModel
+        Of the nodes that have freedoms.
+
+    Raises
+    ------
+    ModelError
+        meshio is not installed, a file is missing, or the deck has supports.
     """
     K, M, positions, numbers = calculix_matrices(deck)
     return external_model(K, M, positions, [str(number) for number in numbers])

@@ -29,6 +29,16 @@ def read_nastran(
         ``.op4``, text or binary.
     stiffness, mass : str
         Names of the matrices in the file.
+
+    Returns
+    -------
+    FiniteElementModel
+        Nodes are named by the numbers of their grid points.
+
+    Raises
+    ------
+    ModelError
+        pyNastran is not installed, a file or a matrix is missing, or a grid point has axes of its own.
     """
     try:
         from pyyeti.nastran import bulk, op4

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from mbs.checks import instance_of, is_finite, shown
 from mbs.errors import ModelError
 from mbs.flexible.frame import Frame
 
@@ -28,13 +29,28 @@ def section_forces(frame: Frame, element: int, xi: float) -> sp.csr_array:
     They act on the face whose normal is +x: N pulls, T twists about x, positive My stretches the fibres at +z,
     positive Mz those at -y. Loads between the ends of the element (its own weight) are not counted.
 
+    Parameters
+    ----------
+    frame : Frame
+        The beams.
+    element : int
+        Number of the beam.
+    xi : float
+        0 at the start of the beam, 1 at its end.
+
     Returns
     -------
     sparse array, shape (6, n_dof)
         Rows N, Vy, Vz (N), T, My, Mz (N m).
+
+    Raises
+    ------
+    ModelError
+        The place is outside the beam, or there is no such beam.
     """
-    if not 0.0 <= xi <= 1.0:
-        raise ModelError(f"The place {xi:g} on beam {element} is outside the beam: 0 is its start and 1 its end.")
+    instance_of(Frame, frame, "The frame of the section forces", "a Frame")
+    if not is_finite(xi) or not 0.0 <= xi <= 1.0:
+        raise ModelError(f"The place {shown(xi)} on beam {element} is outside the beam: 0 is its start and 1 its end.")
     length, _ = frame.element_axes(element)
     end = end_forces(frame, element)[6:]
     shift = np.eye(6)
@@ -72,21 +88,67 @@ class StrainGauge:
     xi: float = 0.5
 
     def bending_moment(self, frame: Frame) -> sp.csr_array:
-        """My, positive when the upper fibre is stretched, shape (1, n_dof), N m per m and rad."""
+        """My, positive when the upper fibre is stretched.
+
+        Parameters
+        ----------
+        frame : Frame
+            The beams.
+
+        Returns
+        -------
+        sparse array, shape (1, n_dof)
+            N m per m and rad.
+        """
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[4]])
 
     def half_bridge(self, frame: Frame) -> sp.csr_array:
-        """Stress of the upper minus that of the lower fibre, shape (1, n_dof), Pa per m and rad."""
+        """Stress of the upper minus that of the lower fibre.
+
+        Parameters
+        ----------
+        frame : Frame
+            The beams.
+
+        Returns
+        -------
+        sparse array, shape (1, n_dof)
+            Pa per m and rad.
+        """
         both = fibre_stresses(frame, self.element, self.xi)
         return sp.csr_array(both[[0]] - both[[1]])
 
     def fibre_stress(self, frame: Frame) -> sp.csr_array:
-        """Bending stress of the upper fibre, half of the half-bridge, shape (1, n_dof), Pa per m and rad."""
+        """Bending stress of the upper fibre, half of the half-bridge.
+
+        Parameters
+        ----------
+        frame : Frame
+            The beams.
+
+        Returns
+        -------
+        sparse array, shape (1, n_dof)
+            Pa per m and rad.
+        """
         return sp.csr_array(self.half_bridge(frame) * 0.5)
 
 
 def gauge_rows(frame: Frame, gauges: tuple[StrainGauge, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Bending moments and half-bridge stresses of several gauges, each shape (n_gauges, n_dof)."""
+    """Bending moments and half-bridge stresses of several gauges.
+
+    Parameters
+    ----------
+    frame : Frame
+        The beams.
+    gauges : tuple of StrainGauge
+        The gauges.
+
+    Returns
+    -------
+    moments, bridges : ndarray, shape (n_gauges, n_dof)
+        N m and Pa per m and rad.
+    """
     moments = np.vstack([g.bending_moment(frame).toarray() for g in gauges])
     bridges = np.vstack([g.half_bridge(frame).toarray() for g in gauges])
     return moments, bridges
@@ -100,6 +162,11 @@ def section_force_field(frame: Frame) -> sp.csr_array:
 
 def stress_field(frame: Frame) -> tuple[sp.csr_array, np.ndarray]:
     """Fibre stresses at both ends of every element as one constant matrix.
+
+    Parameters
+    ----------
+    frame : Frame
+        The beams.
 
     Returns
     -------

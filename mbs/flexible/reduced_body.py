@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbs.checks import shown
 from mbs.errors import ModelError
 
 
@@ -89,21 +90,80 @@ class ReducedBody:
         return int(self.K.shape[0])
 
     def interface(self, name: str) -> InterfaceModes:
-        """Interface by the name of its node."""
-        if name not in self.interfaces:
-            raise ModelError(f"Node {name!r} is not an interface; these are: {', '.join(self.interfaces)}.")
+        """An interface by the name of its node.
+
+        Parameters
+        ----------
+        name : str
+            Name of the node.
+
+        Returns
+        -------
+        InterfaceModes
+            Its place and its modes.
+
+        Raises
+        ------
+        ModelError
+            The node is no interface; the message lists what there is.
+        """
+        if not isinstance(name, str) or name not in self.interfaces:
+            raise ModelError(f"Node {shown(name)} is not an interface; these are: {', '.join(self.interfaces)}.")
         return self.interfaces[name]
 
     def interface_translation(self, name: str) -> np.ndarray:
-        """Displacement of an interface node per unit amplitude, shape (3, m): unit columns in the default basis."""
+        """Displacement of an interface node per unit amplitude; unit columns in the default basis.
+
+        Parameters
+        ----------
+        name : str
+            Name of the node.
+
+        Returns
+        -------
+        ndarray, shape (3, m)
+            m per amplitude.
+
+        Raises
+        ------
+        ModelError
+            The node is no interface; the message lists what there is.
+        """
         return np.asarray(self.node_translations[self.interface(name).node])
 
     def interface_rotation(self, name: str) -> np.ndarray:
-        """Rotation of an interface node per unit amplitude, shape (3, m)."""
+        """Rotation of an interface node per unit amplitude.
+
+        Parameters
+        ----------
+        name : str
+            Name of the node.
+
+        Returns
+        -------
+        ndarray, shape (3, m)
+            rad per amplitude.
+
+        Raises
+        ------
+        ModelError
+            The node is no interface; the message lists what there is.
+        """
         return np.asarray(self.node_rotations[self.interface(name).node])
 
     def recovery(self, rows: np.ndarray) -> np.ndarray:
-        """Outputs per unit amplitude from outputs per nodal displacement: shape (k, d) to (k, m)."""
+        """Outputs per unit amplitude from outputs per nodal displacement.
+
+        Parameters
+        ----------
+        rows : ndarray or sparse array, shape (k, d)
+            Such as `section_forces` gives.
+
+        Returns
+        -------
+        ndarray, shape (k, m)
+            For `Model.sense_recovery`, row by row.
+        """
         return np.asarray(rows @ self.modes)
 
     def transformed(self, V: np.ndarray, names: tuple[str, ...], frequencies: np.ndarray) -> ReducedBody:
@@ -114,10 +174,16 @@ class ReducedBody:
         Parameters
         ----------
         V : ndarray, shape (m, r)
+            Old amplitudes per new one.
         names : tuple of str
             r names.
         frequencies : ndarray, shape (r,)
             Hz.
+
+        Returns
+        -------
+        ReducedBody
+            With r modes.
         """
         interfaces = {k: replace(i, translation=None, rotation=None) for k, i in self.interfaces.items()}
         K, M, C = ((X + X.T) / 2 for X in (V.T @ self.K @ V, V.T @ self.M @ V, V.T @ self.C @ V))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.checks import LARGEST, is_finite, shown
 from mbs.errors import ModelError
 
 
@@ -36,13 +37,40 @@ class Section:
     fibres: tuple[tuple[float, float], ...]
 
     def shear_factors(self, nu: float) -> tuple[float, float]:
-        """Shear factors along y and z for the Poisson ratio `nu`."""
+        """Shear factors along y and z.
+
+        Parameters
+        ----------
+        nu : float
+            Poisson ratio.
+
+        Returns
+        -------
+        float, float
+            ky and kz.
+        """
         ky, kz = ((a + b * nu) / (c + d * nu) for a, b, c, d in (self.shear_y, self.shear_z))
         return ky, kz
 
 
 def tube(outer_diameter: float, wall: float) -> Section:
-    """Round tube; shear factor of the hollow circle (Cowper 1966), exact for thin and full walls."""
+    """Round tube; shear factor of the hollow circle (Cowper 1966), exact for thin and full walls.
+
+    Parameters
+    ----------
+    outer_diameter, wall : float
+        m.
+
+    Returns
+    -------
+    Section
+        Its constants.
+
+    Raises
+    ------
+    ModelError
+        A length is not positive and finite, or the wall is more than half the diameter.
+    """
     _positive("tube", outer_diameter=outer_diameter, wall=wall)
     if wall > outer_diameter / 2:
         raise ModelError(f"A tube of {outer_diameter} m cannot have a wall of {wall} m: at most half the diameter.")
@@ -55,13 +83,45 @@ def tube(outer_diameter: float, wall: float) -> Section:
 
 
 def round_bar(diameter: float) -> Section:
-    """Solid round bar."""
+    """Solid round bar.
+
+    Parameters
+    ----------
+    diameter : float
+        m.
+
+    Returns
+    -------
+    Section
+        Its constants.
+
+    Raises
+    ------
+    ModelError
+        The diameter is not positive and finite.
+    """
     _positive("round bar", diameter=diameter)
     return tube(diameter, diameter / 2)
 
 
 def rectangle(width: float, height: float) -> Section:
-    """Solid rectangle, `width` along y and `height` along z; torsion constant from Saint-Venant's series."""
+    """Solid rectangle; torsion constant from Saint-Venant's series.
+
+    Parameters
+    ----------
+    width, height : float
+        Along y and along z, m.
+
+    Returns
+    -------
+    Section
+        Its constants.
+
+    Raises
+    ------
+    ModelError
+        A length is not positive and finite.
+    """
     _positive("rectangle", width=width, height=height)
     a, b = max(width, height), min(width, height)
     n = np.arange(1, 200, 2)
@@ -82,5 +142,5 @@ def _round_fibres(radius: float) -> tuple[tuple[float, float], ...]:
 
 def _positive(what: str, **lengths: float) -> None:
     for name, value in lengths.items():
-        if not (np.isfinite(value) and value > 0):
-            raise ModelError(f"The {name} of a {what} is {value} m; it must be positive.")
+        if not (is_finite(value) and 0.0 < value < LARGEST):
+            raise ModelError(f"The {name} of a {what} is {shown(value)} m; it must be positive.")

@@ -49,20 +49,66 @@ class ShapeIntegrals:
         return np.asarray(np.einsum("jlii->jl", self.T))
 
     def first_moments(self, eta: np.ndarray) -> np.ndarray:
-        """sum m (x + phi eta), shape (3,)."""
+        """sum m (x + phi eta).
+
+        Parameters
+        ----------
+        eta : ndarray, shape (n,)
+            Amplitudes.
+
+        Returns
+        -------
+        ndarray, shape (3,)
+            kg m.
+        """
         return np.asarray(self.S0 + self.P @ eta)
 
     def second_moments(self, eta: np.ndarray) -> np.ndarray:
-        """sum m (x + phi eta)(x + phi eta)', shape (3, 3)."""
+        """sum m (x + phi eta)(x + phi eta)'.
+
+        Parameters
+        ----------
+        eta : ndarray, shape (n,)
+            Amplitudes.
+
+        Returns
+        -------
+        ndarray, shape (3, 3)
+            kg m2.
+        """
         mixed = np.einsum("ijk,j->ik", self.c, eta)
         return np.asarray(self.J0 + mixed + mixed.T + np.einsum("jlik,j,l->ik", self.T, eta, eta))
 
     def couplings(self, eta: np.ndarray) -> np.ndarray:
-        """sum m (x + phi eta)_i phi_j at [i, j], shape (3, n, 3)."""
+        """sum m (x + phi eta)_i phi_j at [i, j].
+
+        Parameters
+        ----------
+        eta : ndarray, shape (n,)
+            Amplitudes.
+
+        Returns
+        -------
+        ndarray, shape (3, n, 3)
+            kg m.
+        """
         return np.asarray(self.c + np.einsum("jlik,l->ijk", self.T, eta))
 
     def mass_matrix(self, A: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Equation (13), shape (12 + n, 12 + n)."""
+        """Mass matrix of q = (r_o, a, b, c, eta), equation (13).
+
+        Parameters
+        ----------
+        A : ndarray, shape (3, 3)
+            Axes of the frame in the earth, in columns.
+        eta : ndarray, shape (n,)
+            Amplitudes.
+
+        Returns
+        -------
+        ndarray, shape (12 + n, 12 + n)
+            kg and kg m.
+        """
         n = self.n_modes
         M = np.zeros((12 + n, 12 + n))
         S = np.r_[self.mass, self.first_moments(eta)]
@@ -78,7 +124,24 @@ class ShapeIntegrals:
         return M
 
     def velocity_force(self, A: np.ndarray, Ad: np.ndarray, eta: np.ndarray, etad: np.ndarray) -> np.ndarray:
-        """Equation (14), Q_v = -B' M_FEM Bd qd, shape (12 + n,)."""
+        """Velocity-dependent forces, equation (14): Q_v = -B' M_FEM Bd qd.
+
+        Parameters
+        ----------
+        A : ndarray, shape (3, 3)
+            Axes of the frame in the earth, in columns.
+        Ad : ndarray, shape (3, 3)
+            Its rate, 1/s.
+        eta : ndarray, shape (n,)
+            Amplitudes.
+        etad : ndarray, shape (n,)
+            Rates of the amplitudes, 1/s.
+
+        Returns
+        -------
+        ndarray, shape (12 + n,)
+            Generalised forces, N.
+        """
         Q = np.zeros(12 + self.n_modes)
         Q[:3] = -2 * Ad @ (self.P @ etad)
         Q[3:12] = -2 * (np.einsum("ijk,j->ik", self.couplings(eta), etad) @ Ad.T).ravel()
@@ -88,13 +151,39 @@ class ShapeIntegrals:
         return Q
 
     def gravity_force(self, A: np.ndarray, eta: np.ndarray, gravity: np.ndarray) -> np.ndarray:
-        """Generalised weight of the potential -g . (m r_o + A (S0 + P eta)), shape (12 + n,)."""
+        """Generalised weight of the potential -g . (m r_o + A (S0 + P eta)).
+
+        Parameters
+        ----------
+        A : ndarray, shape (3, 3)
+            Axes of the frame in the earth, in columns.
+        eta : ndarray, shape (n,)
+            Amplitudes.
+        gravity : ndarray, shape (3,)
+            Earth axes, m/s2.
+
+        Returns
+        -------
+        ndarray, shape (12 + n,)
+            Generalised forces, N.
+        """
         S = self.first_moments(eta)
         return np.concatenate([self.mass * gravity, np.outer(S, gravity).ravel(), self.P.T @ (A.T @ gravity)])
 
 
 def shape_integrals(body: ReducedBody) -> ShapeIntegrals:
-    """Sums over the mass points of a reduced body."""
+    """Sums over the mass points of a reduced body.
+
+    Parameters
+    ----------
+    body : ReducedBody
+        With its mass points and their shapes.
+
+    Returns
+    -------
+    ShapeIntegrals
+        In the axes of the finite-element model.
+    """
     m, x, phi = body.masses, body.mass_positions, body.mass_shapes
     n = body.n_modes
     weighted = (m[:, None, None] * phi).reshape(len(m), 3 * n)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import AffineVector
 from mbs.checks import Vector, array, capital, direction, instance_of, is_number, mapping, positive, shown, vector
@@ -17,6 +17,8 @@ from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.ports import PortedBody
 
+SIZES = (1e-12, 1e8)
+"""Radii of gyration, m."""
 ROTATION = 1e-9
 """How far a matrix of axes may be from a rotation."""
 
@@ -66,6 +68,7 @@ class BodyVocabulary(ModelCore):
         m = positive(mass, f"The mass of body {shown(name)}")
         centre = vector(com, self.dimension, f"the centre of mass of body {shown(name)}")
         I = inertia_matrix(inertia, self.dimension, f"The inertia of body {shown(name)}")
+        _check_size(m, I, f"body {shown(name)}")
         # second moments of mass from moments of inertia: J = tr(I)/2 - I; planar: only the polar moment counts
         J = 0.5 * np.trace(I) * np.eye(3) - I if self.dimension == 3 else np.diag([0.5 * I[2, 2], 0.5 * I[2, 2], 0.0])
         new = Body(self, self.unique("body", name), centre, len(self.coordinates))
@@ -305,6 +308,16 @@ class BodyVocabulary(ModelCore):
         self.coordinates += body.coordinates()
         body.number = len(self.bodies)
         self.bodies.append(body)
+
+
+def _check_size(mass: float, inertia: NDArray[np.float64], what: str) -> None:
+    """Refuse a radius of gyration that no body has: it is told by mass and inertia together."""
+    radius = float(np.sqrt(np.max(np.abs(inertia)) / mass))
+    if not SIZES[0] <= radius <= SIZES[1]:
+        raise ModelError(
+            f"The inertia {np.max(np.abs(inertia)):g} kg m2 of {what} and its mass {mass:g} kg are those of something "
+            f"{radius:.1g} m in size; between {SIZES[0]:g} and {SIZES[1]:g} m were expected."
+        )
 
 
 def _angular(value: ArrayLike, size: int, what: str) -> Vector:

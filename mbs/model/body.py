@@ -64,12 +64,44 @@ class Body:
         return 12 if self.dimension == 3 else 4
 
     def point(self, position: ArrayLike) -> AffineVector:
-        """The material point at `position` (earth axes, reference configuration, m)."""
+        """A material point of the body.
+
+        Parameters
+        ----------
+        position : array_like, shape (dimension,)
+            Earth axes in the reference configuration, m.
+
+        Returns
+        -------
+        AffineVector
+            The point as expressions of coordinates, m.
+
+        Raises
+        ------
+        ModelError
+            It is not the numbers it must be.
+        """
         local = vector(position, self.dimension, f"a point of body '{self.name}'") - self.com
         return self._expression(local, 1.0)
 
     def vector(self, components: ArrayLike) -> AffineVector:
-        """The vector fixed in the body that is `components` (earth axes) in the reference configuration."""
+        """A vector fixed in the body.
+
+        Parameters
+        ----------
+        components : array_like, shape (dimension,)
+            Earth axes in the reference configuration.
+
+        Returns
+        -------
+        AffineVector
+            The vector as expressions of coordinates.
+
+        Raises
+        ------
+        ModelError
+            It is not the numbers it must be.
+        """
         return self._expression(vector(components, self.dimension, f"a vector of body '{self.name}'"), 0.0)
 
     def _expression(self, local: Vector, origin: float) -> AffineVector:
@@ -87,7 +119,17 @@ class Body:
         )
 
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
-        """Add a rigidly attached mass: `centre` in earth axes (reference), `second_moment` (3x3) about that centre."""
+        """Add a rigidly attached mass.
+
+        Parameters
+        ----------
+        mass : float
+            kg.
+        centre : ndarray, shape (dimension,)
+            Its centre in earth axes in the reference configuration, m.
+        second_moment : ndarray, shape (3, 3)
+            Second moments of mass about that centre, kg m2.
+        """
         arm = np.zeros(3)
         arm[: self.dimension] = centre - self.com
         self.mass += mass
@@ -114,7 +156,18 @@ class Body:
         return np.array(np.kron(moments, np.eye(3)), dtype=float)
 
     def velocity_weight(self, linear: bool, angular: bool) -> NDArray[np.float64]:
-        """Weights (size, size) that a start velocity has of which these parts are given."""
+        """Weights of a start velocity of which these parts are given.
+
+        Parameters
+        ----------
+        linear, angular : bool
+            Whether the velocity of the centre of mass and the angular velocity are given.
+
+        Returns
+        -------
+        ndarray, shape (size, size)
+            Weights of the rates of its full coordinates.
+        """
         if self.is_point or (linear and angular):
             return self.mass_block()
         d, block = self.dimension, np.zeros((self.size, self.size))
@@ -144,7 +197,22 @@ class Body:
         return np.concatenate([self.com, axes])
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Rates of the full coordinates at `position` (its full coordinates) for given velocities, shape (size,)."""
+        """Rates of the full coordinates for given velocities.
+
+        Parameters
+        ----------
+        linear : ndarray, shape (dimension,)
+            Velocity of the centre of mass, earth axes, m/s.
+        angular : ndarray, shape (1,) or (3,)
+            Angular velocity, earth axes, rad/s.
+        position : ndarray, shape (size,)
+            Its full coordinates.
+
+        Returns
+        -------
+        ndarray, shape (size,)
+            Rates.
+        """
         if self.dimension == 2:
             return np.array([*linear, -angular[0] * position[3], angular[0] * position[2]])
         return np.concatenate([linear, *(np.cross(angular, position[k : k + 3]) for k in (3, 6, 9))])
@@ -161,7 +229,23 @@ class PointMass(Body):
         return self.dimension
 
     def point(self, position: ArrayLike | None = None) -> AffineVector:
-        """The particle itself; `position` may only be its own."""
+        """The particle itself.
+
+        Parameters
+        ----------
+        position : array_like, shape (dimension,), optional
+            May only be its own place, m.
+
+        Returns
+        -------
+        AffineVector
+            The point as expressions of coordinates, m.
+
+        Raises
+        ------
+        ModelError
+            It is another place.
+        """
         if position is not None:
             given = vector(position, self.dimension, f"the point of point mass '{self.name}'")
             if np.linalg.norm(given - self.com) > 1e-9 * max(1.0, float(np.linalg.norm(self.com))):
@@ -171,7 +255,23 @@ class PointMass(Body):
         return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(self.dimension)))
 
     def vector(self, components: ArrayLike) -> AffineVector:
-        """Refused: a particle has no directions."""
+        """Refused: a particle has no directions.
+
+        Parameters
+        ----------
+        components : array_like, shape (dimension,)
+            Earth axes in the reference configuration.
+
+        Returns
+        -------
+        AffineVector
+            Never.
+
+        Raises
+        ------
+        ModelError
+            Always.
+        """
         raise ModelError(f"Point mass '{self.name}' has no axes; use a body where directions matter.")
 
     def mass_block(self) -> NDArray[np.float64]:
@@ -183,7 +283,22 @@ class PointMass(Body):
         return self.com
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Rates of its coordinates."""
+        """Rates of the full coordinates for given velocities.
+
+        Parameters
+        ----------
+        linear : ndarray, shape (dimension,)
+            Velocity of the centre of mass, earth axes, m/s.
+        angular : ndarray, shape (1,) or (3,)
+            Angular velocity, earth axes, rad/s.
+        position : ndarray, shape (size,)
+            Its full coordinates.
+
+        Returns
+        -------
+        ndarray, shape (size,)
+            Rates.
+        """
         return linear
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector, vector
+from mbs.checks import Vector, is_finite, shown, vector
 from mbs.errors import ModelError
 from mbs.flexible.checks import check_turning_inertia
 from mbs.flexible.reduced_body import ReducedBody
@@ -90,18 +90,51 @@ class FlexibleBody(Body):
         return np.asarray(self.com + self.reduced.node_positions @ self.axes.T)
 
     def amplitude(self, mode: int | str) -> Affine:
-        """An amplitude by its number or name as an expression (of static modes m or rad)."""
+        """An amplitude as an expression.
+
+        Parameters
+        ----------
+        mode : int or str
+            Number or name of the mode.
+
+        Returns
+        -------
+        Affine
+            m or rad for static modes.
+
+        Raises
+        ------
+        ModelError
+            There is no such mode; the message lists what there is.
+        """
         names = self.reduced.mode_names
         if isinstance(mode, str):
             if mode not in names:
                 raise ModelError(f"Flexible body '{self.name}' has no mode '{mode}'; it has: {', '.join(names)}.")
             mode = names.index(mode)
-        if not 0 <= mode < self.n_modes:
-            raise ModelError(f"Flexible body '{self.name}' has the modes 0 to {self.n_modes - 1}, not {mode}.")
+        if not is_finite(mode) or int(mode) != mode or not 0 <= mode < self.n_modes:
+            raise ModelError(f"Flexible body '{self.name}' has the modes 0 to {self.n_modes - 1}, not {shown(mode)}.")
+        mode = int(mode)
         return Affine({self.start + 12 + mode: 1.0})
 
     def combination(self, weights: ArrayLike) -> Affine:
-        """``weights . eta``: what `ReducedBody.recovery` gives per unit amplitude, such as a bending moment."""
+        """A sum of amplitudes, each times a weight.
+
+        Parameters
+        ----------
+        weights : array_like, shape (n_modes,)
+            What `ReducedBody.recovery` gives per unit amplitude, such as a bending moment.
+
+        Returns
+        -------
+        Affine
+            ``weights . eta``.
+
+        Raises
+        ------
+        ModelError
+            There is not one number for each mode.
+        """
         w = vector(weights, self.n_modes, f"the weights of the modes of flexible body '{self.name}'")
         return Affine({self.start + 12 + j: float(v) for j, v in enumerate(w) if v != 0.0})
 
@@ -111,14 +144,48 @@ class FlexibleBody(Body):
         return Body(self.model, f"{self.name}.frame", self.com, self.start)
 
     def interface(self, node: str | int) -> Interface:
-        """A node as something that joints, forces and sensors take like a body."""
+        """A node as something that joints, forces and sensors take like a body.
+
+        Parameters
+        ----------
+        node : str or int
+            Name or number.
+
+        Returns
+        -------
+        Interface
+            The same each time.
+
+        Raises
+        ------
+        ModelError
+            There is no such node.
+        """
         number = self._node_number(node)
         if number not in self._interfaces:
             self._interfaces[number] = Interface(self, number)
         return self._interfaces[number]
 
     def interface_at(self, position: ArrayLike, what: str) -> Interface:
-        """The node at a place (earth axes, reference configuration, m)."""
+        """The node at a place.
+
+        Parameters
+        ----------
+        position : array_like, shape (3,)
+            Earth axes in the reference configuration, m.
+        what : str
+            What needs it, for the message.
+
+        Returns
+        -------
+        Interface
+            The node.
+
+        Raises
+        ------
+        ModelError
+            No node is there; the message names the nearest.
+        """
         place = vector(position, 3, f"the point of {what} on flexible body '{self.name}'")
         gaps = np.linalg.norm(self.node_positions - place, axis=1)
         near = [*self._named(), int(np.argmin(gaps))]  # nodes may coincide: interfaces first
@@ -131,14 +198,46 @@ class FlexibleBody(Body):
         return self.interface(best)
 
     def point(self, position: ArrayLike) -> AffineVector:
-        """The node at `position` (earth axes, reference configuration, m)."""
-        place = np.asarray(position, dtype=float)
-        if place.shape == (3,) and np.linalg.norm(place - self.com) <= SAME_PLACE:
+        """The node at a place, or the origin of the frame.
+
+        Parameters
+        ----------
+        position : array_like, shape (3,)
+            Earth axes in the reference configuration, m.
+
+        Returns
+        -------
+        AffineVector
+            The point as expressions of coordinates, m.
+
+        Raises
+        ------
+        ModelError
+            No node is there.
+        """
+        place = vector(position, 3, f"a point of flexible body '{self.name}'")
+        if np.linalg.norm(place - self.com) <= SAME_PLACE:
             return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(3)))
         return self.interface_at(position, "a point").point()
 
     def node(self, node: str | int) -> AffineVector:
-        """A node by name or number; brings three coordinates and rows unless it is there already."""
+        """A node as a point; it brings three coordinates and rows unless it is there already.
+
+        Parameters
+        ----------
+        node : str or int
+            Name or number.
+
+        Returns
+        -------
+        AffineVector
+            The point as expressions of coordinates, m.
+
+        Raises
+        ------
+        ModelError
+            There is no such node.
+        """
         return self.interface(node).point()
 
     def mass_block(self) -> NDArray[np.float64]:
@@ -149,7 +248,18 @@ class FlexibleBody(Body):
         return block
 
     def velocity_weight(self, linear: bool, angular: bool) -> NDArray[np.float64]:
-        """As of a rigid body; the frame begins beside the centre of mass, and the modes stay as they are."""
+        """Weights of a start velocity of which these parts are given; the modes stay as they are.
+
+        Parameters
+        ----------
+        linear, angular : bool
+            Whether the velocity of the centre of mass and the angular velocity are given.
+
+        Returns
+        -------
+        ndarray, shape (size, size)
+            Weights of the rates of its full coordinates.
+        """
         block = super().velocity_weight(linear, angular)
         if linear and not angular:
             place = np.array([1.0, *(self.first_moment / self.mass)])
@@ -167,13 +277,43 @@ class FlexibleBody(Body):
         return np.concatenate([super().reference(), np.zeros(self.n_modes)])
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Rates of the full coordinates for a velocity of the centre of mass and an angular velocity, undeformed."""
+        """Rates of the full coordinates for given velocities, undeformed.
+
+        Parameters
+        ----------
+        linear : ndarray, shape (dimension,)
+            Velocity of the centre of mass, earth axes, m/s.
+        angular : ndarray, shape (1,) or (3,)
+            Angular velocity, earth axes, rad/s.
+        position : ndarray, shape (size,)
+            Its full coordinates.
+
+        Returns
+        -------
+        ndarray, shape (size,)
+            Rates.
+        """
         arm = position[3:12].reshape(3, 3).T @ self.first_moment / self.mass
         rigid = super().velocity(linear - np.cross(angular, arm), angular, position)
         return np.concatenate([rigid, np.zeros(self.n_modes)])
 
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
-        """Refused: masses belong to the nodes of the finite-element model."""
+        """Refused: masses belong to the nodes of the finite-element model.
+
+        Parameters
+        ----------
+        mass : float
+            kg.
+        centre : ndarray, shape (3,)
+            m.
+        second_moment : ndarray, shape (3, 3)
+            kg m2.
+
+        Raises
+        ------
+        ModelError
+            Always.
+        """
         raise ModelError(
             f"Flexible body '{self.name}' cannot take a mass of {mass:g} kg; give it to a node of its model."
         )
@@ -185,8 +325,8 @@ class FlexibleBody(Body):
                 known = ", ".join(self.reduced.interfaces) or "none"
                 raise ModelError(f"Flexible body '{self.name}' has no node '{node}'; its interfaces are: {known}.")
             return names.index(node)
-        if not 0 <= node < len(names):
-            raise ModelError(f"Flexible body '{self.name}' has the nodes 0 to {len(names) - 1}, not {node}.")
+        if not is_finite(node) or int(node) != node or not 0 <= node < len(names):
+            raise ModelError(f"Flexible body '{self.name}' has the nodes 0 to {len(names) - 1}, not {shown(node)}.")
         return int(node)
 
     def _named(self) -> list[int]:
@@ -220,7 +360,23 @@ class Interface(Body):
         return bool(np.any(self.rotation))
 
     def point(self, position: ArrayLike | None = None) -> AffineVector:
-        """The node, or a point fixed to it by a rigid arm (earth axes, reference configuration, m)."""
+        """The node, or a point fixed to it by a rigid arm.
+
+        Parameters
+        ----------
+        position : array_like, shape (3,), optional
+            Earth axes in the reference configuration, m; by default the node.
+
+        Returns
+        -------
+        AffineVector
+            The point as expressions of coordinates, m.
+
+        Raises
+        ------
+        ModelError
+            It is not the numbers it must be.
+        """
         if self._point is None:
             # from the origin of the frame, so that the rows lose no digits far from that of the earth
             origin = AffineVector(tuple(Affine({self.owner.start + k: 1.0}) for k in range(3)))
@@ -229,10 +385,25 @@ class Interface(Body):
         return self._point if np.linalg.norm(arm) <= SAME_PLACE else self._point + self.vector(arm)
 
     def vector(self, components: ArrayLike) -> AffineVector:
-        """The vector that turns with the node and is `components` (earth axes) in the reference configuration.
+        """A vector that turns with the node.
 
         The node turns against the frame by ``theta = Theta eta`` (equation (9) for unit vectors). With t = A theta, the
         vector V is A v turned by Cayley's rotation, ``V - A v = t x (A v + V) / 2``: bilinear, and V keeps its length.
+
+        Parameters
+        ----------
+        components : array_like, shape (3,)
+            Earth axes in the reference configuration.
+
+        Returns
+        -------
+        AffineVector
+            The vector as expressions of coordinates.
+
+        Raises
+        ------
+        ModelError
+            It is not the numbers it must be.
         """
         v = vector(components, 3, f"a vector of interface '{self.name}'")
         carried = self.owner.vector(v)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
-from mbs.checks import one_of, shown
+from mbs.checks import shown
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
@@ -151,7 +151,8 @@ class JointSensorVocabulary(SensorBase):
             The joint transmits no moment, or the component or body is not one.
         """
         found = self._joint(name, joint)
-        one_of(on, ("first", "second"), f"The body that the moment of sensor '{name}' acts on")
+        if not isinstance(on, str) or on not in ("first", "second"):
+            raise ModelError(f"The sensor '{name}' asks for the moment on {shown(on)}; it must be 'first' or 'second'.")
         if found.type == "drive" and found.equations[0].kind == "drive":
             return self.sense_joint_force(name, found, "drive", unit, description)
         axis = self._axis(name, component, axes)

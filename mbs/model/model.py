@@ -22,17 +22,19 @@ from mbs.model.forces import ForceVocabulary
 from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
-from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
+from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import Owner, Parameter, new_parameter
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin, spin
+from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 
 class Model(
-    JointVocabulary,
+    TransmissionVocabulary,
     ForceVocabulary,
     MotionSensorVocabulary,
+    OrientationSensorVocabulary,
     ForceSensorVocabulary,
     JointSensorVocabulary,
     ChannelSensorVocabulary,

@@ -47,7 +47,23 @@ class PortedBody(Body):
             self._points.append((place, owner.point(owner.com) + free))
 
     def point(self, position: ArrayLike) -> AffineVector:
-        """The port at `position` (earth axes, reference configuration, m), else the point of the body."""
+        """The port at a place, else the point of the body.
+
+        Parameters
+        ----------
+        position : array_like, shape (3,)
+            Earth axes in the reference configuration, m.
+
+        Returns
+        -------
+        AffineVector
+            The point as expressions of coordinates, m.
+
+        Raises
+        ------
+        ModelError
+            It is not the numbers it must be.
+        """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
         for place, free in self._points:
             if np.linalg.norm(p - place) <= SAME_PLACE:

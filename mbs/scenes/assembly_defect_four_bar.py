@@ -62,6 +62,16 @@ def build(
         Of the axis of joint C, degrees.
     radius : float
         Of the round bars, m.
+
+    Returns
+    -------
+    Model
+        For `compile`.
+
+    Raises
+    ------
+    ModelError
+        An argument is not what it must be; the message names it.
     """
     m = Model("four-bar with assembly defect", gravity=(0.0, 0.0, 0.0))
     m.stop_time, m.step = DURATION, 0.01

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbs.checks import flag, number
 from mbs.model import Model
 
 WHEELBASE, TRAIL, TILT = 1.02, 0.08, np.pi / 10.0  # m, m, rad
@@ -25,7 +26,20 @@ def build(speed: float = SPEED, lean_rate: float = LEAN_RATE, rolling: bool = Tr
         rad/s about the line through both contact points, positive to the right.
     rolling : bool
         Whether the wheels roll on the road; without, nothing touches.
+
+    Returns
+    -------
+    Model
+        For `compile`.
+
+    Raises
+    ------
+    ModelError
+        An argument is not what it must be; the message names it.
     """
+    speed = number(speed, "The speed of the bicycle")
+    lean_rate = number(lean_rate, "The lean rate of the bicycle")
+    rolling = flag(rolling, "The rolling of the bicycle")
     m = Model("bicycle", dimension=3)
     # products of inertia in axes with z up
     rear = m.body("rear frame", mass=85.0, com=(0.3, 0.0, 0.9), inertia=[[9.2, 0, -2.4], [0, 11.0, 0], [-2.4, 0, 2.8]])

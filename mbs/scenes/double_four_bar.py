@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mbs.checks import whole
 from mbs.model import Model
 
 LENGTH = 1.0  # m
@@ -17,7 +18,18 @@ def build(windows: int = 2) -> Model:
     ----------
     windows : int
         N.
+
+    Returns
+    -------
+    Model
+        For `compile`.
+
+    Raises
+    ------
+    ModelError
+        An argument is not what it must be; the message names it.
     """
+    windows = whole(windows, "The number of windows", 1)
     name = "double four-bar" if windows == 2 else f"{windows}-four-bar"
     m = Model(name, dimension=2, gravity=(0.0, -GRAVITY))
     inertia = MASS * LENGTH**2 / 12.0

@@ -30,7 +30,23 @@ PIECE = 0.1  # s, of the guide's polynomials
 
 
 def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC) -> Model:
-    """The car before the kerb, in equilibrium; fidelities as in `prototype_car.build`."""
+    """The car before the kerb, in equilibrium.
+
+    Parameters
+    ----------
+    fidelity : Fidelity, int or str
+        How much of the chassis is modelled, as in `prototype_car.build`.
+
+    Returns
+    -------
+    Model
+        For `compile`.
+
+    Raises
+    ------
+    ModelError
+        There is no such fidelity.
+    """
     road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", FRICTION)
     m = prototype_car.build(road, fidelity, guide)
     m.stop_time, m.step = DURATION, STEP

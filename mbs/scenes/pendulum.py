@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mbs.checks import positive
 from mbs.model import Model
 
 
@@ -14,7 +15,18 @@ def build(length: float = 1.0, mass: float = 1.0) -> Model:
         m.
     mass : float
         kg.
+
+    Returns
+    -------
+    Model
+        For `compile`.
+
+    Raises
+    ------
+    ModelError
+        An argument is not what it must be; the message names it.
     """
+    length, mass = positive(length, "The length of the pendulum"), positive(mass, "The mass of the pendulum")
     m = Model("pendulum", dimension=2, gravity=(0.0, -9.81))
     bob = m.point_mass("bob", mass=mass, position=(-length, 0.0))
     rod = m.distance("rod", (m.ground, (0.0, 0.0)), bob)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbs.checks import whole
 from mbs.model import Model
 
 LINKS = 10
@@ -20,7 +21,19 @@ def build(links: int = LINKS) -> Model:
     Parameters
     ----------
     links : int
+        How many.
+
+    Returns
+    -------
+    Model
+        For `compile`.
+
+    Raises
+    ------
+    ModelError
+        An argument is not what it must be; the message names it.
     """
+    links = whole(links, "The number of links", 1)
     m = Model(f"chain of {links} links", dimension=3)
     along, square, across = directions()
     axial, transverse = MASS * SECTION**2 / 6.0, MASS * (LENGTH**2 + SECTION**2) / 12.0

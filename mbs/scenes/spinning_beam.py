@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PPoly
 
-from mbs.errors import ModelError
+from mbs.checks import whole
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame
@@ -40,9 +40,18 @@ def build(parts: int = 8) -> Model:
     parts : int
         Flexible bodies welded end to end, each with its frame in its middle. One alone cannot be stiffened by the
         tension and leaves its axis by metres.
+
+    Returns
+    -------
+    Model
+        For `compile`.
+
+    Raises
+    ------
+    ModelError
+        An argument is not what it must be; the message names it.
     """
-    if parts < 1:
-        raise ModelError(f"The spinning beam needs at least one part, not {parts}.")
+    parts = whole(parts, "The number of parts of the spinning beam", 1)
     m = Model("spinning beam", gravity=(0.0, 0.0, 0.0))
     m.stop_time, m.step = DURATION, 0.01
     x = np.linspace(0.0, LENGTH, parts + 1)

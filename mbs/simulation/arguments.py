@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from mbs.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
+from mbs.errors import PoseError
+from mbs.kernel.header import Status
 from mbs.settings import Settings
 from mbs.simulation.state import Pose
 from mbs.system import System
@@ -107,9 +109,12 @@ def check_pose(pose: Pose | None, meta: Mapping[str, Any]) -> Pose | None:
         return None
     instance_of(Pose, pose, "The pose", "a Pose(...)")
     if not meta.get("floating", True):
-        raise ValueError(
-            f"The System {meta['name']!r} takes no pose: its joints tie it to the ground. Leave the pose out, or "
-            "declare the model floating (model.floating = True) where nothing but roads holds it."
+        raise PoseError(
+            f"The starting {pose} was refused: the System {meta['name']!r} takes none, its joints tie it to the "
+            "ground. Leave the pose out, or declare the model floating (model.floating = True) where nothing but roads "
+            "holds it.",
+            0.0,
+            Status.BAD_ARGUMENT,
         )
     return pose
 

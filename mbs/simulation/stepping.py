@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import astuple
@@ -152,10 +153,10 @@ class Simulation:
         """
         index = self._index("parameters", name)
         entry = self._meta["parameters"][index]
-        x = number(value, f"The value of parameter {name!r}", ValueError)
+        x = float(value) if is_finite(value) else math.nan
         if not entry["min"] <= x <= entry["max"]:
             raise ValueError(
-                f"Parameter {name!r} is set to {x:g}{unit_text(entry['unit'])}; "
+                f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}; "
                 f"it must lie between {entry['min']:g} and {entry['max']:g}."
             )
         self.instance.set_parameter(index, x)

@@ -1,0 +1,113 @@
+"""Every number of an element and of a road, given wrong values: each is refused in a sentence of ours."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbs import Model
+from mbs.elements import (
+    AutomaticDrive,
+    BodyForce,
+    BodyTorque,
+    Brake,
+    ContactPoints,
+    Drag,
+    EndStops,
+    GridRoad,
+    GyroscopicSpin,
+    InputForce,
+    KerbRoad,
+    PlaneRoad,
+    ScalarSpringDamper,
+    SpinTorque,
+    SpringDamper,
+    Tyre,
+)
+from mbs.scenes.prototype_car.tyre_data import LATERAL, LONGITUDINAL
+from tests.wrong_values import WRONG, as_scalars, problem_of
+
+M = Model("bench")
+BODY = M.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
+POINT, F, G, SPIN = (
+    BODY.point((1.0, 0.0, 0.0)),
+    BODY.vector((1.0, 0.0, 0.0)),
+    BODY.vector((0.0, 0.0, 1.0)),
+    BODY.point((0.0, 0.0, 0.0))[0],
+)
+FRAME = [BODY.vector(e) for e in np.eye(3)]
+TYRE = Tyre(
+    radius=0.27,
+    bottoming_radius=0.18,
+    stiffness=1e5,
+    damping=100.0,
+    longitudinal=LONGITUDINAL,
+    lateral=LATERAL,
+    trail=(0.17, 0.18),
+    trail_zero=(0.2, 0.22),
+    trail_end=(0.35, 0.4),
+    carcass_stiffness=(1e5, 1e5),
+    carcass_damping=(100.0, 100.0),
+    nominal_load=1500.0,
+)
+
+USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
+    "AutomaticDrive": (AutomaticDrive(200.0, 1e5), lambda e: e.record("e", SPIN, SPIN, F, G, 0)),
+    "BodyForce": (BodyForce([0, None, 1]), lambda e: e.record("e", POINT, FRAME)),
+    "BodyTorque": (BodyTorque([0, None, 1]), lambda e: e.record("e", FRAME)),
+    "Brake": (Brake(100.0, 1e4, 10.0), lambda e: e.record("e", F, G, SPIN, 0)),
+    "ContactPoints": (ContactPoints.for_mass(10.0), lambda e: e.record("e", POINT, FRAME, np.eye(3), 0)),
+    "Drag": (Drag(0.5), lambda e: e.record("e", POINT)),
+    "EndStops": (EndStops(), lambda e: SpringDamper(1.0, stops=e).record("e", POINT)),
+    "GyroscopicSpin": (GyroscopicSpin(1.0), lambda e: e.record("e", F, G, SPIN)),
+    "InputForce": (InputForce(0, (1.0,)), lambda e: e.record("e", [SPIN])),
+    "ScalarSpringDamper": (ScalarSpringDamper(1.0, 1.0, 1.0, 1.0), lambda e: e.record("e", SPIN)),
+    "SpinTorque": (SpinTorque(0, 1.0), lambda e: e.record("e", F, G, SPIN)),
+    "SpringDamper": (SpringDamper(1.0, 1.0, 1.0), lambda e: e.record("e", POINT)),
+    "Tyre": (TYRE, lambda e: e.record("e", POINT, F, SPIN, 0)),
+    "PlaneRoad": (PlaneRoad(), Model("roads").road),
+    "KerbRoad": (KerbRoad(1.0, 0.1), Model("roads").road),
+    "GridRoad": (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((2, 5)), np.ones((2, 5))), Model("roads").road),
+}
+
+
+def allowed(thing: Any, field: dataclasses.Field[Any], label: str, value: Any) -> bool:
+    """Whether a value is right after all."""
+    kind = str(field.type)
+    if value is None:
+        return "None" in kind and "Sequence" not in kind
+    if label == "a matrix":
+        return isinstance(thing, GridRoad) and field.name in ("heights", "frictions")
+    return field.name == "unit" and label in ("text", "empty")
+
+
+@pytest.mark.parametrize("name", USES)
+def test_wrong_values_are_refused(name):
+    thing, use = USES[name]
+    use(thing)
+    problems = []
+    for field in dataclasses.fields(thing):
+        for label, value in WRONG.items():
+            if allowed(thing, field, label, value):
+                continue
+            problem = "accepted"
+            try:
+                use(dataclasses.replace(thing, **{field.name: value}))
+            except Exception as error:
+                problem = problem_of(error, field.name, value)
+                problem += f": {error}" if problem else ""
+            if problem:
+                problems.append(ascii(f"{field.name} = {label}: {problem}"))
+    assert not problems, "\n".join(problems)
+
+
+@pytest.mark.parametrize("name", USES)
+def test_numbers_of_numpy_are_numbers(name):
+    thing, use = USES[name]
+    for field in dataclasses.fields(thing):
+        for same in as_scalars(getattr(thing, field.name)):
+            use(dataclasses.replace(thing, **{field.name: same}))
