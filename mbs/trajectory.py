@@ -47,7 +47,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     accuracy : Accuracy, optional
         What is known of the error.
     notices : sequence of str
-        What the scene wants told, see `Model.notice`; judged at the recorded times.
+        Notices of the scene, see `Model.notice`; evaluated at the recorded times.
     branch_change : str
         A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
     control : Control, optional

@@ -26,7 +26,7 @@ def check_motion(
     """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
 
     A structure that stands, to which nothing gives a velocity, is a model too, since its joint forces may be what is
-    wanted; it is told. Switched rows may be switched off again and do not count.
+    wanted; a warning says so. Switched rows may be switched off again and do not count.
 
     Warns
     -----

@@ -93,7 +93,7 @@ def march(
 
 
 def notices_of(sensors: list[dict[str, str]], t: Array, values: Array) -> list[str]:
-    """What sensors with a notice want told of their columns, `values` (n, ns) at `t` (n,)."""
+    """Notices of sensors whose columns are not zero, `values` (n, ns) at `t` (n,)."""
     told = []
     for k, sensor in enumerate(sensors):
         there = np.flatnonzero(values[:, k] if "notice" in sensor else ())
