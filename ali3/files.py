@@ -13,13 +13,15 @@ from ali3.errors import FileError
 
 
 @contextmanager
-def whole_file(file: str | os.PathLike[str]) -> Iterator[Path]:
+def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iterator[Path]:
     """A path to write to; when the block ends without an error, the file there replaces `file` at once.
 
     Parameters
     ----------
     file : path
-        Its folder is made if it is not there. A device or pipe is written to directly.
+        A device or pipe is written to directly.
+    make_parents : bool
+        Whether its folder is made if it is not there.
 
     Yields
     ------
@@ -40,7 +42,8 @@ def whole_file(file: str | os.PathLike[str]) -> Iterator[Path]:
         return
     folder = ""
     try:
-        make_folder(target.parent)
+        if make_parents:
+            make_folder(target.parent)
         folder = tempfile.mkdtemp(prefix=".writing-", dir=target.parent)
         made = Path(folder, target.name)
         yield made

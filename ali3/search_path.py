@@ -9,10 +9,18 @@ import sys
 def forget_current_folder() -> None:
     """Take the current folder out of the search path: files of the user there may have any name.
 
-    ``python -m`` and empty entries of PYTHONPATH put it there. It stays where it holds this package or the standard
-    library. This runs before anything else is imported, so it uses only what Python itself has imported.
+    ``python -m`` and empty entries of PYTHONPATH put it there, before the standard library. It stays where PYTHONPATH
+    names it, where it is searched after the standard library as an installed project of the user, and where it holds
+    this package. This runs before anything else is imported, so it uses only what Python itself has imported.
     """
-    current = os.path.realpath(os.getcwd())
-    package, library = os.path.dirname(os.path.realpath(__file__)), os.path.dirname(os.path.realpath(os.__file__))
-    if current not in (os.path.dirname(package), library):
-        sys.path[:] = [place for place in sys.path if os.path.realpath(place) != current]
+    try:
+        current = os.path.realpath(os.getcwd())
+    except OSError:  # the folder is gone
+        return
+    library = os.path.dirname(os.path.realpath(os.__file__))
+    named = [os.path.realpath(place) for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place]
+    if current in (os.path.dirname(os.path.dirname(os.path.realpath(__file__))), library, *named):
+        return
+    places = [os.path.realpath(place) for place in sys.path]
+    first = places.index(library) if library in places else len(places)
+    sys.path[:] = [entry for k, entry in enumerate(sys.path) if k >= first or places[k] != current]

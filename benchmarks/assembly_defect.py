@@ -48,11 +48,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     expected = reference()
     rows: list[dict[str, Any]] = []
+    repeats = 1 if options.quick else 3
     for case in watched(FEW if options.quick else CASES):
-        row, run = measure(case, expected, 1 if options.quick else 3)
+        row, run = measure(case, expected, repeats)
         rows.append(row)
-    meta = describe("four-bar with assembly defect", mbs.Settings(), end_s=scene.DURATION, h_s=STEP, reference=ORIGIN)
-    print(f"{meta['machine']['processor']}, {meta['machine']['cores']} cores, {meta['machine']['system']}\n")
+    about = {"end_s": scene.DURATION, "h_s": STEP, "reference": ORIGIN}
+    meta = describe("four-bar with assembly defect", mbs.Settings(), repeats=repeats, warm_up=1, **about)
     print(f"Against {ORIGIN};")
     print("largest difference as a fraction of the peak of each moment, and of the largest of all moments\n")
     print_table(rows, TABLE)

@@ -13,7 +13,7 @@ from benchmarks.paper.double_four_bar import (
     END,
     METHODS,
     PAPER,
-    ROUNDS,
+    REPEATS,
     compare_with_paper,
     cost_of_accuracy,
     draw,
@@ -47,17 +47,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = parser_of("double_four_bar", __doc__, chart="error against wall time")
     parser.add_argument("--quick", action="store_true", help="N = 1 and 2 only")
     options = parser.parse_args(arguments)
-    rows = measure_all(WINDOWS[:2] if options.quick else WINDOWS)
+    rows = measure_all(WINDOWS[:2] if options.quick else WINDOWS, REPEATS)
     meta = describe(
         "double four-bar",
         METHODS["ALi3-P"],
         end_s=END,
-        rounds=ROUNDS,
-        wall="median over rounds through all rows, time in the kernel's step loop, one warm-up",
+        repeats=REPEATS,
+        warm_up=1,
+        wall="median over repeats through all rows, time in the kernel's step loop",
         methods={name: settings.kernel_fields() for name, settings in METHODS.items()},
         paper_table_1=[{"h_s": h, "energy_deviation_J": e, "wall_s": w} for h, (e, w) in PAPER.items()],
     )
-    print(f"\n{meta['machine']['processor']}, {meta['machine']['cores']} cores, {meta['machine']['system']}\n")
+    print()
     print_table(rows, TABLE)
     print("\nThe paper's Table 1 (Matlab, its own machine) beside this run, N = 2; ratio = paper / here")
     print_table(compare_with_paper(rows), dict.fromkeys(compare_with_paper(rows)[0], ".3g"))

@@ -14,7 +14,7 @@ from typing import Any
 
 import mbs
 from ali3.running import run_command
-from benchmarks.methods.error_control import CHOSEN, ROUNDS, TABLE, compare, measure, methods_of, misses
+from benchmarks.methods.error_control import CHOSEN, REPEATS, TABLE, compare, measure, methods_of, misses
 from benchmarks.references.cases import CASES
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
@@ -35,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for scene in options.scene or (QUICK if options.quick else SCENES):
         for tolerance in QUICK_TOLERANCES if options.quick else TOLERANCES:
             names = [*methods_of(scene, tolerance), CHOSEN]
-            part = [measure(scene, tolerance, m, 1 if options.quick else ROUNDS) for m in watched(names)]
+            part = [measure(scene, tolerance, m, 1 if options.quick else REPEATS) for m in watched(names)]
             compare(part)
             rows += part
             print_table(part, TABLE)
@@ -43,7 +43,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = sum(row["method"].startswith(CHOSEN) for row in rows)
     print(f"\n{chosen} choices, {len(wrong)} misses")
     print_table(wrong, TABLE)
-    save_rows(options.json, describe("error_control", mbs.Settings(), misses=len(wrong)), rows)
+    save_rows(
+        options.json,
+        describe("error_control", mbs.Settings(), repeats=1 if options.quick else REPEATS, misses=len(wrong)),
+        rows,
+    )
     return 0
 
 

@@ -47,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print_table(rows, COLUMNS)
     lines = verdict(rows)
     print("\n" + "\n".join(lines))
-    save_rows(options.json, describe("fidelity", Settings(), repeats=options.repeats, verdict=lines), rows)
+    save_rows(options.json, describe("fidelity", Settings(), repeats=options.repeats, warm_up=1, verdict=lines), rows)
     if options.chart:
         chart(rows, options.chart)
     return 0

@@ -51,6 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         scene=options.scene,
         steps=options.steps,
         repeats=options.repeats,
+        warm_up=1,
         instances=options.instances,
         quantities=QUANTITIES,
         inner_step_s=system.meta["experiment"]["step_s"],

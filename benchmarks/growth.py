@@ -13,7 +13,7 @@ import mbs
 from ali3.running import run_command
 from benchmarks.methods.growth import (
     CHASSIS_EXPONENTS,
-    CHASSIS_ROUNDS,
+    CHASSIS_REPEATS,
     CHASSIS_STEP,
     END,
     EXPONENTS,
@@ -30,7 +30,7 @@ from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 
 WINDOWS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
-ROUNDS = 9
+REPEATS = 9
 MODES = (5, 10, 20, 50, 100, 200)  # dynamic ones of the chassis, beside 60 static and 6 inertia modes
 TABLE = {
     "N": "d",
@@ -65,14 +65,15 @@ CHASSIS_TABLE = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = parser_of("growth", __doc__, chart="the growth")
-    parser.add_argument("--quick", action="store_true", help="N up to 20, one round")
+    parser.add_argument("--quick", action="store_true", help="N up to 20, one repeat")
     options = parser.parse_args(arguments)
-    rows = measure(WINDOWS[:5] if options.quick else WINDOWS, 1 if options.quick else ROUNDS)
+    repeats = 1 if options.quick else REPEATS
+    rows = measure(WINDOWS[:5] if options.quick else WINDOWS, repeats)
     print_table(rows, TABLE)
     fitted = exponents(rows)
     print(f"\nExponents b of cost = a N^b from N = {FITTED_FROM}")
     print_table(fitted, {"method": ""} | dict.fromkeys(EXPONENTS, ".3f"))
-    flexible = chassis(MODES[:2] if options.quick else MODES, 1 if options.quick else CHASSIS_ROUNDS)
+    flexible = chassis(MODES[:2] if options.quick else MODES, 1 if options.quick else CHASSIS_REPEATS)
     flexible_fitted = chassis_exponents(flexible)
     print("\nThe car's frame alone, thrown and spinning, ALi3-P")
     print_table(flexible, CHASSIS_TABLE)
@@ -88,7 +89,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     )
     about = {"step_s": CHASSIS_STEP, "rows": flexible, "exponents": flexible_fitted}
-    meta = describe("growth", mbs.Settings(), rounds=ROUNDS, step_s=STEP, end_s=END, exponents=fitted, chassis=about)
+    meta = describe(
+        "growth", mbs.Settings(), repeats=repeats, warm_up=1, step_s=STEP, end_s=END, exponents=fitted, chassis=about
+    )
     save_rows(options.json, meta, rows)
     if options.chart is not None:
         draw(rows, options.chart)

@@ -36,7 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     todo = [(fidelity, h) for fidelity in options.fidelity for h in options.steps]
     rows = [measure(fidelity, h, options.repeats) for fidelity, h in watched(todo)]
     print_table(rows, COLUMNS)
-    save_rows(options.json, describe("kerb", Settings(), repeats=options.repeats), rows)
+    save_rows(options.json, describe("kerb", Settings(), repeats=options.repeats, warm_up=1), rows)
     return 0
 
 

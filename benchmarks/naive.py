@@ -38,7 +38,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     rows = [measure(scene, options.repeats) for scene in watched(list(SCENES))]
     print_table(rows, COLUMNS)
-    save_rows(options.json, describe("naive", Settings(), h_s=H, duration_s=DURATION, rod_mass_kg=ROD_MASS), rows)
+    save_rows(
+        options.json,
+        describe(
+            "naive", Settings(), repeats=options.repeats, warm_up=1, h_s=H, duration_s=DURATION, rod_mass_kg=ROD_MASS
+        ),
+        rows,
+    )
     return 0
 
 

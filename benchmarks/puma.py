@@ -19,7 +19,7 @@ from mbs.scenes import puma
 
 STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
 METHODS = ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
-ROUNDS = 5
+REPEATS = 5
 TABLE = {
     "method": "",
     "h_s": "g",
@@ -37,19 +37,20 @@ TABLE = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = parser_of("puma", __doc__)
-    parser.add_argument("--quick", action="store_true", help="one method, one round")
+    parser.add_argument("--quick", action="store_true", help="one method, one repeat")
     parser.add_argument("--split", action="store_true", help=f"also the share of each stage at h = {LARGE} s")
     options = parser.parse_args(arguments)
     system = mbs.compile(puma.build())
+    repeats = 1 if options.quick else REPEATS
     rows = [
-        measure(system, method, h, 1 if options.quick else ROUNDS)
+        measure(system, method, h, repeats)
         for method, h in watched([(m, h) for m in (METHODS[:1] if options.quick else METHODS) for h in STEPS])
     ]
     print_table(rows, TABLE)
     if options.split:
         print(f"\n{METHODS[0]}, steps of {LARGE} s in one stage and {SMALL} s elsewhere")
         print_table(split(system, METHODS[0]), {"large steps in": "", "when pinned mm": ".3g", "error mm": ".3g"})
-    save_rows(options.json, describe("puma", mbs.Settings(), rounds=ROUNDS), rows)
+    save_rows(options.json, describe("puma", mbs.Settings(), repeats=repeats), rows)
     return 0
 
 

@@ -16,7 +16,7 @@ import mbs
 from ali3.running import run_command
 from benchmarks import peers
 from benchmarks.baselines.run import LANGUAGE
-from benchmarks.methods.work_precision import QUICK_SCENES, ROUNDS, compare, measure
+from benchmarks.methods.work_precision import QUICK_SCENES, REPEATS, compare, measure
 from benchmarks.methods.work_precision_chart import draw
 from benchmarks.references.cases import CASES, SHARED, size_of
 from benchmarks.shared.command import parser_of, save_rows
@@ -46,11 +46,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = parser_of("work_precision", __doc__)
     parser.add_argument("--scene", action="append", choices=list(CASES), help="a scene; may be given again")
     parser.add_argument("--charts", type=Path, metavar="DIR", help="draw a PNG per scene")
-    parser.add_argument("--quick", action="store_true", help="two scenes, two steps, one round")
-    parser.add_argument("--rounds", type=int, default=ROUNDS, help=f"timed runs of each row; default {ROUNDS}")
+    parser.add_argument("--quick", action="store_true", help="two scenes, two steps, one repeat")
+    parser.add_argument(
+        "--repeats", "--rounds", type=int, default=REPEATS, metavar="N", help=f"timed runs per row; default: {REPEATS}"
+    )
     options = parser.parse_args(arguments)
     if options.quick:
-        options.rounds = 1
+        options.repeats = 1
     scenes = options.scene or (QUICK_SCENES if options.quick else tuple(CASES))
     engines, missing = peers.available()
     for name in missing:
@@ -58,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     rows: list[dict[str, Any]] = []
     ratios: list[dict[str, Any]] = []
     for scene in scenes:
-        part = measure(scene, options.quick, engines, options.rounds)
+        part = measure(scene, options.quick, engines, options.repeats)
         rows += part
         print(f"\n{CASES[scene].title}; extent of the motion {size_of(scene):.3g} {CASES[scene].unit}", flush=True)
         print_table(part, {k: v for k, v in TABLE.items() if k != "scene"})
@@ -81,8 +83,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     meta = describe(
         "work_precision",
         mbs.Settings(),
-        rounds=options.rounds,
-        wall="median over rounds through all rows of a scene, time of the steps alone, after one warm-up",
+        repeats=options.repeats,
+        warm_up=1,
+        wall="median over repeats through all rows of a scene, time of the steps alone",
         languages={"kernel": "C", "classical": LANGUAGE} | dict.fromkeys(engines, "C++"),
         peers={name: engine.VERSION for name, engine in engines.items()},
         missing_peers=missing,

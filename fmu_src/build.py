@@ -73,7 +73,7 @@ def build_fmu(
     platforms : sequence of str, optional
         Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``; by default all the kind can have.
     say : callable
-        Is told what is going on, one line at a time.
+        Called with one line of progress at a time.
     kind : str
         One of `KINDS`.
     fidelity : int

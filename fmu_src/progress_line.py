@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import TextIO
 
 PATIENCE = 2.0
-"""What takes longer is told, s."""
+"""What takes longer is reported, s."""
 _REDRAWN, _REPEATED = 0.5, 30.0
 
 

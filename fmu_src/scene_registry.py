@@ -62,7 +62,7 @@ def load_fidelities(scene: str) -> tuple[str, dict[int, mbs.System], int]:
     """Build and compile a scene in all the fidelities it offers.
 
     A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
-    0 and on; the numbers may be members of an enumeration, whose names an FMU then tells. The one of `build` is the
+    0 and on; the numbers may be members of an enumeration, whose names are then in the FMU. The one of `build` is the
     default of its argument `fidelity`. (The function may still be called `variants`, until the next release.)
 
     Returns
@@ -112,7 +112,7 @@ def _system(scene: str, build: Callable[..., Any]) -> mbs.System:
 
 @contextmanager
 def _scene(scene: str) -> Iterator[tuple[str, Callable[..., Any]]]:
-    """Name and function of a scene, in a context in which a file finds its neighbours and its errors are told."""
+    """Name and function of a scene, in a context in which a file finds its neighbours and its errors are reported."""
     if not _is_path(scene):
         yield _from_package(scene)
         return
@@ -136,7 +136,7 @@ class _Neighbours(MetaPathFinder):
     """Finds the files beside a scene before installed packages, but not in place of the standard library.
 
     What is imported already, this package and the engine with all they need among them, is not looked for again: a
-    file that is called numpy.py by chance stands in nobody's way.
+    file that is called numpy.py by chance does no harm.
     """
 
     def __init__(self, folder: Path) -> None:

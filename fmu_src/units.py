@@ -58,7 +58,11 @@ QUANTITIES: dict[str, str] = {
 
 
 def canonical_unit(name: str) -> str:
-    """One spelling of products and powers: ``N m`` and ``N*m`` become ``N.m``."""
+    """One spelling of products and powers.
+
+    >>> canonical_unit("N m"), canonical_unit("N*m"), canonical_unit("kg m^2")
+    ('N.m', 'N.m', 'kg.m2')
+    """
     return re.sub(r"[*· ]+", ".", name).replace("^", "").replace("Nm", "N.m")
 
 
@@ -97,6 +101,13 @@ def parse_unit(name: str) -> Unit:
     ------
     ValueError
         If a symbol is not known.
+
+    Examples
+    --------
+    >>> parse_unit("N.m/rad")
+    Unit(name='N.m/rad', exponents={'kg': 1, 'm': 2, 's': -2, 'rad': -1}, factor=1.0)
+    >>> parse_unit("mm/s").factor
+    0.001
     """
     exponents = dict.fromkeys(_BASE, 0)
     factor = 1.0

@@ -77,7 +77,7 @@ def check(
     steps : int
         Communication steps per run.
     say : callable
-        Is told each finding at once.
+        Called with each finding at once.
 
     Returns
     -------

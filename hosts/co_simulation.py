@@ -140,7 +140,7 @@ def run(
     driver : Driver, optional
         Overrules the inputs it acts on.
     progress : callable
-        Is told the number of finished steps, now and then.
+        Called with the number of finished steps from time to time.
 
     Returns
     -------

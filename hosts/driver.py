@@ -21,7 +21,7 @@ CONSTANTS = {
     "vehicle_length": "vehicle.length",
     "vehicle_width": "vehicle.width",
 }
-"""What a driver must know of the car: setting and the constant of the FMU that tells it."""
+"""Numbers of the car that a driver needs: setting and the constant of the FMU that has it."""
 
 
 @dataclass(frozen=True)
@@ -111,12 +111,12 @@ class Driver:
 
 
 def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> Driver:
-    """Driver from the ``[driver]`` section of a manoeuvre and what the FMU tells of the car.
+    """Driver from the ``[driver]`` section of a manoeuvre and the constants of the FMU.
 
     Parameters
     ----------
     settings : mapping of str to str
-        ``course`` and the fields of `DriverSettings`; they come before what the FMU tells.
+        ``course`` and the fields of `DriverSettings`; they take precedence over the constants of the FMU.
     constants : mapping of str to float
         Constants of the FMU by name; see `CONSTANTS`.
 

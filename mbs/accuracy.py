@@ -1,5 +1,5 @@
-"""What a run with fixed steps finds out about its own error: from its energy balance at no cost, and where that makes
-it suspect from a repeat with shorter steps.
+"""What a run with fixed steps finds about its own error: from the energy balance at no cost, and for suspect runs from
+a repeated run with shorter steps.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ STILL = 1e-4  # of the largest value in the unit: a smaller range is rest
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 BLIND_MISS, BLIND = 0.6, 0.01
 """The first of these is enough where the energy is better than the angle of a step lets expect, by the second: a free
-body that tumbles keeps its energy to third order, and turns over at times that hang on its phase."""
+body that tumbles keeps its energy to third order, and flips at times that depend on its phase."""
 LONG_MISS, LONG = 0.05, 30.0
 """The same of motions that have turned by more radians than the second: unstable ones double an error every few."""
 COORDINATES = "1"
@@ -63,7 +63,7 @@ class Accuracy:
     sensors : dict of str to float
         Estimated largest error of the sensors that were judged, in their units.
     message : str
-        What speaks against the result, with a remedy; empty where nothing does.
+        Evidence against the result, with a remedy; empty where there is none.
     """
 
     energy_balance: float | None
@@ -118,12 +118,12 @@ def judged_sensors(system: System) -> dict[str, list[str]]:
 
 
 def has_motion_sensor(system: System) -> bool:
-    """Whether some sensor tells where things are or how fast; else the coordinates of the System are judged."""
+    """Whether some sensor measures positions or velocities; else the coordinates of the System are compared."""
     return any(unit != "N" for unit in judged_sensors(system))
 
 
 def is_suspect(report: Report, steps: int, halvings: int, method: str) -> bool:
-    """Whether a run should be repeated before it is believed."""
+    """Whether a run should be repeated to check it."""
     if halvings > SUSPECT_HALVINGS * steps or report.energy_balance > WRONG_BALANCE:
         return True
     speed = report.speed_peak or math.inf
@@ -212,16 +212,16 @@ def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> f
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     """What is known without a repeat."""
-    balanced = report.kinetic_peak > 0.0
+    known = report.kinetic_peak > 0.0
     return Accuracy(
-        report.energy_balance if balanced else None,
-        report.energy_error if balanced else None,
+        report.energy_balance if known else None,
+        report.energy_error if known else None,
         halvings / max(steps, 1),
     )
 
 
 def balance_says(report: Report, method: str, driven: bool) -> bool:
-    """Whether the energy balance alone says that a result is wrong; a drive whose rate jumps gives energy at once."""
+    """Whether the energy balance alone shows that a result is wrong; a drive whose rate jumps adds energy instantly."""
     return METHOD_TABLE[method].balance_decides and not driven and report.energy_balance > WRONG_BALANCE
 
 

@@ -19,6 +19,14 @@ class Affine:
         Full-coordinate number to coefficient; zeros are left out.
     constant : float
         Constant part.
+
+    Examples
+    --------
+    >>> x, y = Affine({0: 1.0}), Affine({1: 1.0})
+    >>> 2.0 * x - y + 0.5
+    Affine(terms={0: 2.0, 1: -1.0}, constant=0.5)
+    >>> (2.0 * x - y + 0.5).value(np.array([3.0, 1.0]))
+    5.5
     """
 
     terms: Mapping[int, float] = field(default_factory=dict)

@@ -32,7 +32,7 @@ class Control:
     h : float or None
         The fixed step, s; None: steps under error control.
     steps, rejected, failed : int
-        Steps of the run that is shown; those that erred too much, and those that did not converge, were made again.
+        Steps of the run that is shown; those that erred too much, and those that did not converge, were repeated.
     forced : int
         Steps that err more than their share of the tolerance and no less when they are shorter.
     smallest, largest : float

@@ -67,7 +67,7 @@ class InputSignals:
         return values
 
     def attach(self, instance: Instance, t0: float, t_end: float, tolerance: float) -> None:
-        """Let the kernel ask for the values at every time at which its method looks at inputs, from `t0` to `t_end`.
+        """Let the kernel ask for the values at every time at which its method evaluates inputs, from `t0` to `t_end`.
 
         Without functions of time no step calls Python. `instance.set_input_function(None)` ends it.
         """

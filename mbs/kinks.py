@@ -79,7 +79,7 @@ def _worst_kink(evaluator: Evaluator, state: State) -> tuple[int, float, float] 
 
 
 def _warn_of_bends(evaluator: Evaluator, state: State) -> None:
-    """Forces that are linear only in velocities far below those of a motion, such as a grip of next to nothing."""
+    """Forces that are linear only in velocities far below those of a motion, such as a very small friction."""
     here = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
     noise = 1e-13 * np.abs(here).max(initial=0.0) / SHIFT
     bends = []

@@ -1,4 +1,4 @@
-"""Whether the `meta` of a System file says what its readers take for granted."""
+"""Whether the `meta` of a System file has what its readers require."""
 
 from __future__ import annotations
 

@@ -94,7 +94,7 @@ METHOD_TABLE = {
         suspect_miss=8.0,
         conservative_only=True,
     ),
-    "runge_kutta_8": Method(  # no suspect_miss: it is right far beyond what its predictor tells
+    "runge_kutta_8": Method(  # no suspect_miss: it is accurate far beyond what its predictor shows
         number=MethodNumber.RUNGE_KUTTA_8,
         title="Runge-Kutta, order 8",
         order=8,

@@ -33,7 +33,7 @@ class Settings:
     max_iterations : int
         Newton iterations of one step.
     max_halvings : int
-        How often a step that does not converge, or in which energy comes or goes without a force, is halved; 0 never.
+        How often a step that does not converge, or in which the energy changes without a force, is halved; 0 never.
     project : bool
         Project velocities and accelerations, equations (24) and (25) of the paper.
     update : {"linearised", "paper"}
@@ -47,7 +47,7 @@ class Settings:
         - "ali3p", the default: that of the paper, trapezoidal rule with projections; takes every System.
         - "ali3p_no_projection": the same without projections, for comparison.
         - "ali3p_generalised_alpha": the same with the dissipative rule of Chung and Hulbert.
-        - "energy_momentum": keeps the energy of a conservative model and takes out of any other what its dampers take.
+        - "energy_momentum": conserves the energy of a conservative model; in any other only the dampers dissipate.
         - "energy_momentum_4": five such steps composed to order four; conservative models without element states.
         - "runge_kutta_8": explicit, order eight; smooth motion without stiff forces, element states or singular
           positions.
@@ -60,7 +60,7 @@ class Settings:
         Start value of a step of ALi3-P: accelerations and multipliers of past steps go on along a parabola where they
         are smooth, or the present ones stay, as in the paper. The first needs fewer iterations.
     rho_infinity : float
-        Of generalised-alpha: what a step leaves of an infinitely fast oscillation, 0 to 1.
+        Of generalised-alpha: spectral radius at infinite frequency, 0 to 1.
 
     Raises
     ------
@@ -111,7 +111,7 @@ class Settings:
 
     @property
     def looks_at_ends(self) -> bool:
-        """Whether the method looks at inputs at the ends of its steps only, as the trapezoidal rule does."""
+        """Whether the method evaluates inputs at the ends of its steps only, as the trapezoidal rule does."""
         return METHOD_TABLE[self.method].looks_at_ends
 
     def kernel_fields(self) -> dict[str, float | int]:

@@ -13,42 +13,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.files import whole_file
 from mbs.checks import instance_of
 from mbs.frames import Frames
+from mbs.kernel.header import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS, SYSTEM_VERSION
 from mbs.meta_check import problem_of
 from mbs.system_text import system_text
 
 MAGIC = b"ALI3SYS\n"
-VERSION = 1
+VERSION = SYSTEM_VERSION
 HEADER = struct.Struct("<8sIIQII")
 ENTRY = struct.Struct("<40sIIQQ")
 INT32, FLOAT64, BYTES = 1, 2, 3
 
-_FLOAT_NAMES = """
-q0 qd0 y0 mass_val gravity_force gravity_const row_lin row_const row_scale row_measure quad_h angle_hc angle_hs gterm_h
-sig_val sig_const el_real input_start input_min input_max guide_real road_real par_value par_min par_max par_scale
-sen_real pose_0 pose_cos pose_sin pose_x pose_y pose_z pose_speed
-velocity_h flex_gravity flex_P flex_c flex_T flex_K flex_C
-tree_base tree_mass tree_centre tree_inertia tree_gravity tree_out_local tree_cut_place
-tree_angle_sign tree_angle_inertia
-static_value
-"""
-_INTEGER_NAMES = """
-mass_ptr mass_col mass_pos row_ptr row_col row_front row_loc quad_ptr quad_a quad_b angle_row angle_theta angle_ptr
-angle_a angle_b gterm_row gterm_guide gterm_power gterm_a gterm_b front_col front_ptr front_idx front_parent front_map
-front_off sig_ptr sig_col el_type el_sig_ptr el_sig el_real_ptr el_int_ptr el_int el_state_ptr el_out_ptr el_front
-el_loc_ptr el_loc guide_type guide_input guide_real_ptr road_type road_real_ptr par_ptr par_target par_index sen_type
-sen_int_ptr sen_int sen_real_ptr row_switch switch_start velocity_row velocity_ptr velocity_a velocity_b
-flex_mode_ptr flex_frame flex_mode flex_front flex_loc
-tree_parent tree_slides tree_frame tree_out_body tree_out_col tree_cut_body tree_cut_rows
-tree_angle_col tree_angle_ptr tree_angle_joint
-mode_triad_ptr mode_triad mode_cell_ptr mode_cell mode_name_ptr mode_name
-static_start static_par pose_partner
-"""
-FLOATS = frozenset(_FLOAT_NAMES.split())
-INTEGERS = frozenset(_INTEGER_NAMES.split())
-OPTIONAL = frozenset(n for n in FLOATS | INTEGERS if n.startswith(("mode_", "static_"))) | {"pose_partner"}
-"""Arrays that may be missing: then nothing is known of assembly modes or of a start in equilibrium."""
+FLOATS, INTEGERS, OPTIONAL = frozenset(FLOAT_ARRAYS), frozenset(INTEGER_ARRAYS), frozenset(OPTIONAL_ARRAYS)
+"""Names of the arrays; the optional ones may be missing: then nothing is known of assembly modes or of a start in
+equilibrium."""
 
 
 class SystemFileError(ValueError):
@@ -185,14 +165,15 @@ class System:
         Parameters
         ----------
         path : str or Path
-            File to write; one that exists is replaced.
+            File to write; one that exists is replaced when the new one is whole.
 
         Raises
         ------
         OSError
             The file cannot be written.
         """
-        Path(path).write_bytes(self.to_bytes())
+        with whole_file(path, make_parents=False) as made:
+            made.write_bytes(self.to_bytes())
 
     @classmethod
     def load(cls, path: str | Path) -> System:

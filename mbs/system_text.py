@@ -7,7 +7,7 @@ from typing import Any
 
 
 def _length(report: dict[str, Any]) -> list[str]:
-    """What tolerances are relative to; older Systems do not tell it."""
+    """What tolerances are relative to; older Systems do not have it."""
     if "length" not in report:
         return []
     source = "stated" if report["length_stated"] else "extent of the drawing"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.files import whole_file
 from mbs.accuracy import Accuracy
 from mbs.checks import shown, whole
 from mbs.control import Control
@@ -46,7 +47,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     accuracy : Accuracy, optional
         What is known of the error.
     notices : sequence of str
-        What the scene wants told, see `Model.notice`; judged at the recorded times.
+        Notices of the scene, see `Model.notice`; evaluated at the recorded times.
     branch_change : str
         A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
     control : Control, optional
@@ -134,14 +135,14 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Parameters
         ----------
         path : str or path-like
-            File to write; one that exists is replaced.
+            File to write; one that exists is replaced when the new one is whole.
 
         Raises
         ------
         OSError
             The file cannot be written.
         """
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
+        with whole_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in self.units.items())])
             writer.writerows(np.column_stack([self.t, *self.values()]).tolist())

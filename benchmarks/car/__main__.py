@@ -65,6 +65,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Settings(),
         reference=f"own engine, h = {trajectories.STEP:g} s, tests/data/car",
         repeats=options.repeats,
+        warm_up=1,
         fmpy="set 3 inputs, one communication step of h, get 4 outputs; null: without FMU or another road",
         verdict=lines,
     )

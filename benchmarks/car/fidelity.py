@@ -183,7 +183,7 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
             axes.xaxis.set_major_formatter("{x:g}")
             axes.xaxis.set_minor_formatter("")
     handles = {text: h for ax in panels.flat for h, text in zip(*ax.get_legend_handles_labels(), strict=True)}
-    handles = dict(sorted(handles.items()))
+    handles = dict(sorted(handles.items(), key=lambda item: int(item[0].partition(":")[0])))
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=2, fontsize="small")
     figure.suptitle("Fidelities of the car: error against cost on the same manoeuvres")
     save_chart(figure, file)

@@ -18,7 +18,7 @@ CHOSEN = "auto"
 SLOW = 1e-3
 """Below this tolerance ALi3-P, of order two, is left out where others can be used."""
 MOST_ERROR, MOST_TIME = 10.0, 2.0
-ROUNDS, LONG = 5, 0.5  # s: longer runs are made once
+REPEATS, LONG = 5, 0.5  # s: longer runs are made once
 TABLE = {
     "scene": "",
     "tolerance": ".0e",
@@ -35,13 +35,13 @@ TABLE = {
 }
 
 
-def measure(scene: str, tolerance: float, method: str, rounds: int) -> dict[str, Any]:
+def measure(scene: str, tolerance: float, method: str, repeats: int) -> dict[str, Any]:
     """One row: the run with its errors, and the least time of a few."""
     case, system = CASES[scene], system_of(scene)
     row: dict[str, Any] = dict.fromkeys(TABLE) | {"scene": scene, "tolerance": tolerance, "method": method}
     times = np.linspace(0.0, case.end, SAMPLES + 1)
     spent = []
-    for _ in range(rounds):
+    for _ in range(repeats):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             begin = time.process_time()

@@ -19,15 +19,15 @@ from mbs.scenes import double_four_bar
 from mbs.scenes.prototype_car.frame import DAMPING, INTERFACES, REFERENCE, prototype_frame
 
 STEP, END = 0.01, 0.6  # s: up to before the first singular position
-CHASSIS_STEP, CHASSIS_STEPS, CHASSIS_ROUNDS = 0.005, 100, 5  # s
+CHASSIS_STEP, CHASSIS_STEPS, CHASSIS_REPEATS = 0.005, 100, 5  # s
 FITTED_FROM = 10  # N: below it the fixed cost of a step shows
 METHODS = ("ali3p", "energy_momentum")
 EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros", "operations_per_step")
 CHASSIS_EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros")
 
 
-def measure(windows: Sequence[int], rounds: int) -> list[dict[str, Any]]:
-    """All rows; times are medians over rounds through all of them."""
+def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
+    """All rows; times are medians over repeats through all of them."""
     loop, dgemm = compiled_loop_peak(), dgemm_peak()
     steps = round(END / STEP)
     rows: list[dict[str, Any]] = []
@@ -64,7 +64,7 @@ def measure(windows: Sequence[int], rounds: int) -> list[dict[str, Any]]:
                 }
             )
     walls: list[list[float]] = [[] for _ in rows]
-    for turn, k in watched([(turn, k) for turn in range(rounds + 1) for k in range(len(rows))]):
+    for turn, k in watched([(turn, k) for turn in range(repeats + 1) for k in range(len(rows))]):
         system, settings = systems[rows[k]["N"]], mbs.Settings(method=rows[k]["method"])
         run = mbs.simulate(system, END, STEP, settings=settings, every=steps, progress=False, estimate_error=False)
         if turn:
@@ -84,7 +84,7 @@ def measure(windows: Sequence[int], rounds: int) -> list[dict[str, Any]]:
     return rows
 
 
-def chassis(modes: Sequence[int], rounds: int) -> list[dict[str, Any]]:
+def chassis(modes: Sequence[int], repeats: int) -> list[dict[str, Any]]:
     """Rows of the car's frame alone, thrown and spinning: what its modes cost without the suspension."""
     frame, _ = prototype_frame()
     model = frame.finite_element_model()
@@ -112,7 +112,7 @@ def chassis(modes: Sequence[int], rounds: int) -> list[dict[str, Any]]:
             }
         )
     walls: list[list[float]] = [[] for _ in rows]
-    for turn, k in watched([(turn, k) for turn in range(rounds + 1) for k in range(len(systems))]):
+    for turn, k in watched([(turn, k) for turn in range(repeats + 1) for k in range(len(systems))]):
         end = CHASSIS_STEPS * CHASSIS_STEP
         run = mbs.simulate(systems[k], end, CHASSIS_STEP, every=CHASSIS_STEPS, progress=False, estimate_error=False)
         if turn:

@@ -11,8 +11,9 @@ import numpy as np
 
 from benchmarks.shared.timing import step_time
 from mbs import Model, Simulation, compile
+from mbs.checks import direction
 from mbs.model.body import Body
-from mbs.model.checks import direction, perpendicular
+from mbs.model.checks import perpendicular
 from mbs.model.joints.joint import Joint
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin

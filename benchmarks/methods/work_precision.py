@@ -19,8 +19,8 @@ from mbs.kernel.binding import KernelError
 from mbs.methods import METHOD_TABLE
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 
-ROUNDS, FEW_ROUNDS = 7, 2
-LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few rounds, or the first run, must do
+REPEATS, FEW_REPEATS = 7, 2
+LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few repeats, or the first run, must do
 SCIPY = {"method": "index-1 minimum norm, Baumgarte", "solver": "DOP853"}
 SCIPY_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9)
 CLASSICAL_STEPS = 4000  # a slow method in Python is not run longer
@@ -154,18 +154,18 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
     return todo
 
 
-def measure(scene: str, quick: bool, engines: dict[str, Any], rounds: int) -> list[dict[str, Any]]:
-    """All rows of a scene; times are medians over rounds through all of them, so that a disturbance is shared."""
+def measure(scene: str, quick: bool, engines: dict[str, Any], repeats: int) -> list[dict[str, Any]]:
+    """All rows of a scene; times are medians over repeats through all of them, so that a disturbance is shared."""
     todo = plan(scene, quick, engines)
     for row, action in watched(todo):
         wall, found = action()
         row |= found
         row["wall_s"] = wall if found["ended"] == "finished" else None
     walls: list[list[float]] = [[] for _ in todo]
-    for turn in watched(range(rounds)):
+    for turn in watched(range(repeats)):
         for k, (row, action) in enumerate(todo):
             wall = row["wall_s"]
-            if wall is not None and (wall < LONG or (turn < FEW_ROUNDS and wall < VERY_LONG)):
+            if wall is not None and (wall < LONG or (turn < FEW_REPEATS and wall < VERY_LONG)):
                 walls[k].append(action()[0])
     for (row, _), times in zip(todo, walls, strict=True):
         if times:

@@ -17,8 +17,8 @@ from benchmarks.shared.machine import machine
 from mbs.scenes import double_four_bar
 
 END = 10.0  # s
-ROUNDS, FEW_ROUNDS = 15, 3
-LONG = 0.2  # s of wall time beyond which a few rounds must do
+REPEATS, FEW_REPEATS = 15, 3
+LONG = 0.2  # s of wall time beyond which a few repeats must do
 SHORT = 2  # N up to which runs that record every state are timed too
 LOST = 1.0  # m: beyond it the phase is lost and the chart has no point
 PAPER = {0.01: (0.21, 0.86), 0.03: (0.83, 0.37), 0.05: (9.03, 0.26)}  # s: (J, s), Table 1
@@ -86,16 +86,16 @@ def measure(system: mbs.System, windows: int, method: str, h: float, compile_s: 
     }
 
 
-def time_rows(rows: Sequence[dict[str, Any]], systems: dict[int, mbs.System]) -> None:
-    """Fill in the times: medians over rounds through all rows, so that a disturbance does not fall on one row alone.
+def time_rows(rows: Sequence[dict[str, Any]], systems: dict[int, mbs.System], repeats: int) -> None:
+    """Fill in the times: medians over repeats through all rows, so that a disturbance does not fall on one row alone.
 
     Only the last state is recorded; of the short mechanisms also every state, for `us_reported`.
     """
     good = [row for row in rows if row["failed_at_s"] is None]
     walls: dict[tuple[int, bool], list[float]] = {(k, whole): [] for k in range(len(good)) for whole in (False, True)}
-    for turn, k, whole in watched([(turn, *key) for turn in range(ROUNDS) for key in walls]):
+    for turn, k, whole in watched([(turn, *key) for turn in range(repeats) for key in walls]):
         row = good[k]
-        if (turn < FEW_ROUNDS or row["wall_s"] < LONG) and (row["N"] <= SHORT or not whole):
+        if (turn < FEW_REPEATS or row["wall_s"] < LONG) and (row["N"] <= SHORT or not whole):
             every = 1 if whole else round(END / row["h_s"])
             settings = METHODS[row["method"]]
             run = mbs.simulate(
@@ -109,7 +109,7 @@ def time_rows(rows: Sequence[dict[str, Any]], systems: dict[int, mbs.System]) ->
             row["us_reported"] = per_step * statistics.median(walls[k, True])
 
 
-def measure_all(windows: Sequence[int]) -> list[dict[str, Any]]:
+def measure_all(windows: Sequence[int], repeats: int = REPEATS) -> list[dict[str, Any]]:
     """All rows, in the order of the table."""
     rows, systems = [], {}
     for n in windows:
@@ -120,7 +120,7 @@ def measure_all(windows: Sequence[int]) -> list[dict[str, Any]]:
         methods = METHODS if n <= SHORT else [m for m in METHODS if METHODS[m].project]
         todo = [(method, h) for method in methods for h in (STEPS if n <= 40 else FEW_STEPS)]
         rows += [measure(system, n, method, h, compile_s) for method, h in watched(todo)]
-    time_rows(rows, systems)
+    time_rows(rows, systems, repeats)
     return rows
 
 

@@ -22,7 +22,7 @@ SPLIT = {
 }
 
 
-def measure(system: mbs.System, method: str, h: float, rounds: int) -> dict[str, Any]:
+def measure(system: mbs.System, method: str, h: float, repeats: int) -> dict[str, Any]:
     """One row; the wall time is that of the whole replay, with what Python does around the steps."""
     paper, paper_wall = PAPER.get(h, (None, None))
     row: dict[str, Any] = {
@@ -53,7 +53,7 @@ def measure(system: mbs.System, method: str, h: float, rounds: int) -> dict[str,
         "path_error_mm": 1e3 * found.path_error(),
         "jump_close_J": found.jumps_J[0],
         "jump_open_J": found.jumps_J[1],
-        "wall_s": median_wall(act, rounds, 0),
+        "wall_s": median_wall(act, repeats, 0),
     }
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ali3.files import whole_file
+from benchmarks.shared.machine import conditions
 from benchmarks.shared.tables import write_json
 from mbs.progress import DELAY, progress_for
 
@@ -76,7 +77,8 @@ def save_chart(figure: Any, file: Path) -> None:
 
 
 def save_rows(file: Path | None, meta: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write ``{"meta": ..., "rows": [...]}`` if a file was asked for, and say where."""
+    """Print under which conditions was measured; write ``{"meta": ..., "rows": [...]}`` if a file was asked for."""
+    print(f"\n{conditions(meta)}")
     if file is not None:
         write_json(file, meta, rows)
         print(f"written: {file}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import time
+from collections.abc import Mapping
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -31,7 +32,9 @@ def machine() -> dict[str, Any]:
     }
 
 
-def describe(benchmark: str, settings: Settings | None = None, **more: Any) -> dict[str, Any]:
+def describe(
+    benchmark: str, settings: Settings | None = None, *, repeats: int = 1, warm_up: int = 0, **more: Any
+) -> dict[str, Any]:
     """The `meta` part of a JSON file: what was measured, when, where and how.
 
     Parameters
@@ -40,14 +43,34 @@ def describe(benchmark: str, settings: Settings | None = None, **more: Any) -> d
         Its name.
     settings : Settings, optional
         Of the solver.
+    repeats, warm_up : int
+        Measured runs of a figure, and unmeasured ones before them.
     **more
         Anything else a reader must know; JSON values.
     """
     meta: dict[str, Any] = {"benchmark": benchmark, "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
-    meta |= {"machine": machine()}
+    meta |= {"machine": machine(), "repeats": repeats, "warm_up": warm_up}
     if settings is not None:
         meta["settings"] = settings.kernel_fields()
     return meta | more
+
+
+def place(meta: Mapping[str, Any]) -> str:
+    """Machine and versions, in one line."""
+    m = meta["machine"]
+    versions = ", ".join(f"{name} {version}" for name, version in m["versions"].items())
+    return f"{m['processor']}, {m['cores']} cores, {m['system']}, Python {m['python']}; {versions}"
+
+
+def conditions(meta: Mapping[str, Any]) -> str:
+    """What `describe` found, in words: machine, versions, settings that are not the default ones, repeats."""
+    standard = Settings().kernel_fields()
+    changed = [f"{k} = {v:g}" for k, v in meta.get("settings", standard).items() if v != standard[k]]
+    runs = "one run" if meta["repeats"] == 1 else f"{meta['repeats']} runs"
+    return (
+        f"{place(meta)}\n"
+        f"Settings: {', '.join(changed) or 'default'}; {runs} of each figure after {meta['warm_up']} to warm up"
+    )
 
 
 def _processor() -> str:

@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from benchmarks.shared.machine import place
+
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 Row = Mapping[str, Any]
 
@@ -27,11 +29,7 @@ def table(rows: Sequence[Row], columns: Mapping[str, str]) -> str:
 
 def machine(meta: Row) -> str:
     """Where and when, one line."""
-    m = meta["machine"]
-    versions = ", ".join(f"{k} {v}" for k, v in m["versions"].items())
-    return (
-        f"{m['processor']}, {m['cores']} cores, {m['system']}, Python {m['python']}; {versions}; {meta['time'][:10]}."
-    )
+    return f"{place(meta)}; {meta['time'][:10]}."
 
 
 def replace(text: str, blocks: Mapping[str, str]) -> str:

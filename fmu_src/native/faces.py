@@ -70,7 +70,7 @@ def _face_fmi3(group: Callable[[Sequence[Variable]], tuple[Array, ...]], words: 
 FMI3 = _face_fmi3(
     arrays,
     "Components of a vector are one array variable, in the order its description says. Some hosts read arrays as zeros "
-    "without a word: give them the kind fmi3_scalar.",
+    "without a message: give them the kind fmi3_scalar.",
 )
 
 FMI3_SCALAR = _face_fmi3(scalars, "Every variable is a scalar, for hosts that do not read arrays.")

@@ -92,7 +92,7 @@ def refusals(subject: Subject) -> Finding:
     getter = unknown.slave.getFloat64 if unknown.three else unknown.slave.getReal
     expect("an unknown value reference", unknown, lambda: getter([4_000_000_000]))
     if taken:
-        return Finding("refusals", "bad", f"taken without a word: {', '.join(taken)}")
+        return Finding("refusals", "bad", f"accepted without a message: {', '.join(taken)}")
     if silent:
         return Finding("refusals", "note", f"refused without a message: {', '.join(silent)}")
     return Finding("refusals", "good", "wrong GUID, order, NaN and references are refused, with messages")

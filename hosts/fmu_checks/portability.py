@@ -144,7 +144,7 @@ def quiet_steps(subject: Subject) -> Finding:
 
 
 def careless_calls(subject: Subject) -> Finding:
-    """An empty name, an unknown log category, values too early, a step beyond the end: refused; the status told."""
+    """An empty name, an unknown log category, values too early, a step beyond the end: refused; the status reported."""
     taken = []
     try:
         Instance(subject, name="")
@@ -168,11 +168,11 @@ def careless_calls(subject: Subject) -> Finding:
     if not subject.three:
         try:
             if ended.slave.getStatus(_DO_STEP_STATUS) != _ERROR:
-                taken.append("fmi2GetStatus tells another status than the last step had")
+                taken.append("fmi2GetStatus returns another status than the last step had")
         except Exception:
-            taken.append("fmi2GetStatus does not tell the status of the last step")
+            taken.append("fmi2GetStatus does not return the status of the last step")
     if taken:
-        return Finding("careless calls", "bad", f"taken without a word: {', '.join(taken)}")
+        return Finding("careless calls", "bad", f"accepted without a message: {', '.join(taken)}")
     return Finding("careless calls", "good", "empty names, unknown categories, early reads and late steps are refused")
 
 
@@ -189,10 +189,10 @@ def capital_scheme(subject: Subject) -> Finding:
 
 
 def arrays(subject: Subject) -> Finding:
-    """FMI 3.0: variables with dimensions, which some hosts read as zeros without a word."""
+    """FMI 3.0: variables with dimensions, which some hosts read as zeros without a message."""
     found = [v.name for v in subject.description.modelVariables if getattr(v, "dimensions", None)]
     if found:
-        words = f"{len(found)} variables are arrays, such as {found[0]}; some hosts read them as zeros without a word"
+        words = f"{len(found)} variables are arrays, such as {found[0]}; some hosts read them as zeros silently"
         return Finding("arrays", "note", words)
     return Finding("arrays", "good", "every variable is a scalar")
 

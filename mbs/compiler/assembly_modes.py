@@ -111,7 +111,7 @@ def _modes(
     if np.any(turns[n:]) or (part.driven and np.any(turns)) or way.branches:
         return sorted({_cell(s, c) for s, c in zip(sines, cosines, strict=True)})
     if not part.sprung:
-        return []  # it swings as it likes
+        return []  # its motion is not limited
     mask = 0
     for k in range(n):
         if abs(sines[0, k]) > 2.0 * DEFINITE and _is_dead_centre(sines[:, k], way.steps):

@@ -55,7 +55,7 @@ def close_position(
     joint_gaps: Callable[[Array], Mapping[str, float]],
 ) -> Array:
     """The assembled position next to `q` (Gauss-Newton in the metric of the mass and of the stiffness of flexible
-    bodies, kg), or a `ModelError` naming what stays open; `joint_gaps` tells it of the eliminated joints.
+    bodies, kg), or a `ModelError` naming what stays open; `joint_gaps` reports it for the eliminated joints.
     """
     if arrays.nc == 0:
         return q
@@ -113,7 +113,7 @@ def start_velocity(
 
     Minimises (v-target)' given (v-target) with a slight weight on the kinetic energy of all else; repeated about its
     own result, so that the slight weight leaves no trace in what was given. Rates of deformation count by the energy
-    they would store, so that flexible bodies start as quietly as the joints let them.
+    they would store, so that flexible bodies start with as little vibration as the joints allow.
 
     Parameters
     ----------

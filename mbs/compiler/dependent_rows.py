@@ -1,7 +1,7 @@
 """Removal of rows that are linear combinations of others, coefficient by coefficient.
 
-Rows dependent as polynomials (a shared axis has unit length in both bodies) say nothing new anywhere and go. Rows
-dependent only at some positions stay: the method handles them.
+Rows dependent as polynomials (a shared axis has unit length in both bodies) are redundant everywhere and are dropped.
+Rows dependent only at some positions stay: the method handles them.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ leaves remainders that are no conditions of their own.
 CONTRADICTION = 1e-9
 """Relative size of the constant that dependent rows may leave."""
 OWNED = 1e-3
-"""A row owns a monomial if nobody else has it and its coefficient is this part of the row's largest."""
+"""A row owns a monomial if no other row has it and its coefficient is this part of the row's largest."""
 CONSTANT: Monomial = (-1, -1)
 
 
@@ -35,7 +35,7 @@ def independent_rows(rows: list[RowTerms], joints: Mapping[str, Sequence[str]]) 
     normal: dict[int, dict[Monomial, float]] = {}
     for i, row in enumerate(rows):
         if not row.plain:
-            keep.add(i)  # angle and guide rows bring a variable of their own, switched rows come and go
+            keep.add(i)  # angle and guide rows bring a variable of their own, switched rows are on or off
             continue
         size = max((abs(v) for m, v in row.main.items() if m != CONSTANT), default=0.0)
         if size == 0.0:

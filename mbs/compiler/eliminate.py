@@ -68,6 +68,16 @@ def eliminate(
         Eliminate all that can be of `first` before any other, whatever the cost.
     stay : set of int
         Coordinates that stay although equations between them are possible: those are left (flexible bodies).
+
+    Examples
+    --------
+    A point q1 = q0 + 0.5, and q2 = 2 q1:
+
+    >>> found = eliminate(3, [("a", Affine({0: 1.0, 1: -1.0}, 0.5)), ("b", Affine({1: 2.0, 2: -1.0}))], set(), set())
+    >>> found.kept
+    [1]
+    >>> [(dict(e.terms), e.constant) for e in found.expressions]
+    [({0: 1.0}, -0.5), ({0: 1.0}, 0.0), ({0: 2.0}, 0.0)]
     """
     rows = [dict(e.terms) for _, e in equations]
     constants = [e.constant for _, e in equations]

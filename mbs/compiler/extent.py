@@ -1,4 +1,4 @@
-"""The length of a model, which errors are told in parts of, and what a unit of each coordinate is worth."""
+"""The length of a model, the unit of errors, and the length that a unit of each coordinate corresponds to."""
 
 from __future__ import annotations
 

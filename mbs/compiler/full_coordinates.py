@@ -39,7 +39,7 @@ def reduce_coordinates(
     all : list of Affine
         Each natural coordinate as an expression of z.
     redundant : int
-        Linear equations that said nothing new.
+        Redundant linear equations.
     left : list of RowTerms
         Linear equations between coordinates that stay.
     """

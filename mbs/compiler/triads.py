@@ -1,4 +1,4 @@
-"""Angles at the joints of closed loops: what tells one assembly mode from another.
+"""Angles at the joints of closed loops, which distinguish assembly modes.
 
 A joint J of a ring with the joints P and Q before and after it makes the triad P, J, Q. Seen along an axis n the angle
 from JP to JQ is 0 or pi where the two bodies lie in line: at a dead centre, where the motion may leave in another
@@ -36,7 +36,7 @@ class Triad:
 def triads(block: Block) -> list[Triad]:
     """One triad at each joint between two moving vertices of each ring.
 
-    The length of a rod says nothing about two bodies that a ring without it ties.
+    The length of a rod is no condition on two bodies that are connected by a ring without it.
     """
     found = {}
     tied: set[int] = set()

@@ -15,7 +15,7 @@ from mbs.kernel.header import ElementType
 
 @dataclass(frozen=True)
 class AutomaticDrive:
-    """Drive of two wheels by an engine with a torque converter and gears that shift by themselves.
+    """Drive of two wheels by an engine with a torque converter and gears that shift automatically.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ from mbs.flexible.reduced_body import InterfaceModes, ReducedBody
 
 DEPENDENT = 1e-10  # of the mass norm: inertia modes that add nothing new are left out
 MOST_MODES = 10**6
-FIRST_BATCH = 20  # modes looked at first when they are chosen by frequency
+FIRST_BATCH = 20  # modes considered first when they are chosen by frequency
 
 
 def craig_bampton(

@@ -26,7 +26,7 @@ class ModeChoice:
     modes : tuple of int
         Numbers of the modes (0 is the lowest), ascending; for `craig_bampton`.
     left_out : float
-        Largest error of the output over the accelerations looked at, as a fraction of its largest value.
+        Largest error of the output over the accelerations considered, as a fraction of its largest value.
     frequencies : ndarray
         Of the chosen modes, Hz.
     """
@@ -67,7 +67,7 @@ def modes_for_output(
     tolerance : float
         Fraction of each output's largest value over the six accelerations.
     candidates : int
-        Lowest modes that are looked at.
+        Lowest modes that are considered.
     frequency : float
         Highest frequency of the accelerations that matters, Hz; 0 for steady ones.
     inertia_modes : bool

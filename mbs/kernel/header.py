@@ -13,8 +13,164 @@ BALANCE_WRONG = 0.036
 """Energy balance above which, at any time, no run was right that was tried."""
 HALVINGS_SUSPECT = 0.1
 """Halvings per step above which a run is suspect."""
+SYSTEM_VERSION = 1
+"""Of the System file."""
 DOUBT_FROM = 100
 """Steps that a run makes before it is judged."""
+
+FLOAT_ARRAYS = (
+    "q0",
+    "qd0",
+    "y0",
+    "mass_val",
+    "gravity_force",
+    "gravity_const",
+    "row_lin",
+    "row_const",
+    "row_scale",
+    "row_measure",
+    "quad_h",
+    "angle_hc",
+    "angle_hs",
+    "gterm_h",
+    "velocity_h",
+    "sig_val",
+    "sig_const",
+    "el_real",
+    "input_start",
+    "input_min",
+    "input_max",
+    "guide_real",
+    "road_real",
+    "par_value",
+    "par_min",
+    "par_max",
+    "par_scale",
+    "pose_0",
+    "pose_cos",
+    "pose_sin",
+    "pose_x",
+    "pose_y",
+    "pose_z",
+    "pose_speed",
+    "sen_real",
+    "flex_gravity",
+    "flex_P",
+    "flex_c",
+    "flex_T",
+    "flex_K",
+    "flex_C",
+    "tree_base",
+    "tree_mass",
+    "tree_centre",
+    "tree_inertia",
+    "tree_gravity",
+    "tree_out_local",
+    "tree_cut_place",
+    "tree_angle_sign",
+    "tree_angle_inertia",
+    "static_value",
+)
+"""Arrays of a System of type double."""
+
+INTEGER_ARRAYS = (
+    "mass_ptr",
+    "mass_col",
+    "mass_pos",
+    "row_ptr",
+    "row_col",
+    "row_front",
+    "row_loc",
+    "quad_ptr",
+    "quad_a",
+    "quad_b",
+    "angle_row",
+    "angle_theta",
+    "angle_ptr",
+    "angle_a",
+    "angle_b",
+    "gterm_row",
+    "gterm_guide",
+    "gterm_power",
+    "gterm_a",
+    "gterm_b",
+    "row_switch",
+    "switch_start",
+    "velocity_row",
+    "velocity_ptr",
+    "velocity_a",
+    "velocity_b",
+    "front_col",
+    "front_ptr",
+    "front_idx",
+    "front_parent",
+    "front_map",
+    "front_off",
+    "sig_ptr",
+    "sig_col",
+    "el_type",
+    "el_sig_ptr",
+    "el_sig",
+    "el_real_ptr",
+    "el_int_ptr",
+    "el_int",
+    "el_state_ptr",
+    "el_out_ptr",
+    "el_front",
+    "el_loc_ptr",
+    "el_loc",
+    "guide_type",
+    "guide_input",
+    "guide_real_ptr",
+    "road_type",
+    "road_real_ptr",
+    "par_ptr",
+    "par_target",
+    "par_index",
+    "sen_type",
+    "sen_int_ptr",
+    "sen_int",
+    "sen_real_ptr",
+    "flex_mode_ptr",
+    "flex_frame",
+    "flex_mode",
+    "flex_front",
+    "flex_loc",
+    "tree_parent",
+    "tree_slides",
+    "tree_frame",
+    "tree_out_body",
+    "tree_out_col",
+    "tree_cut_body",
+    "tree_cut_rows",
+    "tree_angle_col",
+    "tree_angle_ptr",
+    "tree_angle_joint",
+    "mode_triad_ptr",
+    "mode_triad",
+    "mode_cell_ptr",
+    "mode_cell",
+    "mode_name_ptr",
+    "mode_name",
+    "static_start",
+    "static_par",
+    "pose_partner",
+)
+"""Arrays of a System of type int32_t."""
+
+OPTIONAL_ARRAYS = (
+    "mode_triad_ptr",
+    "mode_triad",
+    "mode_cell_ptr",
+    "mode_cell",
+    "mode_name_ptr",
+    "mode_name",
+    "static_start",
+    "static_par",
+    "static_value",
+    "pose_partner",
+)
+"""Those that a System need not have."""
 
 
 class Status(IntEnum):
@@ -73,6 +229,14 @@ class SolverValue(IntEnum):
     STATUS = 5
     ENERGY_ERROR = 6
     ENERGY_BALANCE = 7
+
+
+class ParameterTarget(IntEnum):
+    """What a parameter writes to."""
+
+    ELEMENT = 0
+    GUIDE = 1
+    ROAD = 2
 
 
 class GuideType(IntEnum):

@@ -17,7 +17,7 @@ from typing import NamedTuple
 KERNEL = Path(__file__).resolve().parent
 HEADER = KERNEL / "header.py"
 PAGE = KERNEL.parents[1] / "docs" / "system_file.md"
-PUBLIC, SENSORS = "include/ali3.h", "src/system/sensor_types.h"
+PUBLIC, SYSTEM, SENSORS = "include/ali3.h", "src/system.h", "src/system/sensor_types.h"
 ELEMENTS = "src/elements/element_types.h"
 
 ENUMERATIONS = {
@@ -26,6 +26,7 @@ ENUMERATIONS = {
     "Predictor": (PUBLIC, "ALI3_PREDICTOR_PARABOLA", "ALI3_PREDICTOR_", "`ali3_settings.predictor`."),
     "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
     "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "What the solver says about itself."),
+    "ParameterTarget": (SYSTEM, "ALI3_TARGET_ELEMENT", "ALI3_TARGET_", "What a parameter writes to."),
     "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
     "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
     "SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "What the value of a sensor comes from."),
@@ -38,6 +39,7 @@ LIMITS = {
     "ALI3_FASTEST": "Largest speed of a start, m/s.",
     "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",
     "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
+    "ALI3_SYSTEM_VERSION": "Of the System file.",
     "ALI3_DOUBT_FROM": "Steps that a run makes before it is judged.",
 }
 STRUCTURES = {
@@ -180,6 +182,12 @@ def header() -> str:
             raise ValueError(f"{PUBLIC} does not define {name}.")
         limits.append(f'{name.removeprefix("ALI3_")} = {found[1]}\n"""{text}"""')
     parts.append("\n".join(limits))
+    required, optional = table(SYSTEM, "ALI3_SYSTEM_ARRAYS"), table(SYSTEM, "ALI3_OPTIONAL_ARRAYS")
+    kinds = {"double": "FLOAT_ARRAYS", "int32_t": "INTEGER_ARRAYS"}
+    for kind, names_of in kinds.items():
+        arrays = [name for of_kind, _, name in required + optional if of_kind == kind]
+        parts.append(_names(names_of, arrays, f"Arrays of a System of type {kind}."))
+    parts.append(_names("OPTIONAL_ARRAYS", [name for _, _, name in optional], "Those that a System need not have."))
     for name, (file, first, prefix, text) in ENUMERATIONS.items():
         values = (f"{item} = {value}" for item, value in enumeration(file, first, prefix).items())
         parts.append(_class(name, "IntEnum", text, values))
@@ -203,6 +211,11 @@ def header() -> str:
     structures = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
     parts.append(f'\nSTRUCTURES = {{\n{structures}\n}}\n"""By their names in C."""')
     return "\n\n".join(parts) + "\n"
+
+
+def _names(name: str, values: Iterable[str], text: str) -> str:
+    lines = "\n".join(f'    "{value}",' for value in values)
+    return f'{name} = (\n{lines}\n)\n"""{text}"""'
 
 
 def _class(name: str, base: str, text: str, body: Iterable[str]) -> str:

@@ -1,4 +1,4 @@
-"""Sensors of inputs, guides and the solver, constants, and what a run tells of its own accord."""
+"""Sensors of inputs, guides and the solver, constants, and notices of a run."""
 
 from __future__ import annotations
 

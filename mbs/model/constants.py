@@ -10,7 +10,7 @@ from mbs.model.core import ModelCore
 
 @dataclass(frozen=True)
 class Constant:
-    """A number that is told, not computed.
+    """A number that is stated, not computed.
 
     Parameters
     ----------

@@ -9,11 +9,10 @@ from typing import TypeAlias
 from mbs.checks import not_zero, number, positive, shown, text, whole
 from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
-from mbs.kernel.header import GuideType
+from mbs.kernel.header import GuideType, ParameterTarget
 from mbs.model.core import ModelCore
 from mbs.model.guides import Guide
 
-ELEMENT, GUIDE, ROAD = 0, 1, 2  # par_target of the System file
 GUIDE_REALS = {"frequency": positive, "gain": number, "start": number}
 Owner: TypeAlias = "ElementRecord | Guide | str | tuple[str, int]"
 """An element, a guide or the name of one; or ("road", number)."""
@@ -103,11 +102,13 @@ def _target(model: ModelCore, what: str, given: tuple[Owner, str | int, float]) 
                 raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {known}.")
             k = names.index(str(real))
             check = element.real_checks[k] if element.real_checks else number
-            return _Target((ELEMENT, index, k, factor), f"the {real} of element '{owner_name}'", check)
+            return _Target((ParameterTarget.ELEMENT, index, k, factor), f"the {real} of element '{owner_name}'", check)
     for guide in model.guides:
         if guide.name == owner_name and guide.type == GuideType.OF_INPUT and real in GUIDE_REALS:
             k, check = list(GUIDE_REALS).index(str(real)), GUIDE_REALS[str(real)]
-            return _Target((GUIDE, guide.index, k, factor), f"the {real} of guide '{owner_name}'", check)
+            return _Target(
+                (ParameterTarget.GUIDE, guide.index, k, factor), f"the {real} of guide '{owner_name}'", check
+            )
     raise ModelError(
         f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element or guide."
     )
@@ -125,4 +126,4 @@ def _road(model: ModelCore, what: str, number_of: object, real: str | int, facto
             raise ModelError(f"The {what} asks for {shown(real)} of road {k}, which has: {', '.join(names)}.")
         real = names.index(real)
     n = whole(real, f"The number of the real of road {k} for {what}", 0, len(names) - 1)
-    return _Target((ROAD, k, n, factor), f"the {names[n]} of road {k}", road.real_checks[n])
+    return _Target((ParameterTarget.ROAD, k, n, factor), f"the {names[n]} of road {k}", road.real_checks[n])

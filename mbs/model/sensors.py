@@ -43,7 +43,7 @@ class Sensor:
     display_unit : str
         What engineers read it in, if that is not `unit`.
     notice : str
-        What a run tells when the value is not zero; empty: nothing.
+        What a run reports when the value is not zero; empty: nothing.
     """
 
     name: str

@@ -35,7 +35,7 @@ SHORTER = 0.5
 COARSE, COARSEST = 20.0, 0.05
 """Tolerance of the first run in those of the last, and at most."""
 FINER = 4.0
-"""How much finer the second run is at least: two of the same tolerance tell no error."""
+"""How much finer the second run is at least: two of the same tolerance show no error."""
 AGAIN, MOST_AT_ONCE = 0.5, 1e-3
 """What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
 MOST_RUNS, LEAST = 4, 1e-13
@@ -56,7 +56,7 @@ def to_tolerance(
 ) -> Trajectory:
     """Sensor values at `times` (n,), the first of them the start, with an error of positions of about the tolerance.
 
-    A coarse run and a finer one tell the error of the latter (errors are in proportion to the tolerances, since each
+    A coarse run and a finer one give the error of the latter (errors are in proportion to the tolerances, since each
     step has a share of them). Where it is larger than it should be, since the motion lets errors grow, a third and a
     fourth run are made with what is then known of that growth.
     """
@@ -92,7 +92,7 @@ def to_tolerance(
         finer = before.tolerance / run.tolerance - 1.0
         error = run.distance(before) / (finer if finer > 0.0 else 1.0)
         if error == 0.0 and longest == 1.0:
-            # the longest steps were fine enough both times, so the runs are the same and tell no error
+            # the longest steps were fine enough both times, so the runs are the same and show no error
             before, longest = run, SHORTER
             continue
         if error <= tolerance or aim <= LEAST:

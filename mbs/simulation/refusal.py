@@ -54,7 +54,7 @@ def refusal(
 
 
 def _remedy(simulation: Simulation, status: int) -> str:
-    """What the status alone tells."""
+    """The remedy that follows from the status alone."""
     if status in (Status.WRONG_METHOD, Status.NO_TREE):
         tree = f" Here {prepared(simulation.system)[1]['report']['no_tree']}." if status == Status.NO_TREE else ""
         return f"{tree} The method is {simulation.settings.method!r}; 'ali3p' takes every System."

@@ -86,8 +86,8 @@ def simulate(
         System and tolerance best; so does a tolerance without a method.
     estimate_error : bool, optional
         Whether to repeat the run with half the step, from which `Trajectory.accuracy` has the error of the sensors.
-        None repeats what the energy balance, halvings or predictors make suspect; the others cost nothing more. False
-        checks nothing. Functions among `inputs` are called anew in a repeat, so they must depend on time alone.
+        None repeats runs that the energy balance, halvings or predictors make suspect; others cost nothing more. False
+        checks nothing. Functions among `inputs` are called again in a repeated run, so they must depend on time alone.
     tolerance : float, optional
         Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
         the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then

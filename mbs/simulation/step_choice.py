@@ -22,7 +22,7 @@ from mbs.system import System
 Array = NDArray[np.float64]
 CHECKED = 50  # instants at which runs are compared, and steps of the first run
 MOST_STEPS = 3_000_000  # of a run
-LEAST_ORDER = 0.5  # measured: below, differences do not yet tell the error
+LEAST_ORDER = 0.5  # measured: below, differences do not yet show the error
 EXACT = 1e-3  # of the tolerance: below it, twice, differences are round-off of what every step gives right
 
 

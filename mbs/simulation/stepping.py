@@ -321,7 +321,7 @@ class Simulation:
         return trajectory
 
     def march(self, t_end: float, h: float, inputs: Mapping[str, Signal]) -> Trajectory:
-        """As `run`, without a word about the accuracy: for who compares runs himself.
+        """As `run`, without a warning about the accuracy: for callers that compare runs themselves.
 
         Parameters
         ----------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
 import time
 
 import numpy as np
@@ -11,7 +12,9 @@ import pytest
 
 from benchmarks.car import manoeuvres
 from benchmarks.shared.command import parser_of, pyplot, save_chart, save_rows, watched
+from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.timing import step_time
+from mbs import Settings
 
 H, DURATION = 0.01, 0.05  # s
 
@@ -55,10 +58,16 @@ def test_the_same_chart_gives_the_same_bytes(tmp_path, capsys):
     assert f"written: {files[1]}" in capsys.readouterr().out
 
 
-def test_rows_are_written_where_asked_for(tmp_path):
+def test_rows_are_written_where_asked_for_and_the_conditions_printed(tmp_path, capsys):
     options = parser_of("some", "Text.", chart="a line").parse_args(["--json", str(tmp_path / "rows.json")])
     assert options.chart is None
-    save_rows(options.json, {"benchmark": "some"}, [{"h_s": 0.1}])
-    save_rows(None, {}, [])
+    meta = describe("some", Settings(tolerance_r=1e-12), repeats=7, warm_up=2)
+    save_rows(options.json, meta, [{"h_s": 0.1}])
+    save_rows(None, meta, [])
     assert json.loads(options.json.read_text(encoding="utf-8"))["rows"] == [{"h_s": 0.1}]
     assert [f.name for f in tmp_path.iterdir()] == ["rows.json"]
+    printed = capsys.readouterr().out
+    assert printed.count("tolerance_r = 1e-12; 7 runs of each figure after 2 to warm up") == 2
+    assert f"numpy {np.__version__}" in printed
+    assert f"{meta['machine']['processor']}, {os.cpu_count()} cores" in printed
+    assert "Settings: default; one run of each figure after 0 to warm up" in conditions(describe("other", Settings()))

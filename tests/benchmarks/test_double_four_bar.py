@@ -24,7 +24,7 @@ KEYS = {
 
 
 def test_quick_run(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(double_four_bar, "ROUNDS", 1)
+    monkeypatch.setattr(double_four_bar, "REPEATS", 1)
     file, chart = tmp_path / "rows.json", tmp_path / "chart.png"
     assert double_four_bar.main(["--quick", "--json", str(file), "--chart", str(chart)]) == 0
     printed = capsys.readouterr().out

@@ -16,6 +16,8 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "benchmarks"
 ROOMS = benchmarks.ROOMS
 COMMANDS = {"benchmarks.car.__main__", *(f"benchmarks.{name}" for name in commands())} - {"benchmarks.car"}
+WRITERS = {"calculix", "car_references", "fidelity_references", "load_paths", "pages", "stress_picture"}
+"""Commands that write references, pages or pictures; all others measure, and write rows with `--json`."""
 
 
 def imports(file: Path) -> Iterator[str]:
@@ -79,4 +81,6 @@ def test_a_command_explains_its_arguments(name: str, capsys: pytest.CaptureFixtu
     with pytest.raises(SystemExit) as ended:
         module.main(["--help"])
     assert ended.value.code == 0
-    assert f"usage: python -m benchmarks.{name} " in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert f"usage: python -m benchmarks.{name} " in said
+    assert ("[--json FILE]" in said) != (name in WRITERS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -56,9 +57,9 @@ def test_each_command_helps_under_its_name(command: object, capsys: pytest.Captu
 
 def test_each_command_is_in_the_documents() -> None:
     page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
-    assert [line.split("`")[1] for line in page.splitlines() if line.startswith("| `ali3 ")] == [
-        f"ali3 {c.name}" for c in COMMANDS
-    ]
+    rows = [line.split("|")[1:3] for line in page.splitlines() if line.startswith("| `ali3 ")]
+    assert [name.strip(" `") for name, _ in rows] == [f"ali3 {c.name}" for c in COMMANDS]
+    assert all(text.strip().startswith(c.text) for (_, text), c in zip(rows, COMMANDS, strict=True))
 
 
 def test_the_list_of_commands_imports_nothing_heavy(tmp_path: Path) -> None:
@@ -120,6 +121,21 @@ def test_as_a_module_it_forgets_the_current_folder(crowded: Path) -> None:
         (crowded / f"{name}.py").unlink()
     done = ran(["-m", "ali3", "run", "none.fmu"], crowded)
     assert (done.returncode, done.stderr) == (2, "error: There is no file none.fmu.\n")
+
+
+def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path: Path) -> None:
+    text = (
+        "import os, sys, sysconfig; here = os.getcwd(); library = sysconfig.get_path('stdlib')\n"
+        "sys.path[:] = [here, library, here]\n"
+        f"sys.path.append({str(ROOT)!r})\n"
+        "from ali3.search_path import forget_current_folder as forget\n"
+        "forget(); print(sys.path == [library, here, sys.path[-1]])\n"
+        "os.environ['PYTHONPATH'] = here; sys.path.insert(0, here); forget(); print(sys.path[0] == here)"
+    )
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    command = [sys.executable, "-c", text]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path, env=environment)
+    assert done.stdout.split() == ["True", "True"]
 
 
 def test_the_modules_themselves_go_on_working_in_a_clone() -> None:

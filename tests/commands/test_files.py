@@ -10,8 +10,10 @@ from pathlib import Path
 
 import pytest
 
+import mbs
 from ali3.files import FileError, check_writable, whole_file
 from fmu_src.archive import write_zip
+from mbs.scenes import pendulum
 
 FULL = """
 import resource, signal, sys
@@ -89,6 +91,17 @@ def test_what_cannot_be_written_is_named(write: object, tmp_path: Path) -> None:
     if sys.platform == "linux":
         with pytest.raises(FileError, match=r"^/proc/x\.csv cannot be written: "):
             write(Path("/proc/x.csv"))
+
+
+def test_a_system_and_a_trajectory_are_written_whole(tmp_path: Path) -> None:
+    system = mbs.compile(pendulum.build())
+    run = mbs.simulate(system, 0.1, 0.01)
+    for name, save in (("a.ali3", system.save), ("a.csv", run.to_csv)):
+        save(tmp_path / name)
+        with pytest.raises(FileError, match=r"none.* cannot be written: no such file or directory\.$"):
+            save(tmp_path / "none" / name)
+    assert names(tmp_path) == ["a.ali3", "a.csv"]
+    assert mbs.System.load(tmp_path / "a.ali3").to_bytes() == system.to_bytes()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")

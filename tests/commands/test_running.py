@@ -59,6 +59,8 @@ def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, t
         env=os.environ | {"TMPDIR": str(tmp_path / "temporary")},
         stderr=subprocess.PIPE,
         text=True,
+        # a shell that started these tests in the background lets all their children ignore it
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     said = ""
     while "%" not in said:  # the bar: the drive has begun

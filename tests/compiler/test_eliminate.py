@@ -45,6 +45,22 @@ def test_dependent_equations_are_counted_and_contradictions_refused():
     assert "0.001 m" in str(error.value) or "0.000333 m" in str(error.value)
 
 
+@pytest.mark.parametrize("n", [20, 40])
+def test_a_long_equation_waits_for_the_short_ones(n):
+    """x_1 + .. + x_n = 0 beside x_k + y_k - y_(k+1) + y_(k+7)/2 = 0: solved first it would fill all others. The terms
+    of the solution do not depend on where it stands among the equations, and grow with their number alone.
+    """
+    short = [
+        (f"short {k}", Affine({k: 1.0, n + k: 1.0, n + k + 1: -1.0, n + (k + 7) % (n + 1): 0.5})) for k in range(n)
+    ]
+    long = [("long", Affine(dict.fromkeys(range(n), 1.0)))]
+    terms = [
+        sum(len(e.terms) for e in eliminate(2 * n + 1, short[:k] + long + short[k:], set(), set()).expressions)
+        for k in (0, n // 2, n)
+    ]
+    assert terms[0] == terms[1] == terms[2] <= 7 * n
+
+
 def test_locked_coordinates_stay():
     result = eliminate(3, [("a", Affine({0: 1.0, 1: -1.0, 2: 5.0}))], {2}, set())
     assert 2 in result.kept

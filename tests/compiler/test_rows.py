@@ -7,6 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mbs import Model, compile
+from mbs.compiler.dependent_rows import independent_rows
+from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.rows import rigid_rows
 from mbs.kernel.binding import Instance, LoadedSystem
 from tests.compiler.mechanisms import MODELS
@@ -40,6 +42,16 @@ def test_rigid_rows_vanish_for_rotations_and_only_for_those(dimension):
     h = 1e-6
     jacobian = np.array([(values(rigid + h * e) - values(rigid - h * e)) / (2 * h) for e in np.eye(len(rigid))]).T
     assert np.linalg.matrix_rank(jacobian, tol=1e-3) == len(rows)
+
+
+@pytest.mark.parametrize(("size", "left"), [(0.0, 2), (1e-8, 2), (1e-6, 3), (5e-4, 3)])
+def test_a_remainder_of_rounded_numbers_is_no_condition_of_its_own(size, left):
+    """Two squares and their sum with a remainder: below 1e-7 of the row it is round-off of the drawing."""
+    one, two = {(0, 0): 1.0, (1, 1): 1.0, (-1, -1): -1.0}, {(0, 0): 1.0, (1, 1): -0.5, (-1, -1): -0.5}
+    both = {m: one[m] + two[m] for m in one} | {(2, 2): 2.0 * size}
+    rows = [RowTerms(f"row {k}", "distance", k, 0, main) for k, main in enumerate((one, two, both))]
+    kept, removed = independent_rows(rows, {})
+    assert (len(kept), removed) == (left, 3 - left)
 
 
 def loaded(model):

@@ -147,6 +147,16 @@ def test_theory_names_functions_that_exist():
     assert not missing
 
 
+@pytest.mark.parametrize("file", [ROOT / page for page in PAGES[1:]], ids=lambda p: p.name)
+def test_guides_name_what_the_kernel_has(file):
+    sources = (ROOT / "mbs" / "kernel").rglob("*.[ch]")
+    words = set(re.findall(r"\w+", "\n".join(source.read_text(encoding="utf-8") for source in sources)))
+    code = re.findall(r"`([^`]+)`", file.read_text(encoding="utf-8"))
+    named = {word for span in code for word in re.findall(r"\b(?:ali3_\w*[a-z0-9]\b(?!<)|ALI3_\w+|(?<=->)\w+)", span)}
+    assert len(named) >= 4
+    assert named - words == set()
+
+
 def test_theory_has_all_equations_from_1_to_25():
     table = THEORY.partition("## Equation of the paper")[2].partition("\n## ")[0]
     first_cells = " ".join(line.split("|")[1] for line in table.splitlines() if line.startswith("| ("))

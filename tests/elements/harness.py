@@ -20,17 +20,17 @@ from mbs.elements import ElementRecord, PlaneRoad, Road
 
 Array = NDArray[np.float64]
 KERNEL = Path(__file__).parents[2] / "mbs" / "kernel" / "src"
-SOURCES = [f for f in sorted((KERNEL / "elements").glob("*.c")) if f.name != "forces.c"]  # that needs a System
+APART = ("forces.c", "road.c")  # the one needs a System, the other may be replaced
+SOURCES = [f for f in sorted((KERNEL / "elements").glob("*.c")) if f.name not in APART]
 SOURCES.append(KERNEL / "algebra" / "elementary.c")
 
 
-@cache
-def library() -> ctypes.CDLL:
-    """The elements as a small library of their own, compiled once per process."""
+def compiled(road: Path) -> ctypes.CDLL:
+    """The elements as a small library of their own, over the roads of a C file."""
     folder = Path(tempfile.mkdtemp(prefix="ali3_elements_"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     target = folder / ("elements.dll" if sys.platform == "win32" else "elements.so")
-    files = [str(file) for file in SOURCES]
+    files = [str(file) for file in (*SOURCES, road)]
     flags = ["-std=c11", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{KERNEL}"]
     command = [sys.executable, "-m", "ziglang", "cc", *flags, str(Path(__file__).with_name("harness.c")), *files]
     subprocess.run([*command, "-lm", "-o", str(target)], check=True, capture_output=True, text=True)
@@ -39,6 +39,12 @@ def library() -> ctypes.CDLL:
     lib.harness_check.restype = ctypes.c_char_p
     lib.harness_road_check.restype = ctypes.c_char_p
     return lib
+
+
+@cache
+def library() -> ctypes.CDLL:
+    """With the roads of the kernel, compiled once per process."""
+    return compiled(KERNEL / "elements" / "road.c")
 
 
 def _doubles(values: ArrayLike) -> ctypes.Array[ctypes.c_double]:

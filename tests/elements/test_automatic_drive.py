@@ -137,6 +137,26 @@ def test_gear_changes_only_between_accepted_steps() -> None:
     assert r.out["gear"] == 1.0
 
 
+def test_there_is_no_gear_above_the_highest() -> None:
+    element, gears = drive_element(), len(DRIVE.ratios)
+    u, ud = signals_of(500.0, 500.0)
+    r = element(u, ud, [gears, gears, 1e3, 499.0], 0.01, inputs=[1.0], accept=True)
+    assert r.y[0] == gears
+    assert r.y[2] > 1e3 - 1.0  # and none was changed
+
+
+def test_the_clock_of_a_shift_starts_where_the_shift_speed_was_crossed() -> None:
+    """The wheels went from `before` to `now` at a steady rate; the step ends so long after the crossing."""
+    element, h = drive_element(), 0.01
+    ratio, before, now = DRIVE.ratios[0], 30.0, 80.0
+    limit = DRIVE.up_open / ratio
+    assert before < limit < now
+    u, ud = signals_of(now, now)
+    r = element(u, ud, [1.0, 1.0, 1e3, before], h, inputs=[1.0], accept=True)
+    assert r.y[0] == 2.0
+    assert r.y[2] == pytest.approx(h * (now - limit) / (now - before), rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [

@@ -131,6 +131,13 @@ def test_released_brake_has_no_torque_and_unwinds() -> None:
     assert element(u, ud, y, 0.01, inputs=[9.0]).out["torque"] == -TORQUE
 
 
+def test_a_released_brake_does_not_stick_at_rest_either() -> None:
+    element = brake_element()
+    u, ud = signals_of(0.0)
+    assert element(u, ud, [0.0, 0.0], 0.01).out["sticking"] == 0.0
+    assert element(u, ud, [0.0, 0.0], 0.01, inputs=[1e-3]).out["sticking"] == 1.0
+
+
 def test_tangent_is_exact_while_sticking_and_a_safe_secant_while_slipping() -> None:
     element, rng = brake_element(), np.random.default_rng(16)
     h = 0.01

@@ -81,6 +81,17 @@ def test_force_equals_the_law_and_is_held_by_friction():
         assert stick.f[0] == pytest.approx(-(1e4 + 0.005 * 2e5) * 1e-4)
 
 
+def test_what_sticks_is_a_spring_and_a_damper():
+    """The force is k z + c z' of the deflection and its rate, and z' is the velocity; both at the end of the step."""
+    e = element(PlaneRoad(0.0, 0.0, 0.0, 0.8), points=[[0.0, 0.0, 0.0]])
+    u, v, h = np.r_[0.0, 0.0, -0.012, np.eye(3).ravel()], 1e-4, 0.01
+    y = np.array([2e-5, -1e-5, 3e-3, 1e-3])
+    r = e(u, np.r_[v, 0.0, np.zeros(10)], y, h)
+    np.testing.assert_allclose(-r.f[:2], 2e5 * r.y[:2] + 1e4 * r.y[2:], rtol=1e-12)
+    np.testing.assert_allclose(r.y[2:], [v, 0.0], atol=1e-15)
+    np.testing.assert_allclose(r.y[:2], y[:2] + 0.5 * h * (y[2:] + r.y[2:]), rtol=1e-12)
+
+
 def test_friction_never_gives_energy():
     e = element(PlaneRoad(0.0, 0.0, 0.0, 0.8), points=[[0.0, 0.0, 0.0]])
     rng, y, taken = np.random.default_rng(5), np.zeros(4), 0.0
@@ -126,6 +137,14 @@ def test_the_cheap_look_never_misses_a_touch(name):
         together = many(u, np.zeros(12)).out["touching"]
         # a single point has a box without size, and is looked at directly
         assert together == sum(e(u, np.zeros(12)).out["touching"] for e in one)
+
+
+def test_the_cheap_look_knows_that_a_grid_swells_between_its_points():
+    """Two points of 0.1 m beside two of 0: the surface between the two is 0.1125 m high."""
+    heights = np.tile([0.0, 0.1, 0.1, 0.0], (4, 1)).T
+    road = GridRoad((0.0, 0.0), (1.0, 1.0), heights, 0.8)
+    low = element(road, points=[[0.0, 0.0, 0.0]])
+    assert low(np.r_[1.5, 1.5, 0.107, np.eye(3).ravel()], np.zeros(12)).out["depth"] == pytest.approx(0.0055, abs=1e-4)
 
 
 def test_kerb_lets_a_point_rest_on_its_top_and_stops_it_at_its_face():

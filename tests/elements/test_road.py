@@ -101,6 +101,14 @@ def test_kerb_penetration_has_a_continuous_gradient(yaw: float, camber: float) -
         last = gradient
 
 
+@pytest.mark.parametrize(("depth", "behind", "axis"), [(0.02, 0.01, 0), (0.01, 0.02, 2)])
+def test_a_wheel_within_the_step_leaves_it_by_the_nearest_side(depth: float, behind: float, axis: int) -> None:
+    """Its centre is so far below the top and so far behind the face."""
+    c = contacts(KerbRoad(0.0, 0.08), [-behind, 0.0, 0.08 - depth], [0.0, 1.0, 0.0], RADIUS)[0]
+    assert c["penetration"] == pytest.approx(RADIUS + min(depth, behind), abs=ROUND_OFF)
+    assert np.allclose(c["normal"], np.eye(3)[axis], atol=ROUND_OFF)
+
+
 def test_disc_rolls_over_the_edge_along_a_circle_about_it() -> None:
     road = KerbRoad(0.0, 0.08)
     for fall in (0.01, 0.05):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 import sys
 from collections.abc import Callable
@@ -14,10 +15,19 @@ from fmpy.validation import validate_fmu
 
 from fmu_src.build import KINDS, build_fmu
 from fmu_src.scene_registry import load_scene
-from fmu_src.units import parse_unit
+from fmu_src.units import DISPLAY_UNITS, parse_unit
 from fmu_src.variables import variable_table
 
 SCENES = Path(__file__).parent / "scenes.py"
+ONE = {
+    ("rad", "deg"): math.pi / 180.0,
+    ("rad/s", "deg/s"): math.pi / 180.0,
+    ("rad/s", "rpm"): 2.0 * math.pi / 60.0,
+    ("rad/s2", "deg/s2"): math.pi / 180.0,
+    ("m/s", "km/h"): 1000.0 / 3600.0,
+    ("Pa", "MPa"): 1e6,
+}
+"""One display unit in its unit."""
 META = {"inputs": [], "parameters": [], "sensors": [{"name": "a.x", "unit": "m", "description": ""}]}
 
 
@@ -146,3 +156,12 @@ def test_double_names_are_refused() -> None:
     entry = {"name": "a.x", "unit": "m"}
     with pytest.raises(ValueError, match=r"Two variables are named 'a\.x'"):
         variable_table(META | {"sensors": [entry, entry]}, pose=False, step_size=0.01)
+
+
+@pytest.mark.parametrize(("unit", "shown"), list(ONE))
+def test_a_display_unit_is_so_much_of_its_unit(unit: str, shown: str) -> None:
+    assert DISPLAY_UNITS[unit][shown] * ONE[unit, shown] == pytest.approx(1.0, rel=1e-15)
+
+
+def test_every_display_unit_is_tested() -> None:
+    assert {(unit, shown) for unit, units in DISPLAY_UNITS.items() for shown in units} == set(ONE)

@@ -56,6 +56,14 @@ def test_inputs_and_parameters_reach_the_engine(crane: Path, host: HostMaker) ->
     assert driven.outputs() == list(simulation.sensors.values())
 
 
+def test_a_communication_point_may_be_off_by_the_round_off_of_a_host(crane: Path, host: HostMaker) -> None:
+    """A host that adds up 0.01 s for hours errs by less than a microsecond; more is another point."""
+    for off, status in ((5e-7, OK), (-5e-7, OK), (5e-6, ERROR), (-5e-6, ERROR), (1e-3, ERROR)):
+        driven = host(crane).start()
+        assert driven.step(0.0, 0.01) == OK
+        assert driven.step(0.01 + off, 0.01) == status
+
+
 def test_step_size_can_be_chosen(crane: Path, host: HostMaker) -> None:
     expected = mbs.simulate(system("crane"), t_end=0.4, h=0.002)
     rows = host(crane).start({"step_size": 0.002}).run(40, 0.01)

@@ -16,8 +16,8 @@ import mbs
 import lengths
 
 def swing():
-    import random
-    assert hasattr(random, "Random"), "random.py of the user"
+    import sched
+    assert hasattr(sched, "scheduler"), "sched.py of the user"
     m = mbs.Model("swing", dimension=2)
     bob = m.point_mass("bob", mass=1.0, position=(lengths.LENGTH, 0.0))
     m.distance("rod", (m.ground, (0.0, 0.0)), bob)
@@ -45,14 +45,14 @@ def scene(tmp_path: Path) -> Path:
     (tmp_path / "scene.py").write_text(SCENE)
     (tmp_path / "lengths.py").write_text("LENGTH = 1.25\n")
     (tmp_path / "hosts.py").write_text("MINE = True\n")
-    for name in ("mbs", "fmu_src", "numpy", "random", "build_fmu", "ali3"):
+    for name in ("mbs", "fmu_src", "numpy", "sched", "build_fmu", "ali3"):
         (tmp_path / f"{name}.py").write_text("raise SystemExit('a file of the user')\n")
     return tmp_path / "scene.py"
 
 
 @pytest.fixture(autouse=True)
 def _clean(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("hosts", "lengths"):
+    for name in ("hosts", "lengths", "sched"):
         monkeypatch.delitem(sys.modules, name, raising=False)
 
 

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from mbs.kernel import build
+
 ROOT = Path(__file__).parents[2]
 DIRECTIONS = Path(__file__).with_name("import_directions.ini")
 """Contracts of the Python packages; new packages and rooms get their line there."""
@@ -131,6 +133,17 @@ def test_a_direction_turned_round_is_seen(file, line, said):
     texts = sources(KERNEL)
     texts[file] = f"{texts.get(file, '')}\n{line}\n"
     assert any(said in sentence for sentence in wrong_in_kernel(texts))
+
+
+def test_every_header_of_the_kernel_includes_what_it_uses(tmp_path):
+    files = []
+    for k, name in enumerate(file for file in sources(KERNEL) if file.endswith(".h")):
+        files.append(tmp_path / f"header_{k}.c")
+        files[-1].write_text(f'#include "{name}"\n#include "{name}"\nextern int header_{k};\n', encoding="utf-8")
+    target = build.host_target()
+    library = tmp_path / build.library_name(target)
+    build.compile_c(files, target, library, include=(KERNEL,), what="a header by itself")
+    assert library.is_file()
 
 
 @pytest.mark.parametrize("folder", C_FOLDERS)

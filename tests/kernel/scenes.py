@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbs.kernel.header import ElementType, GuideType, SensorType
+
 from .system_builder import Element, Row, SystemBuilder, distance_row
 
 GRAVITY = 9.81
@@ -15,7 +17,7 @@ def pendulum() -> SystemBuilder:
         np.eye(2), [-1.0, 0.0], gravity=[0.0, -GRAVITY], rows=[distance_row((0.0, 0.0), (0, 1), 1.0, True)]
     )
     x, y = b.signal({0: 1.0}), b.signal({1: 1.0})
-    b.sensors = [(0, [x], [1.0]), (0, [y], [1.0]), (10, [3], [])]
+    b.sensors = [(SensorType.SIGNAL, [x], [1.0]), (SensorType.SIGNAL, [y], [1.0]), (SensorType.ENERGY, [3], [])]
     return b
 
 
@@ -40,7 +42,7 @@ def four_bar(windows: int = 2, groups: list[int] | None = None) -> SystemBuilder
     q0 = np.array([[i, 1.0] for i in range(n)]).ravel()
     builder = SystemBuilder(M, q0, np.tile([1.0, 0.0], n), Q, rows, groups)
     x, y = builder.signal({0: 1.0}), builder.signal({1: 1.0})
-    builder.sensors = [(0, [x], [1.0]), (0, [y], [1.0]), (10, [3], [])]
+    builder.sensors = [(SensorType.SIGNAL, [x], [1.0]), (SensorType.SIGNAL, [y], [1.0]), (SensorType.ENERGY, [3], [])]
     return builder
 
 
@@ -58,8 +60,13 @@ def sleigh() -> SystemBuilder:
     b = SystemBuilder(mass, [arm, 0.0, 1.0, 0.0, 0.0], velocity, rows=rows, groups=[2, 3])
     b.inputs = [(0.0, -5.0, 5.0)]
     x, y, angle = b.signal({0: 1.0, 2: -arm}), b.signal({1: 1.0, 3: -arm}), b.signal({4: 1.0})
-    b.elements = [Element(3, [x], [1.0], [0])]
-    b.sensors = [(0, [x], [1.0]), (0, [y], [1.0]), (0, [angle], [1.0]), (10, [3], [])]
+    b.elements = [Element(ElementType.INPUT_FORCE, [x], [1.0], [0])]
+    b.sensors = [
+        (SensorType.SIGNAL, [x], [1.0]),
+        (SensorType.SIGNAL, [y], [1.0]),
+        (SensorType.SIGNAL, [angle], [1.0]),
+        (SensorType.ENERGY, [3], []),
+    ]
     return b
 
 
@@ -80,17 +87,20 @@ def everything() -> SystemBuilder:
     b = SystemBuilder(M, q0, [0.1, -0.2, 0.3, 0.2, 0.0], [0.0, -9.81 * 2, 0.0, -9.81 * 2.5, 0.0], rows, [2, 1, 2])
     b.inputs = [(0.0, -1.0, 1.0)]
     quintic = [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]
-    b.guides = [(1, 0, [20.0, 0.5, 0.0]), (0, -1, [2.0, 0.0, 1.0, 2.0, *quintic, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0])]
+    b.guides = [
+        (GuideType.OF_INPUT, 0, [20.0, 0.5, 0.0]),
+        (GuideType.OF_TIME, -1, [2.0, 0.0, 1.0, 2.0, *quintic, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    ]
     dx, dy = b.signal({0: -1.0, 2: 1.0}), b.signal({1: -1.0, 3: 1.0}, 0.5)
-    b.elements = [Element(1, [dx, dy], [400.0, 20.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=3)]
+    b.elements = [Element(ElementType.SPRING_DAMPER, [dx, dy], [400.0, 20.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=3)]
     b.parameters = [(400.0, 0.0, 1000.0, [(0, 0, 1.0)])]
     b.sensors = [
-        (0, [dx], [1.0]),
-        (8, [0, 1], [1.0]),
-        (11, [0], []),
-        (12, [0, 0], [1.0]),
-        (10, [3], []),
-        (9, [1, 0], [1.0]),
-        (19, [1, 1, 0], []),
+        (SensorType.SIGNAL, [dx], [1.0]),
+        (SensorType.ELEMENT_OUTPUT, [0, 1], [1.0]),
+        (SensorType.INPUT, [0], []),
+        (SensorType.GUIDE, [0, 0], [1.0]),
+        (SensorType.ENERGY, [3], []),
+        (SensorType.REACTION, [1, 0], [1.0]),
+        (SensorType.WORK, [1, 1, 0], []),
     ]
     return b

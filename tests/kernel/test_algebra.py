@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.settings import Settings
 
 from .scenes import everything, four_bar
-from .system_builder import Element, SystemBuilder, distance_row
+from .system_builder import Element, Row, SystemBuilder, distance_row
 
 SEED = 11
 DIFFERENCE = 1e-6
@@ -101,6 +102,47 @@ def test_the_tangent_is_the_derivative_of_the_residual(groups: list[int], geomet
     np.testing.assert_allclose(tangent - penalty, expected - penalty, atol=1e-6)
 
 
+def turning_pair() -> SystemBuilder:
+    """Two planar vectors a, b and the angle from a to b: cos(theta) a x b - sin(theta) a . b = 0."""
+    b = SystemBuilder(
+        np.diag([1.0, 2.0, 1.5, 0.7, 0.3]),
+        [0.9, -0.4, 0.2, 1.1, 1.8],
+        rows=[Row(0.0, theta=4, angle=[(2, 0, 1.0, 0.0), (3, 1, 1.0, 0.0), (3, 0, 0.0, 1.0), (2, 1, 0.0, -1.0)])],
+    )
+    b.sensors = [(10, [3], [])]
+    return b
+
+
+def test_an_angle_between_two_moving_vectors_has_all_its_derivatives() -> None:
+    b = turning_pair()
+    instance = initialised(b)
+    rng = np.random.default_rng(SEED + 2)
+    d, h, lam = DIFFERENCE, 0.01, np.array([40.0])
+    for _ in range(5):
+        q, qd = b.q0 + 0.5 * rng.normal(size=5), rng.normal(size=5)
+        now = {k: np.array(v) for k, v in instance.evaluate(q, qd, None, 0.0).items()}
+
+        def jacobian(x: np.ndarray) -> np.ndarray:
+            return np.array(instance.evaluate(x, qd, None, 0.0)["jacobian"])  # noqa: B023
+
+        phi = [
+            float(b.row_scale(b.rows[0]) * b.value(b.rows[0], q + s * d * e)) for e in np.eye(5) for s in (1.0, -1.0)
+        ]
+        np.testing.assert_allclose(now["jacobian"], np.subtract(phi[::2], phi[1::2]) / (2 * d), atol=FD_TOLERANCE)
+        drift = (jacobian(q + d * qd) - jacobian(q - d * qd)) @ qd / (2 * d)
+        np.testing.assert_allclose(now["gamma"], [drift], atol=FD_TOLERANCE)
+    q, c = (
+        b.q0 + 0.5 * rng.normal(size=5),
+        h * h / 4,
+    )  # where the row is open, its own value is in the second derivative
+    assert abs(b.value(b.rows[0], q)) > 0.1
+    instance.set_q(q)
+    second = np.array([(jacobian(q + d * e) - jacobian(q - d * e)) / (2 * d) for e in np.eye(5)])
+    plain = np.reshape(instance.tangent(h, np.zeros(1)), (5, 5))
+    found = (np.reshape(instance.tangent(h, lam), (5, 5)) - plain) / (c * lam[0])
+    np.testing.assert_allclose(found, second, atol=1e-3)  # beside the penalty, 1e7 times as large
+
+
 def chain(n: int, groups: list[int]) -> SystemBuilder:
     """A hanging chain of n points and springs to the ground that slant: every front passes something on."""
     rows = [distance_row((0.0, 0.0), (0, 1), 1.0, True)]
@@ -130,6 +172,23 @@ def test_fronts_solve_as_one_dense_front_does(groups: list[int]) -> None:
     tangent = np.reshape(instance.tangent(0.01), (12, 12))
     np.testing.assert_allclose(tangent, np.reshape(reference.tangent(0.01), (12, 12)), rtol=1e-6, atol=1.0)
     assert np.linalg.eigvalsh(tangent).min() > 0
+
+
+@pytest.mark.parametrize("method", ["energy_momentum", "radau_5"])
+@pytest.mark.parametrize("groups", [[4, 4, 4], [2] * 6, [3, 1, 5, 3]], ids=str)
+def test_fronts_without_symmetry_solve_as_one_dense_front_does(groups: list[int], method: str) -> None:
+    ends = []
+    for cut in (groups, [12]):
+        instance = initialised(chain(6, cut))
+        settings = Settings(method=method, tolerance_r=1e-13, tolerance_phi=1e-12)
+        instance.set_settings(**settings.kernel_fields())  # type: ignore[arg-type]
+        for _ in range(10):
+            instance.step(0.01)
+        report = instance.report()
+        ends.append((np.array(instance.get_state()[0]), report["iterations"], report["halvings"]))
+    np.testing.assert_allclose(ends[0][0], ends[1][0], atol=1e-9)
+    assert ends[0][1] == ends[1][1]  # a wrong tangent would cost iterations
+    assert ends[0][2] == ends[1][2] == 0
 
 
 def test_accelerations_and_multipliers_at_the_start_solve_the_index_one_equations() -> None:

@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 
 from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
+from mbs.methods import METHOD_TABLE
 
 from .scenes import everything, four_bar, pendulum
 from .system_builder import SystemBuilder
 
-METHODS = {"ali3p": 0, "energy_momentum": 2, "energy_momentum_4": 3, "runge_kutta_8": 4, "radau_5": 7}
+METHODS = {
+    n: METHOD_TABLE[n].number for n in ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
+}
 
 
 def start(builder: SystemBuilder, method: int = 0) -> Instance:
@@ -70,6 +73,28 @@ def test_the_number_of_steps_goes_with_the_order(method: str, order: int, loose:
         counts.append(fields.accepted)
     growth = math.log(counts[1] / counts[0]) / math.log(loose / tight)
     assert growth == pytest.approx(1.0 / order, rel=0.25)
+
+
+@pytest.mark.parametrize(
+    ("method", "share"),
+    [
+        ("ali3p", 1e-4),
+        ("energy_momentum", 1e-4),
+        ("energy_momentum_4", 1e-4),
+        ("radau_5", 1e-6),
+        ("runge_kutta_8", 1e-10),
+    ],
+)
+def test_the_shortest_step_is_that_of_the_method(method: str, share: float) -> None:
+    """Of the time scale of the motion, here one over the rate: below it, round-off of index three grows."""
+    least = share / 3.0
+    fields = control(0.5, h=0.01 * least)
+    instance = start(pendulum(), METHODS[method])
+    done = np.array([2.0])
+    sizes = instance.system.sizes
+    instance.control_run(fields, None, 2.0, 1, done, np.zeros((1, sizes.ns)), np.zeros((1, sizes.nq)), 0)
+    assert fields.accepted == 1
+    assert fields.h == pytest.approx(least, rel=1e-6)
 
 
 def test_errors_add_up_to_the_tolerance() -> None:

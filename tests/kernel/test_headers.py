@@ -11,7 +11,20 @@ import pytest
 from mbs import accuracy
 from mbs.kernel import header, read_headers
 from mbs.kernel.binding import library, load_library
-from mbs.kernel.header import STRUCTURES, Doubt, GuideType, RoadType, SensorType, SolverValue, Status
+from mbs.kernel.header import (
+    METHOD_ORDERS,
+    STRUCTURES,
+    Doubt,
+    GuideType,
+    MethodNumber,
+    ParameterTarget,
+    RoadType,
+    SensorType,
+    SolverValue,
+    Status,
+)
+from mbs.methods import METHOD_TABLE
+from mbs.settings import METHODS, Settings
 
 
 def test_the_python_side_is_what_the_headers_say():
@@ -31,12 +44,28 @@ def test_the_page_of_the_system_file_is_what_the_headers_say():
 def test_numbers_known_from_the_documents():
     assert (Status.OK, Status.BAD_ARGUMENT, Status.BRANCH_CHANGED) == (0, 1, 17)
     assert (SolverValue.ITERATIONS, SolverValue.STATUS, SolverValue.ENERGY_BALANCE) == (0, 5, 7)
+    assert list(ParameterTarget) == [ParameterTarget.ELEMENT, ParameterTarget.GUIDE, ParameterTarget.ROAD] == [0, 1, 2]
     assert (SensorType.SIGNAL, SensorType.ELEMENT_OUTPUT, SensorType.WORK) == (0, 8, 19)
     assert (GuideType.OF_TIME, GuideType.OF_INPUT, RoadType.PLANE, RoadType.GRID) == (0, 1, 0, 2)
     assert list(Doubt) == [Doubt.NONE, Doubt.HALVINGS, Doubt.BALANCE]
     assert (header.OPEN, header.FARTHEST, header.FASTEST) == (1e-9, 1e8, 1e6)
     assert accuracy.WRONG_BALANCE == header.BALANCE_WRONG == 0.036
     assert accuracy.SUSPECT_HALVINGS == header.HALVINGS_SUSPECT == 0.1
+
+
+def test_every_method_of_the_kernel_has_an_entry_with_its_order():
+    assert {method.number for method in METHOD_TABLE.values()} == set(MethodNumber)
+    assert {method.number: method.order_of_changing_steps for method in METHOD_TABLE.values()} == METHOD_ORDERS
+    assert METHODS["ali3p_no_projection"] == {"method": 0, "project": 0}
+    assert METHODS["radau_5"] == {"method": MethodNumber.RADAU_5} == {"method": 7}
+    for name in METHOD_TABLE:
+        assert f'- "{name}"' in (Settings.__doc__ or ""), name
+
+
+def test_orders_of_changing_steps_are_at_most_those_of_fixed_ones():
+    """Error control divides by two to the power of the first, estimates from a repeat by that of the second."""
+    for name, method in METHOD_TABLE.items():
+        assert 1 <= method.order_of_changing_steps <= method.order, name
 
 
 def test_every_status_has_a_sentence_of_its_own():

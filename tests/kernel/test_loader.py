@@ -10,7 +10,7 @@ import pytest
 from mbs import Model, compile
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
-from mbs.kernel.header import SolverValue
+from mbs.kernel.header import SensorType, SolverValue
 from mbs.kernel.read_headers import SensorEntry, sensor_types
 from mbs.scenes import bricard, spatial_chain
 from mbs.settings import METHODS
@@ -59,9 +59,9 @@ def test_a_good_file_is_loaded_with_its_sizes() -> None:
 @pytest.mark.parametrize("integers", [[], [0, 0], [2, 1, 0], [0, 1, 1], [0, 1, -1], [0, 2, 0], [0, 1, 0, 0]])
 def test_sensors_of_work_name_elements(integers: list[int]) -> None:
     builder = everything()
-    builder.sensors[-1] = (19, integers, [])
+    builder.sensors[-1] = (SensorType.WORK, integers, [])
     assert "sen" in refused(builder.to_bytes())
-    builder.sensors[-1] = (19, [0, 1, 0], [1.0])
+    builder.sensors[-1] = (SensorType.WORK, [0, 1, 0], [1.0])
     assert "sensor 6 of type 19 has 1 reals" in refused(builder.to_bytes())
 
 
@@ -104,6 +104,13 @@ def test_integers_and_reals_of_each_sensor_type_are_checked(entry: SensorEntry) 
         )
         for wrong_value in (too_small, *too_large):
             refused(with_sensor([*good[:k], wrong_value, *good[k + 1 :]], reals))
+
+
+@pytest.mark.parametrize("integers", [[0, 1, 0], [0, 4, 0, 0, 0, 0], [2, 2, 0, 0]])
+def test_a_norm_has_two_or_three_components_and_an_order_below_two(integers: list[int]) -> None:
+    builder = everything()
+    builder.sensors[-1] = (SensorType.NORM, integers, [])
+    assert "'sen_int'" in refused(builder.to_bytes())
 
 
 def test_every_truncation_is_refused() -> None:

@@ -114,6 +114,19 @@ def test_reset_goes_back_to_the_file() -> None:
     assert bits(instance) == bits(fresh)
 
 
+def test_a_filtered_guide_starts_at_rest_where_its_input_holds_it() -> None:
+    """Also where the instance was stepped before, and the guide moved."""
+    b = everything()
+    b.sensors = [(12, [0, order], [1.0]) for order in range(3)]
+    instance = Instance(LoadedSystem(b.to_bytes()))
+    instance.initialise(0.0)
+    instance.set_input(0, 0.4)
+    instance.step(0.01)
+    assert min(abs(v) for v in instance.sensors()) > 1e-3
+    instance.initialise(0.0)
+    assert list(instance.sensors()) == [0.5 * 0.4, 0.0, 0.0]
+
+
 def test_instances_of_one_system_do_not_touch_each_other() -> None:
     system = LoadedSystem(everything().to_bytes())
     alone = Instance(system)

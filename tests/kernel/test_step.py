@@ -153,6 +153,28 @@ def test_a_refused_step_keeps_the_last_good_state() -> None:
     assert [bytes(part) for part in instance.get_state()] == [bytes(part) for part in other.get_state()]
 
 
+def test_a_step_that_the_past_misleads_starts_again_from_the_present() -> None:
+    """A push that grew by 20 N a step stops growing: the parabola goes on growing, and one iteration cannot mend it."""
+
+    def pushed(predictor: int) -> Instance:
+        b = pendulum()
+        b.q0, b.inputs = np.array([0.0, -1.0]), [(0.0, -1e3, 1e3)]
+        b.elements = [Element(3, [b.signal({0: 1.0})], [1.0], [0])]
+        instance = start(b)
+        for k in range(6):
+            instance.set_input(0, 20.0 * (k + 1))
+            instance.step(0.01)
+        one = {"max_iterations": 1, "max_halvings": 0, "tolerance_r": 1e-7, "tolerance_phi": 1e-7}
+        instance.set_settings(predictor=predictor, **one)
+        before = instance.report()["iterations"]
+        instance.step(0.01)
+        assert instance.report()["iterations"] - before == (2 if predictor == 0 else 1)
+        return instance
+
+    past, present = pushed(0), pushed(1)
+    assert [bytes(part) for part in past.get_state()] == [bytes(part) for part in present.get_state()]
+
+
 def test_a_half_that_was_good_leaves_no_energy_in_the_books() -> None:
     """Of a step whose first half is good and whose second is refused nothing stays, also not of its energy."""
     books = ("energy_error", "open_power", "energy", "work", "kinetic_peak", "speed_peak", "velocity_path")
@@ -223,6 +245,25 @@ def test_far_from_the_origin_a_free_scene_steps_as_near_it() -> None:
     assert far.report()["max_iterations"] <= near.report()["max_iterations"] + 1
 
 
+@pytest.mark.parametrize("direction", [0, 1])
+def test_a_rod_keeps_its_length_a_thousand_kilometres_away(direction: int) -> None:
+    """Differences of places there have ten digits, of their squares not one would be left of the length of the rod."""
+    b = SystemBuilder(
+        np.eye(4), [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], rows=[distance_row((0, 1), (2, 3), 1.0, False)]
+    )
+    along = [np.array([1.0, 0.0, 1.0, 0.0]), np.array([0.0, 1.0, 0.0, 1.0])]
+    zero = np.zeros(4)
+    b.pose = dict.fromkeys(("pose_z", "pose_cos", "pose_sin", "pose_speed"), zero)
+    b.pose |= {"pose_0": b.q0, "pose_x": along[0], "pose_y": along[1]}
+    b.q0 = b.q0 + 1e6 * along[direction]
+    instance = start(b)
+    for _ in range(100):
+        instance.step(0.01)
+        x1, y1, x2, y2 = instance.get_state()[0]
+        assert np.hypot(x2 - x1, y2 - y1) == pytest.approx(1.0, abs=1e-9)
+    assert y2 - y1 > 0.5  # it turns
+
+
 def test_double_four_bar_follows_its_exact_reduction() -> None:
     """The cranks stay parallel and the couplers only translate: 3 theta'' = 3.5 g sin(theta) for two windows."""
     exact = solve_ivp(
@@ -235,6 +276,15 @@ def test_double_four_bar_follows_its_exact_reduction() -> None:
     assert error[-1] < 1e-4
     assert 3.6 < error[0] / error[1] < 4.4  # order two
     assert 3.6 < error[1] / error[2] < 4.4
+
+
+def test_a_linear_oscillator_takes_one_iteration_a_step() -> None:
+    """Its tangent is exact, damping too, and Newton's method solves a linear equation at once."""
+    b = SystemBuilder(np.eye(1), [0.5], [1.0])
+    b.elements = [Element(2, [b.signal({0: 1.0})], [300.0, 40.0, 0.0, 0.0], outputs=1)]
+    instance = start(b, tolerance_r=1e-13)
+    run(instance, 0.02, 50)
+    assert instance.report()["iterations"] == 50
 
 
 def test_unsymmetric_damping_costs_few_iterations() -> None:

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import Instance, LoadedSystem, Status
 from mbs.settings import Settings
 from tests.methods.rolling_models import ROLLING
 
@@ -130,3 +130,23 @@ def test_the_derivative_of_a_step_by_its_input() -> None:
     assert instance._library.ali3_input_derivative(instance._handle, (ctypes.c_double * 1)(1.0), out) == 0
     np.testing.assert_allclose(np.array(out), expected, rtol=1e-5, atol=1e-11)
     assert np.abs(expected).max() > 1e-4
+
+
+def test_after_generalised_alpha_there_is_no_derivative_of_a_step() -> None:
+    """It would be that of another rule."""
+    instance = started("ali3p_generalised_alpha")
+    instance.step(H)
+    out = (ctypes.c_double * 4)()
+    status = instance._library.ali3_input_derivative(instance._handle, (ctypes.c_double * 1)(1.0), out)
+    assert status == Status.NOT_INITIALISED
+
+
+def test_a_step_of_energy_momentum_has_the_exact_derivative_of_its_rows() -> None:
+    """With it one tangent and three iterations a step are enough; with another factor it takes twice as many."""
+    instance = started("energy_momentum")
+    instance.set_input(0, 2.0)
+    for _ in range(20):
+        instance.step(0.1)
+    assert instance.report()["halvings"] == 0
+    assert instance.report()["factorizations"] <= 30
+    assert instance.report()["iterations"] <= 80

@@ -7,6 +7,7 @@ import pytest
 from scipy.sparse import csr_array
 
 from mbs import Settings, Simulation, SimulationError, compile, simulate
+from mbs.kernel.header import MethodNumber
 from mbs.scenes import bricard, double_four_bar, spatial_chain
 from tests.methods.models import MOVED_S, TRIANGLE_MASSES, driven, hinge, swing, triangle
 
@@ -171,7 +172,7 @@ def test_the_method_may_change_on_the_way(four_bar):
     simulation = Simulation(four_bar)
     simulation.run(1.0, 0.01)
     middle = simulation.sensors["energy.total"]
-    simulation.instance.set_settings(method=2)
+    simulation.instance.set_settings(method=MethodNumber.ENERGY_MOMENTUM)
     run = simulation.run(3.0, 0.01)
     assert spread(run) < EXACT_J
     assert run["energy.total"][0] == middle

@@ -65,6 +65,16 @@ def test_steps_of_other_sizes_do_not_mislead_it(loop):
     assert simulation.report.halvings == 0
 
 
+def test_a_step_ten_times_as_long_leaves_the_past_aside():
+    """A parabola through steps of 10 ms, extrapolated over 100 ms, costs a swinging chain 13 iterations for 5."""
+    simulation = Simulation(compile(spatial_chain.build()))
+    for _ in range(20):
+        simulation.step(0.01, n=8)
+        simulation.step(0.1)
+    assert simulation.report.max_iterations <= 6
+    assert simulation.report.halvings == 0
+
+
 def test_a_saved_state_takes_its_past_along(loop):
     one, other = Simulation(loop), Simulation(loop)
     one.step(0.01, n=20)

@@ -115,6 +115,28 @@ def test_energy_stays_and_a_step_costs_as_many_evaluations_as_the_rule_has_stage
         assert run.report.velocity_violation < 1e-11
 
 
+def test_a_slide_on_a_turning_arm_starts_with_the_rate_it_was_given():
+    """The slide is off the axis of its arm, so that the turn of the arm moves it along without any slip."""
+    m = Model("slide on an arm", dimension=3, gravity=(0.0, 0.0, 0.0))
+    arm = m.body("arm", mass=1.0, com=(0.3, 0.0, 0.0), inertia=(0.1, 0.1, 0.1))
+    block = m.body("block", mass=0.5, com=(0.6, 0.4, 0.0), inertia=(0.01, 0.01, 0.01))
+    m.revolute("pin", m.ground, arm, point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0))
+    m.prismatic("rail", block, arm, axis=(1.0, 0.0, 0.0), point=(0.6, 0.4, 0.0))
+    turn, slip = 2.0, 0.3
+    m.initial_velocity(arm, angular=(0.0, 0.0, turn), linear=(0.0, 0.3 * turn, 0.0))
+    m.initial_velocity(block, angular=(0.0, 0.0, turn), linear=(slip - 0.4 * turn, 0.6 * turn, 0.0))
+    m.sense_energy("energy", "kinetic")
+    for c in "xy":
+        m.sense_position(c, block, None, c)
+    system = compile(m)
+    ends = []
+    for method in ("semi_recursive", "radau_5"):
+        run = simulate(system, 0.2, 0.01, method=method)
+        ends.append([run["x"][-1], run["y"][-1]])
+        assert run["energy"][-1] == pytest.approx(run["energy"][0], rel=1e-9)
+    assert ends[0] == pytest.approx(ends[1], abs=1e-8)
+
+
 def test_momentum_along_a_rail_stays():
     run = simulate(compile(carriage()), 2.0, 0.01, settings=tight("semi_recursive"))
     momentum = 1.5 * run["cart.vx"] + 1.0 * run["first.vx"] + 0.8 * run["second.vx"]

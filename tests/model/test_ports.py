@@ -8,6 +8,7 @@ import pytest
 from mbs import Model, ModelError, Simulation, System, compile
 from mbs.flexible import InertiaRelief
 from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.header import SensorType
 
 LEFT, RIGHT, MASS = (-1.0, 0.0, 0.0), (2.0, 0.0, 0.0), 6.0
 GRAVITY = 9.81
@@ -91,7 +92,7 @@ def test_the_loader_refuses_wrong_integers(place, value):
     system = compile(beam())
     arrays = {name: np.array(v) for name, v in system.arrays.items()}
     first = arrays["sen_int_ptr"][0]
-    assert arrays["sen_type"][0] == 17
+    assert arrays["sen_type"][0] == SensorType.QUASI_STATIC
     arrays["sen_int"][first + place] = value
     with pytest.raises(KernelError, match="sen"):
         LoadedSystem(System(arrays, system.meta).to_bytes())

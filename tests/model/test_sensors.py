@@ -56,6 +56,32 @@ def test_orientation_and_body_axes_agree_with_the_rotation_matrix():
     assert t["turn"][-1] == pytest.approx(np.pi / 2, abs=EXACT)
 
 
+@pytest.mark.parametrize("axis", [(1.0, 0.2, -0.3), (0.2, -1.0, 0.3), (-0.3, 0.2, 1.0), (0.6, 0.6, 0.6)])
+def test_quaternion_after_nearly_half_a_turn(axis):
+    """There its scalar part is small, and the other three follow from the largest of them."""
+    m = Model("ball", gravity=(0, 0, 0))
+    ball = m.body("ball", mass=1.0, com=(0, 0, 0), inertia=(0.2, 0.2, 0.2))
+    turn = 0.95 * np.pi * np.array(axis) / np.linalg.norm(axis)
+    m.initial_velocity(ball, angular=turn)
+    for c in "wxyz":
+        m.sense_quaternion(c, ball, c)
+    t = Simulation(compile(m)).run(1.0, 0.001)
+    x, y, z, w = Rotation.from_rotvec(turn).as_quat()
+    found = np.array([t[c] for c in "wxyz"])
+    assert found[:, -1] == pytest.approx([w, x, y, z], abs=1e-5)
+    np.testing.assert_allclose(np.sum(found**2, axis=0), 1.0, rtol=0, atol=EXACT)
+    assert np.abs(np.diff(found)).max() < 0.01  # no jump where another part becomes the largest
+
+
+def test_a_direction_of_motion_is_told_from_a_tenth_of_a_metre_per_second():
+    for speed, expected in ((0.099, 0.0), (0.101, 0.5)):
+        m = Model("block", dimension=3, gravity=(0, 0, 0))
+        block = m.body("block", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+        m.initial_velocity(block, linear=(speed * np.cos(0.5), speed * np.sin(0.5), 0.0))
+        m.sense_direction("sideslip", block.point((0, 0, 0)), block.vector((1, 0, 0)), block.vector((0, 1, 0)), order=1)
+        assert Simulation(compile(m)).sensors["sideslip"] == pytest.approx(expected, abs=EXACT)
+
+
 def test_start_velocity_energy_and_euler_equations():
     """At the start: velocity and acceleration of a point of a body that turns freely."""
     simulation = Simulation(compile(flying_plate()))

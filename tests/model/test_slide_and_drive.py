@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.interpolate import PPoly
 
 from mbs import Model, ModelError, Simulation, compile
 
@@ -57,6 +58,23 @@ def test_a_driven_distance_follows_its_guide():
     t = Simulation(compile(m)).run(1.0, 0.01)
     np.testing.assert_allclose(-t["y"], t["asked"], rtol=0, atol=CLOSED)
     assert t["asked"][-1] == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize(
+    ("time", "expected"),
+    [(0.25, (1.0, 0.0, 0.0)), (0.5, (1.0, 2.0, 6.0)), (0.75, (1.6875, 3.5, 6.0)), (1.0, (2.75, 5.0, 6.0)),
+     (1.25, (2.75, 0.0, 0.0))],
+)  # fmt: skip
+def test_a_guide_of_time_rests_outside_its_breaks(time, expected):
+    """1 + 2 x + 3 x^2 from 0.5 to 1 s: its end values before and after, and rates between the breaks only."""
+    m = Model("late", dimension=2)
+    bob = m.point_mass("bob", mass=2.0, position=(0.0, -1.0))
+    guide = m.guide_time("length", PPoly([[3.0], [2.0], [1.0]], [0.5, 1.0]), unit="m")
+    m.drive("jack", ((m.ground, (0, 0)), bob), guide)
+    for order in range(3):
+        m.sense_guide(f"order {order}", guide, order)
+    simulation = Simulation(compile(m), t0=time)
+    assert [simulation.sensors[f"order {order}"] for order in range(3)] == pytest.approx(expected, abs=CLOSED)
 
 
 def test_a_driven_component_follows_its_guide():

@@ -11,7 +11,7 @@ enum { CATEGORIES = sizeof category_name / sizeof *category_name };
 
 static int category_of(slave_status status) { return status == SLAVE_OK ? CATEGORIES - 1 : (int)status - 1; }
 
-/* What is wrong is always told, what is well only to who asked; a host that named categories hears those. */
+/* Problems are always logged, other messages on request; a host that named categories gets those. */
 static bool wanted(const slave *s, slave_status status) {
   const unsigned bit = 1u << category_of(status);
   if (s->all_categories) return s->logging || status != SLAVE_OK;

@@ -35,9 +35,9 @@ typedef enum {
   ALI3_UNRESOLVED, /* the motion is too fast for the step: energy came or went without a force, also in halves */
   ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
   ALI3_TOO_STIFF,         /* the step is too long for an explicit rule; see report.fastest_rate */
-  ALI3_TOO_FAR,           /* a start so far away or so fast that its digits do not tell lengths any more */
+  ALI3_TOO_FAR,           /* a start so far away or so fast that its digits no longer resolve lengths */
   ALI3_NO_EQUILIBRIUM,    /* a scene that starts in static equilibrium has none with the parameters it was given */
-  ALI3_BRANCH_CHANGED,    /* told by ali3_run_status only: a closed loop changed its assembly mode */
+  ALI3_BRANCH_CHANGED,    /* reported by ali3_run_status only: a closed loop changed its assembly mode */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -76,7 +76,7 @@ typedef struct {
   double eps_rel; /* used by the rule */
   double tolerance_r; /* on max_i |r_i| / m_i, coordinate units (m) */
   double tolerance_phi; /* on the constraint violation, m */
-  double rho_infinity; /* generalised-alpha: share of an infinite frequency that a step leaves, 0 to 1 */
+  double rho_infinity; /* generalised-alpha: spectral radius at infinite frequency, 0 to 1 */
   int32_t max_iterations;
   int32_t max_halvings; /* depth of step bisection; 0: never */
   int32_t project; /* 1: velocity and acceleration projections (24), (25) */
@@ -99,8 +99,8 @@ typedef struct {
   double energy; /* kinetic and potential energy of the state, J */
   double work; /* what inputs and forces without a potential gave and took: sum over the steps, J */
   double kinetic_peak; /* largest kinetic energy, at least that of 1e-6 m/s, J */
-  /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity (over the largest: radians
-   * that the motion has turned), sum of what steps are off v + h a of their start */
+  /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, length of the path of the velocity (over the
+   * largest: radians that the motion has turned), sum of the errors of v + h a over the steps */
   double speed_peak, velocity_path, predictor_path;
   double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s */
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
@@ -167,7 +167,8 @@ ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, 
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
 /* Rows of a switch on or off: before initialise as drawn; later they hold the values they have at that moment, the
- * velocities are projected, accelerations and multipliers solved anew; report.energy_jump says what that took. */
+ * velocities are projected, accelerations and multipliers computed again; report.energy_jump has the change of energy.
+ * */
 ALI3_API ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on);
 ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, int32_t *on);
 /* Where the file starts in static equilibrium and parameters of elements or guides are not those of the file: that
@@ -231,8 +232,8 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
  * any time, no run was right that was tried; below it a run may be wrong. */
 #define ALI3_BALANCE_WRONG 0.036
 ALI3_API double ali3_energy_balance(const ali3_report *report);
-/* What a run can say without being repeated: nothing; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a
- * balance above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps say nothing: they have no motion to compare
+/* Signs of a wrong run that need no repeated run: none; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a
+ * balance above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps are not judged: they have no motion to compare
  * with. */
 #define ALI3_HALVINGS_SUSPECT 0.1
 #define ALI3_DOUBT_FROM 100
@@ -244,7 +245,7 @@ ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 ALI3_API ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API double ali3_time(const ali3_instance *in);
 
-enum { /* what the solver says about itself; the integer of sensors of type 13 */
+enum { /* report of the solver; the integer of sensors of type 13 */
        ALI3_SOLVER_ITERATIONS = 0, /* of the last step */
        ALI3_SOLVER_VIOLATION, /* m */
        ALI3_SOLVER_RESIDUAL, /* m */

@@ -39,7 +39,7 @@ struct ali3_instance {
   void (*release)(void *block);
   ali3_settings settings;
   ali3_report report;
-  ali3_report report_before; /* of the step that branch_watch.c may make again */
+  ali3_report report_before; /* of the step that branch_watch.c may repeat */
   double t_base, h_last; /* time = t_base + count * h_last */
   bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count;
@@ -49,12 +49,12 @@ struct ali3_instance {
   ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
   ali3_rule rule;
   bool backed_up; /* in->start holds the state before the step */
-  bool discrete, unobserved; /* forces by discrete gradients; nobody will look at the state of this step */
-  bool sampled; /* only sensors will look at it */
-  bool controlled; /* steps change from one to the next, and may be forgotten */
+  bool discrete, unobserved; /* forces by discrete gradients; the state of this step will not be read */
+  bool sampled; /* only sensors will read it */
+  bool controlled; /* steps change from one to the next, and may be discarded */
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
-  const double *force_input; /* what elements see: input, or input_middle in a step that looks at its middle */
+  const double *force_input; /* inputs that elements use: input, or input_middle where the middle is evaluated */
   double *el_real, *guide_real, *road_real; /* copies that parameters write to */
   ali3_road *road;
   /* work space */
@@ -83,13 +83,14 @@ struct ali3_instance {
   double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;
   ali3_tree_work *tree;
-  /* inputs.c: who is asked, inputs at the start of the step, when it starts, its length, the time of in->now */
+  /* inputs.c: the function that is called, inputs at the start of the step, its start, its length, the time of in->now
+   * */
   ali3_input_function *input_function;
   void *input_context;
   double *input_begin, *stage_input; /* nu; of the stages of radau.c */
   double input_time, input_length, t_now;
-  /* of branch_watch.c, signed squares: sines and cosines of the triads at in->now; sines before the step, after it, after it in parts;
-   * loops that left their modes */
+  /* of branch_watch.c, signed squares: sines and cosines of the triads at in->now; sines before the step, after it,
+   * after it in parts; loops that left their modes */
   double *mode_sine, *mode_cosine, *sine_before, *sine_after, *sine_few, *mode_left;
   ali3_vectors before; /* the state before a step where branches may be near */
   bool mode_known, branch_near;

@@ -9,10 +9,10 @@
 typedef enum { ALI3_ROUND_OFF_INDEX_3 = 0, ALI3_ROUND_OFF_COLLOCATION, ALI3_ROUND_OFF_INDEX_1 } ali3_round_off;
 
 typedef struct {
-  /* A step h from in->now that ends at time t; ali3_inputs_begin was told of it. Before, in->next is a copy of in->now,
-   * so that what a method leaves as it is, switches among it, is there. A good step ends with ali3_accept; one that is
+  /* A step h from in->now that ends at time t, after ali3_inputs_begin. Before it, in->next is a copy of in->now, so it
+   * has what a method does not change, such as switches. A good step ends with ali3_accept; one that is
    * refused, with a status, leaves in->now as it was, or has called ali3_back_up before it changed it. It does not
-   * allocate, counts iterations, factorizations and solves in in->report and takes no NaN for a number. */
+   * allocate, counts iterations, factorizations and solves in in->report and never passes a NaN on. */
   ali3_status (*step)(ali3_instance *in, double t, double h);
   /* The following may be NULL. */
   void (*before)(ali3_instance *in, double h);   /* what a step changes in in->now first, after ali3_back_up */
@@ -23,7 +23,7 @@ typedef struct {
   void (*after_unobserved)(ali3_instance *in);
   void (*after_sampled)(ali3_instance *in);
   int32_t owner;      /* ALI3_METHOD_* that its steps leave in the history of the state: its own, or one it shares */
-  bool relative;      /* steps relative coordinates: no copy to in->next, which is filled where there is a reader */
+  bool relative;      /* steps relative coordinates: no copy to in->next, which is filled when it is read */
   double stable_rate; /* of an explicit rule: largest step times rate that it follows, of negative rates; else 0 */
   ali3_round_off round_off;
 } ali3_method;

@@ -5,8 +5,14 @@
 
 #include "../include/ali3.h"
 
-/* The arrays of a System file: C type, item type number, name. */
+/* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
+ * is known of assembly modes or of a start in equilibrium. */
 /* clang-format off */
+#define ALI3_OPTIONAL_ARRAYS(X) \
+  X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
+  X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
+  X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner)
+
 #define ALI3_SYSTEM_ARRAYS(X) \
   X(unsigned char, 3, meta) \
   X(double, 2, q0) X(double, 2, qd0) X(double, 2, y0) \
@@ -45,10 +51,15 @@
   X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place) \
   X(int32_t, 1, tree_angle_col) X(int32_t, 1, tree_angle_ptr) X(int32_t, 1, tree_angle_joint) \
   X(double, 2, tree_angle_sign) X(double, 2, tree_angle_inertia) \
-  X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
-  X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
-  X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner)
+  ALI3_OPTIONAL_ARRAYS(X)
 /* clang-format on */
+
+enum { /* par_target: what a parameter writes to */
+       ALI3_TARGET_ELEMENT = 0,
+       ALI3_TARGET_GUIDE,
+       ALI3_TARGET_ROAD,
+       ALI3_TARGET_COUNT
+};
 
 /* A product h q_a q_b of a row with everything its loops need; ja, jb index the Jacobian, pos the front storage. */
 typedef struct {
@@ -67,7 +78,7 @@ typedef struct {
 } ali3_guide_term;
 
 typedef struct ali3_element_type ali3_element_type; /* elements/element.h */
-typedef struct ali3_tree ali3_tree;           /* tree/tree.h: what relative coordinates need of a System */
+typedef struct ali3_tree ali3_tree;           /* tree/tree.h: the part of a System for relative coordinates */
 
 struct ali3_system {
 #define ALI3_DECLARE(type, number, name) const type *name;

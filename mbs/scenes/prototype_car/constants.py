@@ -1,4 +1,4 @@
-"""What a driver or a course must know of the car; an FMU tells it."""
+"""Constants of the FMU that a driver or a course needs."""
 
 from __future__ import annotations
 

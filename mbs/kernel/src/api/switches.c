@@ -32,7 +32,7 @@ static void set(ali3_instance *in, int32_t number, bool on) {
 }
 
 /* Velocities go to the nearest ones in the metric of the mass (an impact without rebound), accelerations and
- * multipliers are solved anew; what the impact takes is in report.energy_jump. */
+ * multipliers are computed again; the energy of the impact is in report.energy_jump. */
 ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
   if (in == NULL || number < 0 || number >= in->system->size.n_switch || (on != 0 && on != 1)) return ALI3_BAD_ARGUMENT;
   if ((in->now.on[number] != 0.0) == (on == 1)) return ALI3_OK;

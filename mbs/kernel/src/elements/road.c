@@ -3,7 +3,7 @@
 #include "../algebra/small_vectors.h"
 
 #define FLATTEST 0.05 /* least cosine of an edge used as a divisor */
-/* Sine between wheel axis and road normal below which the width of a wheel tells: lying flat it touches with its
+/* Sine between wheel axis and road normal below which the width of a wheel matters: lying flat it touches with its
  * centre LYING/2 radii high, half as high as it is wide, and is 4/LYING^2 times as stiff as upright. */
 #define LYING 0.5
 
@@ -215,7 +215,7 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
   return 2;
 }
 
-#define NEAR 0.1 /* m: farther from the tangent plane under it a point is not looked at again */
+#define NEAR 0.1 /* m: farther from the tangent plane under it a point is not evaluated again */
 
 /* Distance to the nearest point of the surface: tangent plane under the point, then twice at the foot it gives. */
 static int grid_clearance(const double *p, int32_t nreal, const double point[3], ali3_clearance *out) {

@@ -9,7 +9,7 @@
  * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the
  * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power
  * F v_s, as the lever of F about the axle: the pressure under a driven wheel moves by that difference. With the loaded
- * radius as lever a driven tyre would make energy out of nothing, Fx (v - |rho| Omega). At standstill both are the
+ * radius as lever a driven tyre would generate energy, Fx (v - |rho| Omega). At standstill both are the
  * loaded radius, which makes the carcass a true spring.
  *
  * Carcass, per direction, with secant slip damping g = |F_steady|/|v_s|: x'(d + g) = -c x - g v_s, F = c x + d x'.
@@ -244,8 +244,8 @@ static void evaluate(ali3_element_args *a) {
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, n), upright);
 }
 
-/* A start with the wheel's centre below the surface: no spring of a tyre means that, and it would shoot the scene up.
- * The rise is the depth along the road's normal; walls are climbed a depth at a time. */
+/* A start with the wheel's centre below the surface: the spring of a tyre is not meant for that and would throw the
+ * scene up. The rise is the depth along the road's normal; walls are climbed a depth at a time. */
 static ali3_start_verdict start(const ali3_element_args *a, double raised) {
   const double *axis = a->u + 3, length = ali3_norm(axis), radius = a->real[RADIUS];
   double centre[3], e[3], deepest = 0.0, climb = 0.0;

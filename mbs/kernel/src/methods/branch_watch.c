@@ -1,8 +1,8 @@
-/* What watches over the assembly modes of closed loops, step by step, and reports a change once it is made.
+/* Checks the assembly modes of closed loops after each step and reports a change.
  *
  * Left: a loop is in none of its modes, as after a dead centre that it was not meant to reach.
  * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes
- * its sign is made again in 4 and in 8 parts: where these agree with each other and not with it, the step has jumped.
+ * its sign is repeated in 4 and in 8 parts: where these agree with each other and not with it, the step has jumped.
  * On the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
 #include <math.h>
 #include <string.h>
@@ -42,7 +42,7 @@ static void look(ali3_instance *in) {
 
 static void report(ali3_instance *in, int64_t loop, int32_t triad, int32_t kind, double t) {
   ali3_report *r = &in->report;
-  if (r->branch_changes++ > 0) return; /* the first is told */
+  if (r->branch_changes++ > 0) return; /* only the first is reported */
   r->branch_loop = (int32_t)loop;
   r->branch_triad = triad;
   r->branch_kind = kind;
@@ -110,8 +110,8 @@ static int32_t jumped(ali3_instance *in, double t, double h, int32_t first, int3
   return -1;
 }
 
-/* Makes a step in which a triad of the loop changed its sign again in parts; then once more as it was, because readers
- * use what a step leaves behind. */
+/* Repeats in parts a step in which a triad of the loop changed its sign; then once more whole, because readers use its
+ * work space. */
 static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
   const ali3_system *S = in->system;
   const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
@@ -128,7 +128,7 @@ static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
   return status;
 }
 
-/* Tells the loops that have left their modes at time t. */
+/* Reports the loops that have left their modes at time t. */
 static void left_modes(ali3_instance *in, double t) {
   ali3_mode_angles(in, in->now.q);
   for (int64_t loop = 0; loop < ali3_loop_count(in->system); loop++) {

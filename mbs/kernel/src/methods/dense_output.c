@@ -1,8 +1,8 @@
 /* The state at any time of a controlled step: positions, velocities and accelerations at its start, centre and end give
  * the polynomial of degree eight (Hermite interpolation), accelerations, multipliers and outputs of the elements come
  * from the equations of index one there. Where these say that the polynomial errs by more than the tolerance, and
- * where there are element states or filtered guides, a step of the method is made to that time instead, and
- * forgotten. */
+ * where there are element states or filtered guides, a step of the method is made to that time instead, and discarded.
+ * */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* What tells at no cost whether a run is right: energy that no force gave, beside the energy that was in the motion,
- * and how far velocities turn and how far they are off the simplest guess. Nothing here steers a step. */
+/* Measures of the accuracy of a run at no cost: the energy balance, how far velocities turn, and their error against
+ * the simplest prediction. They do not influence the steps. */
 #include <math.h>
 
 #include "../flexible/flexible_body.h"
@@ -8,7 +8,7 @@
 #include "../method.h"
 #include "energy_balance.h"
 
-static const double REST = 1e-6; /* m/s: slower than that nothing moves, and round-off is no error of the energy */
+static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
 
 /* Potential energy of v; flexible bodies prepared at its position. */
 static double potential(const ali3_instance *in, const ali3_vectors *v) {

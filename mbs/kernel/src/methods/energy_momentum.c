@@ -1,9 +1,9 @@
 /* One energy-momentum step of index 3. With D = q1 - q0, v1 = 2 D/h - v0 and everything in the middle of the step,
  *   M (D - h v0) + c (A' lam - Q) = 0,  Phi(q1) = 0,  c = h^2/2,
- * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: rows do no
- * work, springs give back what they take, dampers and inputs account for the rest. The step carries its own velocity;
- * the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is taken at
- * both ends (discrete_inertia.c). */
+ * where A is the discrete derivative of the rows (A D = Phi(q1) - Phi(q0)) and Q holds discrete gradients: constraint
+ * forces do no work, springs are conservative, dampers and inputs account for the rest. The step carries its own
+ * velocity; the one that is reported lies on the constraints and has its kinetic energy. With flexible bodies M v is
+ * taken at both ends (discrete_inertia.c). */
 #include <math.h>
 #include <string.h>
 
@@ -30,18 +30,18 @@
 #include "steps.h"
 
 enum { REFINEMENTS = 2, REFINEMENTS_COMPOSED = 4, COMPOSED_PAST = 3, MOST_WORSE = 2, ATTEMPTS = 4 };
-static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is made anew */
-static const double TWO_MORE = 10.0; /* tolerances: made anew also if two more iterations with the old end above */
+static const double SLOW = 0.1;      /* ratio of two errors from which on the tangent is computed again */
+static const double TWO_MORE = 10.0; /* tolerances: computed again also if two more iterations with the old end above */
 static const double REFINE_R = 1e-1; /* s^-1: the work of a residual r in a step is 2 r v / h */
 static const double REFINE_PHI = 1e-1, REFINE_COMPOSED = 50.0; /* of the tolerance; s^-1 */
-static const double EPS_SHARE = 1e-3;                          /* of eps_rel */
+static const double EPS_SHARE = 1e-3; /* of eps_rel */
 static const double SHARE = 1e-2, ROUND_OFF = 1e-12; /* of accelerations: what may be left of what the method errs by */
 static const double STRADDLE = 1e5, MOST_RAISED = 100.0; /* of penalties */
 static const double ATTEMPT[ATTEMPTS] = {1.0, 1e2, 1e-2, 1.0}; /* factors of the penalty; the last with patience */
 
 /* c alpha, a pure number since rows are mass-normalised. Measured from 1e-13 to 1e-4: much larger ones leave the rows
- * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones feed the round-off
- * of rows that turn far in a step back as forces. */
+ * that singular positions nearly lose unconverged (the more, the more there are), much smaller ones convert the
+ * round-off of rows that turn far in a step into forces. */
 double ali3_energy_momentum_penalty(const ali3_instance *in, double h) {
   return 0.5 * h * h * ali3_penalty(in, h) / EPS_SHARE;
 }
@@ -244,7 +244,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
   return last <= 1.0 ? ALI3_OK : ALI3_NOT_CONVERGED;
 }
 
-/* The iteration with its penalty, and where it fails with others; *weight is the one that served. */
+/* The iteration with its penalty, and where it fails with others; *weight is the one that converged. */
 static ali3_status solve(ali3_instance *in, double h, double *weight, int32_t *iterations) {
   if (!start(in, h)) return ALI3_NOT_FINITE;
   const double usual = raised_penalty(in, h);
@@ -258,7 +258,7 @@ static ali3_status solve(ali3_instance *in, double h, double *weight, int32_t *i
   return status;
 }
 
-/* Takes out of lam what makes no force (redundant rows): round-off that extrapolation would let grow. */
+/* Removes the part of lam that causes no force (redundant rows): round-off that extrapolation would let grow. */
 static void clean(ali3_instance *in, double weight, double *lam) {
   const ali3_system *S = in->system;
   ali3_rows_transposed(S, in->A_tangent, lam, in->x);
@@ -275,8 +275,7 @@ static bool carries_projected(const ali3_instance *in) {
 }
 
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end, h may be negative.
- * The middle of this step is that share of the one
- * that ali3_inputs_begin was told of. */
+ * The middle of this step is that share of the one that was given to ali3_inputs_begin. */
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool reported) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;

@@ -1,4 +1,4 @@
-/* What a reader of an energy-momentum state sees: velocities on the constraints with the kinetic energy of the carried
+/* What is reported of an energy-momentum state: velocities on the constraints with the kinetic energy of the carried
  * ones, accelerations, multipliers, outputs. */
 #include <math.h>
 #include <string.h>
@@ -54,8 +54,8 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
 /* v->qd is the carried velocity without what it has off the rows, taken away in the metric of the masses: multipliers
  * move velocities along M^-1 Phi_q', and any other direction would leave driven motion with one order less. v->qdd and
  * v->lam are those of the forces there: of the order of positions and velocities, and of nothing but the state,
- * whatever steps led to it. Middles of past steps would tell them less well, for the carried velocity errs along driven
- * rows with a sign that changes from step to step. Needs Phi_q in in->J. */
+ * whatever steps led to it. Middles of past steps would give them less accurately: the error of the carried velocity
+ * along rows of prescribed motion changes its sign from step to step. Needs Phi_q in in->J. */
 ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int64_t factorizations = in->report.factorizations, solves = in->report.solves;

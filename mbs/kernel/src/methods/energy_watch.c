@@ -1,4 +1,4 @@
-/* Energy that a step makes or takes where no force does, and the refusal of steps that do not resolve the motion.
+/* Energy that a step adds or removes without a force, and the refusal of steps that do not resolve the motion.
  *
  * By the trapezoidal rule the kinetic energy changes by D'(f0 + f1)/2, f all forces, -Phi_q' lam among them. With
  * Phi = 0 at both ends (Phi_q0 + Phi_q1) D = -2 h Phi_t to third order, and beside the work of drives there remains
@@ -61,7 +61,7 @@ ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double 
   for (int32_t i = 0; i < S->size.nq; i++)
     size += 0.5 * (h * h * in->Q[i] * in->Q[i] * S->mass_floor_inverse[i] + left * left * S->mass_floor[i]);
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
-  const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps gives energy in no time */
+  const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps adds energy instantly */
   if (!driven && !(worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size)) return ALI3_UNRESOLVED;
   ali3_balance_energy(in, error, end);
   in->report.open_power = open;

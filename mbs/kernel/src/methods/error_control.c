@@ -1,8 +1,8 @@
 /* Step sizes from the error: each step may err by its share of the tolerance (error per unit step), so that the errors
  * of a run add up to it. Where a shorter step does not err less in proportion (a kink of a force, a velocity kicked at
- * a singular position) it may err by a fixed share, and where it errs no less at all it is taken and counted.
- * Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential Equations II",
- * second edition, IV.2). */
+ * a singular position) it may err by a fixed share, and where its error does not fall at all it is accepted and
+ * counted. Proportional-integral controller of Gustafsson 1991 (Hairer, Wanner, "Solving Ordinary Differential
+ * Equations II", second edition, IV.2). */
 #include <math.h>
 #include <string.h>
 
@@ -34,7 +34,7 @@ enum { KICKS = 2 };                         /* so often in one step */
 static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
 static const double FIRST = 1e-3;       /* of the span: first step where none is given */
-static const double ON_A_ROAD = 0.05;   /* lengths on the way in a step: bumps between two looks are not seen */
+static const double ON_A_ROAD = 0.05;   /* lengths on the way in a step: bumps between two evaluations are not seen */
 static const double LEAST_ERROR = 1e-4; /* parts of what a step may err: below, errors are round-off */
 
 static bool valid(const ali3_control *c) {
@@ -197,7 +197,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
   }
 }
 
-/* Takes the report back to what the state in in->now says of itself: nobody looked at it while steps were made. */
+/* Takes the report back to what the state in in->now says of itself: it was not read while steps were made. */
 static void finish(ali3_instance *in) {
   in->sampled = false;
   const ali3_method *method = ali3_method_of(in);
@@ -249,7 +249,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   const ali3_measure measure = {control, scale};
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST * control->span);
   if (jumped(in)) status = ali3_refresh(in);
-  ali3_branch_before(in); /* the modes of the start, where nobody has looked yet */
+  ali3_branch_before(in); /* the modes of the start, where they have not been evaluated yet */
   in->unobserved = false;
   in->sampled = in->controlled = true;
   if (status == ALI3_OK) status = run(in, &measure, t_end, most_steps, record, done);

@@ -3,7 +3,7 @@
 #define ALI3_ERROR_CONTROL_H
 #include "../instance.h"
 
-/* What a controlled run is told; scale is the size of a unit of each coordinate, m (nq), or NULL: 1 m each. */
+/* Settings of a controlled run; scale is the size of a unit of each coordinate, m (nq), or NULL: 1 m each. */
 typedef struct {
   ali3_control *control;
   const double *scale;

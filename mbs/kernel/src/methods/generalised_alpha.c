@@ -24,7 +24,7 @@ static ali3_alpha alpha_of(double rho) {
 }
 
 /* At a start, light nodes of flexible bodies have the accelerations of loads they have not bent under yet. Where the
- * step does not resolve the fastest mode, the trapezoidal rule would let that ring: the first steps forget it at
+ * step does not resolve the fastest mode, the trapezoidal rule would let them oscillate: the first steps forget it at
  * high frequencies. */
 bool ali3_damped_start(const ali3_instance *in, double h) {
   return in->system->n_flexible > 0 && h * h * in->system->flex_rate > UNRESOLVED * UNRESOLVED &&

@@ -41,7 +41,7 @@ static void lagrange(const double *time, int32_t n, double t, double *weight) {
   }
 }
 
-/* How many of `most` past steps to extrapolate from: as many as would have told the last one best, and all of them
+/* How many of `most` past steps to extrapolate from: as many as would have predicted the last one best, and all of them
  * where all that came before it would have, or well enough. In a swing that turns within a few steps old ones
  * mislead. */
 int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
@@ -70,7 +70,7 @@ int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   return best;
 }
 
-/* Whether the n steps before the last would have told the last much better than that nothing changes. */
+/* Whether the n steps before the last would have predicted the last much better than assuming no change. */
 bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   const int32_t nq = in->system->size.nq;
   const double *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a;
@@ -127,8 +127,8 @@ void ali3_history_append(ali3_instance *in, double h, const double *a) {
 }
 
 /* Velocity at the end of the step for the states of elements: the straight line through the mean rates of this step
- * and the last. What the carried one has beside it changes sign with every step; a brush or a brake that sticks would
- * take that for a motion, and creep. Over many steps these velocities add up to the way that was made. */
+ * and the last. What the carried one has beside it changes sign with every step; a sticking tyre or brake would follow
+ * that as a motion, and creep. Over many steps these velocities add up to the displacement. */
 void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
   const ali3_vectors *from = &in->now;
   const int32_t nq = in->system->size.nq;

@@ -1,8 +1,8 @@
 /* First guess of the increment and the multipliers of an ALi3-P step. Where the motion has been smooth, mean
  * accelerations and multipliers go on along the parabola through those of the last three steps; else the present ones
  * stay. Flexible bodies have modes that vibrate faster than the step can follow; the trapezoidal rule lets their rates
- * and accelerations ring, and with them those of all that is tied to them, but not the positions. There the mean rates
- * of the last two steps go on. */
+ * and accelerations oscillate, and with them those of all that is tied to them, but not the positions. There the mean
+ * rates of the last two steps go on. */
 #include <string.h>
 
 #include "../instance.h"
@@ -14,7 +14,7 @@ enum { PARABOLA = 3 };
  * right about rows that lose their lever, and whole extrapolations of that would grow. */
 static const double SHARE = 0.5;
 
-/* Returns whether past steps told; `from_past` false leaves them aside. */
+/* Returns whether past steps were used; `from_past` false ignores them. */
 bool ali3_predict(ali3_instance *in, double h, bool from_past) {
   const ali3_system *S = in->system;
   const ali3_vectors *from = &in->now;

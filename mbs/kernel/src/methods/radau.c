@@ -30,7 +30,7 @@
 
 enum { STAGES = ALI3_RADAU, LAST = STAGES - 1, SWEEPS = 3, REFINEMENTS = 3 };
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-12;
-static const double SLOW = 0.3;         /* ratio of two errors from which on the tangent is made anew */
+static const double SLOW = 0.3;         /* ratio of two errors from which on the tangent is computed again */
 static const double LEAST = 1e-2;       /* of the tolerances, what makes refinement end early */
 static const double SHARE = 1e-5, ROUND_OFF = 1e-12; /* of accelerations, what may be left of them */
 static const double STALLED = 1e-9; /* less is round-off where corrections do not fall any more */
@@ -212,10 +212,10 @@ static double opening(const ali3_instance *in) {
   return largest;
 }
 
-/* Until the tolerances hold and what is left, told from the last correction and the ratio of the last two errors, is
- * small beside the error of the method: a guess from the last collocation polynomial (`near`) errs by h^3, the method
- * by h^5. A tolerance in metres alone spoils the order at small steps, where it lets through accelerations of 2 / h^2
- * times itself. */
+/* Until the tolerances hold and what is left, estimated from the last correction and the ratio of the last two errors,
+ * is small beside the error of the method: a guess from the last collocation polynomial (`near`) errs by h^3, the
+ * method by h^5. A tolerance in metres alone spoils the order at small steps, where it lets through accelerations of 2
+ * / h^2 times itself. */
 static ali3_status newton(ali3_instance *in, double t, double h, double alpha, bool near) {
   const ali3_settings *settings = &in->settings;
   double last, change = 0.0, need = ROUND_OFF;
@@ -249,7 +249,8 @@ static bool predict(ali3_instance *in, double h) {
   return near;
 }
 
-/* Takes out of the multipliers what makes no force (redundant rows): round-off that extrapolation would let grow. */
+/* Removes the part of the multipliers that causes no force (redundant rows): round-off that extrapolation would let
+ * grow. */
 static void clean(ali3_instance *in, double h, double alpha) {
   const ali3_system *S = in->system;
   for (int i = 0; i < STAGES; i++) {

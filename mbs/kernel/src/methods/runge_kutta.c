@@ -39,8 +39,8 @@ static double power(ali3_instance *in, const ali3_vectors *v) {
   return sum;
 }
 
-/* Where stage `stage` looks: positions and velocities from the accelerations of the stages before it. `row` are its
- * weights, `second` those of the double integral. */
+/* Where stage `stage` is evaluated: positions and velocities from the accelerations of the stages before it. `row` are
+ * its weights, `second` those of the double integral. */
 static void combine(ali3_instance *in, double h, double time, const double *row, int stages) {
   const int32_t nq = in->system->size.nq;
   double second[STAGES] = {0.0};

@@ -1,8 +1,8 @@
 /* Semi-recursive formulation: explicit Runge-Kutta rules on the relative coordinates of a spanning tree (J. Garcia de
  * Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapters 5 and 8). Loops are closed by a
  * second transformation to independent rates; positions and velocities return to the rows at the end of a step. What
- * goes from step to step lies in the state's history of the method; natural coordinates are written when somebody
- * looks. */
+ * goes from step to step lies in the state's history of the method; natural coordinates are written when they are read.
+ * */
 #include <math.h>
 #include <string.h>
 
@@ -202,7 +202,7 @@ static ali3_status show(ali3_instance *in, ali3_vectors *v) {
   ali3_tree_write(in, v->q, v->qd, v->qdd);
   if (in->controlled && in->sampled) return ALI3_OK; /* only the motion is looked at */
   if (in->sampled && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
-  /* not from the last multipliers: bits must not depend on who looked when */
+  /* not from the last multipliers: bits must not depend on which states were read */
   memset(v->lam, 0, (size_t)S->size.nc * sizeof(double));
   const ali3_status status = ali3_index_one(in, v);
   if (status != ALI3_OK) return status;

@@ -10,7 +10,7 @@
 #include "error_control.h"
 #include "steps.h"
 
-/* A step from time t that is never halved inside; what a failed one leaves behind is for the caller to mend. */
+/* A step from time t that is never halved inside; the caller restores what a failed one changed. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
   in->backed_up = false;
   in->t_now = t;

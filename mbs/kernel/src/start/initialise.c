@@ -67,7 +67,7 @@ static ali3_status close_position(ali3_instance *in) {
       if (fabs(in->x[i]) > longest) longest = fabs(in->x[i]);
     const double part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
     ali3_rows_times(S, in->J, in->x, in->gamma);
-    for (int32_t k = 0; k < nc; k++) /* a shortened step tells nothing about the multipliers */
+    for (int32_t k = 0; k < nc; k++) /* a shortened step gives no information on the multipliers */
       lam[k] = part < 1.0 ? 0.0 : in->mu[k] + ALPHA * in->gamma[k];
     for (int32_t i = 0; i < nq; i++) q[i] += part * in->x[i];
   }

@@ -11,7 +11,7 @@
 
 static const double TOLERANCE = 1e-8; /* N, N m */
 static const double SAME = 1e-9; /* m: an equilibrium that close to the file's is the file's */
-enum { ITERATIONS = 400, ROAD = 2 };
+enum { ITERATIONS = 400 };
 
 static double signal(const ali3_system *S, const double *q, int32_t i) {
   double sum = S->sig_const[i];
@@ -39,7 +39,7 @@ static bool changed(const ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-      if (S->par_target[k] != ROAD && in->parameter[p] != S->par_value[p]) return true;
+      if (S->par_target[k] != ALI3_TARGET_ROAD && in->parameter[p] != S->par_value[p]) return true;
   return false;
 }
 
@@ -52,7 +52,7 @@ static ali3_status prepare(ali3_instance *in) {
   const ali3_status status = ali3_parameters_apply(in);
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-      if (S->par_target[k] == ROAD) in->road_real[S->par_index[k]] = S->par_scale[k] * S->par_value[p];
+      if (S->par_target[k] == ALI3_TARGET_ROAD) in->road_real[S->par_index[k]] = S->par_scale[k] * S->par_value[p];
   memcpy(in->input, S->input_start, (size_t)S->size.nu * sizeof(double));
   return status;
 }

@@ -53,7 +53,7 @@ static double balance(ali3_instance *in, double c) {
   return largest <= ROUND_OFF * scale ? 0.0 : largest;
 }
 
-/* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T is no way down. */
+/* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T gives no descent direction. */
 static ali3_status factorise(ali3_instance *in, double c) {
   const ali3_system *S = in->system;
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));

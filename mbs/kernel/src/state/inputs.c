@@ -32,7 +32,7 @@ ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
   return status == ALI3_OK ? ask(in, t, false, in->input) : status;
 }
 
-/* in->input_middle becomes the inputs at a share, 0 to 1, of the step that ali3_inputs_begin was told of. */
+/* in->input_middle becomes the inputs at a share, 0 to 1, of the step that was given to ali3_inputs_begin. */
 ali3_status ali3_inputs_at(ali3_instance *in, double share) {
   const double *u0 = in->input_begin;
   const size_t size = (size_t)in->system->size.nu * sizeof(double);

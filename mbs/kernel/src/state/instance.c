@@ -102,7 +102,8 @@ bool ali3_settings_valid(const ali3_settings *s) {
  * take it. */
 ali3_status ali3_parameters_apply(ali3_instance *in) {
   const ali3_system *S = in->system;
-  double *target[3] = {in->el_real, in->guide_real, in->road_real};
+  double *target[ALI3_TARGET_COUNT] = {
+      [ALI3_TARGET_ELEMENT] = in->el_real, [ALI3_TARGET_GUIDE] = in->guide_real, [ALI3_TARGET_ROAD] = in->road_real};
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
       target[S->par_target[k]][S->par_index[k]] = S->par_scale[k] * in->parameter[p];

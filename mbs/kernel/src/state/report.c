@@ -1,4 +1,4 @@
-/* What the solver says about itself: its clock, its report, and numbers of it that sensors of type 13 and the FMU
+/* Report of the solver: its clock, its report, and numbers of it that sensors of type 13 and the FMU
  * read. */
 #include <float.h>
 #include <math.h>

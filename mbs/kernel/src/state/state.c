@@ -19,7 +19,7 @@ typedef struct { /* 40 bytes without holes */
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'S', 'T', 'A', '\n'};
 enum { CHECKED_FROM = 28 }; /* the checksum covers what follows it */
 static const double MOST = 1e60; /* of times, positions, rates, multipliers and element states */
-static const int64_t MOST_COUNTED = (int64_t)1 << 53; /* steps: doubles no longer tell two neighbours apart */
+static const int64_t MOST_COUNTED = (int64_t)1 << 53; /* steps: doubles no longer distinguish neighbours */
 
 size_t ali3_state_size(const ali3_system *s) {
   if (s == NULL) return 0;

@@ -19,121 +19,126 @@ static size_t signal_work(const ali3_system *s) {
   return largest;
 }
 
+static void place_state(const ali3_system *s, ali3_vectors *v, ali3_pool *p) {
+  ali3_vectors_place(s, v, p);
+  ali3_pool_gap(p);
+}
+
 static void place_states(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
-  ali3_vectors_place(s, &in->now, p);
-  ali3_vectors_place(s, &in->next, p);
-  ali3_vectors_place(s, &in->start, p);
-  ali3_vectors_place(s, &in->whole, p);
-  ali3_vectors_place(s, &in->direction, p);
-  ali3_vectors_place(s, &in->origin, p);
-  ali3_vectors_place(s, &in->centre, p);
-  ali3_vectors_place(s, &in->coarse, p);
+  place_state(s, &in->now, p);
+  place_state(s, &in->next, p);
+  place_state(s, &in->start, p);
+  place_state(s, &in->whole, p);
+  place_state(s, &in->direction, p);
+  place_state(s, &in->origin, p);
+  place_state(s, &in->centre, p);
+  place_state(s, &in->coarse, p);
 }
 
 /* Inputs, parameters and the data that parameters write to. */
 static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nu = (size_t)s->size.nu, np = (size_t)s->size.np;
-  in->input = ali3_pool_numbers(p, nu);
-  in->input_work = ali3_pool_numbers(p, nu);
-  in->input_middle = ali3_pool_numbers(p, nu);
-  in->input_begin = ali3_pool_numbers(p, nu);
-  in->stage_input = ali3_pool_numbers(p, ALI3_RADAU * nu);
-  in->parameter = ali3_pool_numbers(p, np);
-  in->parameter_work = ali3_pool_numbers(p, np);
-  in->el_real = ali3_pool_numbers(p, (size_t)s->n_el_real);
-  in->guide_real = ali3_pool_numbers(p, (size_t)s->n_guide_real);
-  in->road_real = ali3_pool_numbers(p, (size_t)s->n_road_real);
+  in->input = ali3_pool_array(p, nu);
+  in->input_work = ali3_pool_array(p, nu);
+  in->input_middle = ali3_pool_array(p, nu);
+  in->input_begin = ali3_pool_array(p, nu);
+  in->stage_input = ali3_pool_array(p, ALI3_RADAU * nu);
+  in->parameter = ali3_pool_array(p, np);
+  in->parameter_work = ali3_pool_array(p, np);
+  in->el_real = ali3_pool_array(p, (size_t)s->n_el_real);
+  in->guide_real = ali3_pool_array(p, (size_t)s->n_guide_real);
+  in->road_real = ali3_pool_array(p, (size_t)s->n_road_real);
 }
 
 /* Coordinates and rows of a step. */
 static void place_step(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nq = (size_t)s->size.nq, nc = (size_t)s->size.nc;
-  in->D = ali3_pool_numbers(p, nq);
-  in->d0 = ali3_pool_numbers(p, nq);
-  in->r = ali3_pool_numbers(p, nq);
-  in->x = ali3_pool_numbers(p, nq);
-  in->w = ali3_pool_numbers(p, nq);
-  in->shifted = ali3_pool_numbers(p, nq);
-  in->hat = ali3_pool_numbers(p, nq);
-  in->middle = ali3_pool_numbers(p, nq);
-  in->rate = ali3_pool_numbers(p, nq);
-  in->stage = ali3_pool_numbers(p, ALI3_STAGES * nq);
-  in->Q = ali3_pool_numbers(p, nq);
-  in->Phi = ali3_pool_numbers(p, nc);
-  in->Phit = ali3_pool_numbers(p, nc);
-  in->gamma = ali3_pool_numbers(p, nc);
-  in->mu = ali3_pool_numbers(p, nc);
-  in->lam = ali3_pool_numbers(p, nc);
-  in->correction_q = ali3_pool_numbers(p, nq);
-  in->step_q = ali3_pool_numbers(p, nq);
-  in->correction_lam = ali3_pool_numbers(p, nc);
-  in->step_lam = ali3_pool_numbers(p, nc);
+  in->D = ali3_pool_array(p, nq);
+  in->d0 = ali3_pool_array(p, nq);
+  in->r = ali3_pool_array(p, nq);
+  in->x = ali3_pool_array(p, nq);
+  in->w = ali3_pool_array(p, nq);
+  in->shifted = ali3_pool_array(p, nq);
+  in->hat = ali3_pool_array(p, nq);
+  in->middle = ali3_pool_array(p, nq);
+  in->rate = ali3_pool_array(p, nq);
+  in->stage = ali3_pool_array(p, ALI3_STAGES * nq);
+  in->Q = ali3_pool_array(p, nq);
+  in->Phi = ali3_pool_array(p, nc);
+  in->Phit = ali3_pool_array(p, nc);
+  in->gamma = ali3_pool_array(p, nc);
+  in->mu = ali3_pool_array(p, nc);
+  in->lam = ali3_pool_array(p, nc);
+  in->correction_q = ali3_pool_array(p, nq);
+  in->step_q = ali3_pool_array(p, nq);
+  in->correction_lam = ali3_pool_array(p, nc);
+  in->step_lam = ali3_pool_array(p, nc);
 }
 
 /* Jacobians, signals and tangents. */
 static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
-  in->J = ali3_pool_numbers(p, (size_t)z->nnz_rows);
-  in->J_tangent = ali3_pool_numbers(p, (size_t)z->nnz_rows);
-  in->J0 = ali3_pool_numbers(p, (size_t)z->nnz_rows);
-  in->at_J0 = ali3_pool_numbers(p, (size_t)z->nq + (size_t)z->ng + (size_t)z->n_switch);
-  in->A = ali3_pool_numbers(p, (size_t)z->nnz_rows);
-  in->A_tangent = ali3_pool_numbers(p, (size_t)z->nnz_rows);
-  in->F = ali3_pool_numbers(p, (size_t)z->front_size);
-  in->u = ali3_pool_numbers(p, (size_t)z->nsig);
-  in->ud = ali3_pool_numbers(p, (size_t)z->nsig);
-  in->S = ali3_pool_numbers(p, (size_t)s->el_S_off[z->ne]);
-  in->SB = ali3_pool_numbers(p, signal_work(s));
-  in->local = ali3_pool_numbers(p, ALI3_RADAU * (size_t)s->max_front);
+  in->J = ali3_pool_array(p, (size_t)z->nnz_rows);
+  in->J_tangent = ali3_pool_array(p, (size_t)z->nnz_rows);
+  in->J0 = ali3_pool_array(p, (size_t)z->nnz_rows);
+  in->at_J0 = ali3_pool_array(p, (size_t)z->nq + (size_t)z->ng + (size_t)z->n_switch);
+  in->A = ali3_pool_array(p, (size_t)z->nnz_rows);
+  in->A_tangent = ali3_pool_array(p, (size_t)z->nnz_rows);
+  in->F = ali3_pool_array(p, (size_t)z->front_size);
+  in->u = ali3_pool_array(p, (size_t)z->nsig);
+  in->ud = ali3_pool_array(p, (size_t)z->nsig);
+  in->S = ali3_pool_array(p, (size_t)s->el_S_off[z->ne]);
+  in->SB = ali3_pool_array(p, signal_work(s));
+  in->local = ali3_pool_array(p, ALI3_RADAU * (size_t)s->max_front);
 }
 
 /* Of radau.c, where stages inside a step need nothing but q, qd and the time. */
 static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, stages = ali3_without_states(s) ? ALI3_RADAU : 0;
-  in->stage_Phi = ali3_pool_numbers(p, stages * nc);
-  in->stage_lam = ali3_pool_numbers(p, stages * nc);
-  in->stage_J = ali3_pool_numbers(p, stages * (size_t)z->nnz_rows);
-  in->stage_J_tangent = ali3_pool_numbers(p, stages * (size_t)z->nnz_rows);
-  in->stage_x = ali3_pool_numbers(p, stages * nq);
-  in->F_stages = ali3_pool_numbers(p, stages * stages * (size_t)z->front_size);
-  in->F_C = ali3_pool_numbers(p, stages > 0 ? (size_t)z->front_size : 0);
-  in->F_K = ali3_pool_numbers(p, stages > 0 ? (size_t)z->front_size : 0);
+  in->stage_Phi = ali3_pool_array(p, stages * nc);
+  in->stage_lam = ali3_pool_array(p, stages * nc);
+  in->stage_J = ali3_pool_array(p, stages * (size_t)z->nnz_rows);
+  in->stage_J_tangent = ali3_pool_array(p, stages * (size_t)z->nnz_rows);
+  in->stage_x = ali3_pool_array(p, stages * nq);
+  in->F_stages = ali3_pool_array(p, stages * stages * (size_t)z->front_size);
+  in->F_C = ali3_pool_array(p, stages > 0 ? (size_t)z->front_size : 0);
+  in->F_K = ali3_pool_array(p, stages > 0 ? (size_t)z->front_size : 0);
 }
 
 /* Flexible bodies and elements. */
 static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
   in->flex =
-      ali3_pool_numbers(p, ALI3_FLEX_COUPLING * (size_t)s->n_flexible + ALI3_FLEX_OF_MODE * (size_t)s->n_flex_mode);
-  in->flex_work = ali3_pool_numbers(p, 3 * (size_t)s->max_modes);
-  in->y_work = ali3_pool_numbers(p, (size_t)z->ny);
-  in->out_work = ali3_pool_numbers(p, (size_t)z->nout);
-  in->potential_work = ali3_pool_numbers(p, (size_t)z->ne);
+      ali3_pool_array(p, ALI3_FLEX_COUPLING * (size_t)s->n_flexible + ALI3_FLEX_OF_MODE * (size_t)s->n_flex_mode);
+  in->flex_work = ali3_pool_array(p, 3 * (size_t)s->max_modes);
+  in->y_work = ali3_pool_array(p, (size_t)z->ny);
+  in->out_work = ali3_pool_array(p, (size_t)z->nout);
+  in->potential_work = ali3_pool_array(p, (size_t)z->ne);
 }
 
 /* Of branch_watch.c. */
 static void place_modes(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t triads = (size_t)ali3_triad_count(s), loops = (size_t)ali3_loop_count(s);
-  in->mode_sine = ali3_pool_numbers(p, triads);
-  in->mode_cosine = ali3_pool_numbers(p, triads);
-  in->sine_before = ali3_pool_numbers(p, triads);
-  in->sine_after = ali3_pool_numbers(p, triads);
-  in->sine_few = ali3_pool_numbers(p, triads);
-  in->mode_left = ali3_pool_numbers(p, loops);
-  if (triads > 0) ali3_vectors_place(s, &in->before, p);
+  in->mode_sine = ali3_pool_array(p, triads);
+  in->mode_cosine = ali3_pool_array(p, triads);
+  in->sine_before = ali3_pool_array(p, triads);
+  in->sine_after = ali3_pool_array(p, triads);
+  in->sine_few = ali3_pool_array(p, triads);
+  in->mode_left = ali3_pool_array(p, loops);
+  if (triads > 0) place_state(s, &in->before, p);
 }
 
 /* Of start_equilibrium.c and work.c. */
 static void place_start_and_work(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nq = (size_t)s->size.nq;
-  in->start_q = ali3_pool_numbers(p, nq);
-  in->pose_0 = ali3_pool_numbers(p, nq);
-  in->pose_cos = ali3_pool_numbers(p, nq);
-  in->pose_sin = ali3_pool_numbers(p, nq);
-  in->watched = ali3_pool_numbers(p, (size_t)s->n_work + (size_t)s->n_work_force);
-  in->work_sum = ali3_pool_numbers(p, (size_t)s->n_work);
-  in->stage_power = ali3_pool_numbers(p, ALI3_RADAU * (size_t)s->n_work);
+  in->start_q = ali3_pool_array(p, nq);
+  in->pose_0 = ali3_pool_array(p, nq);
+  in->pose_cos = ali3_pool_array(p, nq);
+  in->pose_sin = ali3_pool_array(p, nq);
+  in->watched = ali3_pool_array(p, (size_t)s->n_work + (size_t)s->n_work_force);
+  in->work_sum = ali3_pool_array(p, (size_t)s->n_work);
+  in->stage_power = ali3_pool_array(p, ALI3_RADAU * (size_t)s->n_work);
 }
 
 void ali3_workspace_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool) {

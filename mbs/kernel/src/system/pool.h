@@ -9,10 +9,29 @@ typedef struct {
   size_t used; /* bytes */
 } ali3_pool;
 
+/* The address sanitizer sees one block. A build for it (tests/sanitize.py) has gaps that nothing may touch. */
+#if defined(ALI3_GAPS)
+#include <sanitizer/asan_interface.h>
+enum { ALI3_GAP = 64 }; /* bytes */
+static inline void ali3_pool_gap(ali3_pool *pool) {
+  if (pool->block != NULL) ASAN_POISON_MEMORY_REGION(pool->block + pool->used, ALI3_GAP);
+  pool->used += ALI3_GAP;
+}
+#else
+static inline void ali3_pool_gap(ali3_pool *pool) { (void)pool; }
+#endif
+
 /* Numbers lie side by side, so that several pieces can be copied as one. */
 static inline double *ali3_pool_numbers(ali3_pool *pool, size_t count) {
   double *piece = pool->block != NULL ? (double *)(pool->block + pool->used) : NULL;
   pool->used += count * sizeof(double);
+  return piece;
+}
+
+/* Numbers that are no part of a larger copy. */
+static inline double *ali3_pool_array(ali3_pool *pool, size_t count) {
+  double *piece = ali3_pool_numbers(pool, count);
+  ali3_pool_gap(pool);
   return piece;
 }
 
@@ -21,6 +40,7 @@ static inline void *ali3_pool_items(ali3_pool *pool, size_t count, size_t item) 
   pool->used = (pool->used + 15u) / 16u * 16u;
   void *piece = pool->block != NULL ? pool->block + pool->used : NULL;
   pool->used += (count * item + 15u) / 16u * 16u;
+  ali3_pool_gap(pool);
   return piece;
 }
 #endif

@@ -127,13 +127,14 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
 
 static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int32_t np = s->size.np;
-  const int64_t length[3] = {s->n_el_real, s->n_guide_real, s->n_road_real};
+  const int64_t length[ALI3_TARGET_COUNT] = {
+      [ALI3_TARGET_ELEMENT] = s->n_el_real, [ALI3_TARGET_GUIDE] = s->n_guide_real, [ALI3_TARGET_ROAD] = s->n_road_real};
   CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
   CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
   CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
   CHECK(ali3_check_length(m, "par_scale", s->n_par_scale, s->n_par_target));
   CHECK(ali3_check_pointers(m, "par_ptr", s->par_ptr, s->n_par_ptr, np, s->n_par_target));
-  CHECK(ali3_check_indices(m, "par_target", s->par_target, s->n_par_target, 0, 3));
+  CHECK(ali3_check_indices(m, "par_target", s->par_target, s->n_par_target, 0, ALI3_TARGET_COUNT));
   for (int64_t k = 0; k < s->n_par_target; k++)
     CHECK(ali3_check_indices(m, "par_index", s->par_index + k, 1, 0, length[s->par_target[k]]));
   for (int32_t p = 0; p < np; p++)

@@ -18,11 +18,18 @@ typedef struct {
 } ali3_slot;
 
 static const ali3_slot slots[] = {
-#define ALI3_SLOT(type, number, name) {#name, number, offsetof(ali3_system, name), offsetof(ali3_system, n_##name)},
+#define ALI3_SLOT(type, number, array)                                                                                 \
+  {.name = #array, .dtype = number, .pointer = offsetof(ali3_system, array), .count = offsetof(ali3_system, n_##array)},
     ALI3_SYSTEM_ARRAYS(ALI3_SLOT)
 #undef ALI3_SLOT
 };
 enum { SLOT_COUNT = sizeof slots / sizeof slots[0] };
+
+static const char *const optional[] = {
+#define ALI3_NAME(type, number, array) #array,
+    ALI3_OPTIONAL_ARRAYS(ALI3_NAME)
+#undef ALI3_NAME
+};
 
 ali3_status ali3_bad(ali3_message m, const char *format, ...) {
   if (m.text != NULL && m.size > 0) {
@@ -97,9 +104,10 @@ static ali3_status read_entry(ali3_system *s, const unsigned char *entry, size_t
   return ALI3_OK;
 }
 
-/* Arrays that a System need not have: one without knows nothing of assembly modes or of a start in equilibrium. */
 static bool may_lack(const char *name) {
-  return strncmp(name, "mode_", 5) == 0 || strncmp(name, "static_", 7) == 0 || strcmp(name, "pose_partner") == 0;
+  for (size_t i = 0; i < sizeof optional / sizeof optional[0]; i++)
+    if (strcmp(optional[i], name) == 0) return true;
+  return false;
 }
 
 static ali3_status read_directory(ali3_system *s, size_t size, ali3_message m) {

@@ -1,0 +1,82 @@
+"""The kernel's own tests over a kernel with checks compiled in.
+
+    python -m tests.sanitize [arguments for pytest]
+
+With gcc or clang: addresses (reading or writing beside a block of memory) and undefined behaviour (overflow, an index
+outside an array, a null pointer). Where there is neither: undefined behaviour alone, with the compiler of `ziglang`.
+The first error ends the run, with the line of the kernel.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from mbs.kernel import build
+
+ROOT = Path(__file__).resolve().parents[1]
+TESTS = [
+    *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "tests" / "kernel").glob("test_*.py")),
+    "tests/flexible_engine/test_loader.py",
+    "tests/scenes/test_prototype_car_rest.py",
+    "tests/simulation/test_assembly_modes.py",
+]
+LEFT_OUT = {"tests/kernel/test_elementary.py"}  # compiles a library of its own
+FLAGS = ["-g", "-O1", "-std=c11", "-fPIC", "-shared", "-fvisibility=hidden", "-ffp-contract=off"]
+UNDEFINED = ["-fsanitize=undefined", "-fno-sanitize-recover=all"]
+OPTIONS = {
+    "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1",  # Python itself leaks; files may ask for too much
+    "UBSAN_OPTIONS": "print_stacktrace=1",
+}
+
+
+def runtimes(compiler: str) -> list[str]:
+    """Libraries that have to be there before Python starts; empty where the compiler has no checks of addresses."""
+    names = ["libasan.so", "libubsan.so"] if "gcc" in compiler else [f"libclang_rt.asan-{os.uname().machine}.so"]
+    found = []
+    for name in names:
+        result = subprocess.run([compiler, f"-print-file-name={name}"], capture_output=True, text=True, check=False)
+        found.append(result.stdout.strip())
+    return found if all(Path(path).is_file() for path in found) else []
+
+
+def compiled(library: Path) -> tuple[str, dict[str, str]]:
+    """Compile the kernel; what is checked, and the environment for it."""
+    for compiler in filter(shutil.which, ("gcc", "clang") if sys.platform == "linux" else ()):
+        preload = runtimes(compiler)
+        if not preload:
+            continue
+        shared = [] if "gcc" in compiler else ["-shared-libsan"]
+        flags = [*FLAGS, "-fsanitize=address", "-DALI3_GAPS", *UNDEFINED, *shared]
+        subprocess.run([compiler, *flags, "-o", library, *build.sources(), "-lm"], check=True)
+        return f"addresses and undefined behaviour ({compiler})", OPTIONS | {"LD_PRELOAD": ":".join(preload)}
+    flags = [*FLAGS, *UNDEFINED, "-fsanitize-trap=undefined"]
+    subprocess.run(
+        [sys.executable, "-m", "ziglang", "cc", "-target", build.host_target(), *flags, "-o", library, *build.sources()]
+        + (["-lm"] if sys.platform != "win32" else []),
+        check=True,
+    )
+    return "undefined behaviour alone: no gcc or clang with checks of addresses was found", {}
+
+
+def main(arguments: list[str]) -> int:
+    """Exit code of pytest, or of the check that ended it."""
+    with tempfile.TemporaryDirectory(prefix="ali3-sanitize-") as folder:
+        library = Path(folder) / build.library_name(build.host_target())
+        what, environment = compiled(library)
+        print(f"Checked: {what}.", flush=True)
+        chosen = [test for test in TESTS if test not in LEFT_OUT]
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *(arguments or chosen)]
+        environment["ALI3_KERNEL_LIBRARY"] = str(library)
+        code = subprocess.run(command, cwd=ROOT, env=os.environ | environment, check=False).returncode
+    if code < 0:
+        print(f"A check ended the process (signal {-code}).")
+    return 1 if code else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
