@@ -38,6 +38,13 @@ def test_the_rod_keeps_its_length_while_its_end_slides():
     assert t["tip.x"][-1] > 0.1
 
 
+def test_limits_of_an_input_are_in_order():
+    with pytest.raises(ModelError, match="'rack' has the limits 2 and 1; min must not be above max"):
+        Model("a").input("rack", min=2.0, max=1.0)
+    with pytest.raises(ModelError, match="starts at 0, which is not between its limits 1 and 2"):
+        Model("a").input("rack", min=1.0, max=2.0)
+
+
 def test_only_one_end_may_slide():
     m = rack_and_lever()
     u = m.input("other")
