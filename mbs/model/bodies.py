@@ -313,7 +313,7 @@ class BodyVocabulary(ModelCore):
 
 
 def _check_size(mass: float, inertia: NDArray[np.float64], what: str) -> None:
-    """Refuse a radius of gyration that no body has: it is told by mass and inertia together."""
+    """Refuse a radius of gyration that no body has; it follows from mass and inertia together."""
     radius = float(np.sqrt(np.max(np.abs(inertia)) / mass))
     if not SIZES[0] <= radius <= SIZES[1]:
         raise ModelError(

@@ -41,7 +41,7 @@ def test_a_step_too_long_for_an_explicit_method_is_told_with_the_rate(method):
         assert "'ali3p'" in text
     assert "Worst" not in text
     assert "singular" not in text
-    assert "came or went" not in text
+    assert "energy balance" not in text
     assert simulation.report.failures == 1
 
 

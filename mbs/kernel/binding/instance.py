@@ -176,6 +176,10 @@ class Instance:
         height = self._library.ali3_start_excess(self._handle, byref(element), byref(words))
         return float(height), element.value, (words.value or b"").decode()
 
+    def method_excludes(self) -> str:
+        """What the method of the settings takes no System with, in words; empty if it takes all."""
+        return bytes(self._library.ali3_method_excludes(self._handle)).decode()
+
     def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
         """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""
         self._start(self._library.ali3_static_equilibrium(self._handle, t0, tolerance, max_iterations))
