@@ -228,7 +228,7 @@ def far_clock(subject: Subject) -> Finding:
         return Finding(
             "far from zero",
             "bad",
-            f"a step of {subject.step:g} s at {_FAR:g} s is taken, but its time does not advance",
+            f"a step of {subject.step:g} s at {_FAR:g} s is taken, its clock stands",
         )
     return Finding("far from zero", "good", f"a step of {subject.step:g} s at {_FAR:g} s is refused")
 

@@ -12,9 +12,9 @@ from mbs.checks import Vector, array, capital, direction, is_number, mapping, po
 from mbs.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
-from mbs.model.checks import inertia_matrix
 from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.inertia import inertia_matrix
 from mbs.model.ports import PortedBody
 
 SIZES = (1e-12, 1e8)

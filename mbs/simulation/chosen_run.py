@@ -208,7 +208,7 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation)
     time = run.simulation.time
     return SimulationError(
         f"A tolerance of {_run_at(run, wanted)} cannot be held by {run.settings.method!r}: until t = {time:g} s "
-        f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share of "
+        f"{run.fields.forced + run.fields.over_share} of {run.fields.accepted} steps erred more than their share of "
         f"it, even with steps of {run.fields.smallest:.1e} s; take a larger tolerance or another method.",
         time,
         Status.NOT_CONVERGED,

@@ -41,7 +41,7 @@ static void put(unsigned char **to, const void *from, size_t size) {
 
 static void save(const slave *s, unsigned char *bytes) {
   const size_t n = slave_the_table.n_known, size = whole_size(s);
-  const slave_memory_of_calls *c = &s->calls;
+  const slave_call_state *c = &s->calls;
   header head = {{0},
                  STATE_VERSION,
                  0,

@@ -202,7 +202,7 @@ typedef struct {
   double error_sum; /* of the estimates of accepted steps */
   double forced_error; /* the part of it of steps as short as they may be that erred more than they might */
   int64_t accepted, rejected, failed, forced; /* steps; failed: did not converge */
-  int64_t kept; /* steps that erred more than their share and no more than a fixed one */
+  int64_t over_share; /* steps that erred more than their share and no more than a fixed one */
   int64_t side_steps; /* made for a record where no polynomial through the steps served */
 } ali3_control;
 typedef struct {
