@@ -225,11 +225,7 @@ def far_clock(subject: Subject) -> Finding:
         return Finding("far from zero", "good", f"a start at {_FAR:g} s is refused")
     status = _step_status(instance, _FAR, subject.step)
     if status < _ERROR:
-        return Finding(
-            "far from zero",
-            "bad",
-            f"a step of {subject.step:g} s at {_FAR:g} s is taken, its clock stands",
-        )
+        return Finding("far from zero", "bad", f"a step of {subject.step:g} s at {_FAR:g} s is taken, its clock stands")
     return Finding("far from zero", "good", f"a step of {subject.step:g} s at {_FAR:g} s is refused")
 
 
