@@ -75,9 +75,11 @@ def _build(options: argparse.Namespace) -> int:
         print(f"{kind}: left out, it runs on {', '.join(PYTHON_PLATFORMS)} only", flush=True)
         del able[kind]
     # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
-    first = {kind: [here] for kind in able if here in able[kind] and len(able[kind]) > 1}
+    first = {kind: [here] for kind in able if here is not None and here in able[kind]}
+    rest = [p for p in PLATFORMS if p in platforms and p != here]
+    then = {kind: places for kind, places in able.items() if first.get(kind) != places}
     meta = systems[fidelity].meta
-    for chosen in (first, able):
+    for chosen in (first, then):
         line.expect(sum(builder.pieces(kind, places) for kind, places in chosen.items()))
         for kind, places in chosen.items():
             file = builder.build(kind, places, files[kind])
@@ -86,8 +88,7 @@ def _build(options: argparse.Namespace) -> int:
                 f"{len(meta['sensors'])} sensors; for {', '.join(places)}",
                 flush=True,
             )
-        if chosen is first and first:
-            rest = [p for p in PLATFORMS if p in platforms and p != here]
+        if chosen is first and first and then:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
 

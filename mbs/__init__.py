@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from mbs.affine import Affine, AffineVector
 from mbs.branch_warning import BranchWarning
 from mbs.compiler import compile
-from mbs.errors import ArgumentTypeError, ModelWarning
+from mbs.errors import ArgumentTypeError
 from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 
@@ -57,7 +57,6 @@ __all__ = [
     "LinearisationWarning",
     "Model",
     "ModelError",
-    "ModelWarning",
     "Pose",
     "Settings",
     "Simulation",

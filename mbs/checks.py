@@ -62,13 +62,18 @@ def is_finite(value: object) -> bool:
         return False
 
 
-def number(value: object, what: str, error: Error = ModelError) -> float:
-    """A finite number below `LARGEST`."""
+def finite(value: object, what: str, error: Error = ModelError) -> float:
+    """A finite number of any size."""
     if not is_number(value):
         raise error(f"{capital(what)} must be a number, not {shown(value)}.")
     if not is_finite(value):
         raise error(f"{capital(what)} is {shown(value)}; it must be a finite number.")
-    x = float(value)  # type: ignore[arg-type]
+    return float(value)  # type: ignore[arg-type]
+
+
+def number(value: object, what: str, error: Error = ModelError) -> float:
+    """A finite number below `LARGEST`."""
+    x = finite(value, what, error)
     if abs(x) >= LARGEST:
         raise error(f"{capital(what)} is {x:g}; its size must be below {LARGEST:g}.")
     return x

@@ -12,10 +12,6 @@ class ModelError(ValueError):
     """A model that cannot be: one sentence that names the part, the value and what would be right."""
 
 
-class ModelWarning(UserWarning):
-    """A model that can be, but is hardly meant: one sentence that says why."""
-
-
 class ArgumentTypeError(TypeError, ValueError):
     """An argument that is a thing of another kind: one sentence that says which kind is needed.
 

@@ -18,6 +18,7 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     """The report as lines of text."""
     rank, dofs = report["rank"], report["degrees_of_freedom"]
     space = "planar" if dimension == 2 else "spatial"
+    still = "   (nothing can move)" if dofs == 0 else ""
     r = report
     lines = [
         f"System '{name}' ({space})",
@@ -27,7 +28,7 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
         f"  coordinates           {r['coordinates']:>8}",
         f"  rows                  {r['rows']:>8}   ({r['dependent_rows']} dependent ones removed)",
         f"  rank at reference     {'not computed' if rank is None else rank:>8}",
-        f"  degrees of freedom    {'not computed' if dofs is None else dofs:>8}",
+        f"  degrees of freedom    {'not computed' if dofs is None else dofs:>8}{still}",
         f"  non-zeros of tangent  {r['tangent_nonzeros']:>8}   (lower triangle)",
         f"  non-zeros of factor   {r['factor_nonzeros']:>8}   ({r['fronts']} fronts, largest {r['largest_front']})",
         f"  force elements        {r['elements']:>8}",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,7 +10,7 @@ from scipy import sparse
 
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.structure import rank_at
-from mbs.errors import ModelError, ModelWarning
+from mbs.errors import ModelError
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
@@ -26,25 +25,18 @@ def check_motion(
     """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
 
     A structure that stands, to which nothing gives a velocity, is a model too, since its joint forces may be what is
-    wanted; a warning says so. Switched rows may be switched off again and do not count.
-
-    Warns
-    -----
-    ModelWarning
-        Where nothing can move.
+    wanted: `print(system)` and every run tell that nothing moves. Switched rows may be switched off again and do not
+    count.
     """
     nq = Phiq.shape[1]
     lasting = [i for i, row in enumerate(rows) if row.switch < 0]
     scleronomic = [i for i in lasting if not rows[i].guides]
     asked = len(scleronomic) < len(lasting) or bool(model.body_velocities or model.coordinate_rates)
-    if len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
-        locked = (
+    if asked and len(scleronomic) >= nq and rank_at(Phiq[scleronomic], mass_diagonal) == nq:
+        raise ModelError(
             f"The model '{model.name}' is locked: its joints are {nq} independent conditions on {nq} coordinates, "
             "which leaves no motion; check the axes of its joints, or let a body bend."
         )
-        if asked:
-            raise ModelError(locked)
-        warnings.warn(locked, ModelWarning, stacklevel=4)
     size = np.sqrt(np.asarray(Phiq.multiply(Phiq).sum(axis=1)).ravel())
     open_rates = np.abs(Phiq @ qd + phi_t) / size
     wanted = np.max(np.abs(phi_t) / size, initial=0.0)

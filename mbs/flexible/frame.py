@@ -124,7 +124,7 @@ class Frame:
         ndarray of int, shape (12,)
             Six of node i, six of node j.
         """
-        beam = self.beams[element]
+        beam = self.beams[int(element)]
         return np.concatenate([6 * beam.i + np.arange(6), 6 * beam.j + np.arange(6)])
 
     def element_stiffness(self, element: int) -> np.ndarray:
@@ -145,7 +145,7 @@ class Frame:
         ModelError
             There is no such beam.
         """
-        beam = self.beams[element]
+        beam = self.beams[int(element)]
         return beam_stiffness(beam.section, beam.material, self.element_axes(element)[0], self.theory)
 
     def structural_mass(self) -> float:

@@ -70,7 +70,7 @@ def fibre_stresses(frame: Frame, element: int, xi: float, fibres: np.ndarray | N
     fibres : ndarray, shape (n_fibres, 2), optional
         Points (y, z) of the section, m; by default those of `Section.fibres` (highest and lowest first).
     """
-    section = frame.beams[element].section
+    section = frame.beams[int(element)].section
     points = np.array(section.fibres if fibres is None else fibres, float).reshape(-1, 2)
     factors = np.zeros((len(points), 6))
     factors[:, 0] = 1 / section.area

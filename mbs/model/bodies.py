@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import AffineVector
-from mbs.checks import Vector, array, capital, direction, instance_of, is_number, mapping, positive, shown, vector
+from mbs.checks import Vector, array, capital, direction, is_number, mapping, positive, shown, vector
 from mbs.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
@@ -129,14 +129,16 @@ class BodyVocabulary(ModelCore):
         Raises
         ------
         ModelError
-            The model is planar, the name is taken, the axes are no rotation, or all mass lies on a line.
-        ArgumentTypeError
-            `reduced` is no ReducedBody.
+            The model is planar, `reduced` is no ReducedBody, the name is taken, the axes are no rotation, or all mass
+            lies on a line.
         """
         what = f"flexible body {shown(name)}"
         if self.dimension != 3:
             raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-        instance_of(ReducedBody, reduced, f"The model of {what}", "a ReducedBody, such as craig_bampton makes")
+        given: object = reduced
+        if not isinstance(given, ReducedBody):
+            kind = type(given).__name__
+            raise ModelError(f"The {what} needs a ReducedBody, got {kind}: the argument reduced is {shown(given)}.")
         place = vector(origin, 3, f"the origin of {what}")
         R = np.eye(3) if axes is None else array(axes, (3, 3), f"The axes of {what}")
         if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:

@@ -247,7 +247,7 @@ def _trajectory(
 ) -> Trajectory:
     sensors = prepared(ended.system)[1]["sensors"]
     names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
-    notices = notices_of(sensors, times, values)
+    notices = notices_of(ended.system, times, values)
     return Trajectory(
         times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control
     )

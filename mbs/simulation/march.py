@@ -25,6 +25,7 @@ from mbs.simulation.arguments import (
 )
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
+from mbs.system import System
 from mbs.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -92,9 +93,14 @@ def march(
     return _trajectory(simulation, t0, h * every, values, wall, before), seen
 
 
-def notices_of(sensors: list[dict[str, str]], t: Array, values: Array) -> list[str]:
-    """Notices of sensors whose columns are not zero, `values` (n, ns) at `t` (n,)."""
-    told = []
+def notices_of(system: System, t: Array, values: Array) -> list[str]:
+    """What a run tells beside its numbers: that nothing can move, and what sensors with a notice say of their columns,
+    `values` (n, ns) at `t` (n,).
+    """
+    meta, told = prepared(system)[1], []
+    sensors = meta["sensors"]
+    if meta["report"].get("degrees_of_freedom") == 0 and not meta["guides"] and not meta["switches"]:
+        told.append(f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
     for k, sensor in enumerate(sensors):
         there = np.flatnonzero(values[:, k] if "notice" in sensor else ())
         if len(there):
@@ -147,7 +153,7 @@ def _trajectory(
         simulation.settings,
         wall,
         accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
-        notices=notices_of(sensors, t, values),
+        notices=notices_of(simulation.system, t, values),
         branch_change=simulation.branch_change,
     )
 

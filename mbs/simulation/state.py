@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.checks import number
+from mbs.checks import finite, number
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,8 @@ class Pose:
 
     def __post_init__(self) -> None:
         for name in ("x", "y", "z", "yaw", "speed"):
-            object.__setattr__(self, name, number(getattr(self, name), f"The {name} of a pose", ValueError))
+            check = number if name == "yaw" else finite  # the kernel says which starts are too far and too fast
+            object.__setattr__(self, name, check(getattr(self, name), f"The {name} of a pose", ValueError))
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ import fmpy
 import pytest
 
 import build_fmu
-from fmu_src.build import fmu_name
+from fmu_src.build import FmuBuilder, fmu_name
+from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, this_platform
 from fmu_src.scene_registry import SceneError, load_scene, scene_names
 
 PLATFORM = fmpy.platform
@@ -109,3 +110,32 @@ def test_a_scene_that_cannot_be_built_is_one_sentence(tmp_path: Path, capsys: py
     path.write_text("import mbs\ndef build():\n    return mbs.Model('x', dimension=4)\n")
     assert build_fmu.main(["--scene", str(path), "--platforms", PLATFORM]) == 2
     assert capsys.readouterr().err.startswith("error: The dimension of model 'x' is 4")
+
+
+def test_what_this_machine_runs_is_built_first(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    built = []
+
+    def build(self: FmuBuilder, kind: str, platforms: list[str], file: Path) -> Path:
+        built.append((kind, tuple(platforms)))
+        file.parent.mkdir(exist_ok=True)
+        file.write_bytes(b"")
+        return file
+
+    monkeypatch.setattr(FmuBuilder, "build", build)
+    here = this_platform()
+    if here not in PYTHON_PLATFORMS:
+        pytest.skip("the kind python does not run here")
+    command = ["--scene", f"{file}:swing", "--out", str(tmp_path / "out")]
+    assert build_fmu.main(command) == 0
+    kinds = ("native", "fmi3", "python")
+    assert built[:3] == [(kind, (here,)) for kind in kinds]
+    assert built[3:] == [(kind, PLATFORMS if kind != "python" else PYTHON_PLATFORMS) for kind in kinds]
+    assert "These run on this machine. Now the same files with" in capsys.readouterr().out
+    built.clear()
+    assert build_fmu.main([*command, "--platforms", "this,darwin64"]) == 0
+    assert built == [*((kind, (here,)) for kind in kinds), *((kind, (here, "darwin64")) for kind in kinds[:2])]
+    built.clear()
+    assert build_fmu.main([*command, "--platforms", "this"]) == 0
+    assert built == [(kind, (here,)) for kind in kinds]

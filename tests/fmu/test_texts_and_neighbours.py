@@ -10,6 +10,8 @@ import pytest
 import mbs
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import SceneError, load_scene
+from fmu_src.texts import check_texts
+from fmu_src.variables import Variable
 
 SCENE = """
 import mbs
@@ -103,10 +105,11 @@ def test_characters_that_xml_cannot_hold_are_refused(text: str, tmp_path: Path) 
     assert not (tmp_path / "out").exists()
 
 
-def test_a_description_of_a_variable_is_named(tmp_path: Path) -> None:
-    m = mbs.Model("swing", dimension=2)
-    bob = m.point_mass("bob", mass=1.0, position=(1.0, 0.0))
-    m.distance("rod", (m.ground, (0.0, 0.0)), bob)
-    m.sense_position("bob.x", bob, component="x", description="bell \x07")
-    with pytest.raises(ValueError, match=r"description of 'bob\.x' has the character U\+0007 at place 6"):
-        build_fmu(mbs.compile(m), "swing", tmp_path, ["linux64"])
+def test_a_description_of_a_variable_is_named() -> None:
+    table = [
+        Variable(name, "output", "continuous", "m", text, "sensor", k)
+        for k, (name, text) in enumerate((("bob.x", "good\n\tµ"), ("bob.y", "bell \x07")))
+    ]
+    check_texts("model", ("", "", ""), table[:1])
+    with pytest.raises(ValueError, match=r"description of 'bob\.y' has the character U\+0007 at place 6"):
+        check_texts("model", ("", "", ""), table)

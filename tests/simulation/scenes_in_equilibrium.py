@@ -20,7 +20,7 @@ def hanging() -> Model:
     spring = m.spring_damper(
         "spring", (m.ground, (0.0, 0.0, 0.0)), (mass, (0.0, 0.0, -1.0)), stiffness=STIFFNESS, free_length=1.0
     )
-    m.parameter("k", STIFFNESS, -1e4, 1e4, "N/m", "stiffness", targets=[(spring, "stiffness", 1.0)])
+    m.parameter("k", STIFFNESS, 0.0, 1e4, "N/m", "stiffness", targets=[(spring, "stiffness", 1.0)])
     one = m.input("one", start=1.0, min=0.0, max=1.0)
     load = m.add(InputForce(one.index, (0.0,)).record("payload", [mass.point((0.0, 0.0, -1.0))[2]]))
     m.parameter("payload", 0.0, 0.0, 100.0, "N", "weight of the payload", targets=[(load, "weight_0", -1.0)])
