@@ -252,7 +252,7 @@ def test_fifty_kilometres_away_a_rod_takes_one_iteration_a_step() -> None:
         np.eye(4), [0.0, 0.0, 0.8, 0.6], [-0.6, 0.8, 0.6, -0.8], rows=[distance_row((0, 1), (2, 3), 1.0, False)]
     )
     zero = np.zeros(4)
-    b.pose = {name: zero for name in ("pose_z", "pose_cos", "pose_sin", "pose_speed")}
+    b.pose = dict.fromkeys(("pose_z", "pose_cos", "pose_sin", "pose_speed"), zero)
     b.pose |= {"pose_0": b.q0, "pose_x": np.array([1.0, 0.0, 1.0, 0.0]), "pose_y": np.array([0.0, 1.0, 0.0, 1.0])}
     instance = Instance(LoadedSystem(b.to_bytes()))
     instance.set_q(b.q0 + 5e4, b.qd0)
