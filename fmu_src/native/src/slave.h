@@ -82,7 +82,7 @@ struct slave {
   ali3_memory memory;
   char *name, *resources;
   bool logging, all_categories;
-  unsigned categories; /* bits, see slave_category */
+  unsigned categories; /* bits, see category_of in log.c */
   slave_fidelity fidelity;
   slave_call_state calls;
   slave_refusal refusal;
