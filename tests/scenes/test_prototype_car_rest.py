@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import mbs
 from benchmarks.car.manoeuvres import rise
 from mbs import Pose, Settings, compile, simulate
 from mbs.elements.road import PlaneRoad
 from mbs.scenes import prototype_car
+from mbs.scenes.prototype_car import car_data
+from mbs.scenes.prototype_car.tyre_data import RADIUS
 from tests.scenes.car import H, car, drive, moved, place
 
 STILL = 1e-3  # m in 100 s
@@ -71,3 +74,12 @@ def test_braked_from_15_m_s_to_a_stop_that_lasts(road, slope):
     assert moved(t, stop + 8.0, stop + 13.0) < 1e-5
     assert t["energy.kinetic"][-1] < 1e-6
     assert place(t)[-1][0] > 40.0
+
+
+def test_wheels_of_a_car_that_drives_forward_turn_forward():
+    """Without slip: 10 m/s over the rolling radius, (2 R + height of the centre) / 3."""
+    simulation = mbs.Simulation(mbs.compile(prototype_car.build()), pose=mbs.Pose(speed=10.0))
+    for axle, data in (("front", car_data.FRONT), ("rear", car_data.REAR)):
+        radius = (2.0 * RADIUS[axle] + data["wheel_centre"][2]) / 3.0
+        for side in "LR":
+            assert simulation.sensors[f"wheel_{axle[0].upper()}{side}.omega"] == pytest.approx(10.0 / radius, rel=1e-3)
