@@ -104,6 +104,11 @@ def test_a_model_that_cannot_move_or_has_no_bodies_is_refused():
 def test_a_start_that_has_no_equilibrium_is_refused_by_name():
     m = Model("falling", dimension=2)
     m.body("stone", mass=2.0, com=(0, 0), inertia=1.0)
+    m.start_in_equilibrium = "no"  # type: ignore[assignment]
+    with pytest.raises(
+        ModelError, match="The start_in_equilibrium of model 'falling' is 'no'; it must be True or False"
+    ):
+        compile(m)
     m.start_in_equilibrium = True
     with pytest.raises(ModelError, match=r"'falling' has no static equilibrium .*'stone\.ry' .* by 19\.6 N"):
         compile(m)
