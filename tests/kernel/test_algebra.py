@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -73,11 +75,21 @@ def test_jacobian_and_rates_agree_with_differences() -> None:
         assert abs(now["phi_t"]).max() > 1e-3
 
 
+def crossed() -> SystemBuilder:
+    """The same with a spring between coordinates that do not stand side by side, two of them in both its signals."""
+    b = everything()
+    b.signals[1] = ({0: 0.3, 2: -0.4, 4: 0.7}, 0.5)
+    return b
+
+
+@pytest.mark.parametrize("scene", [everything, crossed])
 @pytest.mark.parametrize("groups", [[5], [2, 1, 2], [1, 1, 1, 1, 1]])
 @pytest.mark.parametrize("geometric", [0, 1])
-def test_the_tangent_is_the_derivative_of_the_residual(groups: list[int], geometric: int) -> None:
+def test_the_tangent_is_the_derivative_of_the_residual(
+    scene: Callable[[], SystemBuilder], groups: list[int], geometric: int
+) -> None:
     """df/dq of (22) at fixed multipliers: M + c alpha Phi_q' Phi_q + c sum lam_k H_k - c dQ/dq - h/2 dQ/dqd."""
-    b = everything()
+    b = scene()
     b.groups = groups
     instance = initialised(b)
     instance.set_settings(geometric=geometric)
