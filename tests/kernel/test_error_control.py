@@ -148,14 +148,8 @@ def test_step_sizes_follow_the_controller_of_gustafsson() -> None:
 def test_a_step_ends_where_a_guide_has_a_break() -> None:
     """A driven coordinate whose acceleration jumps at 0.31 and 0.77 s."""
     b = SystemBuilder(np.array([[1.0]]), [0.0], rows=[Row(0.0, {0: 1.0}, guided=[(0, 1, -1, -1, -1.0)])])
-    pieces = [
-        *[0.0, 0.0, 1.0],
-        *[0.0] * 3,
-        *[0.31**2, 0.62],
-        *[0.0] * 4,
-        *[0.31**2 + 0.62 * 0.46, 0.62, -1.0],
-        *[0.0] * 3,
-    ]
+    first, second, third = [0.0, 0.0, 1.0], [0.31**2, 0.62, 0.0], [0.31**2 + 0.62 * 0.46, 0.62, -1.0]
+    pieces = [c for piece in (first, second, third) for c in (*piece, 0.0, 0.0, 0.0)]
     b.guides = [(GuideType.OF_TIME, -1, [3.0, 0.0, 0.31, 0.77, 2.0, *pieces])]
     instance, fields, ends = start(b), control(1e-2, 1.0), []
     while instance.time < 1.0:

@@ -31,7 +31,7 @@ def pushed(method: str = "runge_kutta_8") -> Instance:
 
 
 def given(value: Callable[[float], float]) -> Callable[[float, bool, object], None]:
-    def function(t: float, after: bool, values: object) -> None:  # noqa: ARG001
+    def function(t: float, after: bool, values: object) -> None:
         values[0] = value(t)  # type: ignore[index]
 
     return function

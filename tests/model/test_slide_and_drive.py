@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -49,7 +51,7 @@ def test_a_filtered_guide_is_that_of_a_critically_damped_filter():
         m.sense_guide(f"order {order}", guide, order)
     simulation, w, h, given = Simulation(compile(m)), 2.0 * np.pi * 5.0, 0.03, [0.0, 0.15, -0.1, -0.1]
     state = np.zeros(2)
-    for before, behind in zip(given, given[1:], strict=False):
+    for before, behind in pairwise(given):
 
         def rates(t, x, before=before, behind=behind):
             return [x[1], w**2 * (2.0 * (before + (behind - before) * t / h) - x[0]) - 2.0 * w * x[1]]
