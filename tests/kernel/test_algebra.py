@@ -114,6 +114,17 @@ def test_the_tangent_is_the_derivative_of_the_residual(
     np.testing.assert_allclose(tangent - penalty, expected - penalty, atol=1e-6)
 
 
+def test_a_row_of_nearly_all_coordinates_of_a_front_is_in_its_tangent() -> None:
+    """M + c alpha J' J, of linear rows: two with nine and ten of ten coordinates, one with two."""
+    rng, n, h = np.random.default_rng(SEED + 5), 10, 0.01
+    rows = [Row(0.0, {int(i): float(rng.normal()) for i in which}) for which in (range(n), range(1, n), (2, 7))]
+    b = SystemBuilder(np.diag(rng.uniform(1.0, 2.0, n)), np.zeros(n), rows=rows)
+    instance = initialised(b)
+    J = dense_jacobian(b, np.array(instance.evaluate(b.q0, b.q0, None, 0.0)["jacobian"]))
+    expected = b.mass + 0.25 / instance.settings()["eps_rel"] * J.T @ J
+    np.testing.assert_allclose(np.reshape(instance.tangent(h, np.zeros(3)), (n, n)), expected, rtol=1e-12)
+
+
 def turning_pair() -> SystemBuilder:
     """Two planar vectors a, b and the angle from a to b: cos(theta) a x b - sin(theta) a . b = 0."""
     b = SystemBuilder(

@@ -64,6 +64,14 @@ def test_the_start_velocity_is_the_nearest_in_the_metric_of_the_mass_and_the_pos
     np.testing.assert_allclose(qd, b.qd0 - weight @ np.linalg.solve(J @ weight, J @ b.qd0), atol=1e-9)
 
 
+def test_closing_a_position_rolls_nothing() -> None:
+    """The vector of the body comes to unit length in its own direction; the body and the wheel stay where they are."""
+    instance = Instance(LoadedSystem(sleigh().to_bytes()))
+    instance.set_q([0.3, 0.1, 1.2, 0.9, 0.4])
+    instance.initialise(0.0)
+    np.testing.assert_allclose(instance.get_state()[0], [0.3, 0.1, 0.8, 0.6, 0.4], atol=1e-9)
+
+
 @pytest.mark.parametrize("method", ROLLING)
 def test_a_restored_state_continues_bit_for_bit(method: str) -> None:
     instance = started(method)

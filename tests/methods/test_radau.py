@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import bricard, double_four_bar, flyball, prototype_car
-from tests.methods.models import assert_saved_state_continues, driven, end, hinge, swing
+from tests.methods.models import assert_saved_state_continues, driven, end, hinge, sliding_mass, swing
 
 NAME = "radau_5"
 TIGHT = Settings(method=NAME, tolerance_r=1e-13, tolerance_phi=1e-13)
@@ -22,19 +22,6 @@ def order(system, names, t_end, steps, settings=TIGHT):
     return np.polyfit(np.log(steps), np.log(errors), 1)[0], errors[-1]
 
 
-def sliding_mass(stiffness, damping, start, speed):
-    """A mass on a line, its coordinate tied to zero."""
-    m = Model("mass", dimension=2, gravity=(0.0, 0.0))
-    mass = m.point_mass("mass", mass=1.0, position=(start, 0.0))
-    m.initial_velocity(mass, linear=(speed, 0.0))
-    along = mass.point(None).components[0]
-    m.torsional_spring_damper("tie", along, stiffness=stiffness, damping=damping, free_angle=0.0)
-    m.sense_position("x", mass, None, "x")
-    m.sense_velocity("v", mass, None, "x")
-    m.sense_energy("energy", "total")
-    return compile(m)
-
-
 def crank_with_a_motor():
     m = Model("crank", dimension=2)
     crank = m.body("crank", mass=2.0, com=(0.5, 0.0), inertia=0.16)
@@ -43,6 +30,18 @@ def crank_with_a_motor():
     m.torque_on("motor", angle, input=m.input("torque", unit="N m"))
     m.sense_coordinate("angle", angle)
     return compile(m)
+
+
+def test_a_step_of_an_oscillator_is_that_of_its_stability_function():
+    """R(z) = (1 + 2 z/5 + z^2/20) / (1 - 3 z/5 + 3 z^2/20 - z^3/60) (Hairer, Wanner, IV.5), z = i omega h."""
+    omega, h = 2.0, 0.5
+    simulation = Simulation(sliding_mass(omega**2, 0.0, 0.3, -0.4), settings=TIGHT)
+    z, value = 1j * omega * h, 0.3 + 0.4j / omega  # x - i v / omega goes as exp(i omega t)
+    for _ in range(4):
+        simulation.step(h)
+        value *= (1.0 + 0.4 * z + z**2 / 20.0) / (1.0 - 0.6 * z + 0.15 * z**2 - z**3 / 60.0)
+        found = simulation.sensors
+        assert (found["x"], -found["v"] / omega) == pytest.approx((value.real, value.imag), abs=1e-12)
 
 
 @pytest.mark.parametrize(
