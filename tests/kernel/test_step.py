@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
-from mbs.kernel.header import ElementType
+from mbs.kernel.header import ElementType, GuideType
 
 from .scenes import GRAVITY, everything, four_bar, pendulum
 from .system_builder import Element, Row, SystemBuilder, distance_row
@@ -216,6 +216,19 @@ def test_an_energy_that_overflows_is_refused_and_the_state_stays() -> None:
     before = [bytes(part) for part in instance.get_state()]
     with pytest.raises(KernelError) as refusal:
         instance.step(100.0)
+    assert refusal.value.status == binding.Status.NOT_FINITE
+    assert [bytes(part) for part in instance.get_state()] == before
+
+
+def test_rates_of_a_filter_that_overflow_are_refused() -> None:
+    """Of a guide that no row has: nothing else of the step sees them."""
+    b = pendulum()
+    b.inputs, b.guides = [(0.0, -1.0, 1.0)], [(GuideType.OF_INPUT, 0, [1e200, 1.0, 0.0])]
+    instance = start(b)
+    instance.set_input(0, 0.5)
+    before = [bytes(part) for part in instance.get_state()]
+    with pytest.raises(KernelError) as refusal:
+        instance.step(0.01)
     assert refusal.value.status == binding.Status.NOT_FINITE
     assert [bytes(part) for part in instance.get_state()] == before
 

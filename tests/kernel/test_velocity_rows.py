@@ -65,11 +65,16 @@ def test_the_start_velocity_is_the_nearest_in_the_metric_of_the_mass_and_the_pos
 
 
 def test_closing_a_position_rolls_nothing() -> None:
-    """The vector of the body comes to unit length in its own direction; the body and the wheel stay where they are."""
-    instance = Instance(LoadedSystem(sleigh().to_bytes()))
+    """The vector of the body comes to unit length, and turns, by its mass; body and wheel stay where they are."""
+    b = sleigh()
+    b.mass[3, 3] = 2.0
+    instance = Instance(LoadedSystem(b.to_bytes()))
     instance.set_q([0.3, 0.1, 1.2, 0.9, 0.4])
     instance.initialise(0.0)
-    np.testing.assert_allclose(instance.get_state()[0], [0.3, 0.1, 0.8, 0.6, 0.4], atol=1e-9)
+    x, y, along, across, angle = instance.get_state()[0]
+    assert (x, y, angle) == pytest.approx((0.3, 0.1, 0.4), abs=1e-12)
+    assert np.hypot(along, across) == pytest.approx(1.0, abs=1e-9)
+    assert abs(0.8 * across - 0.6 * along) > 0.01
 
 
 @pytest.mark.parametrize("method", ROLLING)
