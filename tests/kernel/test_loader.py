@@ -113,6 +113,33 @@ def test_a_norm_has_two_or_three_components_and_an_order_below_two(integers: lis
     assert "'sen_int'" in refused(builder.to_bytes())
 
 
+def with_changes(**changes: dict[int, int]) -> bytes:
+    """The System of `everything` with other integers at places of arrays."""
+    arrays = everything().arrays()
+    for name, values in changes.items():
+        array = np.array(arrays[name])
+        for place, value in values.items():
+            array[place] = value
+        arrays[name] = array
+    return pack(arrays)
+
+
+def test_places_in_fronts_are_those_of_their_coordinates() -> None:
+    """Wrong numbers within the range: nothing else would notice them."""
+    arrays = {name: np.array(values).tolist() for name, values in everything().arrays().items() if name != "meta"}
+    ptr, idx, places = arrays["front_ptr"], arrays["front_idx"], arrays["front_map"]
+    first, pivots = ptr[0], arrays["front_col"][1]
+    a, b = first + pivots, first + pivots + 1  # two coordinates of the first front that its parent has too
+    assert b < ptr[1]
+    swapped = {"front_idx": {a: idx[b], b: idx[a]}, "front_map": {a: places[b], b: places[a]}}
+    assert "the coordinates of front 0 do not ascend" in refused(with_changes(**swapped))
+    assert "of front 0 is not in its parent" in refused(with_changes(front_map={a: places[b]}))
+    assert "of element 0 is not in front" in refused(with_changes(el_loc={0: arrays["el_loc"][1]}))
+    size = arrays["row_ptr"][1]
+    assert f"of a row with {size}" in refused(with_changes(quad_a={0: size}))
+    assert "'sig_ptr' decreases at item 1" in refused(with_changes(sig_ptr={1: 5}))
+
+
 def test_every_truncation_is_refused() -> None:
     data = everything().to_bytes()
     for n in [*range(0, 200), *range(200, len(data), 97), len(data) - 1]:
