@@ -140,6 +140,29 @@ def test_places_in_fronts_are_those_of_their_coordinates() -> None:
     assert "'sig_ptr' decreases at item 1" in refused(with_changes(sig_ptr={1: 5}))
 
 
+def test_numbers_that_no_model_has_are_refused_by_name() -> None:
+    def other(name: str, value: float) -> bytes:
+        arrays = everything().arrays()
+        arrays[name] = [value, *list(arrays[name])[1:]]  # type: ignore[call-overload]
+        return pack(arrays)
+
+    assert "the mass of coordinate 0 is -1" in refused(other("mass_val", -1.0))
+    for value in (-1.0, 1001.0):
+        assert f"parameter 0 is {value:g}, outside its range" in refused(other("par_value", value))
+
+
+def test_the_directory_names_each_array_once_and_inside_the_file() -> None:
+    data = everything().to_bytes()
+    count = int.from_bytes(data[12:16], "little")
+    twice = data.replace(b"qd0\0", b"q0\0\0", 1)
+    assert "array 'q0' appears twice" in refused(seal(twice, count))
+    at = 32 + 64 * list(everything().arrays()).index("meta")  # 40 bytes of name, 8 of type, 8 of offset, 8 of count
+    offset = int.from_bytes(data[at + 48 : at + 56], "little")
+    beyond = bytearray(data)
+    beyond[at + 56 : at + 64] = (len(data) - offset + 1).to_bytes(8, "little")
+    assert "array 'meta' lies outside the file" in refused(seal(bytes(beyond), count))
+
+
 def test_every_truncation_is_refused() -> None:
     data = everything().to_bytes()
     for n in [*range(0, 200), *range(200, len(data), 97), len(data) - 1]:
