@@ -64,15 +64,19 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
         if command is None:
             return _unknown(given[0], prog)
         return run_command(lambda: _run(command, given[1:], prog))
-    parser = _parser(prog)
-    parser.parse_args(given)
-    parser.print_help(sys.stderr)
-    return WRONG_USE
+    return run_command(lambda: _help(given, prog))
 
 
 def _run(command: Command, arguments: Sequence[str], prog: str) -> int:
     module = importlib.import_module(command.module)
     return int(module.main(arguments, f"{prog} {command.name}"))
+
+
+def _help(arguments: Sequence[str], prog: str) -> int:
+    parser = _parser(prog)
+    parser.parse_args(arguments)
+    parser.print_help(sys.stderr)
+    return WRONG_USE
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:

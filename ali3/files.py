@@ -35,8 +35,7 @@ def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Itera
         With the file and the reason, if it cannot be written. An older file is then unchanged, and nothing is left.
     """
     target = Path(os.path.realpath(file))  # a link stays a link
-    if target.is_dir():
-        raise FileError(f"{file} is a folder; a file is to be written there.")
+    _check_file(file, target)
     if target.exists() and not target.is_file():
         yield target
         return
@@ -84,8 +83,7 @@ def make_folder(folder: str | os.PathLike[str]) -> Path:
 def check_writable(file: str | os.PathLike[str]) -> None:
     """Raise the `FileError` that writing this file would end with, before the work that fills it."""
     target = Path(os.path.realpath(file))
-    if target.is_dir():
-        raise FileError(f"{file} is a folder; a file is to be written there.")
+    _check_file(file, target)
     nearest = next(place for place in target.parents if place.exists())
     if not nearest.is_dir():
         raise FileError(f"The folder {target.parent} cannot be made: {nearest} is a file.")
@@ -94,6 +92,18 @@ def check_writable(file: str | os.PathLike[str]) -> None:
             pass
     except OSError as error:
         raise FileError(f"{file} cannot be written: {reason(error)}.") from None
+
+
+def _check_file(file: str | os.PathLike[str], target: Path) -> None:
+    """Refuse a folder, and a name that no file can have."""
+    try:
+        if target.is_dir():
+            raise FileError(f"{file} is a folder; a file is to be written there.")
+    except FileError:
+        raise
+    except (OSError, ValueError) as error:
+        words = reason(error) if isinstance(error, OSError) else str(error)
+        raise FileError(f"{file} cannot be written: {words}.") from None
 
 
 def reason(error: OSError) -> str:

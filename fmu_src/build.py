@@ -7,23 +7,24 @@ import importlib.metadata
 import re
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from enum import Enum
+from os import PathLike
 from pathlib import Path
 
-import mbs
 from ali3.files import check_writable
+from fmu_src.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
 from fmu_src.probe import probe, with_nominal
 from fmu_src.texts import check_texts
 from fmu_src.variables import check_fidelities, variable_table
+from mbs.checks import instance_of
 
 Say = Callable[[str], None]
-Systems = mbs.System | Sequence[mbs.System] | Mapping[int, mbs.System]
 _PATIENCE = 2.0
 
 KINDS = {
@@ -50,7 +51,7 @@ def fmu_name(scene: str, kind: str = "native") -> str:
 def build_fmu(
     system: Systems,
     name: str,
-    out: Path,
+    out: str | PathLike[str],
     platforms: Sequence[str] | None = None,
     say: Say = lambda text: None,
     kind: str = "native",
@@ -68,7 +69,7 @@ def build_fmu(
         the same inputs, parameters and sensors.
     name : str
         Of the scene, such as ``prototype_car``.
-    out : Path
+    out : str or path-like
         Folder; made if it is not there.
     platforms : sequence of str, optional
         Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``; by default all the kind can have.
@@ -85,15 +86,19 @@ def build_fmu(
     -------
     Path
         The FMU.
+
+    Raises
+    ------
+    ValueError
+        An argument is not what it must be; the message says what would be. Nothing is written.
+    ali3.errors.FileError
+        The file cannot be written.
     """
-    if kind not in KINDS:
+    if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"There is no kind of FMU '{kind}'; the kinds are {', '.join(KINDS)}.")
     able = PYTHON_PLATFORMS if kind == "python" else PLATFORMS
-    chosen = tuple(able if platforms is None else platforms)
-    unknown = sorted(set(chosen) - set(able))
-    if unknown or not chosen:
-        raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
-    file = out / f"{fmu_name(name, kind)}.fmu"
+    chosen = known_platforms(platforms, able, kind)
+    file = folder(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
     check_writable(file)
     builder = FmuBuilder(system, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
     return builder.build(kind, chosen, file)
@@ -117,16 +122,15 @@ class FmuBuilder:
     """
 
     def __init__(self, system: Systems, name: str, fidelity: int, rights: tuple[str, str, str], told: Telling) -> None:
-        given = (system,) if isinstance(system, mbs.System) else system
-        offered = given if isinstance(given, Mapping) else dict(enumerate(given))
-        systems = tuple(offered[k] for k in sorted(offered))
+        offered = systems_by_number(system)
+        systems, fidelity = tuple(offered.values()), default_fidelity(fidelity, len(offered))
         check_fidelities([s.meta for s in systems])
         meta = systems[fidelity].meta
         table = variable_table(
             meta,
             pose=bool(meta["floating"]),
             step_size=float(meta["experiment"]["step_s"]),
-            fidelities=[_label(k) for k in sorted(offered)],
+            fidelities=[_label(k) for k in offered],
             fidelity=fidelity,
         )
         description = meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"

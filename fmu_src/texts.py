@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from fmu_src.variables import Variable
+from mbs.checks import shown
 
 # XML 1.0, production 2: characters that no document can hold, escaped or not.
 _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -30,7 +31,10 @@ def check_texts(description: str, rights: Sequence[str], table: Sequence[Variabl
     texts = {"description of the model": description}
     texts |= dict(zip(("author", "copyright", "licence"), rights, strict=True))
     texts |= {f"description of '{v.name}'": v.description for v in table}
+    texts |= {f"name {v.name!a}": v.name for v in table}
     for what, text in texts.items():
+        if not isinstance(text, str):
+            raise ValueError(f"The {what} must be text, not {shown(text)}.")
         found = _FORBIDDEN.search(text)
         if found:
             raise ValueError(

@@ -48,6 +48,8 @@ def _inside(fmu: Path, steps: int, folder: Path) -> int:
 
 def _outside(fmu: Path, steps: int) -> int:
     """The checks in a process of their own, which a broken FMU may take down."""
+    if fmu.is_dir():
+        raise HostError(f"{fmu} is a folder; an FMU is a file.")
     if not fmu.is_file():
         raise HostError(f"There is no file {fmu}.")
     if not zipfile.is_zipfile(fmu):

@@ -71,12 +71,15 @@ def communication_step(fmu: Fmu, manoeuvre: Manoeuvre, step: float | None) -> fl
     Raises
     ------
     HostError
-        If it is not positive, longer than the manoeuvre, or so short that the record would not fit into the memory.
+        If it or the stop time is not positive, or if it is longer than the manoeuvre or so short that the record would
+        not fit into the memory.
     """
     experiment = fmu.description.defaultExperiment
     if step is None:
         step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
     stop = manoeuvre.stop_time
+    if not stop > 0.0:
+        raise HostError(f"The stop time is {stop:g} s; it must be positive.")
     if not 0.0 < step <= stop:
         raise HostError(f"The step is {step:g} s; it must be positive and not longer than {stop:g} s.")
     columns = len(fmu.names("input")) + len(fmu.names("output")) + 1

@@ -55,6 +55,8 @@ class Fmu:
 
     def __init__(self, path: Path) -> None:
         if not path.is_file():
+            if path.is_dir():
+                raise HostError(f"{path} is a folder; an FMU is a file.")
             hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
             raise HostError(f"There is no file {path}.{hint}")
         if not zipfile.is_zipfile(path):

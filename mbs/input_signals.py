@@ -162,6 +162,9 @@ def _checked(name: str, signal: Signal) -> Signal:
         )
     if not np.isfinite(times).all() or (np.diff(times) < 0.0).any():
         raise ValueError(f"The times of input {name!r} must be finite and must not decrease.")
+    if not np.isfinite(values).all():  # named here: interpolated, an infinite value is a nan at another time
+        k = int(np.argmin(np.isfinite(values)))
+        raise ValueError(f"The table of input {name!r} has {values[k]:g} at t = {times[k]:g} s; it must be finite.")
     return times, values
 
 

@@ -168,8 +168,11 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         ValueError
             A heading or a value is not what `to_csv` writes; the message names the line.
         """
-        with Path(path).open(newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
+        try:
+            with Path(path).open(newline="", encoding="utf-8") as file:
+                rows = list(csv.reader(file))
+        except (UnicodeDecodeError, csv.Error) as error:
+            raise ValueError(f"{path} cannot be read as a table of text: {error}.") from None
         headings = [_HEADING.fullmatch(text) for text in rows[0]] if rows else []
         if not headings or headings[0] is None or headings[0]["name"] != "time":
             raise ValueError(f"{path}: the first line must be 'time [s]' and one 'name [unit]' per sensor.")

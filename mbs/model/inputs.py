@@ -28,6 +28,8 @@ def new_input(model: ModelCore, name: str, start: float, min: float, max: float,
     value = number(start, f"The start of input '{name}'")
     text(unit, f"The unit of input '{name}'")
     text(description, f"The description of input '{name}'", lines=True)
+    if low > high:
+        raise ModelError(f"The input '{name}' has the limits {low:g} and {high:g}; min must not be above max.")
     if not low <= value <= high:
         raise ModelError(
             f"The input '{name}' starts at {value:g}, which is not between its limits {low:g} and {high:g}."

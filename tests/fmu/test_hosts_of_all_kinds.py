@@ -70,12 +70,12 @@ def test_the_scheme_of_the_resources_in_any_case(crane: Path, host: HostMaker, s
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes of POSIX")
 @pytest.mark.parametrize(
-    ("variant", "name"), [("native", "system_0.ali3"), ("python", "system_0.ali3"), ("python", "slavemodule.txt")]
+    ("kind", "name"), [("native", "system_0.ali3"), ("python", "system_0.ali3"), ("python", "slavemodule.txt")]
 )
 def test_a_named_pipe_as_resource_is_refused(
-    build: Callable[..., Path], tmp_path: Path, variant: str, name: str
+    build: Callable[..., Path], tmp_path: Path, kind: str, name: str
 ) -> None:
-    fmu = build("crane", variant)
+    fmu = build("crane", kind)
     folder = Path(fmpy.extract(str(fmu), unzipdir=str(tmp_path)))
     (file,) = (folder / "resources").rglob(name)
     file.unlink()
@@ -166,10 +166,10 @@ def test_sources_name_the_mathematical_library(build: Callable[..., Path]) -> No
     assert [e.get("name") for e in root.iter("Library")] == ["m"]
 
 
-@pytest.mark.parametrize("variant", ["native", "fmi3"])
-def test_linux_on_arm_has_a_binary(tmp_path: Path, variant: str) -> None:
+@pytest.mark.parametrize("kind", ["native", "fmi3"])
+def test_linux_on_arm_has_a_binary(tmp_path: Path, kind: str) -> None:
     name, system = load_scene(f"{Path(__file__).parent / 'scenes.py'}:crane")
-    fmu = build_fmu(system, name, tmp_path, ["aarch64-linux"], kind=variant)
+    fmu = build_fmu(system, name, tmp_path, ["aarch64-linux"], kind=kind)
     with zipfile.ZipFile(fmu) as archive:
         (library,) = (n for n in archive.namelist() if n.startswith("binaries/aarch64-linux/"))
         data = archive.read(library)

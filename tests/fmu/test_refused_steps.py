@@ -101,9 +101,9 @@ def test_fmi_3_wishes_the_end_and_then_is_an_error(build: Callable[..., Path]) -
     assert step(time, H)[:2] == (OK, False)
 
 
-@pytest.mark.parametrize("variant", ["native", "fmi3", "python"])
-def test_fmpy_ends_soon_and_says_why(build: Callable[..., Path], variant: str, need: Callable[[str], None]) -> None:
-    fmu = build("reach", variant)
+@pytest.mark.parametrize("kind", ["native", "fmi3", "python"])
+def test_fmpy_ends_soon_and_says_why(build: Callable[..., Path], kind: str, need: Callable[[str], None]) -> None:
+    fmu = build("reach", kind)
     code = (
         "import fmpy, numpy as np\n"
         f"rows = [(0.0, 0.0), ({BEGIN}, 0.0), ({BEGIN}, {PULL}), (2.0, {PULL})]\n"

@@ -113,3 +113,9 @@ def test_a_description_of_a_variable_is_named() -> None:
     check_texts("model", ("", "", ""), table[:1])
     with pytest.raises(ValueError, match=r"description of 'bob\.y' has the character U\+0007 at place 6"):
         check_texts("model", ("", "", ""), table)
+
+
+def test_a_name_of_a_variable_is_looked_at() -> None:
+    table = [Variable("bob\ufffe", "output", "continuous", "m", "", "sensor", 0)]
+    with pytest.raises(ValueError, match=r"name 'bob\\ufffe' has the character U\+FFFE at place 4"):
+        check_texts("model", ("", "", ""), table)

@@ -64,6 +64,13 @@ def test_a_filtered_guide_is_that_of_a_critically_damped_filter():
     assert abs(state[1]) > 0.1
 
 
+def test_limits_of_an_input_are_in_order():
+    with pytest.raises(ModelError, match="'rack' has the limits 2 and 1; min must not be above max"):
+        Model("a").input("rack", min=2.0, max=1.0)
+    with pytest.raises(ModelError, match="starts at 0, which is not between its limits 1 and 2"):
+        Model("a").input("rack", min=1.0, max=2.0)
+
+
 def test_only_one_end_may_slide():
     m = rack_and_lever()
     u = m.input("other")

@@ -60,6 +60,7 @@ def test_columns_follow_the_signals_given():
         ({"force": ([0.0, 1.0], [0.0])}, r"times of shape \(2,\) and values of shape \(1,\)"),
         ({"force": ([0.0, 1.0],)}, "1 parts; it must be a pair"),
         ({"force": ([1.0, 0.0], [0.0, 0.0])}, "must not decrease"),
+        ({"force": ([0.0, 1.0], [0.0, np.inf])}, "table of input 'force' has inf at t = 1 s; it must be finite"),
     ],
 )
 def test_a_wrong_signal_is_refused_by_name(signals, sentence):

@@ -60,6 +60,14 @@ def test_a_csv_of_another_kind_is_refused(text, sentence, tmp_path):
         Trajectory.from_csv(path)
 
 
+@pytest.mark.parametrize("content", [b"\xff\xfe\x00", b"a" * 200_000])
+def test_a_file_that_is_no_table_is_refused_by_name(content, tmp_path):
+    path = tmp_path / "other.bin"
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=r"other\.bin cannot be read as a table of text: "):
+        Trajectory.from_csv(path)
+
+
 def test_plot_draws_one_axes_per_unit(trajectory):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
