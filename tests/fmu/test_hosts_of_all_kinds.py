@@ -72,9 +72,7 @@ def test_the_scheme_of_the_resources_in_any_case(crane: Path, host: HostMaker, s
 @pytest.mark.parametrize(
     ("kind", "name"), [("native", "system_0.ali3"), ("python", "system_0.ali3"), ("python", "slavemodule.txt")]
 )
-def test_a_named_pipe_as_resource_is_refused(
-    build: Callable[..., Path], tmp_path: Path, kind: str, name: str
-) -> None:
+def test_a_named_pipe_as_resource_is_refused(build: Callable[..., Path], tmp_path: Path, kind: str, name: str) -> None:
     fmu = build("crane", kind)
     folder = Path(fmpy.extract(str(fmu), unzipdir=str(tmp_path)))
     (file,) = (folder / "resources").rglob(name)
