@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -73,11 +75,21 @@ def test_jacobian_and_rates_agree_with_differences() -> None:
         assert abs(now["phi_t"]).max() > 1e-3
 
 
+def crossed() -> SystemBuilder:
+    """The same with a spring between coordinates that do not stand side by side, two of them in both its signals."""
+    b = everything()
+    b.signals[1] = ({0: 0.3, 2: -0.4, 4: 0.7}, 0.5)
+    return b
+
+
+@pytest.mark.parametrize("scene", [everything, crossed])
 @pytest.mark.parametrize("groups", [[5], [2, 1, 2], [1, 1, 1, 1, 1]])
 @pytest.mark.parametrize("geometric", [0, 1])
-def test_the_tangent_is_the_derivative_of_the_residual(groups: list[int], geometric: int) -> None:
+def test_the_tangent_is_the_derivative_of_the_residual(
+    scene: Callable[[], SystemBuilder], groups: list[int], geometric: int
+) -> None:
     """df/dq of (22) at fixed multipliers: M + c alpha Phi_q' Phi_q + c sum lam_k H_k - c dQ/dq - h/2 dQ/dqd."""
-    b = everything()
+    b = scene()
     b.groups = groups
     instance = initialised(b)
     instance.set_settings(geometric=geometric)
@@ -100,6 +112,17 @@ def test_the_tangent_is_the_derivative_of_the_residual(groups: list[int], geomet
     expected = 0.5 * (expected + expected.T)  # a damper in motion has an unsymmetric part, which is left out
     penalty = c * alpha * J.T @ J
     np.testing.assert_allclose(tangent - penalty, expected - penalty, atol=1e-6)
+
+
+def test_a_row_of_nearly_all_coordinates_of_a_front_is_in_its_tangent() -> None:
+    """M + c alpha J' J, of linear rows: two with nine and ten of ten coordinates, one with two."""
+    rng, n, h = np.random.default_rng(SEED + 5), 10, 0.01
+    rows = [Row(0.0, {int(i): float(rng.normal()) for i in which}) for which in (range(n), range(1, n), (2, 7))]
+    b = SystemBuilder(np.diag(rng.uniform(1.0, 2.0, n)), np.zeros(n), rows=rows)
+    instance = initialised(b)
+    J = dense_jacobian(b, np.array(instance.evaluate(b.q0, b.q0, None, 0.0)["jacobian"]))
+    expected = b.mass + 0.25 / instance.settings()["eps_rel"] * J.T @ J
+    np.testing.assert_allclose(np.reshape(instance.tangent(h, np.zeros(3)), (n, n)), expected, rtol=1e-12)
 
 
 def turning_pair() -> SystemBuilder:

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.header import GuideType
 from mbs.methods import METHOD_TABLE
 
 from .scenes import everything, four_bar, pendulum
-from .system_builder import SystemBuilder
+from .system_builder import Row, SystemBuilder
 
 METHODS = {
     n: METHOD_TABLE[n].number for n in ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
@@ -104,6 +105,80 @@ def test_errors_add_up_to_the_tolerance() -> None:
         assert 0.1 * tolerance < fields.error_sum <= tolerance
         assert fields.forced == 0
         assert fields.forced_error == 0.0
+
+
+def test_the_error_of_a_tolerance_that_cannot_be_kept_is_told() -> None:
+    """Steps of index three are not made shorter than a part of the time scale: there they err by too much."""
+    fields = control(1e-16)
+    start(pendulum()).control_run(fields, None, 2.0, 50, np.empty(0), None, None, 0)
+    assert 0 < fields.forced <= fields.accepted
+    assert 1e-16 < fields.forced_error <= fields.error_sum
+
+
+def constant_force() -> SystemBuilder:
+    """Free fall, which every method follows exactly."""
+    return SystemBuilder(np.array([[1.0]]), [0.0], gravity=[-9.81])
+
+
+def test_the_last_two_steps_share_what_is_left() -> None:
+    fields = control(h=0.3, longest=0.3)
+    run(start(constant_force()), fields, np.array([1.0]), t_end=1.0)
+    assert fields.accepted == 4
+    assert fields.smallest == pytest.approx(0.2, rel=1e-9)
+
+
+def test_step_sizes_follow_the_controller_of_gustafsson() -> None:
+    """h1 / h0 = (AIM / e1)^(0.7 k) (e0 / AIM)^(0.4 k), k = 1 / (order + 1), with e the part of what a step may err."""
+    tolerance, span, k, aim = 1e-4, 2.0, 1.0 / 3.0, 0.4
+    instance, fields = start(pendulum()), control(tolerance, span, h=0.002)
+    nothing, parts, sizes = np.empty(0), [], []
+    for _ in range(20):
+        time, error = instance.time, fields.error_sum
+        instance.control_run(fields, None, span, 1, nothing, None, None, 0)
+        tried = instance.time - time
+        parts.append((fields.error_sum - error) * span / (tolerance * tried))
+        sizes.append(fields.h / tried)
+    checked = 0
+    for last, part, ratio in zip(parts[1:], parts[2:], sizes[2:], strict=False):  # before, errors are round-off
+        assert ratio == pytest.approx((aim / part) ** (0.7 * k) * (last / aim) ** (0.4 * k), rel=1e-6)
+        checked += abs(math.log(last / part)) > 0.02  # where the two errors differ, their exponents can be told apart
+    assert checked > 5
+
+
+def test_a_step_ends_where_a_guide_has_a_break() -> None:
+    """A driven coordinate whose acceleration jumps at 0.31 and 0.77 s."""
+    b = SystemBuilder(np.array([[1.0]]), [0.0], rows=[Row(0.0, {0: 1.0}, guided=[(0, 1, -1, -1, -1.0)])])
+    first, second, third = [0.0, 0.0, 1.0], [0.31**2, 0.62, 0.0], [0.31**2 + 0.62 * 0.46, 0.62, -1.0]
+    pieces = [c for piece in (first, second, third) for c in (*piece, 0.0, 0.0, 0.0)]
+    b.guides = [(GuideType.OF_TIME, -1, [3.0, 0.0, 0.31, 0.77, 2.0, *pieces])]
+    instance, fields, ends = start(b), control(1e-2, 1.0), []
+    while instance.time < 1.0:
+        instance.control_run(fields, None, 1.0, 1, np.empty(0), None, None, 0)
+        ends.append(instance.time)
+    assert 0.31 in ends
+    assert 0.77 in ends
+    assert ends[-1] == 1.0
+
+
+def test_velocities_err_by_their_part_of_the_rate() -> None:
+    """In a step from rest the error of the velocity over a rate of 5/s, or of 10/s, is more than that of the way."""
+    errors = []
+    for rate in (5.0, 10.0):
+        fields = control(1.0, h=0.1, rate=rate)
+        start_ = start(pendulum())
+        start_.control_run(fields, None, 2.0, 1, np.empty(0), None, None, 0)
+        errors.append(fields.error_sum)
+    assert errors[0] == pytest.approx(2.0 * errors[1], rel=1e-9)
+
+
+@pytest.mark.parametrize("method", ["ali3p", "radau_5", "runge_kutta_8"])
+def test_the_record_of_a_smooth_motion_needs_no_further_steps(method: str) -> None:
+    """The polynomial of a step agrees with the equations of motion between its ends."""
+    instance, fields, times = start(pendulum(), METHODS[method]), control(1e-3), np.linspace(0.0, 2.0, 201)[1:]
+    sensors, positions = run(instance, fields, times)
+    assert fields.side_steps == 0
+    np.testing.assert_allclose(sensors[:, :2], positions, rtol=0, atol=0)
+    np.testing.assert_allclose(np.hypot(*positions.T), 1.0, rtol=0, atol=1e-4)
 
 
 def test_the_report_counts_accepted_halves_only() -> None:

@@ -113,6 +113,56 @@ def test_a_norm_has_two_or_three_components_and_an_order_below_two(integers: lis
     assert "'sen_int'" in refused(builder.to_bytes())
 
 
+def with_changes(**changes: dict[int, int]) -> bytes:
+    """The System of `everything` with other integers at places of arrays."""
+    arrays = everything().arrays()
+    for name, values in changes.items():
+        array = np.array(arrays[name])
+        for place, value in values.items():
+            array[place] = value
+        arrays[name] = array
+    return pack(arrays)
+
+
+def test_places_in_fronts_are_those_of_their_coordinates() -> None:
+    """Wrong numbers within the range: nothing else would notice them."""
+    arrays = {name: np.array(values).tolist() for name, values in everything().arrays().items() if name != "meta"}
+    ptr, idx, places = arrays["front_ptr"], arrays["front_idx"], arrays["front_map"]
+    first, pivots = ptr[0], arrays["front_col"][1]
+    a, b = first + pivots, first + pivots + 1  # two coordinates of the first front that its parent has too
+    assert b < ptr[1]
+    swapped = {"front_idx": {a: idx[b], b: idx[a]}, "front_map": {a: places[b], b: places[a]}}
+    assert "the coordinates of front 0 do not ascend" in refused(with_changes(**swapped))
+    assert "of front 0 is not in its parent" in refused(with_changes(front_map={a: places[b]}))
+    assert "of element 0 is not in front" in refused(with_changes(el_loc={0: arrays["el_loc"][1]}))
+    size = arrays["row_ptr"][1]
+    assert f"of a row with {size}" in refused(with_changes(quad_a={0: size}))
+    assert "'sig_ptr' decreases at item 1" in refused(with_changes(sig_ptr={1: 5}))
+
+
+def test_numbers_that_no_model_has_are_refused_by_name() -> None:
+    def other(name: str, value: float) -> bytes:
+        arrays = everything().arrays()
+        arrays[name] = [value, *list(arrays[name])[1:]]  # type: ignore[call-overload]
+        return pack(arrays)
+
+    assert "the mass of coordinate 0 is -1" in refused(other("mass_val", -1.0))
+    for value in (-1.0, 1001.0):
+        assert f"parameter 0 is {value:g}, outside its range" in refused(other("par_value", value))
+
+
+def test_the_directory_names_each_array_once_and_inside_the_file() -> None:
+    data = everything().to_bytes()
+    count = int.from_bytes(data[12:16], "little")
+    twice = data.replace(b"qd0\0", b"q0\0\0", 1)
+    assert "array 'q0' appears twice" in refused(seal(twice, count))
+    at = 32 + 64 * list(everything().arrays()).index("meta")  # 40 bytes of name, 8 of type, 8 of offset, 8 of count
+    offset = int.from_bytes(data[at + 48 : at + 56], "little")
+    beyond = bytearray(data)
+    beyond[at + 56 : at + 64] = (len(data) - offset + 1).to_bytes(8, "little")
+    assert "array 'meta' lies outside the file" in refused(seal(bytes(beyond), count))
+
+
 def test_every_truncation_is_refused() -> None:
     data = everything().to_bytes()
     for n in [*range(0, 200), *range(200, len(data), 97), len(data) - 1]:

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.header import ElementType, GuideType
 
 from .scenes import GRAVITY, everything, four_bar, pendulum
 from .system_builder import Element, Row, SystemBuilder, distance_row
@@ -205,6 +206,31 @@ def test_numbers_that_overflow_are_refused_before_they_reach_the_state() -> None
         instance.step(0.01)
     assert refusal.value.status in (binding.Status.NOT_FINITE, binding.Status.SINGULAR, binding.Status.NOT_CONVERGED)
     assert np.isfinite(np.array(instance.get_state()[1])).all()
+
+
+def test_an_energy_that_overflows_is_refused_and_the_state_stays() -> None:
+    """Positions, velocities and forces are finite after the step; the energy of the spring, k x^2 / 2, is not."""
+    b = SystemBuilder(np.array([[1.0]]), [0.0], [1e153])
+    b.elements = [Element(ElementType.SCALAR_SPRING_DAMPER, [b.signal({0: 1.0})], [1e-4, 0.0, 0.0, 0.0], outputs=1)]
+    instance = start(b, tolerance_r=1e150)
+    before = [bytes(part) for part in instance.get_state()]
+    with pytest.raises(KernelError) as refusal:
+        instance.step(100.0)
+    assert refusal.value.status == binding.Status.NOT_FINITE
+    assert [bytes(part) for part in instance.get_state()] == before
+
+
+def test_rates_of_a_filter_that_overflow_are_refused() -> None:
+    """Of a guide that no row has: nothing else of the step sees them."""
+    b = pendulum()
+    b.inputs, b.guides = [(0.0, -1.0, 1.0)], [(GuideType.OF_INPUT, 0, [1e200, 1.0, 0.0])]
+    instance = start(b)
+    instance.set_input(0, 0.5)
+    before = [bytes(part) for part in instance.get_state()]
+    with pytest.raises(KernelError) as refusal:
+        instance.step(0.01)
+    assert refusal.value.status == binding.Status.NOT_FINITE
+    assert [bytes(part) for part in instance.get_state()] == before
 
 
 def test_a_coordinate_without_mass_and_row_is_called_singular() -> None:

@@ -64,6 +64,19 @@ def test_the_start_velocity_is_the_nearest_in_the_metric_of_the_mass_and_the_pos
     np.testing.assert_allclose(qd, b.qd0 - weight @ np.linalg.solve(J @ weight, J @ b.qd0), atol=1e-9)
 
 
+def test_closing_a_position_rolls_nothing() -> None:
+    """The vector of the body comes to unit length, and turns, by its mass; body and wheel stay where they are."""
+    b = sleigh()
+    b.mass[3, 3] = 2.0
+    instance = Instance(LoadedSystem(b.to_bytes()))
+    instance.set_q([0.3, 0.1, 1.2, 0.9, 0.4])
+    instance.initialise(0.0)
+    x, y, along, across, angle = instance.get_state()[0]
+    assert (x, y, angle) == pytest.approx((0.3, 0.1, 0.4), abs=1e-12)
+    assert np.hypot(along, across) == pytest.approx(1.0, abs=1e-9)
+    assert abs(0.8 * across - 0.6 * along) > 0.01
+
+
 @pytest.mark.parametrize("method", ROLLING)
 def test_a_restored_state_continues_bit_for_bit(method: str) -> None:
     instance = started(method)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import PPoly
 
-from mbs import Model, Simulation, simulate
+from mbs import Model, Simulation, System, compile, simulate
 from mbs.elements.spring_damper import EndStops
 
 
@@ -99,3 +99,16 @@ def assert_saved_state_continues(system, settings):
     second.restore(first.save())
     second.run(1.0, 0.02)
     assert whole.save()[64:] == second.save()[64:]
+
+
+def sliding_mass(stiffness: float, damping: float, start: float, speed: float) -> System:
+    """A mass on a line, its coordinate tied to zero."""
+    m = Model("mass", dimension=2, gravity=(0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(start, 0.0))
+    m.initial_velocity(mass, linear=(speed, 0.0))
+    along = mass.point(None).components[0]
+    m.torsional_spring_damper("tie", along, stiffness=stiffness, damping=damping, free_angle=0.0)
+    m.sense_position("x", mass, None, "x")
+    m.sense_velocity("v", mass, None, "x")
+    m.sense_energy("energy", "total")
+    return compile(m)

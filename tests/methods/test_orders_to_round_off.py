@@ -9,8 +9,9 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.baselines.lagrange import Lagrange
 from benchmarks.baselines.mechanism import Mechanism
-from mbs import Settings, compile, simulate
+from mbs import Settings, Simulation, compile, simulate
 from mbs.scenes import bricard, double_four_bar, flyball, pendulum, squeezer
+from tests.methods.models import sliding_mass
 from tests.methods.test_order import fitted
 
 END = {"squeezer": 0.025, "bricard": 2.0, "pendulum": 2.0}
@@ -121,3 +122,15 @@ def test_a_singular_position_is_crossed_with_the_order_of_radau():
     ]
     assert found[2] < 2e-11
     assert found[0] > 20.0 * found[1] > 400.0 * found[2]
+
+
+def test_a_step_of_order_four_is_five_midpoint_steps():
+    """Of an oscillator: the product of (1 + w z/2) / (1 - w z/2), z = i omega h, over the shares w of Suzuki (1990)."""
+    omega, h, outer = 2.0, 0.5, 1.0 / (4.0 - 4.0 ** (1.0 / 3.0))
+    tight = Settings(method="energy_momentum_4", tolerance_r=1e-14, tolerance_phi=1e-14)
+    simulation = Simulation(sliding_mass(omega**2, 0.0, 0.3, -0.4), settings=tight)
+    z = 0.5j * omega * h * np.array([outer, outer, 1.0 - 4.0 * outer, outer, outer])
+    value = (0.3 + 0.4j / omega) * np.prod((1.0 + z) / (1.0 - z))  # x - i v / omega goes as exp(i omega t)
+    simulation.step(h)
+    found = simulation.sensors
+    assert (found["x"], -found["v"] / omega) == pytest.approx((value.real, value.imag), abs=1e-11)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbs import Settings, Simulation, compile, simulate
-from mbs.scenes import bricard, double_four_bar, spatial_chain
+from mbs.scenes import bricard, double_four_bar, pendulum, spatial_chain
 
 PAPER = Settings(predictor="acceleration")
 SAME_MOTION = 1e-3  # m of 2 m: both are within the tolerance of the same step
@@ -38,6 +38,19 @@ def test_large_steps_need_hardly_more_iterations_and_no_halves(loop, h):
     _, (report, paper) = both(loop, LONG, h)
     assert report.halvings == paper.halvings == 0
     assert report.iterations < 1.1 * paper.iterations
+
+
+def test_steps_that_past_ones_do_not_foretell_take_the_start_value_of_the_paper():
+    """Eight steps a second of loops that pass a singular position: a parabola through the past costs a tenth more."""
+    _, (report, paper) = both(compile(double_four_bar.build()), 4.0, 0.125)
+    assert report.iterations <= 1.02 * paper.iterations
+
+
+def test_energy_momentum_foretells_a_smooth_motion_to_one_iteration_a_step():
+    """From two, three and four past steps."""
+    settings = Settings(method="energy_momentum")
+    report = simulate(compile(pendulum.build()), 2.0, 0.01, settings=settings, progress=False).report
+    assert report.iterations < 1.1 * report.steps
 
 
 def test_a_thousand_loops_pass_a_singular_position_in_small_steps():

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import bricard, double_four_bar, flyball, prototype_car
-from tests.methods.models import assert_saved_state_continues, driven, end, hinge, swing
+from tests.methods.models import assert_saved_state_continues, driven, end, hinge, sliding_mass, swing
 
 NAME = "radau_5"
 TIGHT = Settings(method=NAME, tolerance_r=1e-13, tolerance_phi=1e-13)
@@ -22,19 +22,6 @@ def order(system, names, t_end, steps, settings=TIGHT):
     return np.polyfit(np.log(steps), np.log(errors), 1)[0], errors[-1]
 
 
-def sliding_mass(stiffness, damping, start, speed):
-    """A mass on a line, its coordinate tied to zero."""
-    m = Model("mass", dimension=2, gravity=(0.0, 0.0))
-    mass = m.point_mass("mass", mass=1.0, position=(start, 0.0))
-    m.initial_velocity(mass, linear=(speed, 0.0))
-    along = mass.point(None).components[0]
-    m.torsional_spring_damper("tie", along, stiffness=stiffness, damping=damping, free_angle=0.0)
-    m.sense_position("x", mass, None, "x")
-    m.sense_velocity("v", mass, None, "x")
-    m.sense_energy("energy", "total")
-    return compile(m)
-
-
 def crank_with_a_motor():
     m = Model("crank", dimension=2)
     crank = m.body("crank", mass=2.0, com=(0.5, 0.0), inertia=0.16)
@@ -43,6 +30,18 @@ def crank_with_a_motor():
     m.torque_on("motor", angle, input=m.input("torque", unit="N m"))
     m.sense_coordinate("angle", angle)
     return compile(m)
+
+
+def test_a_step_of_a_damped_oscillator_is_that_of_its_stability_function():
+    """R(Z) = (1 - 3 Z/5 + 3 Z^2/20 - Z^3/60)^-1 (1 + 2 Z/5 + Z^2/20), Z = h A (Hairer, Wanner, IV.5)."""
+    stiffness, damping, h = 4.0, 1.5, 0.5
+    simulation = Simulation(sliding_mass(stiffness, damping, 0.3, -0.4), settings=TIGHT)
+    Z, value, one = h * np.array([[0.0, 1.0], [-stiffness, -damping]]), np.array([0.3, -0.4]), np.eye(2)
+    R = np.linalg.solve(one - 0.6 * Z + 0.15 * Z @ Z - Z @ Z @ Z / 60.0, one + 0.4 * Z + Z @ Z / 20.0)
+    for _ in range(4):
+        simulation.step(h)
+        value = R @ value
+        assert [simulation.sensors[name] for name in ("x", "v")] == pytest.approx(value, abs=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -56,6 +56,16 @@ def test_a_point_is_held_where_it_is_and_let_go(system, method):
     assert again["pin.fy"][-1] == 0.0
 
 
+def test_a_pin_that_closes_before_the_start_holds_what_the_drawing_says(system):
+    """Not the point where the bodies stand when it closes: that is the start's to find."""
+    simulation = Simulation(system)
+    simulation.instance.reset()
+    simulation.instance.set_q(list(system.arrays["q0"] + 0.01), [0.0] * system.nq)
+    simulation.instance.set_switch(0, True)
+    simulation.instance.initialise(0.0)
+    assert [simulation.sensors[f"tip.{c}"] for c in "xy"] == pytest.approx(TIP, abs=1e-9)
+
+
 def test_the_impact_is_the_one_of_least_kinetic_energy_lost(system):
     """Gauss: the projection is orthogonal in the mass metric, T_before = T_after + T_of the velocity taken."""
     simulation = Simulation(system)

@@ -72,6 +72,19 @@ def test_a_motor_of_constant_torque_gives_torque_times_angle(method):
     assert run["energy"] - run["energy"][0] == pytest.approx(run["work"], rel=4e-3, abs=4e-3)
 
 
+def test_another_method_goes_on_with_the_force_that_there_was():
+    """The torque goes straight from 4 to 8 N m in the first step of the trapezoidal rule, so that its mean is 6 N m."""
+    simulation = Simulation(motor_model(), settings=Settings(method="radau_5"))
+    simulation.set_input("torque", 4.0)
+    simulation.step(0.01, 20)
+    before = simulation.sensors
+    simulation.set_input("torque", 8.0)
+    simulation.instance.set_settings(**Settings(method="ali3p").kernel_fields())
+    simulation.step(0.01)
+    after = simulation.sensors
+    assert after["work"] - before["work"] == pytest.approx(6.0 * (after["angle"] - before["angle"]), rel=1e-9)
+
+
 def test_a_turned_torque_takes_work():
     run = simulate(motor_model(), 1.0, 0.01, {"torque": lambda t: 4.0 if t < 0.5 else -4.0}, **QUIET)
     at = np.argmax(run["work"])

@@ -148,6 +148,19 @@ def test_the_sensor_of_the_status_tells_it_from_then_on() -> None:
     assert np.all(run["solver.status"][~after] == 0.0)
 
 
+@pytest.mark.filterwarnings("ignore::mbs.accuracy.AccuracyWarning")  # steps long for what they show
+def test_the_first_change_is_the_one_that_is_told(thrown: System) -> None:
+    """It comes back and turns over again: the count goes on, loop, triad and time are those of the first."""
+    simulation, told = Simulation(thrown), {}
+    for _ in range(250):
+        simulation.step(2e-3)
+        report = simulation.report
+        told.setdefault(report.branch_changes, (simulation.branch_change, report.branch_time))
+    assert max(told) >= 2
+    assert told[1] == told[2]
+    assert told[1][1] == pytest.approx(0.094)
+
+
 def test_watching_changes_no_bit(defect: System) -> None:
     for system, t_end, h in ((defect, 3.0, 0.05), (compile(double_four_bar.build()), 5.0, 0.01)):
         with warnings.catch_warnings():
