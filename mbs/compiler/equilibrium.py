@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.checks import number
 from mbs.errors import ModelError
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, open_row
 from mbs.system import System
@@ -41,6 +42,10 @@ def equilibrium(system: System, parameters: Mapping[str, float]) -> NDArray[np.f
         raise ModelError(
             f"The equilibrium of '{system.meta['name']}' sets '{unknown[0]}', which is no parameter of it."
         )
+    for name, value in parameters.items():
+        entry, what = system.meta["parameters"][names.index(name)], f"The parameter '{name}' of the equilibrium"
+        if not entry["min"] <= number(value, what) <= entry["max"]:
+            raise ModelError(f"{what} is {value:g}; it must lie between {entry['min']:g} and {entry['max']:g}.")
     try:
         for name, value in parameters.items():
             instance.set_parameter(names.index(name), value)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from mbs.affine import Affine
-from mbs.checks import instance_of, is_number, shown
+from mbs.checks import flag, instance_of, is_number, mapping, shown
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
@@ -176,10 +176,11 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [remaining[k] for k in order]), length)
     report["length"], report["length_stated"] = length, model.length is not None
     system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths), frames)
-    if not model.start_in_equilibrium:
+    if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
         return system
-    q = equilibrium(system, model.equilibrium_parameters)
-    tables.update(start_arrays(system, model.equilibrium_parameters))
+    parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
+    q = equilibrium(system, parameters)
+    tables.update(start_arrays(system, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
     return System(tables, system.meta, frames)
 

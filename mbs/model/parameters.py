@@ -66,6 +66,8 @@ def new_parameter(
     what = f"parameter {shown(name)}"
     start = number(value, f"The value of {what}")
     low, high = number(min, f"The min of {what}"), number(max, f"The max of {what}")
+    if low > high:
+        raise ModelError(f"The {what} has the limits {low:g} and {high:g}; min must not be above max.")
     if not low <= start <= high:
         raise ModelError(f"The {what} is {start:g}, which is not between its limits {low:g} and {high:g}.")
     if not isinstance(targets, (list, tuple)) or not targets:

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from mbs import Model, ModelError, Simulation, compile
+from mbs import ArgumentTypeError, Model, ModelError, Simulation, compile
 from mbs.scenes import bricard, double_four_bar
 
 CLOSED = 1e-9
@@ -104,8 +104,32 @@ def test_a_model_that_cannot_move_or_has_no_bodies_is_refused():
 def test_a_start_that_has_no_equilibrium_is_refused_by_name():
     m = Model("falling", dimension=2)
     m.body("stone", mass=2.0, com=(0, 0), inertia=1.0)
+    m.start_in_equilibrium = "no"  # type: ignore[assignment]
+    with pytest.raises(
+        ModelError, match="The start_in_equilibrium of model 'falling' is 'no'; it must be True or False"
+    ):
+        compile(m)
     m.start_in_equilibrium = True
     with pytest.raises(ModelError, match=r"'falling' has no static equilibrium .*'stone\.ry' .* by 19\.6 N"):
+        compile(m)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "sentence"),
+    [
+        ({"k": "60"}, "The parameter 'k' of the equilibrium must be a number, not '60'"),
+        ({"k": 1e9}, r"The parameter 'k' of the equilibrium is 1e\+09; it must lie between 50 and 200"),
+        ({"c": 60.0}, "sets 'c', which is no parameter of it"),
+        ("k", "The equilibrium_parameters of a model must map names to values, not 'k'"),
+    ],
+)
+def test_a_wrong_parameter_of_the_equilibrium_is_named(parameters, sentence):
+    m = Model("hanging", dimension=2)
+    mass = m.point_mass("mass", mass=1.0, position=(0, -1))
+    springs = [m.spring_damper(f"spring {x}", (m.ground, (x, 0)), mass, stiffness=100.0) for x in (-1.0, 1.0)]
+    m.parameter("k", 100.0, 50.0, 200.0, targets=[(springs[0], "stiffness", 1.0)])
+    m.start_in_equilibrium, m.equilibrium_parameters = True, parameters
+    with pytest.raises((ModelError, ArgumentTypeError), match=sentence):
         compile(m)
 
 

@@ -69,6 +69,9 @@ def test_limits_of_an_input_are_in_order():
         Model("a").input("rack", min=2.0, max=1.0)
     with pytest.raises(ModelError, match="starts at 0, which is not between its limits 1 and 2"):
         Model("a").input("rack", min=1.0, max=2.0)
+    m = rack_and_lever()
+    with pytest.raises(ModelError, match="parameter 'gain' has the limits 2 and 1; min must not be above max"):
+        m.parameter("gain", 1.5, 2.0, 1.0, targets=[])
 
 
 def test_only_one_end_may_slide():
