@@ -32,7 +32,7 @@ _SOLVER = (
         6,
         "J",
         False,
-        "Energy that the steps have made or lost since the start where no force did",
+        "Violation of the energy balance since the start: energy that the steps have made or lost where no force did",
     ),
     (
         *("solver.energy_balance", 7, "1", False),

@@ -113,8 +113,8 @@ def judged_sensors(system: System) -> dict[str, list[str]]:
             or (rate and unit in RATES)
         ):
             found.setdefault(unit, []).append(sensor["name"])
-    kept = LENGTHS if any(unit in found for unit in ("m", "rad")) else (*RATES, *LENGTHS)
-    return {unit: names for unit, names in found.items() if unit in kept}
+    units = LENGTHS if any(unit in found for unit in ("m", "rad")) else (*RATES, *LENGTHS)
+    return {unit: names for unit, names in found.items() if unit in units}
 
 
 def has_motion_sensor(system: System) -> bool:

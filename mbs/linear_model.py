@@ -194,8 +194,8 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     A[places:both, :both] -= V.T @ M @ frame.G @ velocities
     A[both:] = slope[len(state.q) :]
     lively = [i for i in range(len(slots)) if np.abs(A[both + i]).max() > STATE_TOLERANCE]
-    kept = [*range(both), *(both + i for i in lively)]
-    A = A[np.ix_(kept, kept)]
+    chosen = [*range(both), *(both + i for i in lively)]
+    A = A[np.ix_(chosen, chosen)]
     names = tuple(simulation.system.meta["coordinates"])
     return LinearModel(A, P, tuple(slots[i] for i in lively), names, _modes(A, P), tuple(frame.turning.tolist()))
 

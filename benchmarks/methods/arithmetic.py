@@ -99,6 +99,6 @@ def operations(system: mbs.System, iterations: float, factorizations: float, sol
 
 
 def resident() -> int:
-    """Resident memory of this process, bytes; 0 where the system does not tell."""
+    """Resident memory of this process, bytes; 0 where the system does not give it."""
     statm = Path("/proc/self/statm")
     return int(statm.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") if statm.is_file() else 0

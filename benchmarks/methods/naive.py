@@ -13,8 +13,8 @@ from benchmarks.shared.timing import step_time
 from mbs import Model, Simulation, compile
 from mbs.checks import direction
 from mbs.model.body import Body
-from mbs.model.checks import perpendicular
 from mbs.model.joints.joint import Joint
+from mbs.model.perpendicular import perpendicular
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin
 from mbs.scenes import double_four_bar, prototype_car
@@ -37,7 +37,7 @@ class NaiveModel(Model):
 
     def _join(self, joint: Joint) -> Joint:
         whole = WholeJoint(joint.name, joint.type, joint.equations, joint.rows_weight)
-        whole.keep = True
+        whole.as_rows = True
         return super()._join(whole)
 
     def distance(self, name: str, end_1: Any, end_2: Any, *, length: float | None = None) -> Joint:

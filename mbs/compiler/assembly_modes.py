@@ -26,8 +26,8 @@ from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.tables import Signals, ragged
 from mbs.compiler.trace import TURN, trace
 from mbs.compiler.triads import Triad, triads
-from mbs.model.checks import perpendicular
 from mbs.model.model import Model
+from mbs.model.perpendicular import perpendicular
 
 Array = NDArray[np.float64]
 

@@ -31,21 +31,21 @@ def independent_rows(rows: list[RowTerms], joints: Mapping[str, Sequence[str]]) 
 
     `joints` are the names of the joints at each body, for the message where rows contradict each other.
     """
-    keep: set[int] = set()
+    chosen: set[int] = set()
     normal: dict[int, dict[Monomial, float]] = {}
     for i, row in enumerate(rows):
         if not row.plain:
-            keep.add(i)  # angle and guide rows bring a variable of their own, switched rows are on or off
+            chosen.add(i)  # angle and guide rows bring a variable of their own, switched rows are on or off
             continue
         size = max((abs(v) for m, v in row.main.items() if m != CONSTANT), default=0.0)
         if size == 0.0:
             _must_vanish([row], row.main.get(CONSTANT, 0.0), joints)
             continue
         normal[i] = {m: v / size for m, v in row.main.items()}
-    remaining = _peel(normal, keep)
+    remaining = _peel(normal, chosen)
     for group in _groups(remaining, normal):
-        keep.update(_independent(group, normal, rows, joints))
-    return [row for i, row in enumerate(rows) if i in keep], len(rows) - len(keep)
+        chosen.update(_independent(group, normal, rows, joints))
+    return [row for i, row in enumerate(rows) if i in chosen], len(rows) - len(chosen)
 
 
 def _must_vanish(
@@ -62,8 +62,8 @@ def _must_vanish(
     )
 
 
-def _peel(normal: dict[int, dict[Monomial, float]], keep: set[int]) -> set[int]:
-    """Move rows that own a monomial to `keep` until none is left that does; return the rest."""
+def _peel(normal: dict[int, dict[Monomial, float]], chosen: set[int]) -> set[int]:
+    """Move rows that own a monomial to `chosen` until none is left that does; return the rest."""
     users: dict[Monomial, set[int]] = defaultdict(set)
     for i, row in normal.items():
         for m in row:
@@ -79,7 +79,7 @@ def _peel(normal: dict[int, dict[Monomial, float]], keep: set[int]) -> set[int]:
         if abs(normal[i][m]) < OWNED:
             continue
         remaining.discard(i)
-        keep.add(i)
+        chosen.add(i)
         for other in normal[i]:
             if other != CONSTANT:
                 users[other].discard(i)

@@ -28,7 +28,7 @@ class Elimination:
 
     Attributes
     ----------
-    kept : list of int
+    remaining : list of int
         Full coordinates that stay: z.
     expressions : list of Affine
         Every full coordinate as an expression of z (terms count in z).
@@ -38,7 +38,7 @@ class Elimination:
         Numbers of the equations between coordinates that stay, as expressions of z.
     """
 
-    kept: list[int]
+    remaining: list[int]
     expressions: list[Affine]
     redundant: int
     left: list[tuple[int, Affine]]
@@ -74,7 +74,7 @@ def eliminate(
     A point q1 = q0 + 0.5, and q2 = 2 q1:
 
     >>> found = eliminate(3, [("a", Affine({0: 1.0, 1: -1.0}, 0.5)), ("b", Affine({1: 2.0, 2: -1.0}))], set(), set())
-    >>> found.kept
+    >>> found.remaining
     [1]
     >>> [(dict(e.terms), e.constant) for e in found.expressions]
     [({0: 1.0}, -0.5), ({0: 1.0}, 0.0), ({0: 2.0}, 0.0)]
@@ -155,8 +155,8 @@ def eliminate(
     redundant = len(empty)
 
     by_column = {j: i for i, j in solved.items()}
-    kept = [j for j in range(n) if j not in by_column]
-    number = {j: k for k, j in enumerate(kept)}
+    remaining = [j for j in range(n) if j not in by_column]
+    number = {j: k for k, j in enumerate(remaining)}
     expressions = []
     for j in range(n):
         if j in number:
@@ -168,4 +168,4 @@ def eliminate(
                 Affine({number[k]: -v for k, v in rows[i].items()}, constant if abs(constant) > DROP * scale else 0.0)
             )
     over = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(left)]
-    return Elimination(kept, expressions, redundant, over)
+    return Elimination(remaining, expressions, redundant, over)

@@ -32,7 +32,7 @@ def reduce_coordinates(
 
     Returns
     -------
-    kept : list of int
+    remaining : list of int
         Natural coordinates that are z.
     full : list of Affine
         Each coordinate of the model (centre of mass, unit axes) as an expression of z.
@@ -53,7 +53,7 @@ def reduce_coordinates(
     for i, over in result.left:
         terms = {(j, -1): v for j, v in over.terms.items()} | {(-1, -1): over.constant}
         left.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
-    return result.kept, full, result.expressions, result.redundant, left
+    return result.remaining, full, result.expressions, result.redundant, left
 
 
 def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, Array]:

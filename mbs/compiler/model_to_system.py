@@ -89,7 +89,9 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     """The System of a model whose loops are closed; `closed` is for its report."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
-    kept, full, of_z, redundant, left = reduce_coordinates(natural, linear, model.grounded, flexible_coordinates(model))
+    remaining, full, of_z, redundant, left = reduce_coordinates(
+        natural, linear, model.grounded, flexible_coordinates(model)
+    )
     candidates = [row_terms(e, j, k, full) for j, k, e in others]
     for row in candidates:
         switch = model.joints[row.joint].switch
@@ -97,10 +99,10 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     candidates += left
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
     rows, dependent = independent_rows(candidates, joints_of_bodies(model))
-    if not kept:
+    if not remaining:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
-    T, z0 = transformation(full, len(kept))
+    T, z0 = transformation(full, len(remaining))
     M_full = full_mass(model)
     mass = symmetric(T.T @ M_full @ T)
     fronts, tangent_nonzeros = _symbolic(model, rows, full, mass)
@@ -116,7 +118,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     placing = [row for row in holding if not row.rates]
     shape = start if len(placing) == len(holding) else RowArrays(placing, new)
     stiffness = deformation_metric(model, full, new)
-    drawn = reference_position(model, natural, kept, T, z0, M_full)[order]
+    drawn = reference_position(model, natural, remaining, T, z0, M_full)[order]
     q = close_position(placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
     qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
     _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
@@ -130,7 +132,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     signals = Signals(full, new)
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
-    tree, no_tree = tree_arrays(model, signals, kept, new)
+    tree, no_tree = tree_arrays(model, signals, remaining, new)
     modes = mode_arrays(model, holding, full, q[new], guides, signals)
     tables: dict[str, Any] = {
         "q0": q,
@@ -152,11 +154,11 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         **sensor_arrays(model, signals, row_of),
         **channel_arrays(model),
         **flexible_arrays(model, full, new, locate),
-        **pose_arrays(model, natural, kept, of_z, q[new], order),
+        **pose_arrays(model, natural, remaining, of_z, q[new], order),
         **tree,
         **modes,
         **start_arrays(None, {}),
-        "pose_partner": pose_partners(model, natural, kept, of_z, signals, order),
+        "pose_partner": pose_partners(model, natural, remaining, of_z, signals, order),
         **signals.arrays(),
     }
     report = {
@@ -169,16 +171,16 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         "closed": closed,
     }
     frames = frames_of(model, T[:, order], z0)
-    info = [natural.info[kept[k]] for k in order]
+    info = [natural.info[remaining[k]] for k in order]
     length = model_length(model)
-    lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [kept[k] for k in order]), length)
+    lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [remaining[k] for k in order]), length)
     report["length"], report["length_stated"] = length, model.length is not None
     system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths), frames)
     if not model.start_in_equilibrium:
         return system
     q = equilibrium(system, model.equilibrium_parameters)
     tables.update(start_arrays(system, model.equilibrium_parameters))
-    tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, kept, of_z, q[new], order))
+    tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
     return System(tables, system.meta, frames)
 
 
@@ -186,12 +188,12 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
     """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
     linear, others = [], []
     for j, joint in enumerate(model.joints):
-        kept = {*(joint.force_equations if joint.keep else []), *joint.turning_equations}
+        as_rows = {*(joint.force_equations if joint.as_rows else []), *joint.turning_equations}
         replaced = set(joint.replaced_equations)
         for k, equation in enumerate(joint.equations):
             if k in replaced:
                 continue
-            if equation.is_linear and k not in kept:
+            if equation.is_linear and k not in as_rows:
                 linear.append(equation)
             else:
                 others.append((j, k, equation))

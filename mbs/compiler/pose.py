@@ -20,7 +20,7 @@ NAMES = ("pose_0", "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_s
 
 
 def pose_arrays(
-    model: Model, natural: NaturalCoordinates, kept: Sequence[int], of_z: Sequence[Affine], q: Array, order: Index
+    model: Model, natural: NaturalCoordinates, remaining: Sequence[int], of_z: Sequence[Affine], q: Array, order: Index
 ) -> dict[str, Array]:
     """The `pose_` arrays in elimination order; empty unless the model floats.
 
@@ -30,7 +30,7 @@ def pose_arrays(
     Parameters
     ----------
     q : ndarray
-        Position of z to be moved, in the order of `kept`.
+        Position of z to be moved, in the order of `remaining`.
     order : ndarray
         Elimination order.
     """
@@ -46,10 +46,10 @@ def pose_arrays(
         raise ModelError(
             f"The model '{model.name}' is declared floating, but joints tie it to the ground (coordinate '{tied[0]}')."
         )
-    arrays = {name: np.zeros(len(kept)) for name in NAMES}
+    arrays = {name: np.zeros(len(remaining)) for name in NAMES}
     spins = {s.index: s for s in model.spins}
     value = full_values(of_z, q)
-    for k, i in enumerate(kept):
+    for k, i in enumerate(remaining):
         info = natural.info[i]
         if info.kind == "spin":
             wheel = spins[i]
@@ -72,7 +72,7 @@ def pose_arrays(
 def pose_partners(
     model: Model,
     natural: NaturalCoordinates,
-    kept: Sequence[int],
+    remaining: Sequence[int],
     of_z: Sequence[Affine],
     signals: Signals,
     order: Index,
@@ -81,8 +81,8 @@ def pose_partners(
 
     With it a pose can move a scene from another position than the one the `pose_` arrays were made at.
     """
-    partners = np.zeros(len(kept), dtype=np.int64)
-    for k, i in enumerate(kept):
+    partners = np.zeros(len(remaining), dtype=np.int64)
+    for k, i in enumerate(remaining):
         info = natural.info[i]
         if info.kind not in ("spin", "angle", "mode") and info.component < 2:
             other = of_z[i - info.component + 1 - info.component]

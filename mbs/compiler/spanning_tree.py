@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.model.body import Body
-from mbs.model.checks import perpendicular
 from mbs.model.joints.joint import Joint, JointPlaces
 from mbs.model.model import Model
+from mbs.model.perpendicular import perpendicular
 
 Array = NDArray[np.float64]
 

@@ -23,14 +23,14 @@ Index = NDArray[np.int64]
 def reference_position(
     model: Model,
     natural: NaturalCoordinates,
-    kept: list[int],
+    remaining: list[int],
     T: sparse.csr_matrix,
     z0: Array,
     M_full: sparse.csr_matrix,
 ) -> Array:
     """z of the reference configuration; where the drawing does not close, the nearest one in the metric of the mass."""
     reference = np.array([c.reference for c in model.coordinates])
-    z = np.array([natural.info[i].reference for i in kept])
+    z = np.array([natural.info[i].reference for i in remaining])
     if np.max(np.abs(T @ z + z0 - reference)) > 1e-9:
         M = M_full + sparse.diags(np.where(M_full.diagonal() > 0.0, 0.0, 1.0))
         z = spsolve((T.T @ M @ T).tocsc(), T.T @ (M @ (reference - z0)))

@@ -1,5 +1,5 @@
-"""The motion of a block of closed loops with one freedom, once around: predictor along the tangent, corrector to the
-rows. At a singular position the predictor goes on along the smooth branch.
+"""The motion of a block of closed loops with one freedom, once around: predictor along its direction, corrector to
+the rows. At a singular position the predictor goes on along the smooth branch.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
     def angles(at: Array) -> tuple[Array, Array]:
         return sine_cosine((offset + slope @ at).reshape(-1, 3, 3), turned)
 
-    found = _first_tangent(phi.at(x)[1], slope)
+    found = _first_direction(phi.at(x)[1], slope)
     if found is None:
         return None
     vectors = (offset + slope @ x).reshape(-1, 3, 3)
@@ -82,7 +82,7 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
             continue
         went = y - x
         length = float(np.linalg.norm(went))
-        new = _next_tangent(phi.at(y)[1], went / length)
+        new = _next_direction(phi.at(y)[1], went / length)
         if new is None:
             return None
         sines.append(s)
@@ -101,7 +101,7 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
 
 
 def _corrected(phi: Quadratics, x: Array, t: Array, tolerance: float) -> Array | None:
-    """The position on the rows across the tangent."""
+    """The position on the rows across the direction."""
     for _ in range(8):
         value, J = phi.at(x)
         move = _solved(np.vstack([J, t]), np.append(-value, 0.0))
@@ -123,7 +123,7 @@ def _solved(A: Array, b: Array) -> Array:
     return np.asarray(np.linalg.lstsq(A, b, rcond=1e-8)[0])
 
 
-def _first_tangent(J: Array, slope: Array) -> Array | None:
+def _first_direction(J: Array, slope: Array) -> Array | None:
     """The one direction in which an angle changes; turns that none sees, of a rod about itself, do not count."""
     _, values, right = np.linalg.svd(J)
     values = np.append(values, np.zeros(J.shape[1] - len(values)))
@@ -137,8 +137,9 @@ def _first_tangent(J: Array, slope: Array) -> Array | None:
     return t / np.linalg.norm(t)
 
 
-def _next_tangent(J: Array, went: Array) -> tuple[Array, float] | None:
-    """Unit tangent next to the way that was made, and the smallest singular value that is not of it, of the largest.
+def _next_direction(J: Array, went: Array) -> tuple[Array, float] | None:
+    """Unit direction of the motion next to the way that was made, and the smallest singular value that is not of it,
+    as a part of the largest.
 
     Of several directions at a singular position the one that goes straight on.
     """

@@ -42,7 +42,7 @@ NAMES = (
 
 
 def tree_arrays(
-    model: Model, signals: Signals, kept: Sequence[int], new: NDArray[np.int64]
+    model: Model, signals: Signals, remaining: Sequence[int], new: NDArray[np.int64]
 ) -> tuple[dict[str, Any], str]:
     """The `tree_` arrays; all empty, with the reason in words, where the model has no tree.
 
@@ -50,7 +50,7 @@ def tree_arrays(
     ----------
     signals : Signals
         Takes the frames of the bodies.
-    kept : sequence of int
+    remaining : sequence of int
         Natural coordinates that are z.
     new : ndarray of int
         Place of each z in elimination order.
@@ -59,16 +59,18 @@ def tree_arrays(
         groups, cuts = spanning_tree(model)
         moving = groups[1:]
         rows = sum(sum(rows_of(model, cut)) for cut in cuts)
-        angles = _angles(model, groups, kept, new)
-        if 4 * len(moving) + 1 + rows + len(angles["angle_col"]) > CARRIED * len(kept):
-            raise NoTreeError(f"{len(moving)} joints and {rows} rows of loops are many for {len(kept)} coordinates")
+        angles = _angles(model, groups, remaining, new)
+        if 4 * len(moving) + 1 + rows + len(angles["angle_col"]) > CARRIED * len(remaining):
+            raise NoTreeError(
+                f"{len(moving)} joints and {rows} rows of loops are many for {len(remaining)} coordinates"
+            )
         arrays = {
             "parent": [g.parent.number for g in moving if g.parent is not None],
             "slides": [int(g.slides) for g in moving],
             "base": _joined([g.base for g in moving]),
             **_masses(moving),
             "gravity": in_space(model.gravity),
-            **_coordinates(model, groups, kept, new),
+            **_coordinates(model, groups, remaining, new),
             **_cut_arrays(model, cuts),
             **angles,
             "frame": [number for g in moving for number in _frame_signals(g, signals)],
@@ -126,10 +128,12 @@ def _components(body: Body, drawn: Array, is_point: bool) -> AffineVector:
     return AffineVector((*part.components, *(Affine({}, float(x)) for x in drawn[body.dimension :])))
 
 
-def _coordinates(model: Model, groups: Sequence[Group], kept: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
+def _coordinates(
+    model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]
+) -> dict[str, Any]:
     """The points (1) and vectors (0) whose components are coordinates of the System: body, local components, places."""
     owner = {id(body): group for group in groups for body in group.bodies}
-    place = {i: int(new[z]) for z, i in enumerate(kept)}
+    place = {i: int(new[z]) for z, i in enumerate(remaining)}
     bodies, locals_, columns = [], [], []
     for body in model.bodies:
         group, d = owner[id(body)], body.dimension
@@ -146,9 +150,9 @@ def _coordinates(model: Model, groups: Sequence[Group], kept: Sequence[int], new
     return {"out_body": bodies, "out_local": _joined(locals_), "out_col": columns}
 
 
-def _angles(model: Model, groups: Sequence[Group], kept: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
+def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
     """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
-    place = {i: int(new[z]) for z, i in enumerate(kept)}
+    place = {i: int(new[z]) for z, i in enumerate(remaining)}
     arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
     for joint in model.joints:
         if joint.turn is None:

@@ -8,8 +8,8 @@ from itertools import pairwise
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import not_negative, positive
-from mbs.elements.checks import index, several, size
 from mbs.elements.record import ElementRecord, Output
+from mbs.elements.record_checks import index, several, size
 from mbs.kernel.header import ElementType
 
 

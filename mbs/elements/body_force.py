@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.affine import AffineVector
-from mbs.elements.checks import channels, size
 from mbs.elements.record import ElementRecord
+from mbs.elements.record_checks import channels, size
 from mbs.kernel.header import ElementType
 
 

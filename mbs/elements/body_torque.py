@@ -8,8 +8,8 @@ from typing import Literal
 
 from mbs.affine import AffineVector
 from mbs.checks import shown
-from mbs.elements.checks import channels
 from mbs.elements.record import ElementRecord
+from mbs.elements.record_checks import channels
 from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import not_negative, positive
-from mbs.elements.checks import index, size
 from mbs.elements.record import ElementRecord, Output
+from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType
 
 

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
 from mbs.checks import array, not_negative, positive
-from mbs.elements.checks import index, size
 from mbs.elements.record import Check, ElementRecord, Output
+from mbs.elements.record_checks import index, size
 from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from mbs.affine import AffineVector
 from mbs.checks import not_negative
-from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord, Output
+from mbs.elements.record_checks import size
 from mbs.kernel.header import ElementType
 
 

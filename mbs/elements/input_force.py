@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from mbs.affine import Affine
 from mbs.checks import number
-from mbs.elements.checks import index, several
 from mbs.elements.record import ElementRecord
+from mbs.elements.record_checks import index, several
 from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import number
-from mbs.elements.checks import index, size
 from mbs.elements.record import ElementRecord
+from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from mbs.affine import AffineVector
 from mbs.checks import instance_of, not_negative, positive
-from mbs.elements.checks import size
 from mbs.elements.record import ElementRecord, Output
+from mbs.elements.record_checks import size
 from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import instance_of, not_negative, number, positive, vector
-from mbs.elements.checks import index, size
 from mbs.elements.record import Check, ElementRecord, Output
+from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType
 
 Pair = tuple[float, float]

@@ -11,8 +11,8 @@ from scipy.sparse.linalg import SuperLU, splu
 
 from mbs.checks import instance_of, shown
 from mbs.errors import ModelError
-from mbs.flexible.checks import check_connected
 from mbs.flexible.fe_model import FiniteElementModel, Reference
+from mbs.flexible.fe_model_checks import check_connected
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ from mbs.errors import ModelError
 from mbs.flexible.beam_axes import beam_axes
 from mbs.flexible.beam_mass import beam_mass_points
 from mbs.flexible.beam_stiffness import THEORIES, beam_stiffness, shear_parameters
-from mbs.flexible.checks import check_free, check_masses, check_units
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.fe_model_checks import check_free, check_masses, check_units
 from mbs.flexible.mass_points import MassPoints, nodal_mass_points
 from mbs.flexible.material import Material
 from mbs.flexible.section import Section

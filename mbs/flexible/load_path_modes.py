@@ -77,8 +77,8 @@ def load_path_modes(
     deformation = load_path_deformations(body, loads, frame_loads)
     energy = deformation.T @ body.K @ deformation
     values, vectors = np.linalg.eigh((energy + energy.T) / 2)
-    keep = values > tolerance**2 * values[-1]
-    basis = deformation @ (vectors[:, keep] / np.sqrt(values[keep]))
+    selected = values > tolerance**2 * values[-1]
+    basis = deformation @ (vectors[:, selected] / np.sqrt(values[selected]))
     squares, V = eigh(basis.T @ body.K @ basis, basis.T @ body.M @ basis)
     names = tuple(f"load path {i + 1}" for i in range(squares.size))
     return body.transformed(basis @ V, names, np.sqrt(squares) / (2 * np.pi))
@@ -114,10 +114,12 @@ def reduced_eigenmodes(body: ReducedBody, up_to: float = np.inf) -> ReducedBody:
     """
     squares, V = eigh(body.K, body.M)
     hertz = np.sqrt(squares) / (2 * np.pi)
-    keep = hertz <= up_to
-    if not keep.any():
+    selected = hertz <= up_to
+    if not selected.any():
         raise ModelError(f"The lowest mode of the body has {hertz[0]:.4g} Hz: none lies below {up_to:g} Hz.")
-    return body.transformed(V[:, keep], tuple(f"eigenmode {i + 1}" for i in range(int(keep.sum()))), hertz[keep])
+    return body.transformed(
+        V[:, selected], tuple(f"eigenmode {i + 1}" for i in range(int(selected.sum()))), hertz[selected]
+    )
 
 
 def _balancing_inertia(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None) -> np.ndarray:

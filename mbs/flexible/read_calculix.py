@@ -68,14 +68,14 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     return K, M, points[used], [numbers[int(i)] for i in np.flatnonzero(used)]
 
 
-def _condensed(K: sp.csc_array, M: sp.csc_array, keep: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
-    """Static condensation on freedoms `keep`: the others are inner ones of elements (incompatible modes)."""
-    drop = np.setdiff1d(np.arange(K.shape[0]), keep)
+def _condensed(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
+    """Static condensation on freedoms `retained`: the others are inner ones of elements (incompatible modes)."""
+    drop = np.setdiff1d(np.arange(K.shape[0]), retained)
     if not drop.size:
-        return K[keep][:, keep], M[keep][:, keep]
-    follow = -sp.csc_array(spsolve(sp.csc_matrix(K[drop][:, drop]), sp.csc_matrix(K[drop][:, keep])))
-    T = sp.csc_array(sp.vstack([sp.identity(keep.size), follow]))
-    order = np.concatenate([keep, drop])
+        return K[retained][:, retained], M[retained][:, retained]
+    follow = -sp.csc_array(spsolve(sp.csc_matrix(K[drop][:, drop]), sp.csc_matrix(K[drop][:, retained])))
+    T = sp.csc_array(sp.vstack([sp.identity(retained.size), follow]))
+    order = np.concatenate([retained, drop])
     K, M = (sp.csc_array(T.T @ X[order][:, order] @ T) for X in (K, M))
     return K, M
 

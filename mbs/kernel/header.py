@@ -463,7 +463,7 @@ class ControlFields(Structure):
         ("rejected", c_int64),
         ("failed", c_int64),
         ("forced", c_int64),
-        ("kept", c_int64),
+        ("over_share", c_int64),
         ("side_steps", c_int64),
     )
 

@@ -12,9 +12,9 @@ from mbs.checks import Vector, array, capital, direction, is_number, mapping, po
 from mbs.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
-from mbs.model.checks import inertia_matrix
 from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.inertia import inertia_matrix
 from mbs.model.ports import PortedBody
 
 SIZES = (1e-12, 1e8)
@@ -313,7 +313,7 @@ class BodyVocabulary(ModelCore):
 
 
 def _check_size(mass: float, inertia: NDArray[np.float64], what: str) -> None:
-    """Refuse a radius of gyration that no body has: it is told by mass and inertia together."""
+    """Refuse a radius of gyration that no body has; it follows from mass and inertia together."""
     radius = float(np.sqrt(np.max(np.abs(inertia)) / mass))
     if not SIZES[0] <= radius <= SIZES[1]:
         raise ModelError(

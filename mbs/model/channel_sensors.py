@@ -179,6 +179,6 @@ class ChannelSensorVocabulary(SensorBase):
             raise ModelError(
                 f"A notice of model {self.name!r} needs a sensor and a sentence, got {shown(sensor)}, {shown(text)}."
             )
-        told = replace(sensor, notice=checked_text(text, f"The notice of sensor '{sensor.name}'"))
-        self.sensors = [told if s is sensor else s for s in self.sensors]
-        return told
+        with_notice = replace(sensor, notice=checked_text(text, f"The notice of sensor '{sensor.name}'"))
+        self.sensors = [with_notice if s is sensor else s for s in self.sensors]
+        return with_notice

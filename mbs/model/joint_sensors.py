@@ -28,7 +28,7 @@ class JointSensorVocabulary(SensorBase):
         return found
 
     def _sense_terms(self, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
-        joint.keep = joint.keep or any(term.equation in joint.force_equations for term in terms)
+        joint.as_rows = joint.as_rows or any(term.equation in joint.force_equations for term in terms)
         return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
 
     def sense_joint_force(
@@ -89,7 +89,7 @@ class JointSensorVocabulary(SensorBase):
         else:
             k = component_number(component, self.dimension, f"sensor '{name}'")
             rows, weights = rows[k : k + 1], [-found.rows_weight]
-        found.keep = True
+        found.as_rows = True
         return self._sense(name, unit, description, SensorType.REACTION, integers=rows, reals=weights, joint=found)
 
     def _driven_distance(self, name: str, joint: Joint, component: str, unit: str, description: str) -> Sensor:

@@ -40,7 +40,7 @@ class PortedBody(Body):
             numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", "vector", float(arm[k]), k) for k in range(3)]
             free = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
             joint = Joint(what, "port", equal_vectors(what, "point", free, owner.vector(arm)), rows_weight=1.0)
-            joint.keep = True
+            joint.as_rows = True
             self.model.unique("joint", what)
             self.model.joints.append(joint)
             self.ports[name] = joint

@@ -33,9 +33,9 @@ class Sensor:
     integers, reals : sequence
         The rest of its data.
     joint : Joint, optional
-        For joint forces: the joint whose kept rows are weighted; ``integers`` are then numbers of its equations.
+        For joint forces: the joint whose rows are weighted; ``integers`` are then numbers of its equations.
     joints : sequence of Joint
-        Joints whose three kept rows each come last among the integers.
+        Joints whose three rows each come last among the integers.
     terms : sequence of Term
         Products with multipliers of `joint`, which make up all integers and reals.
     whole : bool

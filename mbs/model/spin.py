@@ -13,8 +13,8 @@ from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import perpendicular
 from mbs.model.core import Coordinate
+from mbs.model.perpendicular import perpendicular
 
 
 @dataclass(frozen=True)

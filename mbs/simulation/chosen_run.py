@@ -208,8 +208,8 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation)
     time = run.simulation.time
     return SimulationError(
         f"A tolerance of {_run_at(run, wanted)} cannot be held by {run.settings.method!r}: until t = {time:g} s "
-        f"{run.fields.forced + run.fields.kept} of {run.fields.accepted} steps erred more than their share, as short "
-        f"as {run.fields.smallest:.1e} s; a larger tolerance or another method will do.",
+        f"{run.fields.forced + run.fields.over_share} of {run.fields.accepted} steps erred more than their share of "
+        f"it, even with steps of {run.fields.smallest:.1e} s; take a larger tolerance or another method.",
         time,
         Status.NOT_CONVERGED,
         _so_far(run, times, first),
@@ -223,7 +223,7 @@ def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation,
         return refusal(simulation, "The run was refused", error, _so_far(run, times, first))
     what = (
         f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "
-        f"{run.fields.h:.2g} s long in the end"
+        f"the last one tried was {run.fields.h:.2g} s long"
     )
     return refusal(simulation, what, error, _so_far(run, times, first))
 
@@ -231,7 +231,7 @@ def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation,
 def _warn(control: Control) -> None:
     if control.kept:
         return
-    forced = f", {control.forced} steps erred more than their share however short they were" if control.forced else ""
+    forced = f", {control.forced} steps of the least size erred more than their share of it" if control.forced else ""
     warnings.warn(
         f"The error of this run is about {control.error:.1e} of the model's length, more than {ALLOWED:g} times the "
         f"tolerance of {control.tolerance:g}, after {control.runs} runs{forced}. Small errors grow in this motion, or "

@@ -21,7 +21,7 @@ CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
 LONGEST, LONGEST_WITH_FUNCTIONS = 0.1, 0.02  # steps, in parts of the run
 ROWS, BALANCE = 1e-7, 1e-6  # tolerances of Newton's loop in parts of that of the run, both times the length
 MOST_FORCED, MOST_FORCED_SHARE = 300, 0.05  # steps that may err too much
-MOST_KEPT, MOST_KEPT_SHARE = 3000, 0.3  # steps that err more than their share
+MOST_OVER_SHARE, MOST_OVER_SHARE_PART = 3000, 0.3  # steps that err more than their share
 ROUND_OFF = 1e-13  # m at coordinates of 1 m
 
 
@@ -148,8 +148,8 @@ class ControlledRun:
                 if self.simulation.time >= stop:
                     self._stops.pop(0)
                 c = self.fields
-                if c.forced > max(MOST_FORCED, MOST_FORCED_SHARE * c.accepted) or c.kept > max(
-                    MOST_KEPT, MOST_KEPT_SHARE * c.accepted
+                if c.forced > max(MOST_FORCED, MOST_FORCED_SHARE * c.accepted) or c.over_share > max(
+                    MOST_OVER_SHARE, MOST_OVER_SHARE_PART * c.accepted
                 ):
                     raise StalledError
         finally:

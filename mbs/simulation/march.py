@@ -97,19 +97,19 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
     """What a run tells beside its numbers: that nothing can move, and what sensors with a notice say of their columns,
     `values` (n, ns) at `t` (n,).
     """
-    meta, told = prepared(system)[1], []
+    meta, found = prepared(system)[1], []
     sensors = meta["sensors"]
     if meta["report"].get("degrees_of_freedom") == 0 and not meta["guides"] and not meta["switches"]:
-        told.append(f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
+        found.append(f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
     for k, sensor in enumerate(sensors):
         there = np.flatnonzero(values[:, k] if "notice" in sensor else ())
         if len(there):
             most = values[np.argmax(np.abs(values[:, k])), k]
-            told.append(
+            found.append(
                 f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[there[0]]:g} s, "
                 f"at most {most:g} {sensor['unit']}."
             )
-    return told
+    return found
 
 
 @contextmanager

@@ -65,12 +65,12 @@ def choose(start: Callable[[], Simulation], task: Task, settings: Settings, tole
     wall = sum(run.wall for run in runs.values())
     if not best:
         raise SimulationError(
-            f"None of {', '.join(runs)} gets from t = {task.t0:g} to {task.t_end:g} s at a tolerance of {coarse:g}; "
-            "name a method to see where it stops.",
+            f"None of {', '.join(runs)} reaches the end of the run from t = {task.t0:g} to {task.t_end:g} s at a "
+            f"tolerance of {coarse:g}; name a method to see where and why it fails.",
             task.t0,
             Status.NOT_CONVERGED,
         )
-    lost = [f"{name} {'does not get through' if name in failed else 'is slower'}" for name in runs if name != best]
+    lost = [f"{name} {'fails' if name in failed else 'is slower'}" for name in runs if name != best]
     return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs))
 
 

@@ -56,12 +56,16 @@ def refusal(
 def _remedy(simulation: Simulation, status: int) -> str:
     """The remedy that follows from the status alone."""
     if status in (Status.WRONG_METHOD, Status.NO_TREE):
-        tree = f" Here {prepared(simulation.system)[1]['report']['no_tree']}." if status == Status.NO_TREE else ""
-        return f"{tree} The method is {simulation.settings.method!r}; 'ali3p' takes every System."
+        method, words = simulation.settings.method, simulation.instance.method_excludes()
+        if status == Status.NO_TREE:
+            why = f"Here {prepared(simulation.system)[1]['report']['no_tree']}. The method is {method!r}"
+        else:
+            why = f"{method!r} takes no {words}"
+        return f" {why}; 'ali3p' takes every System."
     if status == Status.START_REFUSED:
         height, element, words = simulation.instance.start_excess()
         name = prepared(simulation.system)[1]["elements"][element]["name"]
-        return f" '{name}' {words}. {height:.3g} m higher (z of the pose) nothing would be in its way."
+        return f" '{name}' {words}. The scene must begin at least {height:.3g} m higher (z of the pose)."
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
     if rate > 0.0:
         h = simulation.step_tried

@@ -352,7 +352,7 @@ class Simulation:
         if accuracy.balance_says(self.report, self.settings.method, driven):
             self._warned = True
             text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
-            warnings.warn(f"{text} Shorter steps make it right.", AccuracyWarning, stacklevel=3)
+            warnings.warn(f"{text} Take shorter steps.", AccuracyWarning, stacklevel=3)
 
     def change_settings(self, settings: Settings) -> None:
         """Solve the steps from now on in another way.

@@ -92,7 +92,7 @@ def test_messages_name_the_command_that_was_typed(
     assert "ali3 drive: error: the following arguments are required" in capsys.readouterr().err
 
 
-def test_a_missing_extra_is_told_with_the_line_that_installs_it(tmp_path: Path) -> None:
+def test_a_missing_extra_is_reported_with_the_line_that_installs_it(tmp_path: Path) -> None:
     (tmp_path / "some.fmu").write_text("")
     text = "import sys; sys.modules['fmpy'] = None; from ali3.command import main; sys.exit(main(['run', 'some.fmu']))"
     done = ran(["-c", text], tmp_path)

@@ -1,4 +1,4 @@
-"""Files are written whole or not at all; two writers of one file do not meet; a disk that is full is told."""
+"""Files are written whole or not at all; two writers of one file do not meet; a full disk is reported."""
 
 from __future__ import annotations
 

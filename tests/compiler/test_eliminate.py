@@ -27,13 +27,13 @@ def test_every_solution_of_z_solves_the_equations(seed):
     equations = random_equations(rng, n, count)
     result = eliminate(n, equations, set(), set())
     dense = np.array([[e.terms.get(i, 0.0) for i in range(n)] for _, e in equations])
-    assert len(result.kept) == n - np.linalg.matrix_rank(dense)
+    assert len(result.remaining) == n - np.linalg.matrix_rank(dense)
     for _ in range(3):
-        z = rng.normal(size=len(result.kept))
+        z = rng.normal(size=len(result.remaining))
         q = np.array([e.value(z) for e in result.expressions])
         size = 1.0 + np.abs(q).max()
         assert max(abs(e.value(q)) for _, e in equations) < ROUND_OFF * size
-        np.testing.assert_array_equal(q[result.kept], z)
+        np.testing.assert_array_equal(q[result.remaining], z)
 
 
 def test_dependent_equations_are_counted_and_contradictions_refused():
@@ -63,6 +63,6 @@ def test_a_long_equation_waits_for_the_short_ones(n):
 
 def test_locked_coordinates_stay():
     result = eliminate(3, [("a", Affine({0: 1.0, 1: -1.0, 2: 5.0}))], {2}, set())
-    assert 2 in result.kept
+    assert 2 in result.remaining
     with pytest.raises(ModelError, match="guide"):
         eliminate(3, [("a", Affine({2: 1.0}, -0.3))], {2}, set())

@@ -1,4 +1,4 @@
-"""A scene that is not tied to the ground starts wherever and with whatever heading and speed it is told."""
+"""A scene that is not tied to the ground starts wherever and with whatever heading and speed it is given."""
 
 from __future__ import annotations
 

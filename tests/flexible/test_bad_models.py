@@ -9,11 +9,11 @@ import pytest
 import scipy.sparse as sp
 
 from mbs.errors import ModelError
-from mbs.flexible.checks import check_connected
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.external_model import external_model, read_matrix
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.fe_model_checks import check_connected
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.frequencies import natural_modes

@@ -1,4 +1,4 @@
-"""A flexible body that bends more than its linear modes hold for is told, once, with the number of parts."""
+"""A flexible body that bends more than its linear modes hold for is warned of, once, with the number of parts."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def soft_pendulum(parts: int):
     return compile(m)
 
 
-def test_one_soft_body_is_told_with_its_name_and_the_parts_it_needs() -> None:
+def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs() -> None:
     with pytest.warns(BendingWarning, match=r"body 'part 0' bends by 0\.045 rad .* Divide it into 2 or more") as told:
         simulate(soft_pendulum(1), 2.0, 0.0025, progress=False)
     assert len(told) == 1
 
 
-def test_two_bodies_are_not_told() -> None:
+def test_two_bodies_are_not_warned_of() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error", BendingWarning)
         simulate(soft_pendulum(2), 2.0, 0.0025, progress=False)

@@ -52,7 +52,7 @@ def test_spin_up_converges_with_the_parts() -> None:
     assert errors[2] < 0.01 * 0.573
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # it bends too far, as told
+@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # it bends too far, as warned
 def test_spin_up_in_one_part_buckles() -> None:
     """With one floating frame the tension never arises: the tip leaves the beam's axis by metres."""
     assert np.max(np.abs(_spin_run(1, check=False)[2])) > 1.0

@@ -1,4 +1,4 @@
-"""Constants of a model: told by every FMU, settable by none, no outputs, and no change of other value references."""
+"""Constants of a model: given by every FMU, settable by none, no outputs, and no change of other value references."""
 
 from __future__ import annotations
 

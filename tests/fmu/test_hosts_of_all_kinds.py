@@ -146,7 +146,7 @@ def test_an_input_without_limits(build: Callable[..., Path], kind: str, host: Ho
     assert driven.get("torque") == -1e6
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as told
+@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as warned
 def test_fmi_3_without_arrays(tmp_path: Path) -> None:
     name, system = load_scene(f"{Path(__file__).parents[2] / 'mbs' / 'scenes'}/assembly_defect_four_bar.py:build")
     files = [build_fmu(system, name, tmp_path, [fmpy.platform], kind=kind) for kind in ("fmi3_scalar", "native")]

@@ -112,7 +112,7 @@ def test_sources_are_listed_and_there(build: Callable[..., Path]) -> None:
     assert not any("fmi3" in name for name in listed)
 
 
-def test_a_scene_whose_default_experiment_does_not_run_is_told_what_sets_it() -> None:
+def test_a_scene_whose_default_experiment_does_not_run_is_refused_with_what_sets_it() -> None:
     with pytest.raises(
         mbs.SimulationError, match=r"10 s in steps of 0\.01 s as `m\.stop_time` and `m\.step` .* step from"
     ):

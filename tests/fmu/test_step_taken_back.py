@@ -119,7 +119,7 @@ def test_what_was_set_can_be_undone(pair: tuple[Any, Any], change: str) -> None:
 
 
 def test_the_balance_of_energy_is_the_one_before(pair: tuple[Any, Any]) -> None:
-    """Energy books of the good inner steps of a refused step go back too."""
+    """The energy balance of the good inner steps of a refused step goes back too."""
     tried, other = pair
     names = ("solver.energy_error", "solver.energy_balance", "solver.halvings", "solver.status")
     before = [tried.get(name) for name in names]

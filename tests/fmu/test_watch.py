@@ -81,9 +81,9 @@ def test_all_kinds_say_the_same(build: Callable[..., Path], host: HostMaker, nee
     assert np.isfinite(ends[0][1]).all()
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as told
+@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as warned
 @pytest.mark.parametrize("kind", ["native", "python"])
-def test_a_changed_assembly_mode_is_told_once(
+def test_a_changed_assembly_mode_is_reported_once(
     tmp_path: Path, host: HostMaker, kind: str, need: Callable[[str], None]
 ) -> None:
     need(kind)

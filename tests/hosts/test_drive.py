@@ -133,7 +133,7 @@ def test_runs_that_no_memory_holds_are_refused(fmus: dict[str, Path], turn: Path
     assert not (tmp_path / "out").exists()
 
 
-def test_results_that_cannot_be_written_are_told_before_the_drive(
+def test_results_that_cannot_be_written_are_refused_before_the_drive(
     fmus: dict[str, Path], turn: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "out" / "sledge_turn.csv").mkdir(parents=True)

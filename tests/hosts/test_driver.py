@@ -78,7 +78,7 @@ def test_the_integral_waits_while_a_pedal_is_at_its_stop() -> None:
 
 
 def test_the_integral_takes_away_what_the_error_leaves() -> None:
-    """Half a metre a second too slow for two seconds, told twice: the pedal grows by gain times error times time."""
+    """Half a metre a second too slow for two seconds, given twice: the pedal grows by gain times error times time."""
     driver = make_driver(SETTINGS, CAR)
     s = driver.settings
     senses = {"chassis.x": 0.0, "chassis.y": 0.0, "chassis.yaw": 0.0, "speed": s.speed - 0.5}

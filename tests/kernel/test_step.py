@@ -176,9 +176,9 @@ def test_a_step_that_the_past_misleads_starts_again_from_the_present() -> None:
     assert [bytes(part) for part in past.get_state()] == [bytes(part) for part in present.get_state()]
 
 
-def test_a_half_that_was_good_leaves_no_energy_in_the_books() -> None:
+def test_a_half_that_was_good_leaves_no_energy_in_the_balance() -> None:
     """Of a step whose first half is good and whose second is refused nothing stays, also not of its energy."""
-    books = ("energy_error", "open_power", "energy", "work", "kinetic_peak", "speed_peak", "velocity_path")
+    balance = ("energy_error", "open_power", "energy", "work", "kinetic_peak", "speed_peak", "velocity_path")
     instance = start(four_bar(), max_iterations=1, max_halvings=1, tolerance_r=1e-5, tolerance_phi=1e-5)
     good_halves = 0
     for _ in range(100):
@@ -188,8 +188,8 @@ def test_a_half_that_was_good_leaves_no_energy_in_the_books() -> None:
         except KernelError:
             after = instance.report()
             good_halves += int(after["iterations"] - before["iterations"] > 2)
-            assert {name: after[name] for name in (*books, "predictor_path")} == {
-                name: before[name] for name in (*books, "predictor_path")
+            assert {name: after[name] for name in (*balance, "predictor_path")} == {
+                name: before[name] for name in (*balance, "predictor_path")
             }
             assert [bytes(part) for part in instance.get_state()] == state
             instance.set_settings(max_iterations=20)

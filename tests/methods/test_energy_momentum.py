@@ -1,4 +1,4 @@
-"""What the energy-momentum step keeps: energy, momenta, rows, and the books of dampers and drives."""
+"""What the energy-momentum step keeps: energy, momenta, rows, and the energy balance of dampers and drives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Energy that steps make or take without a force: its books against the energy itself, and steps refused for it."""
+"""Energy that steps make or lose without a force: the balance against the energy itself, and steps refused for it."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from mbs import AccuracyWarning, Model, Settings, Simulation, SimulationError, c
 from mbs.kernel.binding import Status, open_row
 from mbs.scenes import cart_pole
 
-BOOKS = 0.02  # of the change of energy: the books take the next step to be like the present one
+BALANCE = 0.02  # of the change of energy: the balance takes the next step to be like the present one
 SHARE = 0.05  # of extent and energy: what the stability maps call fine
 FALL = cart_pole.BOB * cart_pole.GRAVITY * cart_pole.LENGTH  # J
 USUAL = {"squeezer": 1e-4}  # s, where not 0.01
 
 
 @pytest.mark.parametrize("scene", ["pendulum", "double_four_bar", "bricard", "slider_crank", "spatial_chain"])
-def test_the_books_of_a_conservative_scene_are_its_loss_of_energy(scene):
+def test_the_energy_balance_of_a_conservative_scene_is_its_loss_of_energy(scene):
     t = simulate(system_of(scene), 2.0, 0.005, progress=False)
     lost = t["energy.total"][-1] - t["energy.total"][0]
     assert abs(lost) > 1e-9
-    assert t.report.energy_error == pytest.approx(lost, rel=BOOKS)
+    assert t.report.energy_error == pytest.approx(lost, rel=BALANCE)
 
 
 def test_a_motor_and_a_spring_are_no_error():
-    """Work of forces and drives is not in the books: they fall with the step like the error of the method."""
+    """Work of forces and drives is not in the balance: it falls with the step like the error of the method."""
     errors = [
         abs(simulate(system_of("squeezer"), 0.04, h, progress=False).report.energy_error) for h in (1e-4, 5e-5, 2.5e-5)
     ]
@@ -52,7 +52,7 @@ def test_no_other_scene_is_halved_at_its_usual_step(scene, method):
 )
 def test_the_spike_of_the_light_cart_is_refused_where_the_step_does_not_resolve_it(method, h):
     simulation = Simulation(system_of("cart_pole"), settings=Settings(method=method, max_halvings=4))
-    with pytest.raises(SimulationError, match="energy came or went without a force") as refused:
+    with pytest.raises(SimulationError, match="the energy balance is violated") as refused:
         simulation.run(0.6, h, progress=False)
     assert refused.value.status == Status.UNRESOLVED
     assert "Worst" not in str(refused.value)
@@ -116,7 +116,7 @@ def test_a_part_that_cannot_be_halved_is_judged_as_a_step_that_was_asked_for():
 
 
 @pytest.mark.parametrize("h", [0.01, 0.005, 0.002, 0.001])
-def test_the_books_hold_through_changed_steps(h):
+def test_the_energy_balance_holds_through_changed_steps(h):
     """What the energy gained beside the work of the motor: forces left without balance work in the step that comes."""
     simulation = crank_slider(h)
     report = simulation.report

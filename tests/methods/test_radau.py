@@ -1,4 +1,4 @@
-"""Radau IIA on index three: orders, stiff decay, redundant rows, the books of dampers, what it does not take."""
+"""Radau IIA on index three: orders, stiff decay, redundant rows, the work of dampers, what it does not take."""
 
 from __future__ import annotations
 

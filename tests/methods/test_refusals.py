@@ -29,7 +29,7 @@ def sliding(stiffness, damping):
 
 
 @pytest.mark.parametrize("method", ["runge_kutta_8", "semi_recursive", "semi_recursive_4"])
-def test_a_step_too_long_for_an_explicit_method_is_told_with_the_rate(method):
+def test_a_step_too_long_for_an_explicit_method_is_reported_with_the_rate(method):
     settings = Settings(method=method, max_halvings=0)
     simulation = Simulation(sliding(1.0, DAMPING), settings=settings)
     with pytest.raises(SimulationError, match="the step is too long for an explicit method") as refused:
@@ -41,7 +41,7 @@ def test_a_step_too_long_for_an_explicit_method_is_told_with_the_rate(method):
         assert "'ali3p'" in text
     assert "Worst" not in text
     assert "singular" not in text
-    assert "came or went" not in text
+    assert "energy balance" not in text
     assert simulation.report.failures == 1
 
 

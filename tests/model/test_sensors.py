@@ -73,7 +73,7 @@ def test_quaternion_after_nearly_half_a_turn(axis):
     assert np.abs(np.diff(found)).max() < 0.01  # no jump where another part becomes the largest
 
 
-def test_a_direction_of_motion_is_told_from_a_tenth_of_a_metre_per_second():
+def test_a_direction_of_motion_is_given_from_a_tenth_of_a_metre_per_second():
     for speed, expected in ((0.099, 0.0), (0.101, 0.5)):
         m = Model("block", dimension=3, gravity=(0, 0, 0))
         block = m.body("block", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))

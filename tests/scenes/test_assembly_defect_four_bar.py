@@ -24,7 +24,7 @@ def _gaps(parts: int, end: float) -> dict[str, float]:
     return {c: float(np.max(np.abs(run[f"coupler.{c}"] - expected[c][:n]))) for c in COMPONENTS}
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as told
+@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as warned
 def test_one_body_per_bar_over_the_whole_time() -> None:
     largest = max(np.max(np.abs(v)) for c, v in reference().items() if c != "t")
     assert 9.0 < largest < 9.3

@@ -187,7 +187,9 @@ def test_wild_driving_longer(road, h):
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # kerbs that bend the frame by 0.1 rad, as told
+@pytest.mark.filterwarnings(
+    "ignore::mbs.large_bending.BendingWarning"
+)  # kerbs that bend the frame by 0.1 rad, as warned
 @pytest.mark.parametrize("fidelity", [1, 2, 3])
 def test_wild_driving_at_every_fidelity(fidelity):
     for seed in range(6):

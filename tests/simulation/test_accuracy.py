@@ -74,7 +74,7 @@ class TestThePrintedModel:
         assert run["crank.angle"][-1] == pytest.approx(CRANK_ANGLE, abs=1e-3)
         assert run.accuracy.message == ""
 
-    def test_the_error_told_is_the_error(self):
+    def test_the_error_estimated_is_the_error(self):
         with pytest.warns(AccuracyWarning, match=r"'piston.x' by 0\.\d+ m of 0.2 m"):
             run = simulate(printed_model(), 2.0, 6.25e-5, TORQUE, estimate_error=True, **QUIET)
         assert run.accuracy.sensors["crank.angle"] == pytest.approx(CRANK_ANGLE - run["crank.angle"][-1], rel=0.3)
@@ -189,7 +189,7 @@ class TestRepeats:
         with pytest.warns(AccuracyWarning, match="coordinate '"):
             simulate(compile(m), 20.0, 0.05, estimate_error=True, **QUIET)
 
-    def test_a_repeat_that_is_refused_is_told(self, monkeypatch):
+    def test_a_repeat_that_is_refused_is_warned_of(self, monkeypatch):
         march = fixed_steps.march
 
         def refuse(simulation, t_end, h, *more):
@@ -230,7 +230,7 @@ def test_the_nearer_to_the_middle_axis_the_shorter_the_steps_must_be(off_axis, t
         simulate(compile(m), t_end, h, **QUIET)
 
 
-def test_a_run_that_blew_up_is_told_in_a_number_that_can_be_read():
+def test_a_run_that_blew_up_is_reported_in_a_number_that_can_be_read():
     m = Model("stiff", dimension=2)
     mass = m.point_mass("mass", mass=1.0, position=(1.0, 0.0))
     m.spring_damper("spring", (m.ground, (0.0, 0.0)), (mass, None), stiffness=1e9, damping=0.0, free_length=0.999)

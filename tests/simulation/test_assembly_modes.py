@@ -1,4 +1,4 @@
-"""A closed loop that changes its assembly mode is told; one that passes a singular position smoothly is not."""
+"""A closed loop that changes its assembly mode is reported; one that passes a singular position smoothly is not."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from mbs.scenes import (
 
 from .loops import four_bar, suspension
 
-# one flexible body a bar bends too far, as is told: here branches count
+# one flexible body a bar bends too far, as warned: here branches count
 pytestmark = pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")
 simulate = partial(mbs.simulate, estimate_error=False)  # what the step costs is not asked here
 GRASHOF = (0.4, 0.1, 0.35, 0.3)  # m: the crank turns round, the rocker keeps its side
@@ -48,18 +48,18 @@ def thrown() -> System:
     return compile(suspension(15.0))
 
 
-def test_a_suspension_that_turns_inside_out_is_told_by_name_and_time(thrown: System) -> None:
+def test_a_suspension_that_turns_inside_out_is_reported_by_name_and_time(thrown: System) -> None:
     with pytest.warns(BranchWarning, match=r"'lower ball', 'upper ball', 'tie rod'.*at 'tie rod'") as told:
         run = simulate(thrown, 0.3, 5e-4)
     assert len(told) == 1
     assert run.report is not None
     assert (run.report.branch_changes, run.report.branch_kind) == (1, 1)
-    # the track rod lies in the plane of the kingpin at 0.09 s, told once its sine is 0.15 beyond
+    # the track rod lies in the plane of the kingpin at 0.09 s, reported once its sine is 0.15 beyond
     assert run.report.branch_time == pytest.approx(0.093, abs=0.002)
     assert f"{run.report.branch_time:.6g} s" in str(told[0].message)
 
 
-def test_a_suspension_that_comes_back_is_not_told() -> None:
+def test_a_suspension_that_comes_back_is_not_reported() -> None:
     run = simulate(compile(suspension(5.0)), 0.3, 5e-4)
     assert run["wheel.z"].max() > 0.48  # of 0.53 where the wishbones lock
     assert run.report is not None
@@ -82,7 +82,7 @@ def test_a_loop_without_springs_swings_as_it_likes() -> None:
 
 
 @pytest.mark.parametrize("h", [0.04, 0.05, 0.1])
-def test_a_step_that_jumps_the_branch_is_told(defect: System, h: float) -> None:
+def test_a_step_that_jumps_the_branch_is_reported(defect: System, h: float) -> None:
     with pytest.warns(BranchWarning, match=r"t = 1\.6 s the closed loop of 'B', 'C' .*take a shorter one"):
         run = simulate(defect, 2.5, h)
     assert run["coupler.My"].min() < -11.0  # -9.1 on the branch of short steps
@@ -122,7 +122,7 @@ def test_four_bars_of_all_kinds_are_no_alarm(lengths: tuple[float, float, float,
     assert run.report.branch_changes == 0
 
 
-def test_a_step_onto_the_other_circuit_is_told() -> None:
+def test_a_step_onto_the_other_circuit_is_reported() -> None:
     """At 20 rad/s the crank turns radians in a step, and the rocker lands on the side that no motion reaches."""
     system = compile(four_bar((0.4, 0.1, 0.4, 0.15), 1.0, 1, 20.0))
     told = []

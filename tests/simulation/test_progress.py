@@ -28,7 +28,7 @@ def test_a_long_run_shows_share_and_remaining_time():
     assert text.endswith("\n")
 
 
-def test_no_bar_when_told_so():
+def test_no_bar_when_switched_off():
     assert bar_after(1e6, delay=float("inf")) == ""
     assert isinstance(progress_for(False), Progress)
 

@@ -200,7 +200,7 @@ def test_a_step_is_picked_where_none_is_given() -> None:
     assert f"fixed steps of {control.h:.4g} s" in str(run)
 
 
-def test_the_choice_of_the_method_is_told() -> None:
+def test_the_choice_of_the_method_is_reported() -> None:
     run = run_of("spatial_chain", 1e-3)
     assert run.control is not None
     assert run.control.method == "semi_recursive"
@@ -253,7 +253,7 @@ def test_times_without_a_tolerance_are_refused() -> None:
         mbs.simulate(system_of("pendulum"), 1.0, 0.1, times=[0.5])
 
 
-def test_an_error_beyond_ten_tolerances_is_told_with_a_number() -> None:
+def test_an_error_beyond_ten_tolerances_is_warned_of_with_a_number() -> None:
     """A double pendulum swung high for 40 s: round-off grows by more than the tolerance leaves."""
     m = mbs.Model("double pendulum", dimension=2)
     first = m.point_mass("first", mass=1.0, position=(1.0, 0.1))

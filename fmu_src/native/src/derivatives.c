@@ -84,8 +84,8 @@ static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, c
   for (size_t i = 0; i < n; i++) {
     const slave_variable *v = &t->variable[known[i]];
     if (v->source != SLAVE_INPUT)
-      return slave_say(s, SLAVE_ERROR, "'%s' is no input; after initialisation outputs are derived by inputs only.",
-                       v->name);
+      return slave_say(s, SLAVE_ERROR,
+                       "'%s' is no input; after initialisation outputs have derivatives by inputs only.", v->name);
     s->direction[v->index] += seed[i];
   }
   const ali3_status status = ali3_input_derivative(s->fidelity.kernel, s->direction, s->sensors);
@@ -107,7 +107,7 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
   for (size_t i = 0; i < n_known; i++) {
     const bool none = known[i] >= t->n_known || t->variable[known[i]].source == SLAVE_STEP_SIZE ||
                       t->variable[known[i]].source == SLAVE_FIDELITY;
-    if (none) return slave_say(s, SLAVE_ERROR, "Value reference %u cannot be derived by.", (unsigned)known[i]);
+    if (none) return slave_say(s, SLAVE_ERROR, "There are no derivatives by value reference %u.", (unsigned)known[i]);
     if (!(fabs(seed[i]) < HUGE_VAL))
       return slave_say(s, SLAVE_ERROR, "The seed of '%s' is %g; a finite number is needed.", t->variable[known[i]].name,
                        seed[i]);

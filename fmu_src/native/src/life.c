@@ -50,7 +50,7 @@ static bool load(slave *s, const char *resources) {
 
 static void start_values(slave *s) {
   const slave_table *t = &slave_the_table;
-  const slave_memory_of_calls calls = {SLAVE_INSTANTIATED, 0, 0, 0, 0, 0.0, HUGE_VAL};
+  const slave_call_state calls = {SLAVE_INSTANTIATED, 0, 0, 0, 0, 0.0, HUGE_VAL};
   s->calls = calls;
   s->last_step = SLAVE_OK;
   slave_forget_refusal(s);

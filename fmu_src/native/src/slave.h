@@ -62,7 +62,7 @@ typedef struct { /* what a state is beside the kernel's bytes; numbers only */
   slave_phase phase;
   int32_t initialised, step_warned, energy_warned, mode_warned; /* said once a run */
   double start_time, stop_time; /* infinite where not given */
-} slave_memory_of_calls;
+} slave_call_state;
 
 typedef struct { /* a step that was refused and what the host did since: nothing, or count is 0 */
   int32_t count; /* how often the same step was refused */
@@ -82,9 +82,9 @@ struct slave {
   ali3_memory memory;
   char *name, *resources;
   bool logging, all_categories;
-  unsigned categories; /* bits, see slave_category */
+  unsigned categories; /* bits, see category_of in log.c */
   slave_fidelity fidelity;
-  slave_memory_of_calls calls;
+  slave_call_state calls;
   slave_refusal refusal;
   slave_status last_step; /* what the last step was answered with */
   double *value;          /* per variable; the outputs are filled when they are asked for */

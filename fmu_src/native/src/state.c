@@ -41,7 +41,7 @@ static void put(unsigned char **to, const void *from, size_t size) {
 
 static void save(const slave *s, unsigned char *bytes) {
   const size_t n = slave_the_table.n_known, size = whole_size(s);
-  const slave_memory_of_calls *c = &s->calls;
+  const slave_call_state *c = &s->calls;
   header head = {{0},
                  STATE_VERSION,
                  0,
@@ -78,13 +78,13 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
     return "only states of the same build can be set";
   if (head.size != size || size < own_size() || head.n_known != slave_the_table.n_known)
     return "they have another size";
-  if (head.fidelity >= slave_the_table.n_systems) return "their header makes no sense";
+  if (head.fidelity >= slave_the_table.n_systems) return "their header is inconsistent";
   if (head.fidelity == s->fidelity.number && size != whole_size(s)) return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
       head.initialised > 1 || head.step_warned > 1 || head.energy_warned > 1 || head.mode_warned > 1 ||
       !(fabs(head.start_time) < HUGE_VAL) || !(head.stop_time > head.start_time))
-    return "their header makes no sense";
-  if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header makes no sense";
+    return "their header is inconsistent";
+  if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header is inconsistent";
   return NULL;
 }
 
@@ -101,10 +101,10 @@ static const char *bad_value(const unsigned char *p) {
   }
   const unsigned char *flag = p + t->n_known * (1 + SLAVE_MOST_ORDERS) * sizeof v;
   for (size_t i = 0; i < 2 * t->n_known; i++)
-    if (flag[i] > 1) return "a flag in them is none";
+    if (flag[i] > 1) return "a flag in them is neither 0 nor 1";
   for (size_t i = 0; i < t->n_known; i++)
     if (flag[i] && t->variable[i].source != SLAVE_INPUT && t->variable[i].source != SLAVE_PARAMETER)
-      return "a flag in them is none";
+      return "a flag in them is neither 0 nor 1";
   return NULL;
 }
 

@@ -96,14 +96,16 @@ static bool possible(slave *s, double time, double step, double now) {
     slave_say(s, SLAVE_ERROR, "The step from %g s over %g s goes beyond the stop time %g s.", time, step,
               s->calls.stop_time);
   else if (step / s->value[s->step_reference] > MOST_STEPS)
-    slave_say(s, SLAVE_ERROR,
-              "The step of %g s has more than %g inner steps of %g s and could not be cancelled; ask for shorter ones.",
-              step, MOST_STEPS, s->value[s->step_reference]);
+    slave_say(
+        s, SLAVE_ERROR,
+        "The step of %g s has more than %g inner steps of %g s, and a step that has begun cannot be cancelled; take "
+        "shorter communication steps.",
+        step, MOST_STEPS, s->value[s->step_reference]);
   else if (!(time + step > time) || fabs(time) * DBL_EPSILON > CLOCK_TOLERANCE * s->value[s->step_reference])
     slave_say(
         s, SLAVE_ERROR,
-        "At %g s neighbouring times are %.2g s apart: the clock cannot follow a step of %g s with inner steps of %g "
-        "s; begin nearer to zero.",
+        "At %g s neighbouring floating-point times are %.2g s apart, too far for a step of %g s with inner steps of %g "
+        "s; start nearer to time zero.",
         time, fabs(time) * DBL_EPSILON, step, s->value[s->step_reference]);
   else
     return true;

@@ -115,17 +115,17 @@ class Instance:
         tolerance : float
             Times this near to a jump are at it, s.
         """
-        kept, rows = [], []
+        alive, rows = [], []
         for index, (times, values) in tables.items():
             n = memoryview(times).nbytes // 8
             arrays = [buffer(part, n, "a table", writable=False) for part in (times, values)]
-            kept.append(arrays)
+            alive.append(arrays)
             rows.append(InputTable(index, n, *(ctypes.cast(a, _DOUBLES) for a in arrays)))
         table = (InputTable * len(rows))(*rows)
         context = InputTables(tolerance, len(rows), table)
         address = ctypes.cast(self._library.ali3_input_of_tables, c_void_p)
         self._check(self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p)))
-        self._inputs = (context, table, kept)
+        self._inputs = (context, table, alive)
 
     def set_parameter(self, index: int, value: float) -> None:
         """Value of a parameter from now on; refused outside its range."""
@@ -175,6 +175,10 @@ class Instance:
         element, words = c_int32(), c_char_p()
         height = self._library.ali3_start_excess(self._handle, byref(element), byref(words))
         return float(height), element.value, (words.value or b"").decode()
+
+    def method_excludes(self) -> str:
+        """What the method of the settings takes no System with, in words; empty if it takes all."""
+        return bytes(self._library.ali3_method_excludes(self._handle)).decode()
 
     def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
         """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""

@@ -32,7 +32,7 @@ typedef enum {
   ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
   ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
   ALI3_START_REFUSED,     /* a start that an element refuses; see ali3_start_excess */
-  ALI3_UNRESOLVED, /* the motion is too fast for the step: energy came or went without a force, also in halves */
+  ALI3_UNRESOLVED, /* the motion is too fast for the step: the energy balance is violated, also in halves */
   ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
   ALI3_TOO_STIFF,         /* the step is too long for an explicit rule; see report.fastest_rate */
   ALI3_TOO_FAR,           /* a start so far away or so fast that its digits no longer resolve lengths */
@@ -179,6 +179,8 @@ ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
 ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);
+/* After ALI3_WRONG_METHOD: what the method of the settings takes no System with, in words; "" if it takes all. */
+ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
 /* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m);
  * then as ali3_initialise. */
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
@@ -200,7 +202,7 @@ typedef struct {
   double error_sum; /* of the estimates of accepted steps */
   double forced_error; /* the part of it of steps as short as they may be that erred more than they might */
   int64_t accepted, rejected, failed, forced; /* steps; failed: did not converge */
-  int64_t kept; /* steps that erred more than their share and no more than a fixed one */
+  int64_t over_share; /* steps that erred more than their share and no more than a fixed one */
   int64_t side_steps; /* made for a record where no polynomial through the steps served */
 } ali3_control;
 typedef struct {

@@ -105,8 +105,9 @@ class Joint:
     ----------
     name, type : str
     equations : list of Equation
-    keep : bool
-        Its force equations stay rows so that the multipliers (the joint force) exist; a joint-force sensor sets it.
+    as_rows : bool
+        Its force equations are rows, never eliminated, so that their multipliers (the joint force) exist; a joint-force
+        sensor sets it.
     switch : Switch or None
         What turns its rows on and off; None: they are always on.
     rows_weight : float
@@ -143,7 +144,7 @@ class Joint:
         self.normals = tuple(normals)
         self.places = places
         self.turn = turn
-        self.keep = False
+        self.as_rows = False
         self.turning: Turning | None = None
         self._make_turning = turning
         self.switch: Switch | None = None

@@ -23,6 +23,6 @@ def pin(model: BodyVocabulary, name: str, body: Body, point: ArrayLike | None, o
     held = model.anchor(body, place, what)
     equations = equal_vectors(name, "point", held, model.anchor(model.ground, place, what))
     joint = Joint(name, "pin", equations, rows_weight=1.0)
-    joint.keep = True
+    joint.as_rows = True
     joint.switch = new_switch(model, name, on)
     return joint

@@ -10,11 +10,11 @@ from mbs.checks import direction
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import perpendicular
 from mbs.model.ends import PointPair, different
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
+from mbs.model.perpendicular import perpendicular
 from mbs.model.reactions import Turning
 
 _BIG = 1.0 - 1e-12

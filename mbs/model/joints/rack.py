@@ -46,5 +46,5 @@ def rack(
     else:
         equation = Equation(name, "rack", dot_products(gap, e), turned(model, turns) * -r)
     joint = Joint(name, "rack", [equation], rows_weight=1.0)
-    joint.keep = True  # angles are never eliminated
+    joint.as_rows = True  # angles are never eliminated
     return joint

@@ -22,9 +22,9 @@ from mbs.checks import Vector, direction, number, positive
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import perpendicular
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint
+from mbs.model.perpendicular import perpendicular
 from mbs.model.spin import Spin
 from mbs.model.switches import new_switch
 

@@ -38,5 +38,5 @@ def screw(
     thread = dot_products(gap, model.anchor_axis(body_2, axis, what))
     row = Equation(name, "thread", thread, turned(model, angle) * (-lead / (2.0 * math.pi)))
     joint = Screw(name, "screw", [row, *shaft.equations], rows_weight=1.0)
-    joint.angle, joint.keep = angle, True  # angles are never eliminated
+    joint.angle, joint.as_rows = angle, True  # angles are never eliminated
     return joint, angle_joint

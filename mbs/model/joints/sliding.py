@@ -10,12 +10,12 @@ from mbs.checks import direction
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.checks import perpendicular
 from mbs.model.ends import PointPair, body_and_point, different
 from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import Interface, bends, located
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import may_share, points_of, shared_axis, shared_point, turning_about
+from mbs.model.perpendicular import perpendicular
 from mbs.model.reactions import Turning
 
 

@@ -4,6 +4,8 @@
 #include "../instance.h"
 
 ali3_status ali3_check_method(const ali3_instance *in);
+/* What ali3_needs_no_states refuses, in words for users. */
+#define ALI3_STATES_IN_WORDS "element states or filtered guides"
 ali3_status ali3_needs_no_states(const ali3_instance *in);
 bool ali3_conservative(const ali3_instance *in);
 #endif

@@ -22,7 +22,7 @@ static const double LEAST_SHARE = 1e-3; /* of the tolerance */
 static const double AIM = 0.4; /* of what a step may err */
 static const double PROPORTIONAL = 0.4, INTEGRAL = 0.7;
 static const double AGAIN = 1.5; /* after a step that stays without a share of its own */
-static const double SHRINK = 0.15, GROW = 4.0, MOST_KEPT = 0.9 /* of a rejected one */, AFTER_FAILURE = 0.25;
+static const double SHRINK = 0.15, GROW = 4.0, MOST_OF_REJECTED = 0.9, AFTER_FAILURE = 0.25;
 /* Of the time scale of the motion: shorter steps are not made for the sake of the error, since round-off of index three
  * grows there, and not for that of convergence. */
 static const double SHORTEST[] = {
@@ -114,19 +114,19 @@ typedef struct {
   bool rejected, force;
 } tries;
 
-enum { REJECT = 0, ACCEPT, KEEP, FORCE };
+enum { REJECT = 0, ACCEPT, OVER_SHARE, FORCE };
 
-/* Whether a step of h that errs so much stays: REJECT, ACCEPT, KEEP (without a share of its own), FORCE (the tolerance
- * does not hold). Much shorter steps than usual are a sign of a singular position: with index three those have least
+/* Whether a step of h that errs so much stays: REJECT, ACCEPT, OVER_SHARE (accepted, though above its share), FORCE (the
+ * tolerance does not hold). Much shorter steps than usual are a sign of a singular position: with index three those have least
  * to gain there, and in the end only round-off. */
 static int judge(const ali3_control *c, tries *seen, double h, double error, bool least) {
   const bool small = error <= c->tolerance * LEAST_SHARE;
   if (error <= c->tolerance * h / c->span) return ACCEPT;
-  if (small && h < UNUSUAL * c->usual) return KEEP;
-  if (seen->force || least) return small ? KEEP : FORCE;
+  if (small && h < UNUSUAL * c->usual) return OVER_SHARE;
+  if (seen->force || least) return small ? OVER_SHARE : FORCE;
   if (seen->h > 0.0) {
     const double fall = error / seen->error;
-    if (small && fall > KINK * h / seen->h) return KEEP;
+    if (small && fall > KINK * h / seen->h) return OVER_SHARE;
     seen->kicks = fall > KICK && h < KICK * seen->h ? seen->kicks + 1 : 0;
   } else {
     seen->first = h;
@@ -144,7 +144,7 @@ static void accepted(ali3_control *c, double h, double error, double part, int v
   c->error_sum += error;
   c->last = fmax(part, LEAST_ERROR);
   c->usual += (c->accepted > USUAL_STEPS ? 1.0 / USUAL_STEPS : 1.0 / (double)c->accepted) * (h - c->usual);
-  if (verdict == KEEP) c->kept++;
+  if (verdict == OVER_SHARE) c->over_share++;
   if (verdict != FORCE) return;
   c->forced++;
   c->forced_error += error;
@@ -189,7 +189,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
       return ALI3_OK;
     }
     c->rejected++;
-    c->h = seen.force ? seen.first : fmax(least, tried * fmin(MOST_KEPT, factor(part, 0.0, order)));
+    c->h = seen.force ? seen.first : fmax(least, tried * fmin(MOST_OF_REJECTED, factor(part, 0.0, order)));
     seen.rejected = true;
     ali3_vectors_copy(in, &in->now, &in->origin);
     in->report.steps = before.steps;

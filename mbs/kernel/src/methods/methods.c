@@ -15,4 +15,8 @@ static const int32_t orders[ALI3_METHOD_COUNT] = {
 
 const ali3_method *ali3_method_of(const ali3_instance *in) { return methods[in->settings.method]; }
 
+const char *ali3_method_excludes(const ali3_instance *in) {
+  return in == NULL || ali3_method_of(in)->excludes == NULL ? "" : ali3_method_of(in)->excludes;
+}
+
 int32_t ali3_method_order(const ali3_instance *in) { return orders[in->settings.method]; }

@@ -33,14 +33,14 @@ bool ali3_predict(ali3_instance *in, double h, bool from_past) {
   return goes_on;
 }
 
-/* Keeps the mean acceleration and the multipliers of the step from in->now to in->next. */
+/* Stores the mean acceleration and the multipliers of the step from in->now to in->next. */
 void ali3_predict_accept(ali3_instance *in, double h) {
   if (in->system->n_flexible > 0) return;
   for (int32_t i = 0; i < in->system->size.nq; i++) in->x[i] = 2.0 * (in->D[i] - h * in->now.qd[i]) / (h * h);
   ali3_history_append(in, h, in->x);
 }
 
-/* Keeps the mean rate of the step from in->now to in->next, of systems with flexible bodies. */
+/* Stores the mean rate of the step from in->now to in->next, of systems with flexible bodies. */
 void ali3_predict_rates(ali3_instance *in, double h) {
   if (in->system->n_flexible == 0) return;
   for (int32_t i = 0; i < in->system->size.nq; i++) {

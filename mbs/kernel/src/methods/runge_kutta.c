@@ -147,6 +147,7 @@ const ali3_method ali3_method_runge_kutta_8 = {.step = step,
                                                .motion = ali3_balance_step,
                                                .has_balance = has_balance,
                                                .takes = ali3_needs_no_states,
+                                               .excludes = ALI3_STATES_IN_WORDS,
                                                .owner = ALI3_METHOD_RUNGE_KUTTA_8,
                                                .stable_rate = 5.0,
                                                .round_off = ALI3_ROUND_OFF_INDEX_1};

@@ -330,6 +330,7 @@ static ali3_status step_8(ali3_instance *in, double t, double h) {
 
 const ali3_method ali3_method_semi_recursive = {.step = step_8,
                                                 .takes = takes,
+                                                .excludes = ALI3_STATES_IN_WORDS,
                                                 .after_sampled = report,
                                                 .owner = ALI3_METHOD_SEMI_RECURSIVE,
                                                 .relative = true,
@@ -343,6 +344,7 @@ static ali3_status step_4(ali3_instance *in, double t, double h) {
 
 const ali3_method ali3_method_semi_recursive_4 = {.step = step_4,
                                                   .takes = takes,
+                                                  .excludes = ALI3_STATES_IN_WORDS,
                                                   .after_sampled = report,
                                                   .owner = ALI3_METHOD_SEMI_RECURSIVE,
                                                   .relative = true,

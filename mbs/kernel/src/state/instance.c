@@ -25,11 +25,9 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_NOT_CONVERGED] = "the iteration did not converge, also not in smaller steps",
       [ALI3_SINGULAR] = "the tangent is singular",
       [ALI3_NOT_FINITE] = "the motion or a force became infinite",
-      [ALI3_WRONG_METHOD] =
-          "this method takes no element states or filtered guides (energy_momentum_4: no damping; radau_5: no rolling)",
+      [ALI3_WRONG_METHOD] = "the method does not take this System",
       [ALI3_START_REFUSED] = "an element refuses the start",
-      [ALI3_UNRESOLVED] =
-          "the motion is too fast for the step: energy came or went without a force, also in smaller steps",
+      [ALI3_UNRESOLVED] = "the motion is too fast for the step: the energy balance is violated, also in smaller steps",
       [ALI3_NO_TREE] =
           "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
       [ALI3_TOO_STIFF] = "the step is too long for an explicit method, which must follow the fastest motion",

@@ -25,7 +25,7 @@ double ali3_energy_balance(const ali3_report *r) {
 }
 
 /* A refused step may leave a residual beyond all numbers. */
-static double told(double value) { return value - value == 0.0 ? value : DBL_MAX; }
+static double or_largest(double value) { return value - value == 0.0 ? value : DBL_MAX; }
 
 double ali3_solver_value(const ali3_instance *in, int32_t kind) {
   if (in == NULL) return 0.0;
@@ -34,9 +34,9 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
   case ALI3_SOLVER_ITERATIONS:
     return r->last_iterations;
   case ALI3_SOLVER_VIOLATION:
-    return told(r->violation);
+    return or_largest(r->violation);
   case ALI3_SOLVER_RESIDUAL:
-    return told(r->residual);
+    return or_largest(r->residual);
   case ALI3_SOLVER_FACTORIZATIONS:
     return (double)r->factorizations;
   case ALI3_SOLVER_HALVINGS:
@@ -44,9 +44,9 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
   case ALI3_SOLVER_STATUS:
     return (double)ali3_run_status(r);
   case ALI3_SOLVER_ENERGY_ERROR:
-    return told(r->energy_error);
+    return or_largest(r->energy_error);
   case ALI3_SOLVER_ENERGY_BALANCE:
-    return told(ali3_energy_balance(r));
+    return or_largest(ali3_energy_balance(r));
   default:
     return 0.0;
   }

@@ -1,4 +1,4 @@
-"""Inertia of a body, checked, and vectors perpendicular to an axis."""
+"""Inertia of a body from what a user gives: principal values or a matrix, checked."""
 
 from __future__ import annotations
 
@@ -7,19 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.checks import Vector, array, capital, is_number, positive
+from mbs.checks import array, capital, is_number, positive
 from mbs.errors import ModelError
-
-
-def perpendicular(axis: Vector) -> tuple[Vector, Vector]:
-    """Unit vectors e1, e2 with e1 x e2 = axis; e1 along an earth axis where `axis` allows, so that equations stay
-    short.
-    """
-    k = int(np.argmin(np.abs(axis)))
-    e1 = -axis[k] * axis
-    e1[k] += 1.0
-    e1 = e1 / float(np.linalg.norm(e1))
-    return e1, np.cross(axis, e1)
 
 
 def inertia_matrix(value: ArrayLike, dimension: int, what: str) -> NDArray[np.float64]:

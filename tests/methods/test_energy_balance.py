@@ -1,4 +1,4 @@
-"""The books of a run: energy, work, largest kinetic energy, predictor differences, and what a refusal leaves."""
+"""The energy balance of a run: energy, work, kinetic energy, predictor differences, and what a refusal leaves."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_the_balance_in_python_is_that_of_the_kernel():
     assert simulation.report.energy_balance > 1e-3
 
 
-def test_a_refused_step_leaves_the_books_as_they_were():
+def test_a_refused_step_leaves_the_energy_balance_as_it_was():
     simulation = Simulation(system_of("cart_pole"), settings=Settings(max_halvings=3))
     simulation.step(1e-3, 440)
     with pytest.raises(SimulationError):
@@ -76,7 +76,7 @@ def test_a_refused_step_leaves_the_books_as_they_were():
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "semi_recursive"])
-def test_a_restored_run_goes_on_with_its_books(method):
+def test_a_restored_run_goes_on_with_its_energy_balance(method):
     system, settings = system_of("spatial_chain"), Settings(method=method)
     straight = Simulation(system, settings=settings)
     straight.step(0.005, 60)
