@@ -65,7 +65,7 @@ def _remedy(simulation: Simulation, status: int) -> str:
     if status == Status.START_REFUSED:
         height, element, words = simulation.instance.start_excess()
         name = prepared(simulation.system)[1]["elements"][element]["name"]
-        return f" '{name}' {words}. The scene must begin at least {height:.3g} m higher (z of the pose)."
+        return f" '{name}' {words}. {height:.3g} m higher (z of the pose) it would be clear of it."
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
     if rate > 0.0:
         h = simulation.step_tried

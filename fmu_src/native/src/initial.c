@@ -45,10 +45,10 @@ static const char *refused(const slave *s, char *text, size_t size) {
   int32_t element = -1;
   const double height = ali3_start_excess(s->fidelity.kernel, &element, &words);
   const char *name = element < 0 ? "" : t->element[t->first_element[s->fidelity.number] + (size_t)element];
-  snprintf(text, size, " '%.64s' %s. The scene must begin at least %.3g m higher.", name, words, height);
+  snprintf(text, size, " '%.64s' %s. %.3g m higher it would be clear of it.", name, words, height);
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_POSE && t->variable[i].index == POSE_HEIGHT)
-      snprintf(text, size, " '%.64s' %s. '%.64s' is %g m; it must be at least %.3g m.", name, words,
+      snprintf(text, size, " '%.64s' %s. '%.64s' is %g m; from %.3g m on it is clear.", name, words,
                t->variable[i].name, s->value[i], s->value[i] + height);
   return text;
 }

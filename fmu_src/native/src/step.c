@@ -105,7 +105,7 @@ static bool possible(slave *s, double time, double step, double now) {
     slave_say(
         s, SLAVE_ERROR,
         "At %g s neighbouring floating-point times are %.2g s apart, too far for a step of %g s with inner steps of %g "
-        "s; start nearer to time zero.",
+        "s; begin nearer to zero.",
         time, fabs(time) * DBL_EPSILON, step, s->value[s->step_reference]);
   else
     return true;
