@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ali3.errors import UserError
+from ali3.files import reason
 
 GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED = 0, 1, 2, 130
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT)."""
@@ -105,4 +106,4 @@ def _end(line: str, status: int) -> int:
 def _os_words(error: OSError) -> str:
     if error.filename is None or error.strerror is None:
         return str(error)
-    return f"{error.filename}: {error.strerror[:1].lower()}{error.strerror[1:]}."
+    return f"{error.filename}: {reason(error)}."

@@ -169,20 +169,19 @@ class ModelCore:
             return
         attributes = vars(thing)
         before = {
-            name: value.copy() if isinstance(value, (list, dict)) else value
+            name: value.copy() if isinstance(value, dict) else value
             for name, value in attributes.items()
             if name not in ("_undo", "_names")  # names are many, and `unique` notes its own
         }
+        # Lists of a register only grow: their lengths say what they were, at a cost that does not grow with them.
+        lengths = {name: len(value) for name, value in before.items() if isinstance(value, list)}
 
         def restore() -> None:
             for name in [name for name in attributes if name not in ("_undo", "_names", *before)]:
                 del attributes[name]
-            for name, value in before.items():
-                now: Any = attributes.get(name)
-                if isinstance(value, list) and isinstance(now, list):
-                    now[:] = value  # the same list as before: others hold it
-                else:
-                    attributes[name] = value
+            attributes.update(before)
+            for name, length in lengths.items():
+                del attributes[name][length:]
 
         self._undo.append(restore)
 

@@ -6,8 +6,6 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
-
 from mbs.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
 from mbs.errors import PoseError
 from mbs.kernel.header import Status
@@ -60,10 +58,11 @@ def check_every(every: int) -> int:
 
 def check_resolution(t: float, h: float) -> None:
     """One sentence for a step that is lost in the round-off of the time."""
-    if h < RESOLVED * np.spacing(abs(t)):
+    least = RESOLVED * math.ulp(t)
+    if h < least:
         raise ValueError(
             f"At t = {t:g} s a step of {h:g} s is lost in the round-off of the time; start nearer to zero or take a "
-            f"step above {RESOLVED * np.spacing(abs(t)):.1g} s."
+            f"step above {least:.1g} s."
         )
 
 
