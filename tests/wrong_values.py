@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import re
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -72,6 +73,23 @@ def problem_of(error: Exception, argument: str, value: Any) -> str:
     if isinstance(value, np.ndarray):
         told = told or str(value.shape) in message or "nan" in message
     return "" if named or told else "neither the argument nor the value is named"
+
+
+def problems_of(use: Callable[[Any], object], argument: str, allowed: Callable[[str, Any], bool]) -> list[str]:
+    """What is wrong with the refusals of an argument's wrong values, but for those that `allowed` names."""
+    found = []
+    for label, value in WRONG.items():
+        if allowed(label, value):
+            continue
+        problem = "accepted"
+        try:
+            use(value)
+        except Exception as error:
+            problem = problem_of(error, argument, value)
+            problem += f": {error}" if problem else ""
+        if problem:
+            found.append(ascii(f"{argument} = {label}: {problem}"))
+    return found
 
 
 def arguments_of(function: Any) -> list[inspect.Parameter]:
