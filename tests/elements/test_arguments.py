@@ -28,8 +28,10 @@ from mbs.elements import (
     SpringDamper,
     Tyre,
 )
-from mbs.scenes.prototype_car.tyre_data import LATERAL, LONGITUDINAL
+from mbs.vehicle import load
 from tests.wrong_values import as_scalars, problems_of
+
+CURVES = load("prototype").front.tyre.tyre()
 
 M = Model("bench")
 BODY = M.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
@@ -45,8 +47,8 @@ TYRE = Tyre(
     bottoming_radius=0.18,
     stiffness=1e5,
     damping=100.0,
-    longitudinal=LONGITUDINAL,
-    lateral=LATERAL,
+    longitudinal=CURVES.longitudinal,
+    lateral=CURVES.lateral,
     trail=(0.17, 0.18),
     trail_zero=(0.2, 0.22),
     trail_end=(0.35, 0.4),
