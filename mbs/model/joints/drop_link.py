@@ -29,8 +29,10 @@ def drop_link(
     lever_end: ArrayLike,
     link_end: ArrayLike,
 ) -> tuple[Coordinate, Joint]:
-    """``(|g|^2 + r^2 - L^2)/2 - g . (cos(theta) u + sin(theta) w) = 0`` with the lever u of length r square to its axis a
-    and ``w = a x u``, vectors of the carrier, and g from its axis to the end of the rod on the body; theta = 0 as drawn.
+    """``(|g|^2 + r^2 - L^2)/2 - g . (cos(theta) u + sin(theta) w) = 0`` with theta = 0 as drawn.
+
+    The lever u of length r is square to its axis a, ``w = a x u``; both are vectors of the carrier. The vector g goes
+    from the axis to the end of the rod on the body.
     """
     what = f"drop link '{name}'"
     different(carrier, body, what)
