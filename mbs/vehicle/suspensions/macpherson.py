@@ -28,7 +28,7 @@ class MacPhersonPoints(Section):
     strut_lower: Point
     """Lower end of spring and damper on the strut's axis, which is fixed in the upright."""
     strut_top: Point
-    """Top mount on the chassis, through which the strut slides and turns: upper end of spring, damper, steering axis."""
+    """Top mount on the chassis, through which the strut slides and turns; upper end of spring and steering axis."""
     tie_rod_inner: Point
     """Inner end of the tie rod: on the rack where the axle steers, else on the chassis."""
     tie_rod_outer: Point
