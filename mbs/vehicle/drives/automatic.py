@@ -8,7 +8,17 @@ from typing import Literal
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import AngularSpeed, CreepTorque, Fraction, Power, Ratio, SmallTorque, Time, Torque
+from mbs.vehicle.quantities import (
+    AngularSpeed,
+    CreepTorque,
+    Fraction,
+    Power,
+    Ratio,
+    SmallTorque,
+    Time,
+    Torque,
+    WheelSpeed,
+)
 from mbs.vehicle.section import Section
 
 
@@ -31,6 +41,12 @@ class Automatic(Section):
     """Torque per driven wheel at rest with closed throttle, the selector in drive; 0: neutral."""
     ratios: tuple[Ratio, ...]
     """Total ratio of each gear, first gear first."""
+    reverse_ratio: Ratio = 10.0
+    """Total ratio of reverse."""
+    engage_speed: WheelSpeed = 8.0
+    """Mean speed of the wheels above which a direction against the motion does not engage."""
+    engage_time: Time = 0.3
+    """Time in which the torque fades out of one direction, and into the other."""
     coupling_ratio: Fraction = 0.9
     """Speed ratio of the converter from which on its torque ratio is 1."""
     idle_speed: AngularSpeed = 90.0
@@ -72,7 +88,8 @@ class Automatic(Section):
         drive = AutomaticDrive(**(values | {"creep_torque": 0.0} if neutral else values))
         left, right = (spins[self.wheels[0].upper() + side].coordinate for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
-        element = b.m.add(drive.record("drive", left, right, z, x, b.inputs["throttle"].index))
+        inputs = b.inputs["throttle"].index, 1, b.inputs["selector"].index
+        element = b.m.add(drive.record("drive", left, right, z, x, *inputs))
         b.tie(self, "creep_torque", element, "creep_torque", value=drive.creep_torque)
         b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
 
