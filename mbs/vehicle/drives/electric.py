@@ -74,21 +74,13 @@ class Electric(Section):
         """
         own = ("kind", "wheels", "rotor_inertia")
         drive = ElectricDrive(**{name: getattr(self, name) for name in type(self).model_fields if name not in own})
-        driven = [spins[self.wheels[0].upper() + side] for side in "LR"]
+        left, right = (spins[self.wheels[0].upper() + side] for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
-        throttle, selector = b.inputs["throttle"], b.inputs.get("selector")
-        element = b.m.add(
-            drive.record(
-                "drive",
-                *(spin.coordinate for spin in driven),
-                z,
-                x,
-                throttle.index,
-                selector=None if selector is None else selector.index,
-            )
-        )
-        for side, spin in zip("LR", driven, strict=True):
-            b.m.armature(f"rotor {side}", spin, inertia=self.rotor_inertia)
+        throttle, selector = b.inputs["throttle"].index, b.inputs.get("selector")
+        chosen = None if selector is None else selector.index
+        element = b.m.add(drive.record("drive", left.coordinate, right.coordinate, z, x, throttle, selector=chosen))
+        for spin in (left, right):
+            b.m.armature(f"rotor at {spin.name}", spin, inertia=self.rotor_inertia)
         for name in TIED:
             b.tie(self, name, element, name)
 
