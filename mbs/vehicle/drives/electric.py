@@ -9,57 +9,56 @@ from mbs.elements.electric_drive import ElectricDrive
 from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (
+    AngularSpeed,
     DriveRatio,
-    Efficiency,
-    Factor,
+    Fraction,
+    MotorPower,
     MotorSpeed,
-    MotorTorque,
-    Power,
+    PartInertia,
     RegenerationTorque,
-    RotorInertia,
     Time,
-    WheelSpeed,
+    Torque,
 )
 from mbs.vehicle.section import Section
 
-_NOT_OF_THE_ELEMENT = ("kind", "wheels", "rotor_inertia")
+TIED = ("max_torque", "max_power", "ratio", "regeneration_torque", "regeneration_power")
 
 
 class Electric(Section):
-    """Drive by an electric motor; its reaction is on the chassis."""
+    """Drive by an electric motor."""
 
     kind: Literal["electric"]
     """Names this template."""
     wheels: Literal["front", "rear"]
     """Driven wheels."""
-    max_torque: MotorTorque
+    max_torque: Torque
     """Largest torque of the motor."""
-    max_power: Power
-    """Mechanical power of the motor, above which its torque falls as one over the speed."""
+    max_power: MotorPower
+    """Largest power of the motor at its shaft."""
     ratio: DriveRatio
-    """Turns of the motor for one of the wheels in the mean."""
-    rotor_inertia: RotorInertia
-    """Inertia of rotor and gears as it is at each driven wheel: half of the rotor's times the square of the ratio."""
+    """Speed of the motor over the mean speed of the wheels."""
     limit_speed: MotorSpeed
-    """Speed of the motor from which on its torque fades to zero."""
-    efficiency: Efficiency = 0.9
-    """Efficiency of motor and inverter."""
-    gear_efficiency: Efficiency = 0.97
-    """Efficiency of the gears."""
+    """Speed of the motor beyond which its torque fades."""
+    rotor_inertia: PartInertia
+    """Moment of inertia of the rotor as each driven wheel feels it: half of its own times the ratio squared."""
+    efficiency: Fraction = 0.9
+    """Efficiency between battery and shaft of the motor, both ways."""
+    gear_efficiency: Fraction = 0.97
+    """Efficiency between shaft and wheels, both ways."""
     regeneration_torque: RegenerationTorque = 0.0
-    """Torque of the motor against the motion with closed throttle."""
-    regeneration_power: Power = 50e3
-    """Limit of the mechanical power of regeneration."""
-    regeneration_speed: MotorSpeed = 60.0
-    """Speed of the motor below which regeneration fades to zero."""
-    reverse_torque: Factor = 0.5
-    """Factor on the largest torque in reverse."""
+    """Torque of the motor that brakes with closed throttle."""
+    regeneration_power: MotorPower = 50e3
+    """Largest power of it."""
+    regeneration_speed: AngularSpeed = 60.0
+    """Speed of the motor below which it fades, so that the car rests."""
+    reverse_torque: Fraction = 0.5
+    """Share of the largest torque in reverse."""
     reverse_speed: MotorSpeed = 250.0
-    """Limit speed in reverse."""
-    engage_speed: WheelSpeed = 8.0
-    """Mean speed of the wheels above which a direction against the motion does not engage."""
+    """Speed of the motor beyond which its torque fades in reverse."""
+    engage_speed: AngularSpeed = 8.0
+    """Speed of the wheels up to which the selector may go to the other direction."""
     engage_time: Time = 0.3
-    """Time in which the torque fades out of one direction, and into the other."""
+    """Time in which the torque fades out and in when the selector moves."""
 
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
         """Add the drive; its reaction is on the chassis.
@@ -71,20 +70,19 @@ class Electric(Section):
         spins : mapping of str to Spin
             Of the wheels, by their names.
         neutral : bool
-            Whether the car is guided; without throttle a motor at rest has no torque, so that it makes no difference.
+            Whether the selector is in neutral.
         """
-        values = {name: getattr(self, name) for name in type(self).model_fields if name not in _NOT_OF_THE_ELEMENT}
-        driven = {name: spin for name, spin in spins.items() if name[0] == self.wheels[0].upper()}
-        for name, spin in driven.items():
-            b.m.armature(f"rotor {name}", spin, inertia=self.rotor_inertia)
-        left, right = (spin.coordinate for spin in driven.values())
+        own = ("kind", "wheels", "rotor_inertia")
+        drive = ElectricDrive(**{name: getattr(self, name) for name in type(self).model_fields if name not in own})
+        left, right = (spins[self.wheels[0].upper() + side] for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
-        inputs = b.inputs["throttle"].index, b.inputs["selector"].index
-        element = b.m.add(ElectricDrive(**values).record("drive", left, right, z, x, *inputs))
-        for name in values:
-            quantity = self.quantity(name)
-            if quantity is not None and quantity.change is not None:
-                b.tie(self, name, element, name)
+        throttle, selector = b.inputs["throttle"].index, b.inputs.get("selector")
+        chosen = None if selector is None else selector.index
+        element = b.m.add(drive.record("drive", left.coordinate, right.coordinate, z, x, throttle, selector=chosen))
+        for spin in (left, right):
+            b.m.armature(f"rotor at {spin.name}", spin, inertia=self.rotor_inertia)
+        for name in TIED:
+            b.tie(self, name, element, name)
 
     def outputs(self, b: CarBuilder) -> None:
         """Add the outputs of the drive.
@@ -94,11 +92,11 @@ class Electric(Section):
         b : CarBuilder
             The car so far.
         """
-        m = b.m
-        m.sense_element("motor_speed", "drive", "motor_speed", description="speed of the motor")
-        m.sense_element("motor_torque", "drive", "motor_torque", description="torque of the motor")
-        m.sense_element(
-            "electric_power", "drive", "electric_power", description="power from the battery, negative in regeneration"
-        )
-        m.sense_element("gear", "drive", "gear", description="direction engaged: -1 reverse, 0 neutral, 1 drive")
-        m.sense_element("drive_torque", "drive", "wheel_torque", description=f"torque on each {self.wheels} wheel")
+        for name, output, text in (
+            ("motor_speed", "motor_speed", "speed of the motor"),
+            ("motor_torque", "motor_torque", "torque of the motor at its shaft"),
+            ("gear", "gear", "selector engaged: -1 reverse, 0 neutral, 1 drive"),
+            ("drive_torque", "wheel_torque", f"torque on each {self.wheels} wheel"),
+            ("electric_power", "electric_power", "power from the battery; negative: regeneration"),
+        ):
+            b.m.sense_element(name, "drive", output, description=text)
