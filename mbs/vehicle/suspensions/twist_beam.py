@@ -6,8 +6,8 @@ stiffness: so W. Matschinsky ("Road Vehicle Suspensions", Wiley) and J. Reimpell
 line of their pivots; in roll each turns about the line from its pivot through the middle of the shear-centre axis.
 
 The bushes hold the pivots as ball joints. As the beam is twisted the pivots would come nearer to each other by tenths
-of a millimetre: by so much both halves may slide on each other along the shear-centre axis. Two freedoms remain, bump and
-roll, and mirrored motions are mirrored; each bush takes the side force of its wheel.
+of a millimetre: by so much both halves may slide on each other along the shear-centre axis. Two freedoms remain, bump
+and roll, and mirrored motions are mirrored; each bush takes the side force of its wheel.
 """
 
 from __future__ import annotations
