@@ -194,6 +194,8 @@ class Status(IntEnum):
     TOO_FAR = 15
     NO_EQUILIBRIUM = 16
     BRANCH_CHANGED = 17
+    BAD_ROAD = 18
+    ROAD_LOST = 19
 
 
 class Update(IntEnum):
