@@ -45,6 +45,9 @@ def metadata(
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
             for p in model.parameters
         ],
+        "road_files": [
+            {"name": f.name, "road": f.road, "start": f.start, "description": f.description} for f in model.road_files
+        ],
         "constants": [
             {"name": c.name, "unit": c.unit, "description": c.description, "value": c.value} for c in model.constants
         ],

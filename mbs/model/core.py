@@ -19,6 +19,7 @@ from mbs.errors import ModelError
 
 if TYPE_CHECKING:
     from mbs.elements.road import Road
+    from mbs.model.parameters import RoadFileParameter
     from mbs.model.constants import Constant
     from mbs.model.guides import Guide
     from mbs.model.inputs import Input
@@ -144,6 +145,7 @@ class ModelCore:
         self.guides: list[Guide] = []
         self.switches: list[Switch] = []
         self.roads: list[Road] = []
+        self.road_files: list[RoadFileParameter] = []
         self.sensors: list[Sensor] = []
         self.parameters: list[Parameter] = []
         self.constants: list[Constant] = []

@@ -40,7 +40,7 @@ def simulate(
     h: float | None = None,
     inputs: Mapping[str, Signal] | None = None,
     settings: Settings | None = None,
-    parameters: Mapping[str, float] | None = None,
+    parameters: Mapping[str, Any] | None = None,
     *,
     every: int = 1,
     progress: bool | Callable[[float], None] | None = None,
