@@ -15,7 +15,7 @@ from mbs import accuracy
 from mbs.accuracy import AccuracyWarning
 from mbs.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.input_signals import InputSignals, Signal, unit_text
-from mbs.kernel.binding import Instance, KernelError
+from mbs.kernel.binding import Instance, KernelError, Status
 from mbs.large_bending import BendingWatch
 from mbs.roads.shipped import road_path
 from mbs.run_report import Report
@@ -146,7 +146,7 @@ class Simulation:
         self.instance.set_input(index, x)
 
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
-        """Value of a parameter from now on.
+        """Value of a tunable parameter from now on; the next step is the first with it.
 
         Parameters
         ----------
@@ -159,7 +159,8 @@ class Simulation:
         Raises
         ------
         ValueError
-            There is no such parameter, the value is not within its limits, or the file of a road is refused.
+            There is no such parameter, it is fixed, the value is not within its limits, the model cannot take it beside
+            the other values, or the file of a road is refused.
         """
         if isinstance(name, str) and name in self._road_files:
             self._set_road(self._road_files[name], value)
@@ -172,7 +173,18 @@ class Simulation:
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}; "
                 f"it must lie between {entry['min']:g} and {entry['max']:g}."
             )
-        self.instance.set_parameter(index, x)
+        try:
+            self.instance.set_parameter(index, x)
+        except KernelError as error:
+            if error.status == Status.FIXED_PARAMETER:
+                raise ValueError(
+                    f"Parameter {name!r} is fixed and cannot be set at t = {self.time:g} s; start a simulation with "
+                    f"it: Simulation(system, parameters={{{name!r}: {shown(value)}}})."
+                ) from None
+            raise ValueError(
+                f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
+                "beside its other values."
+            ) from None
 
     def _set_road(self, entry: Mapping[str, Any], value: object) -> None:
         name = entry["name"]
