@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,7 +45,7 @@ def text_table(meta: Mapping[str, Any], table: Sequence[Variable]) -> tuple[Text
     for entry in meta.get("road_files", ()):
         if entry["name"] in taken:
             raise ValueError(f"Two variables are named '{entry['name']}'; every one needs its own name.")
-        start = os.path.basename(entry["start"])
+        start = Path(entry["start"]).name
         found.append(TextVariable(entry["name"], entry["description"], entry["road"], start))
     return tuple(found)
 
@@ -59,7 +58,7 @@ def road_resources(meta: Mapping[str, Any]) -> dict[str, bytes]:
     roads = {path.name: path.read_bytes() for path in sorted(FOLDER.glob("*.road"))}
     for entry in files:
         if entry["start"]:
-            name, content = os.path.basename(entry["start"]), Path(entry["start"]).read_bytes()
+            name, content = Path(entry["start"]).name, Path(entry["start"]).read_bytes()
             if roads.setdefault(name, content) != content:
                 raise ValueError(f"Two different roads are named '{name}'; rename {entry['start']}.")
     return {f"{ROADS}/{name}": content for name, content in roads.items()}

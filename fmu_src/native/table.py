@@ -69,7 +69,10 @@ def c_table(
 
 
 def _texts(texts: Sequence[TextVariable]) -> str:
-    lines = "\n".join(f"    {{{c_string(t.name)}, {t.road}, {c_string(t.start)}}}," for t in texts) or "    {NULL, 0, NULL},"
+    lines = (
+        "\n".join(f"    {{{c_string(t.name)}, {t.road}, {c_string(t.start)}}}," for t in texts)
+        or "    {NULL, 0, NULL},"
+    )
     return f"static const slave_text texts[] = {{\n{lines}\n}};\n\n"
 
 

@@ -19,12 +19,11 @@ from mbs.errors import ModelError
 
 if TYPE_CHECKING:
     from mbs.elements.road import Road
-    from mbs.model.parameters import RoadFileParameter
     from mbs.model.constants import Constant
     from mbs.model.guides import Guide
     from mbs.model.inputs import Input
     from mbs.model.joints.joint import Joint
-    from mbs.model.parameters import Parameter
+    from mbs.model.parameters import Parameter, RoadFileParameter
     from mbs.model.sensors import Sensor
     from mbs.model.spin import Spin
     from mbs.model.switches import Switch

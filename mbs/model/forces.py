@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -289,7 +289,7 @@ class ForceVocabulary(BodyVocabulary):
         k, start = len(self.roads), ""
         if isinstance(road, RoadFile):
             _ = road.header  # whether there is such a file
-            start = os.path.abspath(road.path)
+            start = str(Path(road.path).absolute())
             file = file or ("road.file" if k == 0 else f"road_{k}.file")
             road = road.road
         _ = road.real  # its numbers are looked at

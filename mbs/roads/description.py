@@ -199,8 +199,8 @@ def grid_road(
         values = second.values
         if values.shape != grid.values.shape:
             raise RoadFileError(
-                f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} {grid.values.shape}; "
-                "both must agree."
+                f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} "
+                f"{grid.values.shape}; both must agree."
             )
     elif grid.frictions is not None:
         values = grid.frictions

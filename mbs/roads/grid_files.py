@@ -152,7 +152,11 @@ def _archive(arrays: dict[str, NDArray[np.float64]], file: Path, what: str) -> G
         raise RoadFileError(f"{file} has an array '{unknown[0]}'; known are {', '.join(sorted(known))}.")
     if what not in arrays:
         raise RoadFileError(f"{file} has no array '{what}'.")
-    pairs = {name: _pair(_real(arrays[name], file), f"'{name}' in {file}") for name in ("origin", "spacing") if name in arrays}
+    pairs = {
+        name: _pair(_real(arrays[name], file), f"'{name}' in {file}")
+        for name in ("origin", "spacing")
+        if name in arrays
+    }
     frictions = _real(arrays["frictions"], file) if "frictions" in arrays and what == "heights" else None
     return Grid(_real(arrays[what], file), pairs.get("origin"), pairs.get("spacing"), frictions)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import struct
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
@@ -28,6 +29,9 @@ TRAILER = struct.Struct("<qII")
 HIGHEST = 1e5
 """Largest height, m."""
 MOST_FRICTION = 10.0
+FARTHEST = 1e8
+"""Largest coordinate, m."""
+MOST_POINTS = 10**12
 MOST_IN_MEMORY = 10**8
 """Points of a grid that is read as a whole."""
 
@@ -157,11 +161,13 @@ def read_header(file: BinaryIO, name: object) -> Header:
         raise RoadFileError(f"{name} is no road file; ali3 road INPUT OUTPUT.road makes one.")
     if len(data) < HEADER.size:
         raise RoadFileError(f"{name} ends within its header.")
-    _, version, crc, size, kind, contents, nx, ny, _, maps, *real = HEADER.unpack(data)
+    _, version, crc, size, kind, contents, nx, ny, tile, maps, *real = HEADER.unpack(data)
     if version != VERSION:
         raise RoadFileError(f"{name} is a road file of version {version}; version {VERSION} is read here.")
     if crc != zlib.crc32(data[CHECKED_FROM:]):
         raise RoadFileError(f"The header of {name} was altered or damaged.")
+    if problem := _problem(kind, nx, ny, tile, maps, real):
+        raise RoadFileError(f"{name} is no road file that can be read: {problem}.")
     head = Header(RoadType(kind), nx, ny, maps, tuple(real[:REALS]), contents)
     found = file.seek(0, os.SEEK_END)
     if not size == head.file_bytes == found:
@@ -169,9 +175,28 @@ def read_header(file: BinaryIO, name: object) -> Header:
     return head
 
 
-def _read_grid(
-    file: BinaryIO, head: Header, name: object
-) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[float]) -> str:
+    """What is wrong with the numbers of a header, as the kernel judges them; empty if nothing is."""
+    if kind not in list(RoadType):
+        return f"{kind} is no kind of road"
+    if not all(abs(x) <= FARTHEST for x in real):
+        return "a number in its header is not finite or beyond 1e8"
+    if not 0.0 <= real[3 if kind == RoadType.PLANE else 4] <= MOST_FRICTION:
+        return f"its friction lies outside 0 to {MOST_FRICTION:g}"
+    if kind == RoadType.KERB and not (real[2] > 0.0 and real[3] in (-1.0, 1.0)):
+        return "the step of its kerb is not positive or its side neither 1 nor -1"
+    if kind != RoadType.GRID:
+        return "" if (nx, ny, maps) == (0, 0, 0) else "a plane or kerb has no grid"
+    if tile != TILE or maps not in (1, 2):
+        return "its tiles have another form"
+    if min(nx, ny) < 2 or max(nx, ny) > 2**30 or nx * ny > MOST_POINTS:
+        return f"its grid has {nx} x {ny} points"
+    if not (real[2] > 0.0 and real[3] > 0.0):
+        return "the spacing of its grid is not positive"
+    return "" if max(nx * real[2], ny * real[3]) <= FARTHEST else "its grid reaches farther than 1e8 m"
+
+
+def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
     tiles_x, tiles_y = head.tiles
     values = np.empty((head.maps, tiles_x * TILE, tiles_y * TILE))
     checksums = []

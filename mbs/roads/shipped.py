@@ -11,6 +11,5 @@ FOLDER = Path(__file__).with_name("files")
 def road_path(value: str | os.PathLike[str]) -> str:
     """A path as it is; a bare name that is no file here may be that of a road of the package."""
     text = os.fspath(value)
-    if text and not os.path.dirname(text) and not os.path.lexists(text) and (FOLDER / text).is_file():
-        return str(FOLDER / text)
-    return text
+    shipped = text in {path.name for path in FOLDER.glob("*.road")}
+    return str(FOLDER / text) if shipped and not Path(text).exists() else text

@@ -70,7 +70,11 @@ def _write_grid(road: GridRoad, out: BinaryIO, name: object) -> None:
     check_grid(heights, np.atleast_2d(frictions), name)
     uniform = frictions.ndim == 0
     head = Header(
-        RoadType.GRID, int(nx), int(ny), 1 if uniform else 2, _padded([x0, y0, dx, dy, float(frictions) if uniform else 1.0])
+        RoadType.GRID,
+        int(nx),
+        int(ny),
+        1 if uniform else 2,
+        _padded([x0, y0, dx, dy, float(frictions) if uniform else 1.0]),
     )
     out.write(head.to_bytes())
     maps = [heights] if uniform else [heights, frictions]
@@ -90,4 +94,3 @@ def _tile(values: NDArray[np.float64]) -> bytes:
     whole = np.zeros((TILE, TILE), "<f8")
     whole[: values.shape[0], : values.shape[1]] = values
     return whole.tobytes()
-

@@ -93,6 +93,7 @@ class Simulation:
                 self.set_parameter(name, entry["start"])
         for name, value in check_values(parameters, "The parameters").items():
             self.set_parameter(name, value)
+        self._warn_of_other_road(check_values(parameters, "The parameters"))
         for name, value in check_values(inputs, "The inputs").items():
             self.set_input(name, value)
         if (placed := check_pose(pose, self._meta)) is not None:
@@ -185,6 +186,16 @@ class Simulation:
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
+
+    def _warn_of_other_road(self, parameters: Mapping[str, Any]) -> None:
+        """A word about parameters of roads that files replace."""
+        files = {e["road"] for n, e in self._road_files.items() if parameters.get(n, e["start"])}
+        for entry in self._meta["parameters"]:
+            if entry["name"] in parameters and entry.get("road") in files:
+                warnings.warn(
+                    f"The parameter {entry['name']!r} has no effect: it is of the road that the file replaces.",
+                    stacklevel=3,
+                )
 
     def _set_road(self, entry: Mapping[str, Any], value: object) -> None:
         name = entry["name"]

@@ -119,11 +119,11 @@ static const double *reals_of(const ali3_road *road) {
   return road->file != NULL ? ali3_road_file_reals(road->file) : road->real;
 }
 
+/* 1 where a plane or kerb was written without one. */
 static double factor_of(const ali3_road *road) {
-  const int place = road->type == ALI3_ROAD_PLANE  ? PLANE_FACTOR
-                    : road->type == ALI3_ROAD_KERB ? KERB_FACTOR
-                                                   : GRID_FRICTION;
-  return road->real[place];
+  if (road->type == ALI3_ROAD_GRID) return road->real[GRID_FRICTION];
+  const int32_t place = road->type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
+  return place < road->nreal ? road->real[place] : 1.0;
 }
 
 /* False where a parameter has spoilt the header. */
@@ -269,25 +269,27 @@ double ali3_road_top(const ali3_road *road, const double place[3], double reach)
 }
 
 const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {
+  static const char negative[] = "the friction of a road must not be negative";
   int nx, ny;
   switch (type) {
   case ALI3_ROAD_PLANE:
-    if (nreal != PLANE_REALS) return "a plane road has 5 numbers: height, grade in x, grade in y, friction, its factor";
-    return real[PLANE_FRICTION] < 0.0 || real[PLANE_FACTOR] < 0.0 ? "the friction of a road must not be negative" : 0;
+    if (nreal != PLANE_FACTOR && nreal != PLANE_REALS)
+      return "a plane road has 4 numbers: height, grade in x, grade in y, friction; and a factor on the friction";
+    return real[PLANE_FRICTION] < 0.0 || (nreal == PLANE_REALS && real[PLANE_FACTOR] < 0.0) ? negative : 0;
   case ALI3_ROAD_KERB:
-    if (nreal != KERB_REALS)
-      return "a kerb has 6 numbers: x of the edge, lower height, step, side, friction, its factor";
+    if (nreal != KERB_FACTOR && nreal != KERB_REALS)
+      return "a kerb has 5 numbers: x of the edge, lower height, step, side, friction; and a factor on the friction";
     if (!(real[KERB_STEP] > 0.0)) return "the step of a kerb must be positive";
     if (real[KERB_SIDE] != 1.0 && real[KERB_SIDE] != -1.0) return "the side of a kerb must be 1 or -1";
-    return real[KERB_FRICTION] < 0.0 || real[KERB_FACTOR] < 0.0 ? "the friction of a road must not be negative" : 0;
+    return real[KERB_FRICTION] < 0.0 || (nreal == KERB_REALS && real[KERB_FACTOR] < 0.0) ? negative : 0;
   case ALI3_ROAD_GRID:
     if (nreal < GRID_DATA || !grid_size(real, nreal, &nx, &ny))
       return "a grid road needs at least 2 x 2 points at positive spacing";
     if (nx != real[GRID_NX] || ny != real[GRID_NY] || GRID_DATA + 2 * (int64_t)nx * ny != nreal)
       return "a grid road needs one height and one friction per point";
-    if (real[GRID_FRICTION] < 0.0) return "the friction of a road must not be negative";
+    if (real[GRID_FRICTION] < 0.0) return negative;
     for (int64_t i = GRID_DATA + (int64_t)nx * ny; i < nreal; i++)
-      if (real[i] < 0.0) return "the friction of a road must not be negative";
+      if (real[i] < 0.0) return negative;
     return 0;
   default:
     return "unknown type of road";

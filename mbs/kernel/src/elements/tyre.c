@@ -265,7 +265,7 @@ static double depth(const ali3_element_args *a, double raised, double *part) {
  * scene up. The rise is the depth along the road's normal; walls are climbed a depth at a time. */
 static ali3_start_verdict start(const ali3_element_args *a, double raised) {
   double part = 0.0;
-  const double deepest = depth(a, raised, &part);
+  const double deepest = fmax(depth(a, raised, &part), 0.0);
   return (ali3_start_verdict){.excess = deepest - a->real[RADIUS], .rise = deepest > CLEAR ? deepest * part : 0.0};
 }
 
