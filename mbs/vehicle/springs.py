@@ -4,30 +4,99 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import TypeVar
+
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
 
 from mbs.elements.record import ElementRecord
-from mbs.elements.spring_damper import EndStops
+from mbs.elements.spring_damper import EndStops, SpringDamper
+from mbs.elements.spring_damper_table import SpringDamperTable
 from mbs.model.body import Body
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import Damping, FreeLength, HysteresisLoss, SmallLength, Stiffness, StopStiffness, Travel
+from mbs.vehicle.quantities import Compression, DamperForce, DamperSpeed, Damping, Factor, FreeLength, HysteresisLoss, SmallLength, SpringForce, Stiffness, StopStiffness, Travel
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Point
+
+
+S = TypeVar("S", bound=Section)
+
+
+def one_law(section: S, number: str, what: str) -> S:
+    """The section, if it has either its number or its table, and the table rises.
+
+    Parameters
+    ----------
+    section : Section
+        A spring or a damper.
+    number : str
+        Name of its number.
+    what : str
+        The number in words.
+
+    Raises
+    ------
+    PydanticCustomError
+        It has neither or both, or its table falls.
+    """
+    value, table = getattr(section, number), section.table
+    if (value is None) == (table is None):
+        which = "both {number} and table" if table is not None else "neither {number} nor table"
+        raise PydanticCustomError(
+            "law", f"has {which}; it must have one of them: a {{what}}, or rows of a table", {"number": number, "what": what}
+        )
+    if table is not None and (len(table) < 2 or not all(a[0] < b[0] and a[1] <= b[1] for a, b in pairwise(table))):
+        raise PydanticCustomError("law", "has a table that does not rise from row to row; it needs two rows or more", {})
+    return section
 
 
 class Spring(Section):
     """Spring of one wheel."""
 
-    stiffness: Stiffness
-    """Spring rate."""
+    stiffness: Stiffness | None = None
+    """Spring rate; or there is a table."""
+    table: tuple[tuple[Compression, SpringForce], ...] | None = None
+    """Rows of compression from the free length and force, both rising, a monotone cubic between them."""
     free_length: FreeLength
     """Length without force, between the points that the suspension names."""
+    factor: Factor = 1.0
+    """Factor on the force of the spring."""
+
+    @model_validator(mode="after")
+    def _one_law(self) -> Spring:
+        return one_law(self, "stiffness", "spring rate in N/m")
+
+    @property
+    def law(self) -> float | list[tuple[float, float]]:
+        """Stiffness, N/m, or rows of stretch, m, and tension, N."""
+        if self.table is None:
+            assert self.stiffness is not None
+            return self.stiffness
+        return [(-x, -force) for x, force in reversed(self.table)]
 
 
 class Damper(Section):
     """Damper of one wheel, along the spring where the suspension has no points of its own for it."""
 
-    damping: Damping
-    """Damping coefficient."""
+    damping: Damping | None = None
+    """Damping coefficient; or there is a table."""
+    table: tuple[tuple[DamperSpeed, DamperForce], ...] | None = None
+    """Rows of speed and force, both positive in rebound and rising, through (0, 0), a monotone cubic between them."""
+    factor: Factor = 1.0
+    """Factor on the force of the damper."""
+
+    @model_validator(mode="after")
+    def _one_law(self) -> Damper:
+        return one_law(self, "damping", "damping coefficient in N.s/m")
+
+    @property
+    def law(self) -> float | list[tuple[float, float]]:
+        """Damping, N s/m, or rows of the rate of the length, m/s, and tension, N."""
+        if self.table is None:
+            assert self.damping is not None
+            return self.damping
+        return list(self.table)
 
 
 class Stops(Section):
@@ -149,18 +218,20 @@ def _between(
     damper: Damper | None,
     stops: Stops | None,
 ) -> ElementRecord:
-    element = b.m.spring_damper(
-        name,
-        lower,
-        upper,
-        stiffness=0.0 if spring is None else spring.stiffness,
-        free_length=None if spring is None else spring.free_length,
-        damping=0.0 if damper is None else damper.damping,
-        stops=None if stops is None else stops.between(lower[1], upper[1]),
-    )
+    stiffness, damping = 0.0 if spring is None else spring.law, 0.0 if damper is None else damper.law
+    factors = 1.0 if spring is None else spring.factor, 1.0 if damper is None else damper.factor
+    ends = None if stops is None else stops.between(lower[1], upper[1])
+    length = math.dist(lower[1], upper[1]) if spring is None else spring.free_length
+    kind = SpringDamper if isinstance(stiffness, float) and isinstance(damping, float) else SpringDamperTable
+    difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
+    element = b.m.add(kind(stiffness, damping, length, ends, *factors).record(name, difference))
     if spring is not None:
-        b.tie(spring, "stiffness", element, "stiffness")
         b.tie(spring, "free_length", element, "free_length")
+        b.tie(spring, "factor", element, "stiffness_factor")
+        if spring.stiffness is not None:
+            b.tie(spring, "stiffness", element, "stiffness")
     if damper is not None:
-        b.tie(damper, "damping", element, "damping")
+        b.tie(damper, "factor", element, "damping_factor")
+        if damper.damping is not None:
+            b.tie(damper, "damping", element, "damping")
     return element
