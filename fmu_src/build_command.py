@@ -46,11 +46,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
 
 
 def _build(options: argparse.Namespace) -> int:
-    from ali3.files import check_writable
-    from fmu_src.build import KINDS, FmuBuilder, fmu_name
-    from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, this_platform
-    from fmu_src.progress_line import ProgressLine
-    from fmu_src.scene_registry import load_fidelities
+    from fmu_src.build import KINDS, face_name
+    from fmu_src.native.ahead import compiled_ahead
+    from fmu_src.platforms import PLATFORMS, this_platform
 
     kinds = list(dict.fromkeys(options.kind.split(",")))
     if set(kinds) - set(KINDS):
@@ -61,6 +59,19 @@ def _build(options: argparse.Namespace) -> int:
         _need("pythonfmu")
     _need("ziglang")
 
+    first, rest = [p for p in platforms if p == here], [p for p in PLATFORMS if p in platforms and p != here]
+    with compiled_ahead([(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]):
+        return _build_kinds(options, kinds, first, rest)
+
+
+def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Sequence[str], rest: Sequence[str]) -> int:
+    """Build what this machine runs, then the same for the others."""
+    from ali3.files import check_writable
+    from fmu_src.build import FmuBuilder, fmu_name
+    from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
+    from fmu_src.progress_line import ProgressLine
+    from fmu_src.scene_registry import load_fidelities
+
     line = ProgressLine()
     print(f"scene {options.scene} ...", flush=True)
     with line.told("compiling the scene"):
@@ -70,17 +81,17 @@ def _build(options: argparse.Namespace) -> int:
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
     builder = FmuBuilder(systems, name, fidelity, rights, line.told)
-    able = {kind: [p for p in platforms if kind != "python" or p in PYTHON_PLATFORMS] for kind in kinds}
+    wanted = [p for p in PLATFORMS if p in first or p in rest]
+    able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not able[k]]:
         print(f"{kind}: left out, it runs on {', '.join(PYTHON_PLATFORMS)} only", flush=True)
         del able[kind]
     # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
-    first = {kind: [here] for kind in able if here is not None and here in able[kind]}
-    rest = [p for p in PLATFORMS if p in platforms and p != here]
-    then = {kind: places for kind, places in able.items() if first.get(kind) != places}
+    here = {kind: list(first) for kind in able if first and set(first) <= set(able[kind])}
+    everywhere = {kind: places for kind, places in able.items() if here.get(kind) != places}
     meta = systems[fidelity].meta
-    for chosen in (first, then):
-        line.expect(sum(builder.pieces(kind, places) for kind, places in chosen.items()))
+    for chosen in (here, everywhere):
+        line.expect(builder.pieces(chosen))
         for kind, places in chosen.items():
             file = builder.build(kind, places, files[kind])
             print(
@@ -88,9 +99,15 @@ def _build(options: argparse.Namespace) -> int:
                 f"{len(meta['sensors'])} sensors; for {', '.join(places)}",
                 flush=True,
             )
-        if chosen is first and first and then:
+        if chosen is here and here and everywhere:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
+
+
+def _able(kind: str, platform: str) -> bool:
+    from fmu_src.platforms import PYTHON_PLATFORMS
+
+    return kind != "python" or platform in PYTHON_PLATFORMS
 
 
 def _platforms(text: str | None, here: str | None) -> list[str]:

@@ -14,7 +14,7 @@ from fmu_src.archive import identity_of, licence, write_zip
 from fmu_src.description import Description
 from fmu_src.documentation import documentation
 from fmu_src.native.compile import compile_library
-from fmu_src.native.reference import ReferenceRun, reference_files, reference_run
+from fmu_src.native.reference import ReferenceRun, reference_files
 from fmu_src.native.sources import packed_sources
 from fmu_src.native.table import c_table
 from fmu_src.picture import curves_png
@@ -144,6 +144,7 @@ class Face:
 def pack_native(
     contents: NativeContents,
     face: Face,
+    run: ReferenceRun,
     platforms: Sequence[str],
     file: Path,
     told: Telling,
@@ -155,6 +156,8 @@ def pack_native(
     ----------
     contents : NativeContents
     face : Face
+    run : ReferenceRun
+        The default experiment.
     platforms : sequence of str
         Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``.
     file : Path
@@ -173,8 +176,6 @@ def pack_native(
     identity, guid = contents.identity(face.name)
     table_c = face.tables(contents, identity, guid)
     sources = packed_sources(face.name, table_c)
-    with told(f"{face.name}: running the default experiment"):
-        run = reference_run(contents.system)
     files = {
         **{f"sources/{path}": data for path, data in sources.items()},
         **contents.system_files,
