@@ -15,11 +15,13 @@ from os import PathLike
 from pathlib import Path
 
 from ali3.files import check_writable
+from ali3.parameter_set import ParameterSet
 from fmu_src.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
 from fmu_src.native.ahead import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.reference import ReferenceRun, reference_run
+from fmu_src.parameter_file import parameter_set
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
 from fmu_src.probe import probe, with_nominal
 from fmu_src.texts import check_texts
@@ -153,6 +155,11 @@ class FmuBuilder:
         )
         self._libraries: dict[tuple[str, str], bytes] = {}
         self._run: ReferenceRun | None = None
+
+    @property
+    def parameters(self) -> ParameterSet:
+        """All parameters with their defaults."""
+        return parameter_set(fmu_name(self._name), self._contents.table)
 
     def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
         """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""

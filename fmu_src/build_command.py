@@ -6,9 +6,13 @@ import argparse
 import importlib.util
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
 from ali3.running import missing_package, run_command
+
+if TYPE_CHECKING:
+    from ali3.parameter_set import ParameterSet
 
 _KINDS = "native,fmi3,python"
 
@@ -77,7 +81,8 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     with line.told("compiling the scene"):
         name, systems, fidelity = load_fidelities(options.scene)
     files = {kind: options.out / f"{fmu_name(name, kind)}.fmu" for kind in kinds}
-    for file in files.values():
+    beside = options.out / f"{fmu_name(name)}.ssv"
+    for file in (*files.values(), beside):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
     builder = FmuBuilder(systems, name, fidelity, rights, line.told)
@@ -90,6 +95,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     here = {kind: list(first) for kind in able if first and set(first) <= set(able[kind])}
     everywhere = {kind: places for kind, places in able.items() if here.get(kind) != places}
     meta = systems[fidelity].meta
+    told = False
     for chosen in (here, everywhere):
         line.expect(builder.pieces(chosen))
         for kind, places in chosen.items():
@@ -99,9 +105,22 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
                 f"{len(meta['sensors'])} sensors; for {', '.join(places)}",
                 flush=True,
             )
+        if chosen and not told:
+            told = _write_parameters(builder.parameters, beside)
         if chosen is here and here and everywhere:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
+
+
+def _write_parameters(parameters: ParameterSet, file: Path) -> bool:
+    """Write the set of all parameters, unless there is one that a person has edited; True."""
+    from fmu_src.parameter_file import write_beside
+
+    if write_beside(parameters, file):
+        print(f"{file}: {len(parameters.entries)} parameters, to be edited and set by --parameters", flush=True)
+    else:
+        print(f"{file}: has other values than a build writes, and is kept", flush=True)
+    return True
 
 
 def _able(kind: str, platform: str) -> bool:
