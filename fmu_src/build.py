@@ -130,9 +130,22 @@ class FmuBuilder:
         Author, copyright and licence of the model; empty: the solver's.
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
+    description : str
+        Of the model; empty: that of the System.
+    origin : mapping of str to bytes, optional
+        Files that the model was made from, by their paths in the FMU.
     """
 
-    def __init__(self, system: Systems, name: str, fidelity: int, rights: tuple[str, str, str], told: Telling) -> None:
+    def __init__(
+        self,
+        system: Systems,
+        name: str,
+        fidelity: int,
+        rights: tuple[str, str, str],
+        told: Telling,
+        description: str = "",
+        origin: Mapping[str, bytes] | None = None,
+    ) -> None:
         offered = systems_by_number(system)
         systems, fidelity = tuple(offered.values()), default_fidelity(fidelity, len(offered))
         check_fidelities([s.meta for s in systems])
@@ -144,14 +157,15 @@ class FmuBuilder:
             fidelities=[_label(k) for k in offered],
             fidelity=fidelity,
         )
-        description = meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
+        description = description or meta.get("description") or ""
+        description = description or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
         check_texts(description, rights, table)
         self._name, self._told = name, told
         with told("finding what depends on what"):
             reach = probe(systems, table)
         version = importlib.metadata.version("ali3")
         self._contents = NativeContents(
-            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights
+            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights, origin or {}
         )
         self._libraries: dict[tuple[str, str], bytes] = {}
         self._run: ReferenceRun | None = None

@@ -1,10 +1,10 @@
-"""Builds the FMUs of a scene: ``ali3 build [--scene NAME or path/to/file.py:function] [--kind LIST]``."""
+"""Builds the FMUs of a car or a scene: ``ali3 build [--car CAR | --scene SCENE] [--kind LIST]``."""
 
 from __future__ import annotations
 
 import argparse
 import importlib.util
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,14 +13,22 @@ from ali3.running import missing_package, run_command
 
 if TYPE_CHECKING:
     from ali3.parameter_set import ParameterSet
+    from fmu_src.progress_line import ProgressLine
+    from mbs import System
 
 _KINDS = "native,fmi3,python"
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
     """Run the command; `prog` is how the user typed it."""
-    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a scene.")
-    parser.add_argument(
+    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a car or a scene.")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument(
+        "--car",
+        metavar="CAR",
+        help="a car of the package by its name, a folder with a file car.toml, or such a file",
+    )
+    what.add_argument(
         "--scene",
         default="prototype_car",
         metavar="NAME",
@@ -74,18 +82,15 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     from fmu_src.build import FmuBuilder, fmu_name
     from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
     from fmu_src.progress_line import ProgressLine
-    from fmu_src.scene_registry import load_fidelities
 
     line = ProgressLine()
-    print(f"scene {options.scene} ...", flush=True)
-    with line.told("compiling the scene"):
-        name, systems, fidelity = load_fidelities(options.scene)
+    name, systems, fidelity, description, origin = _compiled(options, line)
     files = {kind: options.out / f"{fmu_name(name, kind)}.fmu" for kind in kinds}
     beside = options.out / f"{fmu_name(name)}.ssv"
     for file in (*files.values(), beside):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
-    builder = FmuBuilder(systems, name, fidelity, rights, line.told)
+    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin)
     wanted = [p for p in PLATFORMS if p in first or p in rest]
     able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not able[k]]:
@@ -110,6 +115,24 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
         if chosen is here and here and everywhere:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
+
+
+def _compiled(
+    options: argparse.Namespace, line: ProgressLine
+) -> tuple[str, Mapping[int, System], int, str, Mapping[str, bytes]]:
+    """Name, Systems by fidelity, default fidelity, description and files of the car or the scene."""
+    if options.car is not None:
+        from fmu_src.car_registry import build_car, car_words
+
+        print(f"car {car_words(options.car)} ...", flush=True)
+        with line.told("compiling the car"):
+            car = build_car(options.car)
+        return car.name, car.systems, min(car.systems), car.description, car.files
+    from fmu_src.scene_registry import load_fidelities
+
+    print(f"scene {options.scene} ...", flush=True)
+    with line.told("compiling the scene"):
+        return (*load_fidelities(options.scene), "", {})
 
 
 def _write_parameters(parameters: ParameterSet, file: Path) -> bool:

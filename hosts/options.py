@@ -24,6 +24,15 @@ class Wishes:
     sets: list[Path]
     values: list[tuple[str, str]]
 
+    def __bool__(self) -> bool:
+        return bool(self.sets or self.values)
+
+    @property
+    def arguments(self) -> list[str]:
+        """The same as arguments of the command line."""
+        sets = [part for file in self.sets for part in ("--parameters", str(file))]
+        return sets + [part for name, text in self.values for part in ("--set", f"{name}={text}")]
+
 
 def add_setting_options(parser: argparse.ArgumentParser) -> None:
     """Add ``--parameters`` and ``--set``."""

@@ -40,17 +40,14 @@ def _parameters(options: argparse.Namespace) -> int:
     from ali3.files import check_writable
     from ali3.parameter_set import write_parameter_set
     from hosts.fmu import described
-    from hosts.settings import Settings
+    from hosts.settings import Settings, settings_of
     from hosts.variables import Variables
 
     if options.out is not None:
         check_writable(options.out)
     description = described(options.fmu)
     variables, given = Variables(description), wishes(options)
-    settings = Settings(variables)
-    for file in given.sets:
-        settings.add_set(file)
-    settings.add_texts(given.values, "--set")
+    settings = settings_of(variables, given)
     if options.diff is not None:
         other = Settings(variables)
         other.add_set(options.diff)

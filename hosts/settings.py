@@ -209,6 +209,35 @@ def _base(unit: UnitDefinition) -> str:
     return text if unit.factor == 1.0 else f"{unit.factor:g} {text}"
 
 
+def settings_of(
+    variables: Variables, wishes: Wishes, start: Mapping[str, Value] | None = None, source: str = ""
+) -> Settings:
+    """All that the user sets.
+
+    Parameters
+    ----------
+    variables : Variables
+        Of the FMU.
+    wishes : Wishes
+        Of the command line.
+    start : mapping of str to float, int, bool or str, optional
+        What comes before it.
+    source : str
+        How messages call that.
+
+    Raises
+    ------
+    HostError
+        A name, value, kind or unit is wrong.
+    """
+    settings = Settings(variables)
+    settings.add_numbers(start or {}, source)
+    for file in wishes.sets:
+        settings.add_set(file)
+    settings.add_texts(wishes.values, "--set")
+    return settings
+
+
 def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | None = None) -> tuple[Manoeuvre, Settings]:
     """The manoeuvre with all that the user sets, and what to say of it.
 
@@ -228,11 +257,7 @@ def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | Non
     HostError
         A name, value, kind or unit is wrong.
     """
-    settings = Settings(fmu.table)
-    settings.add_numbers(manoeuvre.start, f"start of {manoeuvre.name}")
-    for file in wishes.sets:
-        settings.add_set(file)
-    settings.add_texts(wishes.values, "--set")
+    settings = settings_of(fmu.table, wishes, manoeuvre.start, f"start of {manoeuvre.name}")
     if fidelity is not None:
         if "fidelity" in dict(wishes.values):
             raise HostError("The fidelity is given by --fidelity and by --set; give it once.")

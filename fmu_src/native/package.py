@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +43,8 @@ class NativeContents:
         The default one.
     author, copyright, licence : str
         Of the model, for its description; empty: the solver's.
+    origin : mapping of str to bytes
+        Files that the model was made from, by their paths in the FMU.
     """
 
     model_name: str
@@ -55,6 +57,7 @@ class NativeContents:
     author: str = ""
     copyright: str = ""
     licence: str = ""
+    origin: Mapping[str, bytes] = field(default_factory=dict)
 
     def description_head(self, guid: str, **more: Any) -> Description:
         """Attributes of modelDescription.xml; what is not given of the rights is the solver's."""
@@ -89,8 +92,16 @@ class NativeContents:
 
     @property
     def system_files(self) -> dict[str, bytes]:
-        """System files as they lie in the FMU."""
-        return {f"resources/system_{k}.ali3": system.to_bytes() for k, system in enumerate(self.systems)}
+        """System files as they lie in the FMU, and what they were made from."""
+        systems = {f"resources/system_{k}.ali3": system.to_bytes() for k, system in enumerate(self.systems)}
+        return systems | dict(self.origin)
+
+    @property
+    def origin_words(self) -> list[str]:
+        """A paragraph of the documentation about `origin`; none where there is nothing."""
+        if not self.origin:
+            return []
+        return [f"Made from the files that lie in it as {', '.join(sorted(self.origin))}."]
 
     @property
     def stop_time(self) -> float:
@@ -180,7 +191,7 @@ def pack_native(
         **{f"sources/{path}": data for path, data in sources.items()},
         **contents.system_files,
         "documentation/licenses/license.txt": licence("ali3"),
-        "documentation/index.html": _page(contents, face.words),
+        "documentation/index.html": _page(contents, [*contents.origin_words, *face.words]),
         face.picture: _picture(run),
     } | reference_files(name, run, contents.stop_time, contents.step_size)
     with tempfile.TemporaryDirectory() as temporary:
