@@ -37,6 +37,7 @@ COMMANDS = (
     Command("run", "hosts.run", "run any FMU with constant inputs and plot its outputs"),
     Command("check", "hosts.check", "check an FMU and print a verdict"),
     Command("kerb", "hosts.kerb", "run the paper's kerb test and draw the moments of the frame"),
+    Command("road", "mbs.roads.command", "make, check and show road files"),
     Command("kernel", "mbs.kernel.build", "compile the C kernel for a platform"),
 )
 

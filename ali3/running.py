@@ -18,6 +18,7 @@ _EXTRAS = {
     "fmpy": "hosts",
     "imageio": "pictures",
     "matplotlib": "hosts",
+    "PIL": "roads",
     "meshio": "fem",
     "mujoco": "peers",
     "pythonfmu": "fmu",
