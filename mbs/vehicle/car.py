@@ -168,6 +168,9 @@ class Car(Section):
             "steering": m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left"),
             "throttle": m.input("throttle", min=0.0, max=1.0, description="throttle pedal"),
             "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
+            "selector": m.input(
+                "selector", start=1.0, min=-1.0, max=1.0, description="selector: -1 reverse, 0 neutral, 1 drive"
+            ),
         }
         ground = m.road(road or self.road.default(), file="road.file")
         b = CarBuilder(self, m, ground, inputs)

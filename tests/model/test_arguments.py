@@ -80,7 +80,6 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "cylindrical": lambda b: between(b, point=X, axis=X),
     "weld": lambda b: between(b),
     "point_on_line": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": (b.box, X), "axis": X},
-    "mean_on_plane": lambda b: {"name": "new", "ends": [(b.arm, X), (b.box, X)], "carrier": b.m.ground, "normal": Y},
     "distance": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": b.ball, "length": 2.0},
     "drive": lambda b: {"name": "new", "driven": b.angle, "guide": b.guide},
     "pin": lambda b: {"name": "new", "body": b.arm, "point": X, "on": False},
