@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TypeVar
+from typing import TypeAlias
 
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
@@ -15,40 +15,49 @@ from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.spring_damper_table import SpringDamperTable
 from mbs.model.body import Body
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import Compression, DamperForce, DamperSpeed, Damping, Factor, FreeLength, HysteresisLoss, SmallLength, SpringForce, Stiffness, StopStiffness, Travel
+from mbs.vehicle.quantities import (
+    Compression,
+    DamperForce,
+    DamperSpeed,
+    Damping,
+    Factor,
+    FreeLength,
+    HysteresisLoss,
+    SmallLength,
+    SpringForce,
+    Stiffness,
+    StopStiffness,
+    Travel,
+)
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Point
 
+Law: TypeAlias = "tuple[tuple[float, float], ...] | None"
 
-S = TypeVar("S", bound=Section)
 
-
-def one_law(section: S, number: str, what: str) -> S:
-    """The section, if it has either its number or its table, and the table rises.
+def check_law(number: float | None, table: Law, name: str, what: str) -> None:
+    """Refuse what has neither or both of a number and a table, or a table that falls.
 
     Parameters
     ----------
-    section : Section
-        A spring or a damper.
-    number : str
-        Name of its number.
-    what : str
-        The number in words.
+    number : float or None
+        Of a spring or a damper.
+    table : rows of (float, float) or None
+        In its place.
+    name, what : str
+        The number in the file and in words.
 
     Raises
     ------
     PydanticCustomError
-        It has neither or both, or its table falls.
+        It is so.
     """
-    value, table = getattr(section, number), section.table
-    if (value is None) == (table is None):
-        which = "both {number} and table" if table is not None else "neither {number} nor table"
-        raise PydanticCustomError(
-            "law", f"has {which}; it must have one of them: a {{what}}, or rows of a table", {"number": number, "what": what}
-        )
+    if (number is None) == (table is None):
+        which = f"both {name} and table" if table is not None else f"neither {name} nor table"
+        wanted = "has {which}; it must have either a {what} or a table of rows"
+        raise PydanticCustomError("law", wanted, {"which": which, "what": what})
     if table is not None and (len(table) < 2 or not all(a[0] < b[0] and a[1] <= b[1] for a, b in pairwise(table))):
-        raise PydanticCustomError("law", "has a table that does not rise from row to row; it needs two rows or more", {})
-    return section
+        raise PydanticCustomError("law", "has a table that does not rise from row to row; it needs two rows or more")
 
 
 class Spring(Section):
@@ -65,7 +74,8 @@ class Spring(Section):
 
     @model_validator(mode="after")
     def _one_law(self) -> Spring:
-        return one_law(self, "stiffness", "spring rate in N/m")
+        check_law(self.stiffness, self.table, "stiffness", "spring rate")
+        return self
 
     @property
     def law(self) -> float | list[tuple[float, float]]:
@@ -88,7 +98,8 @@ class Damper(Section):
 
     @model_validator(mode="after")
     def _one_law(self) -> Damper:
-        return one_law(self, "damping", "damping coefficient in N.s/m")
+        check_law(self.damping, self.table, "damping", "damping coefficient")
+        return self
 
     @property
     def law(self) -> float | list[tuple[float, float]]:
@@ -222,9 +233,13 @@ def _between(
     factors = 1.0 if spring is None else spring.factor, 1.0 if damper is None else damper.factor
     ends = None if stops is None else stops.between(lower[1], upper[1])
     length = math.dist(lower[1], upper[1]) if spring is None else spring.free_length
-    kind = SpringDamper if isinstance(stiffness, float) and isinstance(damping, float) else SpringDamperTable
     difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
-    element = b.m.add(kind(stiffness, damping, length, ends, *factors).record(name, difference))
+    law: SpringDamper | SpringDamperTable
+    if isinstance(stiffness, float) and isinstance(damping, float):
+        law = SpringDamper(stiffness, damping, length, ends, *factors)
+    else:
+        law = SpringDamperTable(stiffness, damping, length, ends, *factors)
+    element = b.m.add(law.record(name, difference))
     if spring is not None:
         b.tie(spring, "free_length", element, "free_length")
         b.tie(spring, "factor", element, "stiffness_factor")

@@ -60,6 +60,8 @@ class AntiRollBar(Section):
                     **p,
                 )
             )
-        bar = b.m.anti_roll_bar(f"anti-roll bar {axle}", *levers, stiffness=self.stiffness, stiffness_factor=self.factor)
+        bar = b.m.anti_roll_bar(
+            f"anti-roll bar {axle}", *levers, stiffness=self.stiffness, stiffness_factor=self.factor
+        )
         b.tie(self, "stiffness", bar, "stiffness")
         b.tie(self, "factor", bar, "stiffness_factor")
