@@ -125,7 +125,7 @@ static ali3_status factorise(ali3_instance *in, const linear_step *step) {
                                 .potential = in->potential_work};
   ali3_constraints(in, v->q, v->s, in->Phi, in->J_tangent);
   ali3_forces(in, &call);
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J_tangent, step->c * step->alpha, in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, v->lam, step->c, in->F);
   ali3_forces_tangent(in, in->F);
