@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.affine import Affine
@@ -62,4 +61,3 @@ def _check_ports(model: Model) -> None:
                     f"'{payload.name}' has none: add a port at {payload.position.tolist()} and put the payload on the "
                     "body with ports."
                 )
-
