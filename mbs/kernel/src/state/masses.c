@@ -67,6 +67,7 @@ void ali3_masses_apply(ali3_instance *in) {
   memcpy(own->gravity, S->gravity_force, (size_t)S->size.nq * sizeof(double));
   in->gravity_const = S->gravity_const[0];
   for (int64_t i = 0; i < 3 * S->n_payload_mass; i++)
-    if (in->payload_mass[i / 3] > 0.0) add(in, S->payload_signal[i], in->payload_mass[i / 3], S->payload_gravity[i % 3]);
+    if (in->payload_mass[i / 3] > 0.0)
+      add(in, S->payload_signal[i], in->payload_mass[i / 3], S->payload_gravity[i % 3]);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
 }

@@ -1,9 +1,9 @@
 /* Parameters of an instance: what they write to its copies of the data of elements, guides, roads and payloads.
  */
+#include "parameters.h"
 #include "../instance.h"
 #include "../system/loading.h"
 #include "masses.h"
-#include "parameters.h"
 
 /* What a parameter of a value writes to its target k. */
 double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {

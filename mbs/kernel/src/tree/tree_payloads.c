@@ -6,8 +6,8 @@
 static void add(ali3_tree_work *w, int32_t b, double mass, const double *place) {
   double c[3], spin[3], rate[3], v[3], turned[3], bent[3], force[3], torque[3];
   for (int i = 0; i < 3; i++) {
-    c[i] = w->origin[i][b] +
-           (w->frame[b][i][0] * place[0] + w->frame[b][i][1] * place[1] + w->frame[b][i][2] * place[2]);
+    c[i] =
+        w->origin[i][b] + (w->frame[b][i][0] * place[0] + w->frame[b][i][1] * place[1] + w->frame[b][i][2] * place[2]);
     spin[i] = w->spin[i][b];
     rate[i] = w->spin_rate[i][b];
   }
