@@ -65,7 +65,9 @@ struct ali3_instance {
   const double *mass_val, *front_mass, *mass_floor, *mass_floor_inverse, *mass_missing, *gravity_force;
   double gravity_const;
   ali3_masses own_masses; /* with the payloads; empty where there are none */
-  ali3_road *road;
+  ali3_road *road, *own_road; /* in use: the System's own or from files; the System's own */
+  bool to_lift; /* the next start is at a place of which it is not known how high its road is */
+  double lift, uneven; /* of start_on_road.c, m: what raised the start; how far above its rest the highest part is */
   /* work space */
   double *D, *d0, *r, *x, *w, *hat; /* nq */
   double *stage; /* ALI3_STAGES x nq: accelerations, of radau.c residuals too */
