@@ -24,7 +24,7 @@ def masses():
     """Masses of the car with its default payloads and where they are."""
     c = car()
     found = [(c.chassis.mass, np.array(c.chassis.com))]
-    found += [(p.mass, np.array(p.position)) for p in c.payload.values()]
+    found += [(p.mass, np.array(p.point)) for p in c.payload.values()]
     for part, axle in [*((p, None) for p in parts_of(c)), (None, c.front), (None, c.rear)]:
         mass, place = (part.mass, part.com) if axle is None else (axle.wheel.mass, axle.wheel.centre)
         found += [(mass, np.array(place) * (1.0, sign, 1.0)) for sign in (1.0, -1.0)]
