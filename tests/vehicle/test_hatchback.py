@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from benchmarks.car.measures import MEASURES, measure
 from mbs import Pose, Simulation, compile
 from mbs.elements.road import PlaneRoad
+from mbs.vehicle import load
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.plausible import parts_of
 from tests.vehicle.hatchback import WHEELS, car, drive, mirrored, system
-
-PROTOTYPE_SAYS = {"roll_gradient": (8.0, 9.5), "understeer_gradient": (-0.5, 0.5)}
 
 
 @pytest.fixture(scope="module")
@@ -142,10 +143,22 @@ def test_hard_use_leaves_the_suspension_in_its_assembly():
 
 @pytest.fixture(scope="module")
 def measured():
-    return measure(car())
+    return {name: measure(load(name)) for name in ("hatchback", "prototype")}
 
 
 @pytest.mark.parametrize("m", [m for m in MEASURES if m.usual is not None], ids=lambda m: m.name)
 def test_it_is_plausible_for_its_class(measured, m):
     low, high = m.usual
-    assert low <= measured[m.name] <= high
+    assert low <= measured["hatchback"][m.name] <= high
+
+
+def test_the_page_of_the_cars_has_these_measures(measured):
+    """Also that the prototype rolls much and steers neutrally."""
+    page = (Path(__file__).parents[2] / "docs" / "cars.md").read_text(encoding="utf-8")
+    for m in MEASURES:
+        words = m.name.replace("_", " ") + ("" if m.unit == "1" else f", {m.unit}")
+        row = next(line.split(" | ") for line in page.splitlines() if line.startswith(f"| {words} |"))
+        for name, told in zip(("hatchback", "prototype"), row[1:3], strict=True):
+            assert measured[name][m.name] == pytest.approx(float(told), rel=0.02, abs=0.02), (m.name, name)
+    assert 8.0 < measured["prototype"]["roll_gradient"] < 9.5
+    assert abs(measured["prototype"]["understeer_gradient"]) < 0.2
