@@ -5,6 +5,7 @@ from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.brake import Brake
 from mbs.elements.contact_points import ContactPoints
+from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.elements.drag import Drag
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.elements.input_force import InputForce
@@ -13,6 +14,7 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
+from mbs.elements.torsion_bar import TorsionBar
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.kernel.header import ElementType
 
@@ -22,6 +24,7 @@ __all__ = [
     "BodyTorque",
     "Brake",
     "ContactPoints",
+    "CoordinateFriction",
     "Drag",
     "ElementRecord",
     "ElementType",
@@ -36,6 +39,7 @@ __all__ = [
     "ScalarSpringDamper",
     "SpinTorque",
     "SpringDamper",
+    "TorsionBar",
     "Tyre",
     "TyreCurve",
 ]

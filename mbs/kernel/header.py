@@ -155,6 +155,7 @@ INTEGER_ARRAYS = (
     "static_start",
     "static_par",
     "pose_partner",
+    "guide_second",
 )
 """Arrays of a System of type int32_t."""
 
@@ -169,6 +170,7 @@ OPTIONAL_ARRAYS = (
     "static_par",
     "static_value",
     "pose_partner",
+    "guide_second",
 )
 """Those that a System need not have."""
 
@@ -244,6 +246,7 @@ class GuideType(IntEnum):
 
     OF_TIME = 0
     OF_INPUT = 1
+    OF_TWO_INPUTS = 2
 
 
 class RoadType(IntEnum):
@@ -321,6 +324,7 @@ class SensorType(IntEnum):
     QUASI_STATIC = 17
     REACTION_PRODUCTS = 18
     WORK = 19
+    GUIDE_EXCESS = 20
 
 
 SENSOR_READS = {
@@ -344,6 +348,7 @@ SENSOR_READS = {
     SensorType.QUASI_STATIC: SensorReads.ROWS,
     SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
     SensorType.WORK: SensorReads.FORCES,
+    SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
 }
 
 
@@ -362,6 +367,8 @@ class ElementType(IntEnum):
     AUTOMATIC_DRIVE = 10
     CONTACT_POINTS = 11
     SPIN_TORQUE = 12
+    COORDINATE_FRICTION = 17
+    TORSION_BAR = 18
 
 
 class SettingsFields(Structure):

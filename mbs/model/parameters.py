@@ -13,7 +13,11 @@ from mbs.kernel.header import GuideType, ParameterTarget
 from mbs.model.core import ModelCore
 from mbs.model.guides import Guide
 
-GUIDE_REALS = {"frequency": positive, "gain": number, "start": number}
+_OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
+GUIDE_REALS = {
+    GuideType.OF_INPUT: _OF_INPUT,
+    GuideType.OF_TWO_INPUTS: _OF_INPUT | {"gain_2": number, "low": number, "high": number},
+}
 Owner: TypeAlias = "ElementRecord | Guide | str | tuple[str, int]"
 """An element, a guide or the name of one; or ("road", number)."""
 
@@ -106,8 +110,9 @@ def _target(model: ModelCore, what: str, given: tuple[Owner, str | int, float]) 
             check = element.real_checks[k] if element.real_checks else number
             return _Target((ParameterTarget.ELEMENT, index, k, factor), f"the {real} of element '{owner_name}'", check)
     for guide in model.guides:
-        if guide.name == owner_name and guide.type == GuideType.OF_INPUT and real in GUIDE_REALS:
-            k, check = list(GUIDE_REALS).index(str(real)), GUIDE_REALS[str(real)]
+        if guide.name == owner_name and real in GUIDE_REALS.get(guide.type, {}):
+            reals = GUIDE_REALS[guide.type]
+            k, check = list(reals).index(str(real)), reals[str(real)]
             return _Target(
                 (ParameterTarget.GUIDE, guide.index, k, factor), f"the {real} of guide '{owner_name}'", check
             )

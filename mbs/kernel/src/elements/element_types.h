@@ -17,6 +17,8 @@
   X(9, brake) \
   X(10, automatic_drive) \
   X(11, contact_points) \
-  X(12, spin_torque)
+  X(12, spin_torque) \
+  X(17, coordinate_friction) \
+  X(18, torsion_bar)
 /* clang-format on */
 #endif
