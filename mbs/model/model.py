@@ -165,7 +165,7 @@ class Model(
         Parameters
         ----------
         name : str
-            Unique among the joints.
+            Unique among the shafts.
         inertia : float
             kg m2; without one something must hold or weigh it, such as a rack or a drive.
 
@@ -180,7 +180,7 @@ class Model(
             The name is taken, or the inertia is negative.
         """
         value = not_negative(inertia, f"The inertia of shaft {shown(name)}")
-        index = self.new_coordinate(self.unique("joint", name), "angle", 0.0)
+        index = self.new_coordinate(self.unique("shaft", name), "angle", 0.0)
         self.inertias[index] = value
         return Coordinate(name, index, "rad")
 
