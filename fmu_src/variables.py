@@ -126,7 +126,7 @@ def variable_table(
         _ranged(entry, "input", "continuous", "input", k, entry["start"]) for k, entry in enumerate(meta["inputs"])
     ]
     table += [
-        _ranged(entry, "parameter", "tunable", "parameter", k, entry["value"])
+        _ranged(entry, "parameter", "fixed" if entry.get("fixed") else "tunable", "parameter", k, entry["value"])
         for k, entry in enumerate(meta["parameters"])
     ]
     if pose:

@@ -43,7 +43,7 @@ def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str
     variables = "\n".join(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
-        f"{str(v.whole).lower()}}},"
+        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}}},"
         for v, unit in zip(table, units, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))

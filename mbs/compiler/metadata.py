@@ -43,6 +43,7 @@ def metadata(
         ],
         "parameters": [
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
+            | ({} if p.tunable else {"fixed": True})
             for p in model.parameters
         ],
         "constants": [

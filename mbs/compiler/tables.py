@@ -145,7 +145,7 @@ def channel_arrays(model: Model) -> Arrays:
     guide_start = pointer([len(g.reals) for g in model.guides])
     road_start = pointer([len(r.real) for r in model.roads])
     starts = (element_start, guide_start, road_start)
-    targets = [[(t, int(starts[t][k]) + i, s) for t, k, i, s in p.targets] for p in model.parameters]
+    targets = [[(t, int(starts[t][k]) + i, s, o) for t, k, i, s, o in p.targets] for p in model.parameters]
     flat = [t for group in targets for t in group]
     return {
         "input_start": np.array([i.start for i in model.inputs], dtype=float),
@@ -164,4 +164,6 @@ def channel_arrays(model: Model) -> Arrays:
         "par_target": np.array([t[0] for t in flat], dtype=np.int64),
         "par_index": np.array([t[1] for t in flat], dtype=np.int64),
         "par_scale": np.array([t[2] for t in flat], dtype=float),
+        "par_offset": np.array([t[3] for t in flat], dtype=float),
+        "par_fixed": np.array([not p.tunable for p in model.parameters], dtype=np.int64),
     }

@@ -70,6 +70,7 @@ FLOAT_ARRAYS = (
     "tree_angle_sign",
     "tree_angle_inertia",
     "static_value",
+    "par_offset",
 )
 """Arrays of a System of type double."""
 
@@ -155,6 +156,7 @@ INTEGER_ARRAYS = (
     "static_start",
     "static_par",
     "pose_partner",
+    "par_fixed",
     "guide_second",
 )
 """Arrays of a System of type int32_t."""
@@ -170,6 +172,8 @@ OPTIONAL_ARRAYS = (
     "static_par",
     "static_value",
     "pose_partner",
+    "par_offset",
+    "par_fixed",
     "guide_second",
 )
 """Those that a System need not have."""
@@ -196,6 +200,7 @@ class Status(IntEnum):
     TOO_FAR = 15
     NO_EQUILIBRIUM = 16
     BRANCH_CHANGED = 17
+    FIXED_PARAMETER = 18
 
 
 class Update(IntEnum):

@@ -24,7 +24,7 @@ from mbs.model.inputs import Input, new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
-from mbs.model.parameters import Owner, Parameter, new_parameter
+from mbs.model.parameters import Parameter, Target, new_parameter
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin, spin
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
@@ -452,9 +452,10 @@ class Model(
         unit: str = "1",
         description: str = "",
         *,
-        targets: Sequence[tuple[Owner, str | int, float]],
+        targets: Sequence[Target],
+        tunable: bool = True,
     ) -> Parameter:
-        """A number that can be tuned between runs: it is written to data of elements, guides and roads.
+        """A number that is set without compiling again: it is written to data of elements, guides and roads.
 
         Parameters
         ----------
@@ -468,9 +469,12 @@ class Model(
             "1" for a pure number.
         description : str
             One sentence for hosts.
-        targets : sequence of (owner, real, scale)
-            ``value * scale`` is written to the real of the owner: an element, a guide of an input, or their name, and
-            one of its `real_names`; or ("road", number) and the number of a real of the road.
+        targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
+            ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
+            name, and one of its `real_names`; or ("road", number) and the name or number of a real of the road. A real
+            belongs to one parameter.
+        tunable : bool
+            Whether it may be set while the model moves; False: before the start only.
 
         Returns
         -------
@@ -480,10 +484,10 @@ class Model(
         Raises
         ------
         ModelError
-            The name is taken, the value is not between the limits, a target does not exist, or what it writes at one
-            of the limits is no value that the target can have.
+            The name is taken, the value is not between the limits, a target does not exist or is another parameter's,
+            or what it writes at one of the limits is no value that the target can have.
         """
-        return new_parameter(self, name, value, min, max, unit, description, targets)
+        return new_parameter(self, name, value, min, max, unit, description, targets, tunable)
 
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
         """A number about the model that its users need and its equations do not, such as a wheelbase.

@@ -1,4 +1,4 @@
-"""Tunable parameters."""
+"""Parameters: numbers of a System that are set without compiling it again."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from mbs.checks import not_zero, number, positive, shown, text, whole
+from mbs.checks import flag, not_zero, number, positive, shown, text, whole
 from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
 from mbs.kernel.header import GuideType, ParameterTarget
@@ -20,11 +20,13 @@ GUIDE_REALS = {
 }
 Owner: TypeAlias = "ElementRecord | Guide | str | tuple[str, int]"
 """An element, a guide or the name of one; or ("road", number)."""
+Target: TypeAlias = "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float]"
+"""Owner, its real, scale, and an offset if there is one."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that writes value * scale to data of elements, guides or roads.
+    """A number that writes value * scale + offset to data of elements, guides or roads.
 
     Parameters
     ----------
@@ -34,8 +36,10 @@ class Parameter:
         As compiled, and its limits.
     unit, description : str
         For hosts.
-    targets : tuple of (int, int, int, float)
-        Family, index in the family, index of the real, scale.
+    targets : tuple of (int, int, int, float, float)
+        Family, index in the family, index of the real, scale, offset.
+    tunable : bool
+        Whether it may be set while the model moves.
     """
 
     name: str
@@ -44,16 +48,21 @@ class Parameter:
     max: float
     unit: str
     description: str
-    targets: tuple[tuple[int, int, int, float], ...]
+    targets: tuple[tuple[int, int, int, float, float], ...]
+    tunable: bool = True
 
 
 @dataclass(frozen=True)
 class _Target:
     """Where a value goes, and what checks it there."""
 
-    where: tuple[int, int, int, float]
+    where: tuple[int, int, int, float, float]
     what: str
     check: Callable[[object, str], float]
+
+    def written(self, value: float) -> float:
+        """What the parameter writes."""
+        return value * self.where[3] + self.where[4]
 
 
 def new_parameter(
@@ -64,7 +73,8 @@ def new_parameter(
     max: float,
     unit: str,
     description: str,
-    targets: Sequence[tuple[Owner, str | int, float]],
+    targets: Sequence[Target],
+    tunable: bool,
 ) -> Parameter:
     """Register a parameter; see `Model.parameter`."""
     what = f"parameter {shown(name)}"
@@ -76,29 +86,48 @@ def new_parameter(
         raise ModelError(f"The {what} is {start:g}, which is not between its limits {low:g} and {high:g}.")
     if not isinstance(targets, (list, tuple)) or not targets:
         raise ModelError(
-            f"The {what} has no target; its targets must be a list of (element, name of a real, scale), not "
-            f"{shown(targets)}."
+            f"The {what} has no target; its targets must be a list of (element, name of a real, scale[, offset]), "
+            f"not {shown(targets)}."
         )
     found = [_target(model, what, target) for target in targets]
+    _written_once(model, what, found)
     for end, limit in (("min", low), ("max", high)):
         for target in found:
-            target.check(limit * target.where[3], f"At the {end} {limit:g} of {what}, {target.what}")
+            target.check(target.written(limit), f"At the {end} {limit:g} of {what}, {target.what}")
     text(unit, f"The unit of {what}")
     text(description, f"The description of {what}", lines=True)
+    flag(tunable, f"The tunable of {what}")
     model.unique("parameter", name)
-    parameter = Parameter(name, start, low, high, unit, description, tuple(target.where for target in found))
+    places = tuple(target.where for target in found)
+    parameter = Parameter(name, start, low, high, unit, description, places, tunable)
     model.parameters.append(parameter)
     return parameter
 
 
-def _target(model: ModelCore, what: str, given: tuple[Owner, str | int, float]) -> _Target:
+def _written_once(model: ModelCore, what: str, found: Sequence[_Target]) -> None:
+    """A real takes its value from one parameter."""
+    writers = {where[:3]: f"parameter '{p.name}'" for p in model.parameters for where in p.targets}
+    for target in found:
+        place = target.where[:3]
+        if place in writers:
+            raise ModelError(f"The {what} writes {target.what}, which {writers[place]} writes already.")
+        writers[place] = "another of its targets"
+
+
+def _target(model: ModelCore, what: str, given: Target) -> _Target:
     """One target of a parameter."""
-    if not isinstance(given, (list, tuple)) or len(given) != 3:
-        raise ModelError(f"A target of {what} must be (element or guide, name of its real, scale), not {shown(given)}.")
-    owner, real, scale = given
-    factor = not_zero(scale, f"The scale of {what}")
+    if not isinstance(given, (list, tuple)) or len(given) not in (3, 4):
+        raise ModelError(
+            f"A target of {what} must be (element or guide, name of its real, scale) or the same with an offset, not "
+            f"{shown(given)}."
+        )
+    owner, real, scale = given[:3]
+    line = (
+        not_zero(scale, f"The scale of {what}"),
+        number(given[3], f"The offset of {what}") if len(given) == 4 else 0.0,
+    )
     if isinstance(owner, tuple) and len(owner) == 2 and owner[0] == "road":
-        return _road(model, what, owner[1], real, factor)
+        return _road(model, what, owner[1], real, line)
     owner_name = getattr(owner, "name", owner)
     for index, element in enumerate(model.elements):
         if element.name == owner_name:
@@ -108,20 +137,18 @@ def _target(model: ModelCore, what: str, given: tuple[Owner, str | int, float]) 
                 raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {known}.")
             k = names.index(str(real))
             check = element.real_checks[k] if element.real_checks else number
-            return _Target((ParameterTarget.ELEMENT, index, k, factor), f"the {real} of element '{owner_name}'", check)
+            return _Target((ParameterTarget.ELEMENT, index, k, *line), f"the {real} of element '{owner_name}'", check)
     for guide in model.guides:
         if guide.name == owner_name and real in GUIDE_REALS.get(guide.type, {}):
             reals = GUIDE_REALS[guide.type]
             k, check = list(reals).index(str(real)), reals[str(real)]
-            return _Target(
-                (ParameterTarget.GUIDE, guide.index, k, factor), f"the {real} of guide '{owner_name}'", check
-            )
+            return _Target((ParameterTarget.GUIDE, guide.index, k, *line), f"the {real} of guide '{owner_name}'", check)
     raise ModelError(
         f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element or guide."
     )
 
 
-def _road(model: ModelCore, what: str, number_of: object, real: str | int, factor: float) -> _Target:
+def _road(model: ModelCore, what: str, number_of: object, real: str | int, line: tuple[float, float]) -> _Target:
     """A real of a road, by its name or its number."""
     k = whole(number_of, f"The road of {what}", 0)
     if k >= len(model.roads):
@@ -133,4 +160,4 @@ def _road(model: ModelCore, what: str, number_of: object, real: str | int, facto
             raise ModelError(f"The {what} asks for {shown(real)} of road {k}, which has: {', '.join(names)}.")
         real = names.index(real)
     n = whole(real, f"The number of the real of road {k} for {what}", 0, len(names) - 1)
-    return _Target((ParameterTarget.ROAD, k, n, factor), f"the {names[n]} of road {k}", road.real_checks[n])
+    return _Target((ParameterTarget.ROAD, k, n, *line), f"the {names[n]} of road {k}", road.real_checks[n])

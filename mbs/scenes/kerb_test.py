@@ -17,9 +17,7 @@ from mbs.elements.road import KerbRoad
 from mbs.model import Model
 from mbs.model.guides import Guide
 from mbs.scenes import prototype_car
-from mbs.scenes.prototype_car import car_data
-from mbs.scenes.prototype_car.fidelity import OFFERED, Fidelity
-from mbs.scenes.prototype_car.tyre_data import FRICTION
+from mbs.vehicle.fidelity import OFFERED, Fidelity
 
 SPEED = 5.0  # m/s
 ACCELERATE, BRAKE = (5.0, 7.4), (8.2, 10.0)  # s; between them the speed is constant
@@ -47,7 +45,7 @@ def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC) -> Model:
     ModelError
         There is no such fidelity.
     """
-    road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", FRICTION)
+    road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", prototype_car.car().road.friction)
     m = prototype_car.build(road, fidelity, guide)
     m.stop_time, m.step = DURATION, STEP
     return m
@@ -81,7 +79,7 @@ def guide(m: Model) -> Guide:
         [[0.0], *(np.arange(a, b + 0.5 * PIECE, PIECE) for a, b in (ACCELERATE, BRAKE)), [DURATION]]
     )
     v, rate = speed(breaks), _acceleration(breaks)
-    x = car_data.FLOOR_CENTRE[0] + way(breaks)
+    x = prototype_car.car().chassis.reference[0] + way(breaks)
     coefficients = []
     for k, h in enumerate(np.diff(breaks)):
         low = [x[k], v[k], rate[k] / 2.0]

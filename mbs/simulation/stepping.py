@@ -13,7 +13,7 @@ from mbs import accuracy
 from mbs.accuracy import AccuracyWarning
 from mbs.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.input_signals import InputSignals, Signal, unit_text
-from mbs.kernel.binding import Instance, KernelError
+from mbs.kernel.binding import Instance, KernelError, Status
 from mbs.large_bending import BendingWatch
 from mbs.run_report import Report
 from mbs.settings import Settings
@@ -137,7 +137,7 @@ class Simulation:
         self.instance.set_input(index, x)
 
     def set_parameter(self, name: str, value: float) -> None:
-        """Value of a parameter from now on.
+        """Value of a tunable parameter from now on; the next step is the first with it.
 
         Parameters
         ----------
@@ -149,7 +149,8 @@ class Simulation:
         Raises
         ------
         ValueError
-            There is no such parameter, or the value is not within its limits.
+            There is no such parameter, it is fixed, the value is not within its limits, or the model cannot take it
+            beside the other values.
         """
         index = self._index("parameters", name)
         entry = self._meta["parameters"][index]
@@ -159,7 +160,18 @@ class Simulation:
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}; "
                 f"it must lie between {entry['min']:g} and {entry['max']:g}."
             )
-        self.instance.set_parameter(index, x)
+        try:
+            self.instance.set_parameter(index, x)
+        except KernelError as error:
+            if error.status == Status.FIXED_PARAMETER:
+                raise ValueError(
+                    f"Parameter {name!r} is fixed and cannot be set at t = {self.time:g} s; start a simulation with "
+                    f"it: Simulation(system, parameters={{{name!r}: {shown(value)}}})."
+                ) from None
+            raise ValueError(
+                f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
+                "beside its other values."
+            ) from None
 
     def set_switch(self, name: str, on: bool) -> float:
         """Turn the rows of a switch on or off.

@@ -39,6 +39,8 @@ def sprung_reach() -> mbs.Model:
     spring = m.spring_damper("spring", (m.ground, (1.0, 1.5)), bob, stiffness=5.0, damping=1.0, free_length=0.2)
     target = (spring, "stiffness", 1.0)
     m.parameter("spring.stiffness", 5.0, 0.0, 50.0, "N/m", "Stiffness of the spring", targets=[target])
+    length = (spring, "free_length", 1.0)
+    m.parameter("spring.free_length", 0.2, 0.1, 0.5, "m", "Length without force", targets=[length], tunable=False)
     m.sense_input("pull_used", pull)
     m.sense_energy("energy.total")
     return m

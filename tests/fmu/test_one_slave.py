@@ -58,7 +58,10 @@ def random_call(rng: random.Random, references: dict[str, int], time: float) -> 
             ("terminate", ()) if rng.random() < 0.1 else ("cancelStep", ()),
             ("reset", ()) if rng.random() < 0.2 else ("getStatus", (0,)),
             *[("doStep", (time + rng.choice([0.0] * 9 + [0.5]), rng.choice(STEPS)))] * 6,
-            *[("setReal", ([references[n]], [value])) for n in ("pull", "pull", "spring.stiffness", "step_size")],
+            *[
+                ("setReal", ([references[n]], [value]))
+                for n in ("pull", "pull", "spring.stiffness", "spring.free_length", "step_size")
+            ],
             ("setReal", (asked, [value] * len(asked))),
             ("setInteger", (asked, [2] * len(asked))),
             ("setString", (asked, ["x"] * len(asked))),

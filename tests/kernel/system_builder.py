@@ -12,8 +12,8 @@ INT, REAL, BYTES = 1, 2, 3
 REALS = {
     "q0", "qd0", "y0", "mass_val", "gravity_force", "gravity_const", "row_lin", "row_const", "row_scale",
     "row_measure", "quad_h", "angle_hc", "angle_hs", "gterm_h", "sig_val", "sig_const", "el_real", "input_start",
-    "input_min", "input_max", "guide_real", "road_real", "par_value", "par_min", "par_max", "par_scale", "pose_0",
-    "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed", "sen_real",
+    "input_min", "input_max", "guide_real", "road_real", "par_value", "par_min", "par_max", "par_scale", "par_offset",
+    "pose_0", "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed", "sen_real",
     "velocity_h", "flex_gravity", "flex_P", "flex_c", "flex_T", "flex_K", "flex_C",
     "tree_base", "tree_mass", "tree_centre", "tree_inertia", "tree_gravity", "tree_out_local", "tree_cut_place",
     "tree_angle_sign", "tree_angle_inertia",
@@ -31,7 +31,7 @@ INTS = {
     "tree_parent", "tree_slides", "tree_frame", "tree_out_body", "tree_out_col", "tree_cut_body", "tree_cut_rows",
     "tree_angle_col", "tree_angle_ptr", "tree_angle_joint",
     "mode_triad_ptr", "mode_triad", "mode_cell_ptr", "mode_cell", "mode_name_ptr", "mode_name",
-    "static_start", "static_par", "pose_partner",
+    "static_start", "static_par", "pose_partner", "par_fixed",
 }  # fmt: skip
 
 
@@ -294,6 +294,8 @@ class SystemBuilder:
         a["par_ptr"] = pointers([len(p[3]) for p in self.parameters])
         for k, name in enumerate(("target", "index", "scale")):
             a[f"par_{name}"] = [t[k] for p in self.parameters for t in p[3]]
+        a["par_offset"] = [t[3] if len(t) > 3 else 0.0 for p in self.parameters for t in p[3]]
+        a["par_fixed"] = [int(p[4]) if len(p) > 4 else 0 for p in self.parameters]
         a["sen_type"] = [s[0] for s in self.sensors]
         a["sen_int_ptr"], a["sen_int"] = (
             pointers([len(s[1]) for s in self.sensors]),

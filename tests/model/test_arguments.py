@@ -146,6 +146,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "unit": "N/m",
         "description": "a spring",
         "targets": [(b.spring, "stiffness", 1.0)],
+        "tunable": True,
     },
     "spring_damper": lambda b: {
         "name": "new",

@@ -26,6 +26,7 @@ typedef struct {
   int32_t index;          /* of that input, parameter, sensor or ALI3_SOLVER_*; place in x, y, z, yaw, speed */
   double start, min, max; /* infinite where open */
   bool whole;             /* an integer of FMI */
+  bool fixed;             /* a parameter that can be set before the first step only */
 } slave_variable;
 
 typedef struct {

@@ -45,13 +45,12 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
   if (reference >= t->n_variables)
     return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference);
   const slave_variable *v = &t->variable[reference];
-  const bool fixed = v->source == SLAVE_POSE || v->source == SLAVE_STEP_SIZE || v->source == SLAVE_FIDELITY;
   if (reference >= t->n_known)
     return slave_say(s, SLAVE_ERROR, "'%s' is %s and cannot be set.", v->name,
                      v->source == SLAVE_CONSTANT ? "a constant" : "an output");
-  if (!(s->calls.phase & SETTABLE) || (fixed && (s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))))
+  if (!(s->calls.phase & SETTABLE) || (v->fixed && (s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))))
     return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s%s.", v->name, slave_phase_name(s->calls.phase),
-                     fixed ? "; it is a fixed parameter" : "");
+                     v->fixed ? "; it is a fixed parameter" : "");
   if (!(fabs(value) < HUGE_VAL))
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g%s is kept.",
                      v->name, value, s->value[reference], v->unit);
@@ -71,14 +70,10 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
  * taken, and left as it was. */
 static slave_status try_parameter(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
-  double before;
-  if (v->source != SLAVE_PARAMETER || ali3_get_parameter(s->fidelity.kernel, v->index, &before) != ALI3_OK)
-    return SLAVE_OK;
-  const ali3_status status = ali3_set_parameter(s->fidelity.kernel, v->index, value);
-  if (status != ALI3_OK)
+  if (v->source != SLAVE_PARAMETER) return SLAVE_OK;
+  if (ali3_try_parameter(s->fidelity.kernel, v->index, value) != ALI3_OK)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, which the model cannot take; it keeps %g.", v->name,
                      value, v->unit, s->value[reference]);
-  ali3_set_parameter(s->fidelity.kernel, v->index, before);
   return SLAVE_OK;
 }
 

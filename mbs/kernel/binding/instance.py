@@ -128,7 +128,7 @@ class Instance:
         self._inputs = (context, table, alive)
 
     def set_parameter(self, index: int, value: float) -> None:
-        """Value of a parameter from now on; refused outside its range."""
+        """Value of a parameter from now on; refused outside its range, of a fixed one after the start too."""
         self._check(self._library.ali3_set_parameter(self._handle, index, value))
 
     def get_parameter(self, index: int) -> float:

@@ -38,6 +38,7 @@ typedef enum {
   ALI3_TOO_FAR,           /* a start so far away or so fast that its digits no longer resolve lengths */
   ALI3_NO_EQUILIBRIUM,    /* a scene that starts in static equilibrium has none with the parameters it was given */
   ALI3_BRANCH_CHANGED,    /* reported by ali3_run_status only: a closed loop changed its assembly mode */
+  ALI3_FIXED_PARAMETER,   /* a parameter that is fixed was set after the start */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -162,7 +163,11 @@ typedef struct {
 } ali3_input_tables;
 ALI3_API int32_t ali3_input_of_tables(void *tables, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value);
-ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value); /* range checked */
+/* Range and what it writes to are checked. A tunable one holds from the next step on; a fixed one can be set until
+ * ali3_initialise and again after ali3_reset, ali3_set_pose or ali3_set_q. ali3_try_parameter: whether the value could
+ * be set before a start; nothing changes. */
+ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value);
+ALI3_API ali3_status ali3_try_parameter(ali3_instance *in, int32_t index, double value);
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
 ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */

@@ -6,13 +6,14 @@
 #include "../include/ali3.h"
 
 /* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
- * is known of assembly modes or of a start in equilibrium, and no guide has two inputs. */
+ * is known of assembly modes or of a start in equilibrium, no guide has two inputs, and all parameters are tunable and
+ * without offset. */
 /* clang-format off */
 #define ALI3_OPTIONAL_ARRAYS(X) \
   X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
   X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
   X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner) \
-  X(int32_t, 1, guide_second)
+  X(double, 2, par_offset) X(int32_t, 1, par_fixed) X(int32_t, 1, guide_second)
 
 #define ALI3_SYSTEM_ARRAYS(X) \
   X(unsigned char, 3, meta) \

@@ -52,7 +52,8 @@ static ali3_status prepare(ali3_instance *in) {
   const ali3_status status = ali3_parameters_apply(in);
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-      if (S->par_target[k] == ALI3_TARGET_ROAD) in->road_real[S->par_index[k]] = S->par_scale[k] * S->par_value[p];
+      if (S->par_target[k] == ALI3_TARGET_ROAD)
+        in->road_real[S->par_index[k]] = ali3_parameter_writes(S, k, S->par_value[p]);
   memcpy(in->input, S->input_start, (size_t)S->size.nu * sizeof(double));
   return status;
 }

@@ -1,4 +1,4 @@
-/* Instances: memory, settings, inputs, parameters, the state to start from. */
+/* Instances: memory, settings, inputs, the state to start from. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,6 @@
 #include "../elements/road.h"
 #include "../instance.h"
 #include "../rows/guides.h"
-#include "../system/loading.h"
 #include "../tree/tree.h"
 #include "parameters.h"
 #include "vectors.h"
@@ -34,6 +33,7 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_TOO_FAR] = "the start is too far away or too fast: positions must stay within 1e8 m, speeds within 1e6 m/s",
       [ALI3_NO_EQUILIBRIUM] = "with these parameters there is no static equilibrium near the drawing to start from",
       [ALI3_BRANCH_CHANGED] = "a closed loop changed its assembly mode",
+      [ALI3_FIXED_PARAMETER] = "a fixed parameter can be set before the start only",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -96,18 +96,6 @@ bool ali3_settings_valid(const ali3_settings *s) {
          s->method >= 0 && s->method < ALI3_METHOD_COUNT && s->predictor >= 0 && s->predictor < ALI3_PREDICTOR_COUNT;
 }
 
-/* The data of elements, guides and roads from the file and the parameters; refused as a whole when an element cannot
- * take it. */
-ali3_status ali3_parameters_apply(ali3_instance *in) {
-  const ali3_system *S = in->system;
-  double *target[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = in->el_real, [ALI3_TARGET_GUIDE] = in->guide_real, [ALI3_TARGET_ROAD] = in->road_real};
-  for (int32_t p = 0; p < S->size.np; p++)
-    for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-      target[S->par_target[k]][S->par_index[k]] = S->par_scale[k] * in->parameter[p];
-  return ali3_check_data(S, in->el_real, in->guide_real, in->road_real) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
-}
-
 static void copy(double *to, const double *from, int64_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
@@ -158,24 +146,6 @@ ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value) {
 ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value) {
   if (in == NULL || value == NULL || index < 0 || index >= in->system->size.nu) return ALI3_BAD_ARGUMENT;
   *value = in->input[index];
-  return ALI3_OK;
-}
-
-ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
-  if (in == NULL || index < 0 || index >= in->system->size.np) return ALI3_BAD_ARGUMENT;
-  if (!(value - value == 0.0 && value >= in->system->par_min[index] && value <= in->system->par_max[index]))
-    return ALI3_BAD_ARGUMENT;
-  const double before = in->parameter[index];
-  in->parameter[index] = value;
-  if (ali3_parameters_apply(in) == ALI3_OK) return ALI3_OK;
-  in->parameter[index] = before;
-  ali3_parameters_apply(in);
-  return ALI3_BAD_ARGUMENT;
-}
-
-ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value) {
-  if (in == NULL || value == NULL || index < 0 || index >= in->system->size.np) return ALI3_BAD_ARGUMENT;
-  *value = in->parameter[index];
   return ALI3_OK;
 }
 

@@ -15,6 +15,8 @@ ali3_status ali3_check_modes(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_start(const ali3_system *s, ali3_message m);
 const char *ali3_check_data(const ali3_system *s, const double *el_real, const double *guide_real,
                             const double *road_real);
+const char *ali3_check_target(const ali3_system *s, int64_t k, const double *el_real, const double *guide_real,
+                              const double *road_real);
 ali3_status ali3_system_derive(ali3_system *s, ali3_message m);
 int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value); /* position or -1 */
 #endif

@@ -138,6 +138,9 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
   CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
   CHECK(ali3_check_length(m, "par_scale", s->n_par_scale, s->n_par_target));
+  if (s->n_par_offset != 0) CHECK(ali3_check_length(m, "par_offset", s->n_par_offset, s->n_par_target));
+  if (s->n_par_fixed != 0) CHECK(ali3_check_length(m, "par_fixed", s->n_par_fixed, np));
+  CHECK(ali3_check_indices(m, "par_fixed", s->par_fixed, s->n_par_fixed, 0, 2));
   CHECK(ali3_check_pointers(m, "par_ptr", s->par_ptr, s->n_par_ptr, np, s->n_par_target));
   CHECK(ali3_check_indices(m, "par_target", s->par_target, s->n_par_target, 0, ALI3_TARGET_COUNT));
   for (int64_t k = 0; k < s->n_par_target; k++)
@@ -148,28 +151,58 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
+static const char *check_element(const ali3_system *s, int32_t e, const double *el_real) {
+  const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
+  const int32_t real = s->el_real_ptr[e], integer = s->el_int_ptr[e];
+  if (type->check == NULL) return NULL;
+  return type->check(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], el_real + real, s->el_real_ptr[e + 1] - real,
+                     s->el_int + integer, s->el_int_ptr[e + 1] - integer, s->size.nu, s->nr);
+}
+
+static const char *check_guide(const ali3_system *s, int32_t g, const double *guide_real) {
+  const int32_t real = s->guide_real_ptr[g];
+  return ali3_guide_check(s->guide_type[g], guide_real + real, s->guide_real_ptr[g + 1] - real);
+}
+
+static const char *check_road(const ali3_system *s, int32_t k, const double *road_real) {
+  const int32_t real = s->road_real_ptr[k];
+  return ali3_road_check(s->road_type[k], road_real + real, s->road_real_ptr[k + 1] - real);
+}
+
 const char *ali3_check_data(const ali3_system *s, const double *el_real, const double *guide_real,
                             const double *road_real) {
-  for (int32_t e = 0; e < s->size.ne; e++) {
-    const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
-    const int32_t real = s->el_real_ptr[e], integer = s->el_int_ptr[e];
-    if (type->check == NULL) continue;
-    const char *text =
-        type->check(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], el_real + real, s->el_real_ptr[e + 1] - real,
-                    s->el_int + integer, s->el_int_ptr[e + 1] - integer, s->size.nu, s->nr);
-    if (text != NULL) return text;
+  const char *text = NULL;
+  for (int32_t e = 0; text == NULL && e < s->size.ne; e++) text = check_element(s, e, el_real);
+  for (int32_t g = 0; text == NULL && g < s->size.ng; g++) text = check_guide(s, g, guide_real);
+  for (int32_t k = 0; text == NULL && k < s->nr; k++) text = check_road(s, k, road_real);
+  return text;
+}
+
+/* Whose data item `index` is: ptr[i] <= index < ptr[i + 1]. */
+static int32_t owner(const int32_t *ptr, int32_t n, int32_t index) {
+  int32_t low = 0, high = n - 1;
+  while (low < high) {
+    const int32_t middle = low + (high - low + 1) / 2;
+    if (ptr[middle] <= index)
+      low = middle;
+    else
+      high = middle - 1;
   }
-  for (int32_t g = 0; g < s->size.ng; g++) {
-    const int32_t real = s->guide_real_ptr[g];
-    const char *text = ali3_guide_check(s->guide_type[g], guide_real + real, s->guide_real_ptr[g + 1] - real);
-    if (text != NULL) return text;
+  return low;
+}
+
+/* The check of what target k of a parameter belongs to. */
+const char *ali3_check_target(const ali3_system *s, int64_t k, const double *el_real, const double *guide_real,
+                              const double *road_real) {
+  const int32_t index = s->par_index[k];
+  switch (s->par_target[k]) {
+  case ALI3_TARGET_ELEMENT:
+    return check_element(s, owner(s->el_real_ptr, s->size.ne, index), el_real);
+  case ALI3_TARGET_GUIDE:
+    return check_guide(s, owner(s->guide_real_ptr, s->size.ng, index), guide_real);
+  default:
+    return check_road(s, owner(s->road_real_ptr, s->nr, index), road_real);
   }
-  for (int32_t k = 0; k < s->nr; k++) {
-    const int32_t real = s->road_real_ptr[k];
-    const char *text = ali3_road_check(s->road_type[k], road_real + real, s->road_real_ptr[k + 1] - real);
-    if (text != NULL) return text;
-  }
-  return NULL;
 }
 
 ali3_status ali3_system_check(ali3_system *s, ali3_message m) {

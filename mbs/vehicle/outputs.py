@@ -2,29 +2,32 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from mbs.affine import AffineVector
 from mbs.model import Model
 from mbs.model.body import Body
-from mbs.model.guides import Guide
-from mbs.model.inputs import Input
 from mbs.model.spin import Spin
-from mbs.scenes.prototype_car.car_data import ACCELEROMETERS, RACK_PER_TURN, REFERENCE_POINT
-from mbs.scenes.prototype_car.ground_contact import NAME as GROUND_CONTACT
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
 
 FORWARD, LEFT, UP = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
-def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
-    """Pose, velocity and acceleration of the reference point; accelerometers on `accelerated`."""
+def chassis_outputs(b: CarBuilder) -> None:
+    """Pose, velocity and acceleration of the reference point; accelerometers.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The car so far.
+    """
+    m, chassis, origin = b.m, b.chassis.frame, b.car.vehicle.reference_point
     for c in "xyz":
         m.sense_position(
             f"chassis.{c}",
             chassis,
-            REFERENCE_POINT,
+            origin,
             c,
             description=f"{c} of the reference point (centre of mass at rest), earth",
         )
@@ -42,7 +45,7 @@ def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
         m.sense_velocity(
             f"chassis.v{c}",
             chassis,
-            REFERENCE_POINT,
+            origin,
             c,
             chassis,
             description=f"velocity of the reference point along the vehicle's {c} axis, {way}",
@@ -53,12 +56,12 @@ def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
         m.sense_acceleration(
             f"chassis.a{c}",
             chassis,
-            REFERENCE_POINT,
+            origin,
             c,
             chassis,
             description=f"acceleration of the reference point along the vehicle's {c} axis, {way}, without gravity",
         )
-    reference = chassis.point(REFERENCE_POINT)
+    reference = chassis.point(origin)
     m.sense_norm("speed", reference, 1, description="speed of the reference point")
     m.sense_direction(
         "sideslip",
@@ -67,11 +70,11 @@ def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
         chassis.vector(LEFT),
         description="direction of travel from the heading, positive to the left; 0 below 0.1 m/s",
     )
-    for corner, point in ACCELEROMETERS.items():
+    for corner, point in b.car.chassis.accelerometers.items():
         for c in "xyz":
             m.sense_acceleration(
                 f"accelerometer_{corner}.a{c}",
-                accelerated,
+                b.chassis.accelerated,
                 point,
                 c,
                 chassis,
@@ -80,25 +83,31 @@ def chassis_outputs(m: Model, chassis: Body, accelerated: Body) -> None:
             )
 
 
-def control_outputs(m: Model, rack: Guide, inputs: list[Input]) -> None:
-    """Steering and drive as the car has them."""
-    m.sense_guide("steering_rack", rack, description="rack travel, positive to the left (turns the wheels right)")
-    m.sense_guide(
-        "steering_wheel_angle",
-        rack,
-        scale=-2.0 * math.pi / RACK_PER_TURN,
-        unit="rad",
-        description="angle of the steering wheel, positive to the left",
-    )
-    m.sense_element("engine_speed", "drive", "engine_speed", description="speed of the engine")
-    m.sense_element("gear", "drive", "gear", description="gear engaged")
-    m.sense_element("drive_torque", "drive", "wheel_torque", description="torque on each rear wheel")
-    for channel in inputs:
-        m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
+def used_inputs(b: CarBuilder) -> None:
+    """Inputs as used.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The car so far.
+    """
+    for channel in b.inputs.values():
+        b.m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
 
 
-def wheel_outputs(m: Model, chassis: Body, spin: Spin, w: str) -> None:
-    """Attitude, travel, spin and tyre forces of one wheel; the FMU puts the wheel's name before the descriptions."""
+def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
+    """Attitude, travel, spin and tyre forces of one wheel; the FMU puts the wheel's name before the descriptions.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The car so far.
+    spin : Spin
+        Of the wheel.
+    w : str
+        Its name.
+    """
+    m, chassis = b.m, b.chassis.frame
     forward, left, up = (chassis.vector(v) for v in (FORWARD, LEFT, UP))
     m.sense_angle_between(
         f"wheel_{w}.steer", spin.axis, left, up, description="steer angle about the vehicle's z axis, positive left"
@@ -146,7 +155,13 @@ WORKS = {  # what works on the car: first words of the names of its elements, de
 
 
 def work_outputs(m: Model) -> None:
-    """Work since the start of all that may give or take energy, without what it stores."""
+    """Work since the start of all that may give or take energy, without what it stores.
+
+    Parameters
+    ----------
+    m : Model
+        With all elements.
+    """
     for name, (starts, text) in WORKS.items():
         elements = [e for e in m.elements if e.name.startswith(starts)]
         m.sense_work(
@@ -158,7 +173,13 @@ def work_outputs(m: Model) -> None:
 
 
 def health_outputs(m: Model) -> None:
-    """Energies and the work of the solver."""
+    """Energies and the work of the solver.
+
+    Parameters
+    ----------
+    m : Model
+        The whole car.
+    """
     for kind in ("kinetic", "gravity", "elastic", "total"):
         m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")
     for kind in ("iterations", "violation", "residual", "halvings", "status"):

@@ -1,0 +1,97 @@
+"""An axle: suspension, springs, wheels and tyres of its two sides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from pydantic import Field
+
+from mbs.model.spin import Spin
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.quantities import PartInertia, PartMass, Point
+from mbs.vehicle.section import Section
+from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
+from mbs.vehicle.suspensions import Suspension
+from mbs.vehicle.tyre import TMeasy
+
+
+class Wheel(Section):
+    """A wheel with its tyre and all that turns with it."""
+
+    centre: Point
+    """Centre of the left wheel."""
+    mass: PartMass
+    """Mass."""
+    spin_inertia: PartInertia
+    """Moment of inertia about its axis."""
+    diametral_inertia: PartInertia
+    """Moment of inertia about its diameters."""
+
+
+class Axle(Section):
+    """An axle."""
+
+    suspension: Suspension = Field(discriminator="kind")
+    """What carries the wheels, by its kind."""
+    spring: Spring
+    """Spring of each wheel."""
+    damper: Damper
+    """Damper of each wheel."""
+    stops: Stops | None = None
+    """Bump and rebound stops."""
+    wheel: Wheel
+    """Wheels."""
+    tyre: TMeasy
+    """Tyres."""
+
+    @property
+    def track(self) -> float:
+        """Distance between the centres of the wheels as drawn, m."""
+        return 2.0 * self.wheel.centre[1]
+
+    @property
+    def rolling_radius(self) -> float:
+        """Way of a free wheel per radian, m: (2 R + loaded radius)/3; at rest the wheel's centre is that high."""
+        return (2.0 * self.tyre.radius + self.wheel.centre[2]) / 3.0
+
+    def build(
+        self, b: CarBuilder, axle: str, tie_rod: TieRodEnd, brake: Callable[[CarBuilder, Corner, Spin], None]
+    ) -> dict[str, Spin]:
+        """Add the axle and return the spins of its wheels by the wheels' names.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        axle : str
+            "front" or "rear".
+        tie_rod : TieRodEnd
+            Gives what the inner ends of the tie rods hang on.
+        brake : callable
+            Adds the brake of a wheel.
+        """
+        spins = {}
+        springs = AxleSprings(self.spring, self.damper, self.stops)
+        for corner in self.suspension.corners(b, axle, springs, tie_rod):
+            spin = self._wheel(b, corner)
+            brake(b, corner, spin)
+            spins[corner.side.wheel] = spin
+        return spins
+
+    def _wheel(self, b: CarBuilder, corner: Corner) -> Spin:
+        """Spin on the carrier and tyre on the road."""
+        w = corner.side.wheel
+        spin = b.m.spin(
+            f"wheel {w}",
+            carrier=corner.carrier,
+            centre=corner.side.point(self.wheel.centre),
+            axis=(0.0, 1.0, 0.0),
+            rolling_radius=self.rolling_radius,
+            mass=self.wheel.mass,
+            spin_inertia=self.wheel.spin_inertia,
+            diametral_inertia=self.wheel.diametral_inertia,
+        )
+        tyre = b.m.add(self.tyre.tyre().record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.road))
+        b.tie(self.tyre, "grip", tyre, "friction_factor")
+        return spin

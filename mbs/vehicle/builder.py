@@ -1,0 +1,115 @@
+"""What the parts of a car share while a model is made of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeAlias
+
+from mbs.model import Model
+from mbs.model.inputs import Input
+from mbs.model.parameters import Owner
+from mbs.vehicle.quantities import Quantity
+from mbs.vehicle.section import Section
+
+if TYPE_CHECKING:
+    from mbs.vehicle.car import Car
+    from mbs.vehicle.chassis.mount import Mount
+
+Target: TypeAlias = "tuple[Owner, str | int, float]"
+
+
+@dataclass
+class _Tied:
+    """A number of the file and where it is written."""
+
+    section: Section
+    name: str
+    quantity: Quantity
+    value: float
+    targets: list[Target] = field(default_factory=list)
+
+
+@dataclass
+class CarBuilder:
+    """The model so far, its inputs, and the parameters that will be in it.
+
+    Attributes
+    ----------
+    car : Car
+        The file.
+    m : Model
+        Gets bodies, joints and elements.
+    road : int
+        Number of the road in the model.
+    inputs : mapping of str to Input
+        By name.
+    chassis : Mount
+        What the rest of the car is fixed to; set once the chassis is there.
+    """
+
+    car: Car
+    m: Model
+    road: int
+    inputs: Mapping[str, Input]
+    _chassis: Mount | None = None
+    _tied: dict[str, _Tied] = field(default_factory=dict)
+
+    @property
+    def chassis(self) -> Mount:
+        """What the rest of the car is fixed to."""
+        assert self._chassis is not None, "the chassis is made first"
+        return self._chassis
+
+    @chassis.setter
+    def chassis(self, mount: Mount) -> None:
+        self._chassis = mount
+
+    def tie(
+        self,
+        section: Section,
+        name: str,
+        owner: Owner,
+        real: str | int,
+        scale: float = 1.0,
+        *,
+        value: float | None = None,
+    ) -> None:
+        """Let a number of the file be a parameter of the model that writes a real of an element, guide or road.
+
+        Name, unit, range and description of the parameter are those of the file's type. May be called several times
+        for one number: for both sides, for instance.
+
+        Parameters
+        ----------
+        section : Section
+            Table of the file.
+        name : str
+            Its field, whose type says that it may change.
+        owner, real : Owner, str or int
+            As in `Model.parameter`.
+        scale : float
+            The value times it is written.
+        value : float, optional
+            In the model, where it is not that of the file.
+        """
+        quantity = section.quantity(name)
+        assert quantity is not None, f"{section.key(name)} is no quantity"
+        assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
+        start = getattr(section, name) if value is None else value
+        tied = self._tied.setdefault(section.key(name), _Tied(section, name, quantity, start))
+        tied.targets.append((owner, real, scale))
+
+    def parameters(self) -> None:
+        """Write what was tied into the model, in the order of the file's type."""
+        for path, tied in sorted(self._tied.items(), key=lambda item: self.car.order(item[0])):
+            q = tied.quantity
+            self.m.parameter(
+                path,
+                tied.value,
+                q.least,
+                q.high,
+                q.unit,
+                type(tied.section).model_fields[tied.name].description or "",
+                targets=tied.targets,
+            )

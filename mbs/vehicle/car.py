@@ -1,0 +1,260 @@
+"""A car: the typed content of a car file, and the model of it."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Mapping
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, PrivateAttr
+
+from mbs.elements.road import Road
+from mbs.errors import ModelError
+from mbs.model import Model
+from mbs.model.ends import End
+from mbs.model.guides import Guide
+from mbs.model.spin import Spin
+from mbs.vehicle.aerodynamics import Aerodynamics
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.brakes import Brakes
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.chassis.build import build_chassis, stress_outputs
+from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
+from mbs.vehicle.chassis.ground_contact import ground_contact
+from mbs.vehicle.chassis.section import Chassis
+from mbs.vehicle.chassis.tubular_frame import TubularFrame
+from mbs.vehicle.constants import vehicle_constants
+from mbs.vehicle.corner import TieRodEnd
+from mbs.vehicle.drives import Drive
+from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.fidelity import OFFERED, Fidelity
+from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, work_outputs
+from mbs.vehicle.quantities import Length, Mass, Point
+from mbs.vehicle.road import RoadSection, level_within
+from mbs.vehicle.section import Section, sections_of
+from mbs.vehicle.side import Point as Coordinates
+from mbs.vehicle.side import Side
+from mbs.vehicle.steering import Steering
+from mbs.vehicle.steering.steered import Steered
+
+SCHEMA = 1
+"""Version of the car file that this release reads and writes."""
+
+
+class Vehicle(Section):
+    """The car as a whole."""
+
+    mass: Mass
+    """Mass of the whole car without payloads, to be checked against the sum of its parts."""
+    reference_point: Point
+    """Origin of the vehicle axes: the centre of mass of the whole car."""
+    length: Length
+    """Length of the outline."""
+    width: Length
+    """Width of the outline without mirrors."""
+
+
+class Car(Section):
+    """A car file.
+
+    SI units. Drawing axes after ISO 8855: x forward, y left, z up; the origin on level ground under the centre of the
+    front axle, the car in static equilibrium. Points are those of the left side; the right side mirrors y.
+    """
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")]
+    """Version of the form of this file."""
+    name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=40)]
+    """Name of the car, for files: lower-case letters, digits and underscores."""
+    description: Annotated[str, Field(min_length=1, max_length=500)]
+    """What car it is."""
+    vehicle: Vehicle
+    """The car as a whole."""
+    chassis: Chassis
+    """Chassis with all that is fixed to it."""
+    front: Axle
+    """Front axle."""
+    rear: Axle
+    """Rear axle."""
+    steering: Steering
+    """Steering of the front axle."""
+    brakes: Brakes
+    """Brakes."""
+    drive: Drive
+    """Engine or motor and what is between it and the wheels."""
+    aerodynamics: Aerodynamics
+    """Forces of the air."""
+    road: RoadSection
+    """Road under the car where no other is given."""
+
+    _folder: Path = PrivateAttr(Path())
+    _data: dict[str, Any] = PrivateAttr(default_factory=dict)
+
+    @property
+    def folder(self) -> Path:
+        """Of the file and its tables."""
+        return self._folder
+
+    @property
+    def wheelbase(self) -> float:
+        """Distance between the axles as drawn, m."""
+        return self.front.wheel.centre[0] - self.rear.wheel.centre[0]
+
+    @cached_property
+    def tubular_frame(self) -> TubularFrame:
+        """Tables of the frame.
+
+        Raises
+        ------
+        ModelError
+            The car has no flexible frame.
+        """
+        if self.chassis.frame is None:
+            raise ModelError(f"The car '{self.name}' has no flexible frame: its file has no table chassis.frame.")
+        return TubularFrame(self.chassis.frame, self._folder)
+
+    @cached_property
+    def flexible_frame(self) -> FlexibleFrame:
+        """The frame with its modes.
+
+        Raises
+        ------
+        ModelError
+            The car has no flexible frame.
+        """
+        return FlexibleFrame(self.tubular_frame)
+
+    def model(
+        self,
+        road: Road | None = None,
+        fidelity: Fidelity | int | str = Fidelity.RIGID,
+        guide: Callable[[Model], Guide] | None = None,
+    ) -> Model:
+        """The car at rest in static equilibrium, its front axle over the origin.
+
+        Where the road under it is not level nothing but the brakes could hold it: there it starts as drawn, level, and
+        settles; a pose must lift it above the road.
+
+        Parameters
+        ----------
+        road : Road, optional
+            By default level ground with a kerb, down by `road.kerb_height` at `road.kerb_x` (parameters; far away
+            unless set), and the friction `road.friction`.
+        fidelity : Fidelity, int or str
+            How much of the chassis is modelled, a member of `Fidelity`, its number or its name.
+        guide : callable, optional
+            Makes the guide of the x coordinate of the chassis' reference point, m; the selector is then in neutral.
+
+        Returns
+        -------
+        Model
+            For `compile`.
+
+        Raises
+        ------
+        ModelError
+            An argument is not what it must be, or the car has no frame for the fidelity; the message names it.
+        """
+        fidelity = Fidelity.of(fidelity)
+        flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
+        m = Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
+        m.floating = True
+        m.start_in_equilibrium = level_within(road, self._footprint())
+        m.stop_time, m.step = 10.0, 0.002
+        inputs = {
+            "steering": m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left"),
+            "throttle": m.input("throttle", min=0.0, max=1.0, description="throttle pedal"),
+            "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
+        }
+        ground = m.road(road or self.road.default())
+        b = CarBuilder(self, m, ground, inputs)
+        b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
+        steered = self.steering.build(b, self._rack_way())
+        spins = self.front.build(b, "front", steered.tie_rod, self.brakes.build)
+        spins |= self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
+        self.drive.build(b, spins, neutral=guide is not None)
+        self.aerodynamics.build(b)
+        b.parameters()
+        self.road.parameters(m, road, ground, self.front.tyre.nominal_load)
+        self._outputs(b, steered, spins, fidelity)
+        if guide is not None:
+            m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
+        return m
+
+    def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
+        """The models an FMU offers by its parameter `fidelity`: the rigid one alone where the car has no frame."""
+        offered = OFFERED if self.chassis.frame is not None else OFFERED[:1]
+        return {fidelity: partial(self.model, None, fidelity) for fidelity in offered}
+
+    def changed(self, values: Mapping[str, Any]) -> Car:
+        """The same car with other values, checked like a file.
+
+        Parameters
+        ----------
+        values : mapping of str to object
+            By key path, as "front.spring.stiffness".
+
+        Raises
+        ------
+        CarFileError
+            A key path does not exist or its value is not plausible.
+        """
+        from mbs.vehicle.car_file import car_from
+
+        data = copy.deepcopy(self._data)
+        for path, value in values.items():
+            *tables, last = path.split(".")
+            table = data
+            for key in tables:
+                table = table.setdefault(key, {})
+            table[last] = value
+        return car_from(data, self._folder, f"car '{self.name}'")
+
+    def order(self, path: str) -> int:
+        """Place of a key path in the file's type.
+
+        Parameters
+        ----------
+        path : str
+            Of a number.
+        """
+        return self._paths.index(path)
+
+    @cached_property
+    def _paths(self) -> list[str]:
+        return [section.key(field) for section in sections_of(self) for field in type(section).model_fields]
+
+    def _rack_way(self) -> float:
+        """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
+        return 1.0 if self.front.suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
+
+    def _footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and largest x and y of the car as drawn, with a hand's breadth around."""
+        margin = 0.13
+        x = self.rear.wheel.centre[0] - self.rear.tyre.radius, self.front.wheel.centre[0] + self.front.tyre.radius
+        half = 0.5 * self.vehicle.width
+        return (x[0] - margin, x[1] + margin), (-half - margin, half + margin)
+
+    @staticmethod
+    def _fixed_end(b: CarBuilder) -> TieRodEnd:
+        def end(side: Side, point: Coordinates) -> End:
+            return b.chassis.body, point
+
+        return end
+
+    def _outputs(self, b: CarBuilder, steered: Steered, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
+        m = b.m
+        chassis_outputs(b)
+        steered.outputs()
+        self.drive.outputs(b)
+        used_inputs(b)
+        for name, spin in spins.items():
+            wheel_outputs(b, spin, name)
+        health_outputs(m)
+        if self.chassis.frame is not None:
+            stress_outputs(m, b.chassis, self.flexible_frame, fidelity)
+        if self.chassis.ground_contact is not None:
+            ground_contact(b, self.chassis.ground_contact)
+        work_outputs(m)
+        vehicle_constants(b)

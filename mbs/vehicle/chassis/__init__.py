@@ -1,0 +1,1 @@
+"""The chassis of a car: rigid, with quasi-static stresses, or flexible."""

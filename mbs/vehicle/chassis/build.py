@@ -1,0 +1,119 @@
+"""Adds the chassis of any fidelity to a car, and its stresses."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbs.affine import AffineVector
+from mbs.model import Model
+from mbs.model.body import Body
+from mbs.model.flexible import FlexibleBody
+from mbs.model.ports import PortedBody
+from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
+from mbs.vehicle.chassis.mount import Mount
+from mbs.vehicle.chassis.section import Chassis
+from mbs.vehicle.fidelity import Fidelity
+
+
+def build_chassis(m: Model, data: Chassis, flexible: FlexibleFrame | None, fidelity: Fidelity) -> Mount:
+    """Add the chassis.
+
+    Parameters
+    ----------
+    m : Model
+        Gets it.
+    data : Chassis
+        Of the car's file.
+    flexible : FlexibleFrame or None
+        Needed from QUASI_STATIC on.
+    fidelity : Fidelity
+        How much of it is modelled.
+    """
+    origin = data.reference
+    if fidelity is Fidelity.RIGID or flexible is None:
+        rigid = _rigid(m, data)
+        axes = rigid.vector((0.0, 0.0, 1.0)), rigid.vector((1.0, 0.0, 0.0))
+        frame = rigid.point(rigid.com), [rigid.vector(v) for v in np.eye(3)], rigid.com
+        return Mount(rigid, rigid, rigid, origin, axes, frame)
+    if fidelity is Fidelity.QUASI_STATIC:
+        rigid = _rigid(m, data)
+        model = flexible.model
+        ports = m.ported(rigid, {name: model.positions[model.node(name)] for name in flexible.interfaces})
+        return Mount(ports, rigid, rigid, origin, _drive_axes(ports, flexible), _mean_frame(ports, flexible))
+    body = m.flexible_body("chassis", flexible.reduced(fidelity))
+    return Mount(body, body.frame, body, origin, _drive_axes(body, flexible), _mean_frame(body, flexible))
+
+
+def _rigid(m: Model, data: Chassis) -> Body:
+    return m.body("chassis", mass=data.mass, com=data.com, inertia=data.tensor)
+
+
+def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, AffineVector]:
+    """z and x axes through the joints where the drive hangs: its torque loads them in pairs.
+
+    At the origin of the floating frame, a node without rotary inertia of its own, it would shake the frame.
+    """
+    places = flexible.tubular.joint_places()
+    mounts = flexible.section.drive_mounts
+    front, rear, top = ([body.point(places[f"{joint}{side}"]) for side in "LR"] for joint in mounts)
+    p_front, p_rear, p_top = (places[f"{joint}L"] for joint in mounts)
+    length = float(p_front[0] - p_rear[0])
+    share = float(p_top[0] - p_rear[0]) / length  # of the front joints in the place under the top ones
+    x = (front[0] + front[1] - rear[0] - rear[1]) * (0.5 / length)
+    below = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
+    height = float(p_top[2] - p_front[2])
+    return ((top[0] + top[1]) * 0.5 - below) * (1.0 / height), x
+
+
+def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list[AffineVector], np.ndarray]:
+    """Origin and axes as the shortest combinations of suspension joints that are right for every rigid motion.
+
+    What acts on them loads the frame as forces at these joints. At the floating frame itself, one node, it would bend
+    the floor; a quasi-static chassis would miss it.
+    """
+    places = flexible.tubular.joint_places()
+    named = [places[f"{joint}{side}"] for joint in flexible.section.ground_mounts for side in "LR"]
+    origin = np.mean(named, axis=0)
+    rigid = np.vstack([np.array(named).T, np.ones(len(named))])
+
+    def combination(sums: np.ndarray) -> AffineVector:
+        weights = np.linalg.lstsq(rigid, sums, rcond=None)[0]
+        terms = [body.point(p) * float(w) for p, w in zip(named, weights, strict=True)]
+        return sum(terms[1:], terms[0])
+
+    axes = [combination(np.append(e, 0.0)) for e in np.eye(3)]
+    return combination(np.append(origin, 1.0)), axes, origin
+
+
+def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
+    """Moments and stresses at the gauges; zero for the rigid chassis, where `stress.computed` says so.
+
+    Parameters
+    ----------
+    m : Model
+        The car so far.
+    mount : Mount
+        Its chassis.
+    flexible : FlexibleFrame
+        Has the gauges.
+    fidelity : Fidelity
+        Of the chassis.
+    """
+    note = "; zero where stress.computed is 0"
+    names = list(flexible.section.gauges)
+    outputs = [
+        (f"bending_moment.{g}", "N.m", f"bending moment at gauge {g}, positive: upper fibre pulled") for g in names
+    ]
+    outputs += [(f"stress.{g}", "Pa", f"half-bridge {g}, upper minus lower fibre") for g in names]
+    for k, (name, unit, text) in enumerate(outputs):
+        if fidelity is Fidelity.RIGID:
+            m.sense_constant(name, 0.0, unit, text + note)
+        elif isinstance(mount.body, PortedBody):
+            m.sense_quasi_static(name, mount.body, flexible.quasi_static, k, mount.origin, unit, text + note)
+        else:
+            body = mount.body
+            assert isinstance(body, FlexibleBody)
+            row = body.reduced.recovery(flexible.gauge_rows[k : k + 1])[0]
+            m.sense_recovery(name, body, row, unit, text + note)
+    text = "1 where moments and stresses are computed; 0: they read zero"
+    m.sense_constant("stress.computed", float(fidelity is not Fidelity.RIGID), "1", text, whole=True)

@@ -1,0 +1,49 @@
+"""Where the chassis touches the ground."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbs.elements.contact_points import ContactPoints
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.chassis.section import GroundContact
+from mbs.vehicle.environment import GRAVITY
+
+NAME = "ground contact"
+
+
+def ground_contact(b: CarBuilder, data: GroundContact) -> None:
+    """Add the points and what they report.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The car so far.
+    data : GroundContact
+        Of the car's file.
+    """
+    m = b.m
+    contact = ContactPoints.for_mass(
+        0.25 * b.car.vehicle.mass,
+        data.depth,
+        loss=data.loss,
+        friction_factor=data.friction_factor,
+        radius=data.radius,
+        gravity=GRAVITY,
+    )
+    points = np.array([(x, sign * y, z) for x, y, z in data.points for sign in ((1.0, -1.0) if y else (1.0,))])
+    origin, axes, place = b.chassis.contact_frame
+    m.add(contact.record(NAME, origin, axes, points - place, b.road))
+    force = m.sense_element(
+        "chassis.ground_force",
+        NAME,
+        "normal_force",
+        description="sum of the normal forces of the ground on the chassis itself; 0 while only tyres touch",
+    )
+    m.notice(force, "The chassis touches the ground")
+    m.sense_element(
+        "chassis.ground_points",
+        NAME,
+        "touching",
+        description="number of points of the chassis that touch the ground",
+    )

@@ -1,0 +1,60 @@
+"""Tables of the chassis."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from mbs.vehicle.chassis.frame_section import FrameSection
+from mbs.vehicle.quantities import (
+    Coefficient,
+    HysteresisLoss,
+    Inertia,
+    Mass,
+    Point,
+    ProductOfInertia,
+    SmallLength,
+    Thickness,
+)
+from mbs.vehicle.section import Section
+
+
+class GroundContact(Section):
+    """Points of the chassis that may touch the ground; without this table it passes through."""
+
+    points: tuple[Point, ...]
+    """Points of the left half, each with its image on the right."""
+    radius: Thickness
+    """Radius of the tubes or edges at the points."""
+    depth: SmallLength
+    """By how much a point gives under a quarter of the car."""
+    loss: HysteresisLoss
+    """chi, as of the stops of the springs."""
+    friction_factor: Coefficient
+    """Coefficient of friction of the chassis on the road over the friction of the road."""
+
+
+class Chassis(Section):
+    """Chassis with all that is fixed to it."""
+
+    mass: Mass
+    """Mass without payloads."""
+    com: Point
+    """Centre of mass as drawn."""
+    inertia: tuple[Inertia, Inertia, Inertia]
+    """Moments of inertia about the axes x, y and z through the centre of mass."""
+    products: tuple[ProductOfInertia, ProductOfInertia, ProductOfInertia] = (0.0, 0.0, 0.0)
+    """Entries xy, xz and yz of the inertia tensor, which are minus the integrals of x y, x z and y z over the mass."""
+    reference: Point
+    """Point that carries a floating frame."""
+    accelerometers: dict[str, Point] = Field(default_factory=dict)
+    """Accelerometers by name."""
+    frame: FrameSection | None = None
+    """Flexible frame; without it the chassis is rigid and has no stresses."""
+    ground_contact: GroundContact | None = None
+    """Where the chassis may touch the ground."""
+
+    @property
+    def tensor(self) -> tuple[tuple[float, float, float], ...]:
+        """Inertia tensor about the centre of mass, kg m2."""
+        (x, y, z), (xy, xz, yz) = self.inertia, self.products
+        return (x, xy, xz), (xy, y, yz), (xz, yz, z)

@@ -1,0 +1,28 @@
+"""Constants of the FMU that a driver or a course needs."""
+
+from __future__ import annotations
+
+from mbs.vehicle.builder import CarBuilder
+
+
+def vehicle_constants(b: CarBuilder) -> None:
+    """Dimensions of the car and its steering.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The car so far.
+    """
+    car = b.car
+    turned, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max
+    for name, value, unit, text in (
+        ("wheelbase", car.wheelbase, "m", "distance between the axles"),
+        ("track_front", car.front.track, "m", "distance between the centres of the front wheels"),
+        ("track_rear", car.rear.track, "m", "distance between the centres of the rear wheels"),
+        ("length", car.vehicle.length, "m", "length of the outline, centred on the origin of the vehicle's axes"),
+        ("width", car.vehicle.width, "m", "width of the outline without mirrors, centred on that origin too"),
+        ("steering_wheel_angle_max", turned, "rad", "angle of the steering wheel at steering = 1"),
+        ("front_wheel_angle_max", angle, "rad", "mean steering angle of the front wheels at steering = 1"),
+        ("steering_ratio", turned / angle, "1", "angle of the steering wheel over that of the front wheels, both full"),
+    ):
+        b.m.constant(f"vehicle.{name}", value, unit, text)

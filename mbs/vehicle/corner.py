@@ -1,0 +1,33 @@
+"""What a suspension gives the rest of the car at each wheel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from mbs.model.body import Body
+from mbs.model.ends import End
+from mbs.vehicle.side import Point, Side
+
+TieRodEnd: TypeAlias = Callable[[Side, Point], End]
+"""From a side and the inner end of its tie rod as drawn to what it hangs on."""
+
+
+@dataclass(frozen=True)
+class Corner:
+    """One wheel's side of a suspension.
+
+    Attributes
+    ----------
+    side : Side
+        Axle, and left or right.
+    carrier : Body
+        Carries the wheel.
+    parts : mapping of str to Body
+        Bodies by their names in the file, for anti-roll bars.
+    """
+
+    side: Side
+    carrier: Body
+    parts: Mapping[str, Body]

@@ -1,0 +1,89 @@
+"""Engine, torque converter, automatic gears and open differential."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from mbs.elements.automatic_drive import AutomaticDrive
+from mbs.model.spin import Spin
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.quantities import AngularSpeed, CreepTorque, Fraction, Power, Ratio, SmallTorque, Time, Torque
+from mbs.vehicle.section import Section
+
+
+class Automatic(Section):
+    """Drive by an engine with a torque converter and gears that shift automatically."""
+
+    kind: Literal["automatic"]
+    """Names this template."""
+    wheels: Literal["front", "rear"]
+    """Driven wheels."""
+    max_torque: Torque
+    """Torque of the engine; full torque is the lesser of it and of the power over the speed."""
+    max_power: Power
+    """Power of the engine."""
+    efficiency: Fraction
+    """Efficiency of the driveline under power."""
+    stall_factor: Ratio
+    """Torque ratio of the converter at stall."""
+    creep_torque: CreepTorque
+    """Torque per driven wheel at rest with closed throttle, the selector in drive; 0: neutral."""
+    ratios: tuple[Ratio, ...]
+    """Total ratio of each gear, first gear first."""
+    coupling_ratio: Fraction = 0.9
+    """Speed ratio of the converter from which on its torque ratio is 1."""
+    idle_speed: AngularSpeed = 90.0
+    """Engine speed at rest with closed throttle."""
+    stall_speed: AngularSpeed = 230.0
+    """Engine speed at rest with open throttle."""
+    limit_speed: AngularSpeed = 600.0
+    """Engine speed where the limiter sets in."""
+    creep_speed: AngularSpeed = 10.0
+    """Wheel speed where the creep torque has faded."""
+    drag_torque: SmallTorque = 20.0
+    """Torque of the engine at its limit speed with closed throttle."""
+    up_closed: AngularSpeed = 230.0
+    """Speed of the turbine at which it shifts up with closed throttle."""
+    up_open: AngularSpeed = 540.0
+    """Speed of the turbine at which it shifts up with open throttle."""
+    down_closed: AngularSpeed = 110.0
+    """Speed of the turbine at which it shifts down with closed throttle."""
+    down_open: AngularSpeed = 270.0
+    """Speed of the turbine at which it shifts down with open throttle."""
+    dwell: Time = 0.6
+    """Least time between shifts."""
+    ramp: Time = 0.2
+    """Duration of a shift."""
+
+    def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
+        """Add the drive; its reaction is on the chassis.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        spins : mapping of str to Spin
+            Of the wheels, by their names.
+        neutral : bool
+            Whether the selector is in neutral.
+        """
+        values = {name: getattr(self, name) for name in type(self).model_fields if name not in ("kind", "wheels")}
+        drive = AutomaticDrive(**(values | {"creep_torque": 0.0} if neutral else values))
+        left, right = (spins[self.wheels[0].upper() + side].coordinate for side in "LR")
+        z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
+        element = b.m.add(drive.record("drive", left, right, z, x, b.inputs["throttle"].index))
+        b.tie(self, "creep_torque", element, "creep_torque", value=drive.creep_torque)
+        b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
+
+    def outputs(self, b: CarBuilder) -> None:
+        """Add the outputs of the drive.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        """
+        b.m.sense_element("engine_speed", "drive", "engine_speed", description="speed of the engine")
+        b.m.sense_element("gear", "drive", "gear", description="gear engaged")
+        b.m.sense_element("drive_torque", "drive", "wheel_torque", description=f"torque on each {self.wheels} wheel")

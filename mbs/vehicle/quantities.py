@@ -1,0 +1,133 @@
+"""Physical quantities of a car file: unit, plausible range, and whether a finished FMU may change them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+Change = Literal["tunable", "fixed"]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Unit and range of a number.
+
+    Parameters
+    ----------
+    unit : str
+        SI unit; "1" for a number without one.
+    low, high : float
+        Least and largest plausible value. Where `low` is positive they are less than a factor of 1000 apart, so that
+        a value in a unit 1000 times too large or too small is always outside.
+    zero : bool
+        Whether 0 is allowed besides.
+    change : {"tunable", "fixed"} or None
+        Whether the FMU has it as a parameter that may change while driving, or before the start only.
+    """
+
+    unit: str
+    low: float
+    high: float
+    zero: bool = False
+    change: Change | None = None
+
+    def check(self, value: float) -> float:
+        """The value, if it is in the range.
+
+        Parameters
+        ----------
+        value : float
+            In `unit`.
+
+        Raises
+        ------
+        PydanticCustomError
+            It is not.
+        """
+        if math.isfinite(value) and (self.low <= value <= self.high or (self.zero and value == 0.0)):
+            return value
+        raise PydanticCustomError("quantity", "must be {range}", {"range": self.range})
+
+    @property
+    def range(self) -> str:
+        """The range in words."""
+        zero = "0 or " if self.zero and self.low > 0.0 else ""
+        return f"{zero}between {self.low:g} and {self.high:g}" + ("" if self.unit == "1" else f" {self.unit}")
+
+    @property
+    def least(self) -> float:
+        """The lower limit of a parameter."""
+        return min(self.low, 0.0) if self.zero else self.low
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_after_validator_function(self.check, core_schema.float_schema(strict=True))
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return {"type": "number", "minimum": self.least, "maximum": self.high, "unit": self.unit}
+
+
+def _fixed(quantity: Quantity) -> Quantity:
+    return Quantity(quantity.unit, quantity.low, quantity.high, quantity.zero, "fixed")
+
+
+def _tunable(quantity: Quantity) -> Quantity:
+    return Quantity(quantity.unit, quantity.low, quantity.high, quantity.zero, "tunable")
+
+
+_STIFFNESS = Quantity("N/m", 1e3, 9e5)
+_DAMPING = Quantity("N.s/m", 50.0, 2e4, zero=True)
+_LENGTH = Quantity("m", 0.01, 9.0)
+
+Coordinate = Annotated[float, Quantity("m", -9.0, 9.0)]
+"""A coordinate of the drawing."""
+Point = tuple[Coordinate, Coordinate, Coordinate]
+"""x forward, y left, z up from the ground under the front axle."""
+Length = Annotated[float, _LENGTH]
+FreeLength = Annotated[float, Quantity("m", 0.05, 2.0, change="tunable")]
+SmallLength = Annotated[float, Quantity("m", 0.0005, 0.4)]
+Travel = Annotated[float, Quantity("m", 0.001, 0.5)]
+Thickness = Annotated[float, Quantity("m", 0.0003, 0.2)]
+
+Mass = Annotated[float, Quantity("kg", 4.0, 3900.0)]
+PartMass = Annotated[float, Quantity("kg", 0.2, 150.0)]
+Payload = Annotated[float, Quantity("kg", 1.0, 900.0, zero=True, change="fixed")]
+Inertia = Annotated[float, Quantity("kg.m2", 10.0, 9000.0)]
+PartInertia = Annotated[float, Quantity("kg.m2", 0.001, 49.0)]
+ProductOfInertia = Annotated[float, Quantity("kg.m2", -2000.0, 2000.0)]
+
+Stiffness = Annotated[float, _tunable(_STIFFNESS)]
+Damping = Annotated[float, _tunable(_DAMPING)]
+StopStiffness = Annotated[float, Quantity("N/m", 2e4, 1.9e7)]
+HysteresisLoss = Annotated[float, Quantity("s/m", 0.01, 9.0, zero=True)]
+TyreStiffness = Annotated[float, Quantity("N/m", 1e4, 2e6)]
+TyreDamping = Annotated[float, Quantity("N.s/m", 10.0, 5e3, zero=True)]
+CarcassStiffness = Annotated[float, Quantity("N/m", 1e4, 2e6)]
+Force = Annotated[float, Quantity("N", 100.0, 9e4)]
+SlopeForce = Annotated[float, Quantity("N", 1e3, 9e5)]
+Torque = Annotated[float, Quantity("N.m", 5.0, 4.9e3, change="tunable")]
+SmallTorque = Annotated[float, Quantity("N.m", 0.5, 400.0, zero=True)]
+Power = Annotated[float, Quantity("W", 1e3, 9e5)]
+AngularSpeed = Annotated[float, Quantity("rad/s", 1.0, 999.0)]
+Frequency = Annotated[float, Quantity("Hz", 0.5, 400.0)]
+Area = Annotated[float, Quantity("m2", 0.05, 20.0, zero=True, change="tunable")]
+Density = Annotated[float, Quantity("kg/m3", 0.3, 9.0)]
+MaterialDensity = Annotated[float, Quantity("kg/m3", 300.0, 2.5e4)]
+YoungsModulus = Annotated[float, Quantity("Pa", 1e9, 9e11)]
+Ratio = Annotated[float, Quantity("1", 0.3, 60.0)]
+Fraction = Annotated[float, Quantity("1", 0.0, 1.0)]
+Slip = Annotated[float, Quantity("1", 0.01, 9.0)]
+Coefficient = Annotated[float, Quantity("1", 0.0, 3.0)]
+Factor = Annotated[float, Quantity("1", 0.0, 10.0, change="tunable")]
+"""Multiplies what the file gives; 1 leaves it."""
+Time = Annotated[float, Quantity("s", 0.01, 9.0)]
+CreepTorque = Annotated[float, Quantity("N.m", 0.0, 200.0, change="tunable")]
+StickStiffness = Annotated[float, Quantity("N.m/rad", 1e4, 5e6)]
+RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
+RoadWheelAngle = Annotated[float, Quantity("rad", 0.1, 1.2)]
+PoissonsRatio = Annotated[float, Quantity("1", 0.0, 0.49)]
+RoadFriction = Annotated[float, Quantity("1", 0.0, 2.0, change="tunable")]

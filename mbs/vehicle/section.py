@@ -1,0 +1,90 @@
+"""A table of a car file as a typed object."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, get_args
+
+from pydantic import BaseModel, ConfigDict, PrivateAttr
+
+from mbs.vehicle.quantities import Quantity
+
+
+class Section(BaseModel):
+    """Base of all tables of a car file: no other keys than its own, and it cannot be changed.
+
+    The strings under the attributes are the descriptions of the file's reference and of the FMU's parameters.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, allow_inf_nan=False)
+
+    _path: str = PrivateAttr("")
+
+    @property
+    def path(self) -> str:
+        """Where it stands in the file, as "front.spring"; the whole file is ""."""
+        return self._path
+
+    def key(self, field: str) -> str:
+        """Key path of a field.
+
+        Parameters
+        ----------
+        field : str
+            Name of an attribute.
+        """
+        return f"{self._path}.{field}" if self._path else field
+
+    @classmethod
+    def quantity(cls, field: str) -> Quantity | None:
+        """Unit and range of a field, None where it is no single number.
+
+        Parameters
+        ----------
+        field : str
+            Name of an attribute.
+        """
+        info = cls.model_fields[field]
+        for found in (info.metadata, *(getattr(a, "__metadata__", ()) for a in get_args(info.annotation))):
+            for item in found:
+                if isinstance(item, Quantity):
+                    return item
+        return None
+
+    def locate(self, path: str) -> None:
+        """Tell this section and those in it where they stand; done once by the reader.
+
+        Parameters
+        ----------
+        path : str
+            Key path of this section.
+        """
+        self._path = path
+        for name in type(self).model_fields:
+            for key, value in _sections(name, getattr(self, name)):
+                value.locate(self.key(key))
+
+
+def sections_of(section: Section) -> Iterator[Section]:
+    """A section and all in it, in the order of their types.
+
+    Parameters
+    ----------
+    section : Section
+        The first.
+    """
+    yield section
+    for name in type(section).model_fields:
+        for _, inner in _sections(name, getattr(section, name)):
+            yield from sections_of(inner)
+
+
+def _sections(name: str, value: Any) -> list[tuple[str, Section]]:
+    """Sections in a value with their keys."""
+    if isinstance(value, Section):
+        return [(name, value)]
+    if isinstance(value, dict):
+        return [(f"{name}.{key}", v) for key, v in value.items() if isinstance(v, Section)]
+    if isinstance(value, (list, tuple)):
+        return [(f"{name}.{k}", v) for k, v in enumerate(value) if isinstance(v, Section)]
+    return []

@@ -1,0 +1,61 @@
+"""Left and right: a file gives the left side, the right one mirrors y."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mbs.model import Model
+from mbs.model.body import Body
+from mbs.vehicle.part import Part
+
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Side:
+    """One side of an axle: ``sign`` is +1 on the left, -1 on the right."""
+
+    axle: str
+    name: str
+    sign: float
+
+    @property
+    def wheel(self) -> str:
+        """FL, FR, RL or RR."""
+        return self.axle[0].upper() + self.name[0].upper()
+
+    def point(self, left: Sequence[float]) -> Point:
+        """A point of this side from the one of the left side.
+
+        Parameters
+        ----------
+        left : sequence of float
+            m, as drawn.
+        """
+        return (left[0], self.sign * left[1], left[2])
+
+    def body(self, model: Model, name: str, part: Part) -> Body:
+        """A part of this side; its principal inertias are along the earth axes.
+
+        Parameters
+        ----------
+        model : Model
+            Gets the body.
+        name : str
+            The wheel's name follows it.
+        part : Part
+            Mass, centre and inertia of the left one.
+        """
+        return model.body(f"{name} {self.wheel}", mass=part.mass, com=self.point(part.com), inertia=part.inertia)
+
+
+def sides(axle: str) -> tuple[Side, Side]:
+    """Left and right of an axle.
+
+    Parameters
+    ----------
+    axle : str
+        "front" or "rear".
+    """
+    return Side(axle, "left", 1.0), Side(axle, "right", -1.0)

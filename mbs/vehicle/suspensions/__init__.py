@@ -1,0 +1,14 @@
+"""Templates of suspensions: a new one is a file here and a line in `Suspension`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from mbs.vehicle.suspensions.double_wishbone import DoubleWishbone
+from mbs.vehicle.suspensions.lower_arm_strut import LowerArmStrut
+
+Suspension = Annotated[DoubleWishbone | LowerArmStrut, Field(discriminator="kind")]
+
+__all__ = ["Suspension"]

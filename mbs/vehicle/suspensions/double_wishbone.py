@@ -1,0 +1,134 @@
+"""Double wishbones, the spring on the lower one, a tie rod to the rack or the chassis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+from mbs.elements.spring_damper import EndStops
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.part import Part
+from mbs.vehicle.quantities import HysteresisLoss, Length, Point, SmallLength, StopStiffness
+from mbs.vehicle.section import Section
+from mbs.vehicle.side import sides
+from mbs.vehicle.springs import AxleSprings, spring_and_damper
+
+
+class DoubleWishbonePoints(Section):
+    """Hard points of the left side."""
+
+    lower_pivot_front: Point
+    """Front pivot of the lower wishbone on the chassis."""
+    lower_pivot_rear: Point
+    """Rear pivot of the lower wishbone on the chassis."""
+    upper_pivot_front: Point
+    """Front pivot of the upper wishbone on the chassis."""
+    upper_pivot_rear: Point
+    """Rear pivot of the upper wishbone on the chassis."""
+    lower_ball_joint: Point
+    """Ball joint of the lower wishbone and the upright."""
+    upper_ball_joint: Point
+    """Ball joint of the upper wishbone and the upright."""
+    tie_rod_inner: Point
+    """Inner end of the tie rod: on the rack where the axle steers, else on the chassis."""
+    tie_rod_outer: Point
+    """Outer end of the tie rod on the upright."""
+    spring_lower: Point
+    """Lower end of the spring on the lower wishbone."""
+    spring_upper: Point
+    """Upper end of the spring on the chassis."""
+
+
+class DoubleWishboneBodies(Section):
+    """Parts of the left side."""
+
+    lower_wishbone: Part
+    """Lower wishbone."""
+    upper_wishbone: Part
+    """Upper wishbone."""
+    upright: Part
+    """Upright without wheel."""
+
+
+class SteeringStop(Section):
+    """Stop of the knuckle on the lower wishbone, from the outer end of the tie rod to the wishbone's front pivot."""
+
+    length: Length
+    """Distance of the two points below which it acts."""
+    stiffness: StopStiffness
+    """Where it begins."""
+    travel: SmallLength
+    """Compression at which metal meets metal."""
+    metal_stiffness: StopStiffness
+    """Stiffness of metal on metal."""
+    metal_onset: SmallLength
+    """Depth over which it sets in."""
+    loss: HysteresisLoss
+    """chi, as of the stops of the springs."""
+
+
+class DoubleWishbone(Section):
+    """Suspension by double wishbones."""
+
+    kind: Literal["double_wishbone"]
+    """Names this template."""
+    points: DoubleWishbonePoints
+    """Hard points."""
+    bodies: DoubleWishboneBodies
+    """Masses and inertias."""
+    steering_stop: SteeringStop | None = None
+    """Stop that keeps a knuckle pulled out at full lock from turning over."""
+
+    @property
+    def steering_arm(self) -> Point:
+        """Outer end of the tie rod of the left side, m."""
+        return self.points.tie_rod_outer
+
+    def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
+        """Add the left side, then the right one.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        axle : str
+            "front" or "rear".
+        springs : AxleSprings
+            Springs, dampers and stops of the axle.
+        tie_rod : TieRodEnd
+            Gives what the inner ends of the tie rods hang on.
+        """
+        m, chassis = b.m, b.chassis.body
+        for side in sides(axle):
+            w = side.wheel
+            p = {name: side.point(point) for name, point in self.points}
+            lower = side.body(m, "lower wishbone", self.bodies.lower_wishbone)
+            upper = side.body(m, "upper wishbone", self.bodies.upper_wishbone)
+            upright = side.body(m, "upright", self.bodies.upright)
+            for part, wishbone in (("lower", lower), ("upper", upper)):
+                for end in ("front", "rear"):
+                    m.spherical(f"{part} wishbone {w} {end} pivot", chassis, wishbone, point=p[f"{part}_pivot_{end}"])
+                m.spherical(f"{part} ball joint {w}", wishbone, upright, point=p[f"{part}_ball_joint"])
+            m.distance(f"tie rod {w}", (upright, p["tie_rod_outer"]), tie_rod(side, p["tie_rod_inner"]))
+            spring_and_damper(b, f"spring {w}", (lower, p["spring_lower"]), (chassis, p["spring_upper"]), springs)
+            if self.steering_stop is not None:
+                m.spring_damper(
+                    f"steering stop {w}",
+                    (upright, p["tie_rod_outer"]),
+                    (lower, p["lower_pivot_front"]),
+                    stiffness=0.0,
+                    stops=_end_stop(self.steering_stop),
+                )
+            yield Corner(side, upright, {"lower_wishbone": lower, "upper_wishbone": upper, "upright": upright})
+
+
+def _end_stop(stop: SteeringStop) -> EndStops:
+    return EndStops(
+        stop.length,
+        stop.stiffness,
+        bump_travel=stop.travel,
+        metal_stiffness=stop.metal_stiffness,
+        metal_onset=stop.metal_onset,
+        bump_loss=stop.loss,
+    )

@@ -1,0 +1,86 @@
+"""Tyres of a car file: TMeasy."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from mbs.elements.tyre import Tyre, TyreCurve
+from mbs.vehicle.quantities import (
+    CarcassStiffness,
+    Coefficient,
+    Factor,
+    Force,
+    Length,
+    Ratio,
+    Slip,
+    SlopeForce,
+    TyreDamping,
+    TyreStiffness,
+)
+from mbs.vehicle.section import Section
+
+
+class Curve(Section):
+    """Steady force over slip in one direction, each at the nominal load and at twice of it."""
+
+    slope: tuple[SlopeForce, SlopeForce]
+    """Initial slope, force per slip."""
+    max_force: tuple[Force, Force]
+    """Largest force at the reference friction."""
+    max_slip: tuple[Slip, Slip]
+    """Slip where it is reached."""
+    slide_force: tuple[Force, Force]
+    """Force of full sliding."""
+    slide_slip: tuple[Slip, Slip]
+    """Slip from which on it slides."""
+
+
+class TMeasy(Section):
+    """Tyre after W. Hirschberg, G. Rill, H. Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119."""
+
+    kind: Literal["tmeasy"]
+    """Names the tyre formula."""
+    radius: Length
+    """Free radius."""
+    bottoming_radius: Length
+    """Loaded radius below which the rim bears."""
+    stiffness: TyreStiffness
+    """Radial stiffness."""
+    damping: TyreDamping
+    """Radial damping."""
+    bottoming_stiffness: TyreStiffness
+    """Stiffness of the rim on the road."""
+    longitudinal: Curve
+    """Longitudinal force over longitudinal slip."""
+    lateral: Curve
+    """Lateral force over lateral slip."""
+    trail: tuple[Coefficient, Coefficient]
+    """Dynamic trail over contact length at zero slip."""
+    trail_zero: tuple[Slip, Slip]
+    """Lateral slip where the trail first vanishes."""
+    trail_end: tuple[Slip, Slip]
+    """Lateral slip where it ends."""
+    carcass_stiffness: tuple[CarcassStiffness, CarcassStiffness]
+    """Longitudinal and lateral stiffness of the carcass."""
+    carcass_damping: tuple[TyreDamping, TyreDamping]
+    """Longitudinal and lateral damping of the carcass."""
+    nominal_load: Force
+    """Load at which the first number of each pair holds."""
+    max_load_factor: Ratio
+    """Multiple of the nominal load at which the curves are clamped."""
+    rolling_resistance: Coefficient
+    """Coefficient of rolling resistance."""
+    grip: Factor = 1.0
+    """Factor on the friction of the road under the tyres of this axle."""
+
+    def tyre(self) -> Tyre:
+        """The tyre of the engine."""
+        values = {name: getattr(self, name) for name in type(self).model_fields if name not in ("kind", "grip")}
+        for name in ("longitudinal", "lateral"):
+            values[name] = TyreCurve(**dict(getattr(self, name)))
+        return Tyre(**values, friction_factor=self.grip)
+
+    @property
+    def friction(self) -> float:
+        """Friction of the road at which the curves hold."""
+        return self.longitudinal.max_force[0] / self.nominal_load

@@ -1,0 +1,97 @@
+"""A fixed parameter can be set until the end of the initialisation, a tunable one at any time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fmpy.fmi1 import FMICallException
+
+import mbs
+from fmu_src.scene_registry import load_scene
+from tests.fmu.test_fmi3 import Host3
+
+SCENES = Path(__file__).parent / "scenes.py"
+OK, WARNING, DISCARD, ERROR = range(4)
+H = 0.01
+LENGTH, STIFFNESS = "spring.free_length", "spring.stiffness"
+HostMaker = Callable[..., Any]
+
+
+def expected(parameters: dict[str, float] | None = None) -> list[float]:
+    """Outputs after a step."""
+    simulation = mbs.Simulation(load_scene(f"{SCENES}:sprung_reach")[1], parameters=parameters)
+    simulation.step(H)
+    return list(simulation.sensors.values())
+
+
+def test_its_variability_is_in_the_description(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
+    variables = {v.name: v for v in host(build("sprung_reach", kind)).description.modelVariables}
+    assert variables[LENGTH].variability == "fixed"
+    assert variables[STIFFNESS].variability == "tunable"
+
+
+@pytest.mark.parametrize("phase", ["instantiated", "initialising", "initialising, asked"])
+def test_it_is_taken_until_the_initialisation_ends(
+    build: Callable[..., Path], host: HostMaker, kind: str, phase: str
+) -> None:
+    driven = host(build("sprung_reach", kind))
+    if phase == "instantiated":
+        assert driven.set(LENGTH, 0.3) == OK
+    driven.slave.setupExperiment(startTime=0.0)
+    driven.slave.enterInitializationMode()
+    if phase == "initialising, asked":
+        driven.outputs()  # the initial state is found, and once more after the set
+    if phase != "instantiated":
+        assert driven.set(LENGTH, 0.3) == OK
+    driven.slave.exitInitializationMode()
+    assert driven.get(LENGTH) == 0.3
+    assert driven.step(0.0, H) == OK
+    assert driven.outputs() == expected({LENGTH: 0.3}) != expected()
+
+
+def test_it_is_refused_afterwards_with_a_sentence(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
+    driven, other = (host(build("sprung_reach", kind)).start() for _ in range(2))
+    for k in range(3):
+        driven.messages.clear()
+        assert driven.set(LENGTH, 0.3) == ERROR
+        assert [m for m in driven.messages if f"'{LENGTH}' cannot be set" in m and "it is a fixed parameter" in m]
+        assert driven.get(LENGTH) == 0.2
+        # with a tunable one in the same call: neither is taken
+        both = [driven.references[STIFFNESS], driven.references[LENGTH]]
+        assert driven.call("setReal", both, [9.0, 0.3]) == ERROR
+        assert driven.get(STIFFNESS) == 5.0
+        assert driven.step(k * H, H) == other.step(k * H, H) == OK
+        assert driven.outputs() == other.outputs()
+    assert driven.set(STIFFNESS, 9.0) == OK
+    assert driven.step(3 * H, H) == OK
+
+
+def test_it_is_free_again_after_a_reset(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
+    driven = host(build("sprung_reach", kind)).start()
+    assert driven.step(0.0, H) == OK
+    assert driven.call("reset") == OK
+    driven.start({LENGTH: 0.3})
+    assert driven.step(0.0, H) == OK
+    assert driven.outputs() == expected({LENGTH: 0.3})
+
+
+def test_fmi_3_says_and_does_the_same(build: Callable[..., Path]) -> None:
+    fmu = build("sprung_reach", "fmi3")
+    driven = Host3(fmu)
+    variables = {v.name: v for v in driven.description.modelVariables}
+    assert (variables[LENGTH].variability, variables[STIFFNESS].variability) == ("fixed", "tunable")
+    driven.slave.enterInitializationMode(startTime=0.0)
+    driven.set(LENGTH, 0.3)
+    driven.slave.exitInitializationMode()
+    with pytest.raises(FMICallException):
+        driven.set(LENGTH, 0.2)
+    assert "it is a fixed parameter" in driven.messages[-1]
+    driven.set(STIFFNESS, 9.0)
+    driven.slave.doStep(0.0, H)
+    simulation = mbs.Simulation(load_scene(f"{SCENES}:sprung_reach")[1], parameters={LENGTH: 0.3})
+    simulation.set_parameter(STIFFNESS, 9.0)
+    simulation.step(H)
+    assert driven.get("bob.x") == [simulation.sensors["bob.x"]]
