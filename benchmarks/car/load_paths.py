@@ -9,8 +9,10 @@ from scipy.spatial.transform import Rotation
 from benchmarks.car import fidelity_runs, manoeuvres
 from mbs import Simulation
 from mbs.input_signals import InputSignals
-from mbs.scenes.prototype_car.fidelity import Fidelity
-from mbs.scenes.prototype_car.frame import INTERFACES
+from mbs.scenes import prototype_car
+from mbs.vehicle import Fidelity
+
+INTERFACES = prototype_car.car().tubular_frame.interfaces
 
 GUIDED = "kerb_test"
 H, EVERY = 0.005, 4
@@ -19,9 +21,9 @@ H, EVERY = 0.005, 4
 def port_forces(name: str) -> NDArray[np.float64]:
     """Forces on the chassis at the interfaces in its axes through a manoeuvre, shape (60, samples), N."""
     manoeuvre = fidelity_runs.manoeuvre_of(name) if name == GUIDED else manoeuvres.load(name)
-    parameters, pose = manoeuvres.start_of(manoeuvre)
     system = fidelity_runs.system_of(name, Fidelity.QUASI_STATIC)
-    signals = InputSignals(manoeuvres.inputs_of(manoeuvre), system.meta["inputs"])
+    parameters, pose = manoeuvres.start_of(manoeuvre, system)
+    signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
     car = Simulation(system, parameters=parameters, pose=pose)
     names = [row["name"] for row in system.meta["rows"]]
     rows = [[k for k, row in enumerate(names) if row == f"chassis.{node}"] for node in INTERFACES]

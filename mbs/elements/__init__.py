@@ -7,6 +7,7 @@ from mbs.elements.brake import Brake
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.elements.drag import Drag
+from mbs.elements.electric_drive import ElectricDrive
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.elements.input_force import InputForce
 from mbs.elements.record import ElementRecord, Output
@@ -26,6 +27,7 @@ __all__ = [
     "ContactPoints",
     "CoordinateFriction",
     "Drag",
+    "ElectricDrive",
     "ElementRecord",
     "ElementType",
     "EndStops",

@@ -201,6 +201,8 @@ class Status(IntEnum):
     NO_EQUILIBRIUM = 16
     BRANCH_CHANGED = 17
     FIXED_PARAMETER = 18
+    BAD_ROAD = 19
+    ROAD_LOST = 20
 
 
 class Update(IntEnum):
@@ -372,6 +374,7 @@ class ElementType(IntEnum):
     AUTOMATIC_DRIVE = 10
     CONTACT_POINTS = 11
     SPIN_TORQUE = 12
+    ELECTRIC_DRIVE = 13
     COORDINATE_FRICTION = 17
     TORSION_BAR = 18
 

@@ -103,6 +103,15 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "point": X,
     },
     "screw": lambda b: between(b, point=X, axis=X, pitch=0.01),
+    "drop_link": lambda b: {
+        "name": "new",
+        "carrier": b.arm,
+        "body": b.box,
+        "pivot": X,
+        "axis": Y,
+        "lever_end": (0.5, 0.0, 0.5),
+        "link_end": (0.5, 0.3, 1.5),
+    },
     "relative_angle": lambda b: between(b, axis=Y, zero=0.5),
     "armature": lambda b: {"name": "new", "coordinate": b.angle, "inertia": 1.0},
     "spin": lambda b: {
@@ -168,7 +177,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "torque": lambda b: {"name": "new", "body": b.arm, "inputs": [b.pedal, None, None], "axes": "body"},
     "torque_on": lambda b: {"name": "new", "angle": b.angle, "input": b.pedal, "gain": 2.0},
     "drag": lambda b: {"name": "new", "body": b.arm, "point": X, "drag_area": 1.0, "air_density": 1.0},
-    "road": lambda b: {"road": PlaneRoad()},
+    "road": lambda b: {"road": PlaneRoad(), "file": "road.file"},
     "contact_points": lambda b: {
         "name": "new",
         "body": b.arm,
@@ -244,8 +253,8 @@ def allowed(function: Any, parameter: inspect.Parameter, label: str, value: Any)
         return "None" in kind
     if label == "True":
         return kind.startswith("bool")
-    if isinstance(value, str) and parameter.name in ("name", "unit", "description", "display_unit", "text"):
-        return label == "text" or (label == "empty" and parameter.name not in ("name", "text"))
+    if isinstance(value, str) and parameter.name in ("name", "unit", "description", "display_unit", "text", "file"):
+        return label == "text" or (label == "empty" and parameter.name not in ("name", "text", "file"))
     return parameter.name in ("min", "max") and function == "input" and label == "inf"
 
 

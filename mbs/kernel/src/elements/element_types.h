@@ -18,6 +18,7 @@
   X(10, automatic_drive) \
   X(11, contact_points) \
   X(12, spin_torque) \
+  X(13, electric_drive) \
   X(17, coordinate_friction) \
   X(18, torsion_bar)
 /* clang-format on */
