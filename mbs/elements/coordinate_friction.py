@@ -55,7 +55,10 @@ class CoordinateFriction:
         ModelError
             A number is not positive.
         """
-        force, mass = positive(largest, "The largest force of a friction"), positive(inertia, "The inertia of a friction")
+        force, mass = (
+            positive(largest, "The largest force of a friction"),
+            positive(inertia, "The inertia of a friction"),
+        )
         stiffness = force / positive(give, "The give of a friction")
         return CoordinateFriction(force, stiffness, 2.0 * math.sqrt(stiffness * mass), unit)
 

@@ -148,9 +148,7 @@ class ChannelSensorVocabulary(SensorBase):
         if motion.type != GuideType.OF_TWO_INPUTS:
             raise ModelError(f"The guide '{motion.name}' of {what} has no limits; those of guide_inputs have.")
         unit = self._unit(unit, motion.unit)
-        return self._sense(
-            name, unit, description, SensorType.GUIDE_EXCESS, integers=[motion.index], reals=[factor]
-        )
+        return self._sense(name, unit, description, SensorType.GUIDE_EXCESS, integers=[motion.index], reals=[factor])
 
     def sense_solver(self, name: str, kind: str, description: str = "") -> Sensor:
         """What the solver says about itself.

@@ -29,6 +29,11 @@ class JointSensorVocabulary(SensorBase):
         self.remember(found)
         return found
 
+    def _joints(self, name: str, argument: str, given: Sequence[Joint | str]) -> list[Joint]:
+        if not isinstance(given, (list, tuple)) or not given:
+            raise ModelError(f"The {argument} of sensor '{name}' must be a list of joints, not {shown(given)}.")
+        return [self._joint(name, joint) for joint in given]
+
     def _sense_terms(self, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
         joint.as_rows = joint.as_rows or any(term.equation in joint.force_equations for term in terms)
         return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
@@ -208,14 +213,12 @@ class JointSensorVocabulary(SensorBase):
         """
         what = f"The sensor '{name}'"
         found, factor = owned_guide(self, guide, what), number(scale, f"The scale of sensor '{name}'")
-        asked = self.joints if joints is None else [self._joint(name, joint) for joint in joints]
+        asked = self.joints if joints is None else self._joints(name, "joints", joints)
         terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, found.index)]
         if not terms:
             raise ModelError(f"{what} asks for the force of guide '{found.name}', which none of its joints follows.")
         default = {"m": "N", "rad": "N.m"}.get(found.unit, "1")
-        return self._sense(
-            name, self._unit(unit, default), description, SensorType.REACTION_PRODUCTS, terms=terms
-        )
+        return self._sense(name, self._unit(unit, default), description, SensorType.REACTION_PRODUCTS, terms=terms)
 
     def sense_rod_force(
         self,
@@ -258,13 +261,12 @@ class JointSensorVocabulary(SensorBase):
         along = self.anchor_axis(self.owned(body, what), axis, f"sensor '{name}'")
         factor = number(scale, f"The scale of sensor '{name}'")
         terms = []
-        for rod in rods:
-            joint = self._joint(name, rod)
+        for joint in self._joints(name, "rods", rods):
             if joint.ends is None or not joint.ends.rod or body not in joint.ends.bodies:
-                raise ModelError(f"{what} needs rods that end on '{body.name}'; '{joint.name}' ({joint.type}) does not.")
+                raise ModelError(
+                    f"{what} needs rods that end on '{body.name}'; '{joint.name}' ({joint.type}) does not."
+                )
             terms += [replace(t, weight=factor * t.weight) for t in rod_terms(joint, body, along)]
-        if not terms:
-            raise ModelError(f"{what} has no rods; it needs one at least.")
         return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, terms=terms)
 
     def _axis(self, name: str, component: str, axes: Body | str) -> AffineVector:

@@ -71,9 +71,7 @@ class RackByAngle(Section):
             b.tie(self, "friction", "steering friction", "largest")
 
         def end(side: Side, point: Point) -> End:
-            return m.slide(
-                f"rack end {side.wheel}", b.chassis.body, point=point, direction=(0.0, 1.0, 0.0), guide=rack
-            )
+            return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=(0.0, 1.0, 0.0), guide=rack)
 
         def outputs() -> None:
             turned = "left" if way > 0.0 else "right"
@@ -89,9 +87,7 @@ class RackByAngle(Section):
             )
 
         def torque_outputs() -> None:
-            m.sense_guide_force(
-                "steering_wheel_torque", rack, scale=per_radian, unit="N.m", description=WHEEL_TORQUE
-            )
+            m.sense_guide_force("steering_wheel_torque", rack, scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
             m.sense_guide("steering_wheel_speed", rack, 1, 1.0 / per_radian, "rad/s", WHEEL_SPEED)
             m.sense_guide_force("steering_rack_force", rack, tie_rods(m, rack), -1.0, description=RACK_FORCE)
             demand_outputs(m, demand, rack, 1.0 / per_radian)

@@ -227,9 +227,7 @@ static double change_guide(const ali3_instance *in, const int32_t *v, const doub
 static double change_guide_excess(const ali3_instance *in, const int32_t *v, const double *real) {
   if (!ali3_guide_filters(in->system->guide_type[v[0]])) return 0.0;
   const double demand = ali3_guide_demand(in, v[0], in->now.used);
-  return ali3_guide_held(in, v[0], demand) == demand
-             ? 0.0
-             : real[0] * ali3_guide_demand(in, v[0], in->direction.used);
+  return ali3_guide_held(in, v[0], demand) == demand ? 0.0 : real[0] * ali3_guide_demand(in, v[0], in->direction.used);
 }
 
 /* Counts and residuals. */
