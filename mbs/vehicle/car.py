@@ -271,3 +271,4 @@ class Car(Section):
             ground_contact(b, self.chassis.ground_contact)
         work_outputs(m)
         vehicle_constants(b)
+        steered.torque_outputs()
