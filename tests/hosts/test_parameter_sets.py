@@ -409,3 +409,11 @@ def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path
     file.write_text(built.replace(old, new))
     assert not write_beside(variables.parameter_set("Tuned", {}), file)
     assert file.read_text() == built.replace(old, new)
+
+
+def test_a_picture_names_what_the_user_has_changed() -> None:
+    made = Settings(kinds())
+    made.add_numbers({"depth": 2.0}, "start of rest")
+    assert made.title("car") == "car"
+    made.add_texts([("count", "4"), ("on", "true"), ("gear", "2")], "--set")
+    assert made.title("car") == "car, count 4, on true, 1 more"
