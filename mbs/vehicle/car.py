@@ -211,6 +211,16 @@ class Car(Section):
             table[last] = value
         return car_from(data, self._folder, f"car '{self.name}'")
 
+    def values(self) -> dict[str, float]:
+        """Numbers that a finished FMU of the car has as parameters, by key path."""
+        found = {}
+        for section in sections_of(self):
+            for field in type(section).model_fields:
+                quantity, value = section.quantity(field), getattr(section, field)
+                if quantity is not None and quantity.change is not None and value is not None:
+                    found[section.key(field)] = float(value)
+        return found
+
     def order(self, path: str) -> int:
         """Place of a key path in the file's type.
 

@@ -73,6 +73,7 @@ class Automatic(Section):
         left, right = (spins[self.wheels[0].upper() + side].coordinate for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
         element = b.m.add(drive.record("drive", left, right, z, x, b.inputs["throttle"].index))
+        b.tie(self, "max_torque", element, "max_torque")
         b.tie(self, "creep_torque", element, "creep_torque", value=drive.creep_torque)
         b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
 
