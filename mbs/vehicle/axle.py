@@ -9,7 +9,7 @@ from pydantic import Field
 from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
-from mbs.vehicle.quantities import PartInertia, PartMass, Point
+from mbs.vehicle.quantities import PartMass, Point, WheelInertia
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
@@ -23,9 +23,9 @@ class Wheel(Section):
     """Centre of the left wheel."""
     mass: PartMass
     """Mass."""
-    spin_inertia: PartInertia
+    spin_inertia: WheelInertia
     """Moment of inertia about its axis."""
-    diametral_inertia: PartInertia
+    diametral_inertia: WheelInertia
     """Moment of inertia about its diameters."""
 
 
