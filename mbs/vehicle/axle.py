@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from pydantic import Field
 
@@ -13,6 +13,7 @@ from mbs.vehicle.quantities import PartMass, Point, WheelInertia
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
+from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
 from mbs.vehicle.tyre import TMeasy
 
 
@@ -40,6 +41,8 @@ class Axle(Section):
     """Damper of each wheel."""
     stops: Stops | None = None
     """Bump and rebound stops."""
+    anti_roll_bar: AntiRollBar | None = None
+    """Anti-roll bar with its links."""
     wheel: Wheel
     """Wheels."""
     tyre: TMeasy
@@ -54,6 +57,13 @@ class Axle(Section):
     def rolling_radius(self) -> float:
         """Way of a free wheel per radian, m: (2 R + loaded radius)/3; at rest the wheel's centre is that high."""
         return (2.0 * self.tyre.radius + self.wheel.centre[2]) / 3.0
+
+    def faults(self) -> Iterator[str]:
+        """The anti-roll bar hangs on a part that is there."""
+        parts = list(type(self.suspension.bodies).model_fields)
+        bar = self.anti_roll_bar
+        if bar is not None and bar.part not in parts:
+            yield f"{bar.key('part')} is '{bar.part}'; the suspension has {', '.join(parts)}."
 
     def build(
         self, b: CarBuilder, axle: str, tie_rod: TieRodEnd, brake: Callable[[CarBuilder, Corner, Spin], None]
@@ -71,12 +81,15 @@ class Axle(Section):
         brake : callable
             Adds the brake of a wheel.
         """
-        spins = {}
+        spins, corners = {}, []
         springs = AxleSprings(self.spring, self.damper, self.stops)
         for corner in self.suspension.corners(b, axle, springs, tie_rod):
+            corners.append(corner)
             spin = self._wheel(b, corner)
             brake(b, corner, spin)
             spins[corner.side.wheel] = spin
+        if self.anti_roll_bar is not None:
+            self.anti_roll_bar.build(b, axle, corners)
         return spins
 
     def _wheel(self, b: CarBuilder, corner: Corner) -> Spin:

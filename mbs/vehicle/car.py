@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -39,6 +39,7 @@ from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.suspensions.twist_beam import TwistBeam
 
 
 class Vehicle(Section):
@@ -180,6 +181,12 @@ class Car(Section):
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
         return m
 
+    def faults(self) -> Iterator[str]:
+        """The front axle steers."""
+        if isinstance(self.front.suspension, TwistBeam):
+            kind = self.front.suspension.kind
+            yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
+
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
         """The models an FMU offers by its parameter `fidelity`: the rigid one alone where the car has no frame."""
         offered = OFFERED if self.chassis.frame is not None else OFFERED[:1]
@@ -230,7 +237,9 @@ class Car(Section):
 
     def _rack_way(self) -> float:
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
-        return 1.0 if self.front.suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
+        suspension = self.front.suspension
+        assert not isinstance(suspension, TwistBeam), "refused with the file"
+        return 1.0 if suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
 
     def _footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and largest x and y of the car as drawn, with a hand's breadth around."""

@@ -42,7 +42,7 @@ class Sentences:
         error : ValidationError
             Of the content.
         """
-        items = error.errors(include_url=False)
+        items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
         missing = [self._path(item["loc"]) for item in items if item["type"] == MISSING]
         found, meant = [], []
         for item in items:

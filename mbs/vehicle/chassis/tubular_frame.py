@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mbs.flexible import Beam, Frame, Material, StrainGauge, tube
+from mbs.flexible import Beam, Frame, Material, Section, StrainGauge, tube
 from mbs.vehicle.chassis.frame_section import FrameSection
 
 
@@ -43,6 +43,16 @@ class TubularFrame:
         """Joints of the suspension on both sides."""
         return tuple(f"{joint}{side}" for joint in self.section.interfaces for side in "LR")
 
+    @property
+    def material(self) -> Material:
+        """Of all tubes."""
+        return Material(self.section.material.E, self.section.material.nu, self.section.material.rho)
+
+    @property
+    def tube_sections(self) -> dict[str, Section]:
+        """Tubes by the names of the table."""
+        return {name: tube(s.diameter, s.wall) for name, s in self.section.sections.items()}
+
     def frame(
         self, theory: str = "euler_bernoulli", refinement: int = 1, carried_masses: bool = True
     ) -> tuple[Frame, tuple[FrameTube, ...]]:
@@ -60,8 +70,7 @@ class TubularFrame:
         carried_masses : bool
             Without them the frame is bare tubes.
         """
-        material = Material(self.section.material.E, self.section.material.nu, self.section.material.rho)
-        sections = {name: tube(s.diameter, s.wall) for name, s in self.section.sections.items()}
+        material, sections = self.material, self.tube_sections
         joints = self.joint_places()
         names, positions = list(joints), list(joints.values())
         beams: list[Beam] = []

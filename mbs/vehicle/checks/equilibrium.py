@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from mbs.vehicle.car import Car
 
 ODD, TOO_FAR = 0.02, 0.15  # m: a wheel's travel between drawing and rest
+LEAST_LENGTH = 0.4  # of the free length: a coil spring that is shorter is a block
 ODD_DEFLECTION = 0.005  # m: the same of a tyre's deflection
 ODD_LEAN = math.radians(0.5)
 
@@ -29,6 +30,8 @@ class Rest:
         From the drawing, by axle, mean of both wheels, m, positive in bump.
     load, spring_force, deflection : mapping of str to float
         Of a wheel, N, of its spring, N, and of its tyre, m; means of both sides.
+    spring_length : mapping of str to float
+        By axle, m.
     lean : float
         Roll angle, rad, positive with the left side up.
     """
@@ -37,6 +40,7 @@ class Rest:
     load: dict[str, float]
     spring_force: dict[str, float]
     deflection: dict[str, float]
+    spring_length: dict[str, float]
     lean: float
 
     def faults(self, car: Car) -> Iterator[str]:
@@ -48,6 +52,13 @@ class Rest:
             At rest.
         """
         yield from self._moved(car, TOO_FAR, math.inf)
+        for name, axle in _axles(car):
+            free, length = getattr(axle.spring, "free_length", None), self.spring_length[name]
+            if free is not None and not LEAST_LENGTH * free <= length:
+                yield (
+                    f"{axle.spring.key('free_length')} is {free:g} m, but at rest the spring has {length:.3g} m "
+                    f"between its points; it must be {length / LEAST_LENGTH:.3g} m or less."
+                )
 
     def oddities(self, car: Car) -> Iterator[str]:
         """A sentence for each difference from the drawing.
@@ -86,8 +97,8 @@ class Rest:
                 yield (
                     f"at rest the {name} wheels stand {abs(travel):.3g} m {'higher' if travel > 0.0 else 'lower'} "
                     f"in the chassis than {axle.wheel.key('centre')} is drawn, at a load of {self.load[name]:.0f} N "
-                    f"each and {abs(self.spring_force[name]):.0f} N in each spring ({', '.join(values)}); a car is drawn in "
-                    "its equilibrium."
+                    f"each and {abs(self.spring_force[name]):.0f} N in each spring ({', '.join(values)}); a car is "
+                    "drawn in its equilibrium."
                 )
 
 
@@ -117,6 +128,7 @@ def settled(car: Car) -> Rest:
         means("wheel_{}.Fz"),
         means("spring_{}.force"),
         means("wheel_{}.deflection"),
+        means("spring_{}.length"),
         at_rest["chassis.roll"],
     )
 

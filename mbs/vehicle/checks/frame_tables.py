@@ -23,7 +23,7 @@ MASS_TOLERANCE = 0.02  # of the chassis' mass
 
 
 def frame_faults(car: Car) -> Iterator[str]:
-    """A sentence for each fault; the first one of a table, since others follow from it.
+    """The first fault, since others follow from it.
 
     Parameters
     ----------
@@ -36,9 +36,9 @@ def frame_faults(car: Car) -> Iterator[str]:
     try:
         check = _FrameCheck(car, frame)
         for step in (check.joints, check.named_joints, check.tubes, check.masses, check.loads):
-            faults = list(step())
-            yield from faults
-            if faults:
+            fault = next(step(), None)
+            if fault is not None:
+                yield fault
                 return
     except CarFileError as error:
         yield str(error).rstrip()
