@@ -20,6 +20,7 @@ from fmu_src.native.table import c_table
 from fmu_src.picture import curves_png
 from fmu_src.platforms import SUFFIXES
 from fmu_src.probe import Dependencies
+from fmu_src.text_variables import TextVariable, road_resources, text_table
 from fmu_src.variables import Variable, table_records
 
 Telling = Callable[..., AbstractContextManager[None]]
@@ -71,6 +72,7 @@ class NativeContents:
             author=self.author or "ALi3 contributors (solver)",
             copyright=self.copyright or f"{line} (solver)",
             licence=self.licence or "BSD-3-Clause (solver)",
+            texts=self.texts,
             **more,
         )
 
@@ -88,9 +90,15 @@ class NativeContents:
         }
 
     @property
-    def system_files(self) -> dict[str, bytes]:
-        """System files as they lie in the FMU."""
-        return {f"resources/system_{k}.ali3": system.to_bytes() for k, system in enumerate(self.systems)}
+    def texts(self) -> tuple[TextVariable, ...]:
+        """Variables that are text."""
+        return text_table(self.system.meta, self.table)
+
+    @property
+    def resources(self) -> dict[str, bytes]:
+        """Systems and roads as they lie in the FMU."""
+        systems = {f"resources/system_{k}.ali3": system.to_bytes() for k, system in enumerate(self.systems)}
+        return systems | road_resources(self.system.meta)
 
     @property
     def stop_time(self) -> float:
@@ -105,7 +113,7 @@ class NativeContents:
     def identity(self, face: str) -> tuple[str, str]:
         """Hash of the content, and the GUID made from it."""
         return identity_of(
-            packed_sources(face, c_table(self.table, self.names, "0" * 32, "")) | self.system_files,
+            packed_sources(face, c_table(self.table, self.names, "0" * 32, "", self.texts)) | self.resources,
             [
                 *(self.model_name, self.description, self.version, self.stop_time, table_records(self.table)),
                 *(self.author, self.copyright, self.licence),
@@ -177,7 +185,7 @@ def pack_native(
         run = reference_run(contents.system)
     files = {
         **{f"sources/{path}": data for path, data in sources.items()},
-        **contents.system_files,
+        **contents.resources,
         "documentation/licenses/license.txt": licence("ali3"),
         "documentation/index.html": _page(contents, face.words),
         face.picture: _picture(run),

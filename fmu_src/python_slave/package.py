@@ -63,7 +63,7 @@ def pack_python(
     main, own = f"main_{identity[:12]}", f"ali3_{identity[:12]}"
     script = template.replace("ModelName", name).replace("PackageName", own)
     files = {f"resources/{own}/{path}": data for path, data in package.items()}
-    files |= contents.system_files | _pythonfmu_libraries(name, platforms)
+    files |= contents.resources | _pythonfmu_libraries(name, platforms)
     files |= {
         f"resources/{main}.py": script.encode(),
         "resources/slavemodule.txt": main.encode(),
@@ -90,7 +90,7 @@ def pack_python(
     }
     with tempfile.TemporaryDirectory() as temporary:
         table = Path(temporary, "table.c")
-        table.write_text(c_table(contents.table, contents.names, identity, guid), encoding="utf-8")
+        table.write_text(c_table(contents.table, contents.names, identity, guid, contents.texts), encoding="utf-8")
         for platform in platforms:
             library = name + SUFFIXES[platform]
             if (name, platform) not in libraries:

@@ -199,6 +199,8 @@ class Status(IntEnum):
     NO_EQUILIBRIUM = 16
     BRANCH_CHANGED = 17
     FIXED_PARAMETER = 18
+    BAD_ROAD = 19
+    ROAD_LOST = 20
 
 
 class Update(IntEnum):

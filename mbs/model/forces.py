@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -27,7 +28,9 @@ from mbs.model.core import Coordinate
 from mbs.model.ends import FixedEnd, body_and_point, different
 from mbs.model.flexible import FlexibleBody
 from mbs.model.inputs import Input, owned_input
+from mbs.model.parameters import RoadFileParameter
 from mbs.model.spin import Spin
+from mbs.roads.road_file import RoadFile
 
 
 class ForceVocabulary(BodyVocabulary):
@@ -256,13 +259,18 @@ class ForceVocabulary(BodyVocabulary):
         self.owned(body, f"The drag '{name}'")
         return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'")))
 
-    def road(self, road: Road) -> int:
+    def road(self, road: Road | RoadFile, *, file: str | None = None) -> int:
         """Add a road.
 
         Parameters
         ----------
-        road : PlaneRoad, KerbRoad or GridRoad
-            Of `mbs.elements`.
+        road : PlaneRoad, KerbRoad, GridRoad or RoadFile
+            Of `mbs.elements`, or a file (`mbs.RoadFile`).
+        file : str, optional
+            Name of a parameter, as ``"road.file"``, that exchanges this road for one of a file before a start: of an
+            FMU a variable of type String, of runs `parameters={"road.file": "path.road"}`. Its start value is the
+            path of a `RoadFile`, else nothing: then the road is the one given here. A `RoadFile` without a name has
+            ``"road.file"``, from the second road on with its number, ``"road_1.file"``.
 
         Returns
         -------
@@ -272,15 +280,23 @@ class ForceVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            A number of the road is not one.
+            A number of the road is not one, the file is none, or the name of the parameter is taken.
         ArgumentTypeError
             It is no road.
         """
-        kinds = (PlaneRoad, KerbRoad, GridRoad)
-        instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad or GridRoad")
+        kinds = (PlaneRoad, KerbRoad, GridRoad, RoadFile)
+        instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad or RoadFile")
+        k, start = len(self.roads), ""
+        if isinstance(road, RoadFile):
+            _ = road.header  # whether there is such a file
+            start = str(Path(road.path).absolute())
+            file = file or ("road.file" if k == 0 else f"road_{k}.file")
+            road = road.road
         _ = road.real  # its numbers are looked at
+        if file is not None:
+            self.road_files.append(RoadFileParameter(self.unique("parameter", file), k, start))
         self.roads.append(road)
-        return len(self.roads) - 1
+        return k
 
     def contact_points(
         self, name: str, body: Body, points: ArrayLike, *, road: int, contact: ContactPoints

@@ -36,9 +36,8 @@ def copy_car(name: str, folder: Path) -> list[Path]:
         It cannot be written.
     """
     if name not in car_names():
-        raise CarFileError(
-            f"There is no car {shown(name)} to copy; the cars of the package are {', '.join(car_names())}."
-        )
+        known = ", ".join(car_names())
+        raise CarFileError(f"There is no car {shown(name)} to copy; the cars of the package are {known}.")
     if folder.exists() or folder.is_symlink():
         raise CarFileError(f"{folder} exists; the copy of a car needs a folder that does not.")
     made = ""

@@ -67,6 +67,4 @@ def parameter_table(car: Car) -> str:
                 when = "while driving" if q.change == "tunable" else "before the start"
                 rows.append((path, f"{values[path]:g}", q.unit, f"{q.least:g}", f"{q.high:g}", when))
     widths = [max(len(row[k]) for row in rows) for k in range(5)]
-    return "\n".join(
-        "  ".join([*(cell.ljust(w) for cell, w in zip(row, widths, strict=False)), row[5]]) for row in rows
-    )
+    return "\n".join("  ".join([*(row[k].ljust(widths[k]) for k in range(5)), row[5]]) for row in rows)
