@@ -1,0 +1,39 @@
+"""A parameter of an FMU, set to another value, gives the run of a model that is built with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import mbs
+from tests.changed_parameters import changes
+from tests.fmu.scenes import loaded_beam
+
+SAME = 1e-9
+
+
+def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[..., Path], kind: str) -> None:
+    system = mbs.compile(loaded_beam())
+    found = changes(
+        system,
+        lambda name, value: mbs.compile(loaded_beam(**{name: value})),
+        fmu=build("loaded_beam", kind),
+        inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
+        t_end=1.0,
+    )
+    assert [c.name for c in found] == ["load", "share", "free_length", "damping", "gain"]
+    assert {c.name: c.difference for c in found if c.difference > SAME} == {}
+    assert {c.name: c.fmu for c in found if c.fmu != 0.0} == {}
+    assert [c.name for c in found if c.effect < 1e-4] == []
+
+
+def test_it_falls_where_a_value_is_written_elsewhere() -> None:
+    """A model that is rebuilt with half the change is another one."""
+    system = mbs.compile(loaded_beam())
+    old = {p["name"]: p["value"] for p in system.meta["parameters"]}
+    found = changes(
+        system,
+        lambda name, value: mbs.compile(loaded_beam(**{name: 0.5 * (value + old[name])})),
+        inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
+    )
+    assert min(c.difference for c in found) > 1e-4
