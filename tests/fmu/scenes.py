@@ -154,3 +154,14 @@ def loaded_beam(
     m.sense_mass("mass")
     m.start_in_equilibrium = True
     return m
+
+
+def hanging() -> mbs.Model:
+    """A mass on a spring, which cannot hang without it."""
+    m = mbs.Model("hanging", dimension=2)
+    bob = m.point_mass("bob", mass=1.0, position=(0.0, -1.0))
+    spring = m.spring_damper("spring", (m.ground, (0.0, 0.0)), bob, stiffness=100.0, free_length=0.9)
+    m.parameter("stiffness", 100.0, 0.0, 200.0, "N/m", "Of the spring", targets=[(spring, "stiffness", 1.0)])
+    m.sense_position("y", bob, component="y")
+    m.start_in_equilibrium = True
+    return m

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import mbs
 from tests.changed_parameters import changes
 from tests.fmu.scenes import loaded_beam
 
 SAME = 1e-9
+OK, ERROR = 0, 3
 
 
 def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[..., Path], kind: str) -> None:
@@ -37,3 +39,18 @@ def test_it_falls_where_a_value_is_written_elsewhere() -> None:
         inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
     )
     assert min(c.difference for c in found) > 1e-4
+
+
+def test_a_start_without_an_equilibrium_names_the_parameter(
+    build: Callable[..., Path], kind: str, host: Callable[..., Any]
+) -> None:
+    driven = host(build("hanging", kind))
+    assert driven.set("stiffness", 0.0) == OK
+    driven.slave.setupExperiment(startTime=0.0)
+    driven.slave.enterInitializationMode()
+    assert driven.call("exitInitializationMode") == ERROR
+    assert "no static equilibrium near the drawing" in driven.messages[-1]
+    assert "'stiffness' is 0 N/m, farthest from its start value 100; set it nearer to that." in driven.messages[-1]
+    assert driven.set("stiffness", 50.0) == OK
+    assert driven.call("exitInitializationMode") == OK
+    assert abs(driven.get("y") + 0.9 + 9.81 / 50.0) < 1e-9
