@@ -122,6 +122,11 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str) -> Car:
     car._folder = folder
     car._data = dict(data)
     faults = list(implausible(car))
+    if not faults and car.chassis.frame is not None:
+        try:
+            car.chassis.frame.check(folder)
+        except ModelError as error:
+            faults.append(str(error))
     if faults:
         raise CarFileError(_told(what, faults))
     return car

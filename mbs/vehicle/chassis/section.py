@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from mbs.vehicle.chassis.frame_section import FrameSection
+from mbs.vehicle.chassis.frames import Frame
 from mbs.vehicle.quantities import (
     Coefficient,
     HysteresisLoss,
@@ -48,7 +48,7 @@ class Chassis(Section):
     """Point that carries a floating frame."""
     accelerometers: dict[str, Point] = Field(default_factory=dict)
     """Accelerometers by name."""
-    frame: FrameSection | None = None
+    frame: Frame | None = None
     """Flexible frame; without it the chassis is rigid and has no stresses."""
     ground_contact: GroundContact | None = None
     """Where the chassis may touch the ground."""
