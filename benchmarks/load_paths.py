@@ -17,8 +17,7 @@ from ali3.files import write_text
 from ali3.running import run_command
 from benchmarks.car.load_paths import GUIDED, mirrored, port_forces
 from benchmarks.shared.command import parser_of, watched
-from mbs.scenes.prototype_car.chassis import LOAD_FILE, deformation_energy, settled_loads
-from mbs.scenes.prototype_car.frame import INTERFACES
+from mbs.scenes import prototype_car
 
 MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "full_lock", GUIDED)
 KEEP = 1e-4
@@ -28,9 +27,10 @@ KEEP = 1e-4
 def main(arguments: Sequence[str] | None = None) -> int:
     """Drive, decompose, write."""
     parser_of("load_paths", __doc__, json=False).parse_args(arguments)
-    driven = settled_loads(np.hstack([port_forces(name) for name in watched(MANOEUVRES)]))
+    frame = prototype_car.car().flexible_frame
+    driven = frame.settled_loads(np.hstack([port_forces(name) for name in watched(MANOEUVRES)]))
     snapshots = np.hstack([driven, mirrored(driven)])
-    energy = deformation_energy(snapshots)
+    energy = frame.deformation_energy(snapshots)
     values, vectors = np.linalg.eigh(energy)
     size = np.sqrt(np.maximum(values[::-1], 0.0))
     keep = size > KEEP * size[0]
@@ -44,8 +44,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         ",".join(["interface", "axis", *(f"load_{k + 1}" for k in range(loads.shape[1]))]),
     ]
     for k, row in enumerate(loads):
-        lines.append(",".join([INTERFACES[k // 3], "xyz"[k % 3], *(f"{v:.7g}" for v in row)]))
-    write_text(LOAD_FILE, "\n".join(lines) + "\n")
+        lines.append(",".join([frame.interfaces[k // 3], "xyz"[k % 3], *(f"{v:.7g}" for v in row)]))
+    write_text(frame.tubular.folder / str(frame.section.loads), "\n".join(lines) + "\n")
     sizes = np.array2string(size[keep] / size[0], precision=2)
     print(f"{snapshots.shape[1]} snapshots, {loads.shape[1]} loads; sizes {sizes}")
     return 0

@@ -15,9 +15,8 @@ from pathlib import Path
 from ali3.running import run_command
 from benchmarks.car.stress_picture import amplitudes, draw, draw_plain, motion_of
 from benchmarks.shared.command import parser_of
-from mbs.scenes.prototype_car.chassis import reduced_chassis
-from mbs.scenes.prototype_car.fidelity import Fidelity
-from mbs.scenes.prototype_car.frame import prototype_frame
+from mbs.scenes import prototype_car
+from mbs.vehicle import Fidelity
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -26,8 +25,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
     parser.add_argument("--plain", action="store_true", help="draw with Matplotlib")
     options = parser.parse_args(arguments)
-    frame, _ = prototype_frame()
-    body = reduced_chassis(Fidelity.DYNAMIC)
+    frame, _ = prototype_car.car().tubular_frame.frame()
+    body = prototype_car.car().flexible_frame.reduced(Fidelity.DYNAMIC)
     motion = motion_of(frame, body, *amplitudes(body))
     options.out.mkdir(parents=True, exist_ok=True)
     plain = options.plain or importlib.util.find_spec("pyvista") is None

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 import mbs
 from mbs.scenes import kerb_test
-from mbs.scenes.prototype_car import Fidelity
+from mbs.vehicle import Fidelity
 
 WHEELS, GAUGES = ("FL", "RL"), ("SG1", "SG3")  # front and rear
 

@@ -18,8 +18,11 @@ from benchmarks.car.statics import interface_forces
 from mbs.flexible.beam_axes import beam_axes
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.section import Section
-from mbs.scenes.prototype_car.car_data import GRAVITY
-from mbs.scenes.prototype_car.frame import INTERFACES, REFERENCE, SECTIONS, STEEL, prototype_frame, strain_gauges
+from mbs.vehicle import load
+from mbs.vehicle.environment import GRAVITY
+
+FRAME = load("prototype").tubular_frame
+STEEL, SECTIONS = FRAME.material, FRAME.tube_sections
 
 STORED = Path(__file__).parents[2] / "tests" / "data" / "calculix" / "frames.json"
 TUBE_LENGTH = 1.5  # m, of the main tube of the frame
@@ -103,7 +106,7 @@ def torsional_stiffness(frame: Frame, drop: float) -> float:
 
 def frame_torsion(refinement: int) -> float:
     """Torsional stiffness of the prototype frame between its towers, the rear ones held, N m/deg."""
-    frame, _ = prototype_frame("timoshenko", refinement)
+    frame, _ = FRAME.frame("timoshenko", refinement)
     left, right, rear_left, rear_right, middle = (frame.names.index(n) + 1 for n in ("TFL", "TFR", "TRL", "TRR", "S1c"))
     steps = (
         f"*BOUNDARY\n{rear_left},1,3\n{rear_right},1,3\n{middle},2,2\n*STEP\n*STATIC\n*CLOAD\n"
@@ -115,7 +118,7 @@ def frame_torsion(refinement: int) -> float:
 
 def frame_frequencies(refinement: int, carried_masses: bool, count: int) -> list[float]:
     """Elastic frequencies of the free prototype frame, Hz."""
-    frame, _ = prototype_frame("timoshenko", refinement, carried_masses)
+    frame, _ = FRAME.frame("timoshenko", refinement, carried_masses)
     return frequencies(run(deck(frame, FREE.format(count=6 + count))), count, skip=6)
 
 
@@ -125,17 +128,17 @@ def gauge_moments(refinement: int) -> list[float]:
     The node of the floating frame is held, where weight and suspension leave no reaction. The program prints the
     section forces at nodes: the gauges sit at nodes when the refinement is even.
     """
-    frame, tubes = prototype_frame("timoshenko", refinement)
-    forces = interface_forces(INTERFACES).reshape(-1, 3)
-    held = frame.names.index(REFERENCE) + 1
+    frame, tubes = FRAME.frame("timoshenko", refinement)
+    forces = interface_forces(FRAME.interfaces).reshape(-1, 3)
+    held = frame.names.index(FRAME.section.reference) + 1
     lines = ["*ELSET,ELSET=BEAMS", *(f"E{e + 1}," for e in range(len(frame.beams))), "*BOUNDARY", f"{held},1,6"]
     lines += ["*STEP", "*STATIC", "*DLOAD", f"BEAMS,GRAV,{GRAVITY},0.,0.,-1.", "*CLOAD"]
-    for name, force in zip(INTERFACES, forces, strict=True):
+    for name, force in zip(FRAME.interfaces, forces, strict=True):
         lines += [f"{frame.names.index(name) + 1},{axis + 1},{force[axis]:.9g}" for axis in range(3)]
     lines += [f"{i + 1},3,{-GRAVITY * frame.masses[i]:.9g}" for i in np.flatnonzero(frame.masses)]
     lines += ["*EL FILE,SECTION FORCES,OUTPUT=2D", "S", "*NODE PRINT,NSET=ALL", "U", "*END STEP"]
     moments = _bending_moments(run(deck(frame, "\n".join(lines) + "\n"), ".frd"))
-    nodes = [frame.beams[g.element].i if g.xi == 0.0 else frame.beams[g.element].j for g in strain_gauges(tubes)]
+    nodes = [frame.beams[g.element].i if g.xi == 0.0 else frame.beams[g.element].j for g in FRAME.strain_gauges(tubes)]
     return [moments[node + 1] for node in nodes]
 
 

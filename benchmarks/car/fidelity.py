@@ -12,8 +12,8 @@ from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import OUTPUTS
 from benchmarks.shared.command import pyplot, save_chart
 from mbs.errors import ModelError
-from mbs.scenes.prototype_car.chassis import reduced_chassis
-from mbs.scenes.prototype_car.fidelity import Fidelity
+from mbs.scenes import prototype_car
+from mbs.vehicle import Fidelity
 
 COLOURS = {
     Fidelity.RIGID: "#222222",
@@ -62,7 +62,11 @@ def fidelity_of(text: str) -> Fidelity:
 
 def modes_of(fidelity: Fidelity) -> int:
     """Number of modes."""
-    return 0 if fidelity in (Fidelity.RIGID, Fidelity.QUASI_STATIC) else reduced_chassis(fidelity).n_modes
+    return (
+        0
+        if fidelity in (Fidelity.RIGID, Fidelity.QUASI_STATIC)
+        else prototype_car.car().flexible_frame.reduced(fidelity).n_modes
+    )
 
 
 def size_of(name: str, fidelity: Fidelity) -> dict[str, int]:

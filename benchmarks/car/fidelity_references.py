@@ -7,7 +7,7 @@ import numpy as np
 from ali3.files import write_text
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import FILTERED, FOLDER, INTERVAL, LOADS, MOMENTS, POSITION
-from mbs.scenes.prototype_car.fidelity import Fidelity
+from mbs.vehicle import Fidelity
 
 STEP = 5e-4  # s
 

@@ -14,14 +14,13 @@ from hosts.low_pass import low_pass
 from hosts.manoeuvre import Manoeuvre
 from mbs import Settings, System, Trajectory, compile
 from mbs.scenes import kerb_test, prototype_car
-from mbs.scenes.prototype_car.fidelity import Fidelity
-from mbs.scenes.prototype_car.frame import GAUGES
+from mbs.vehicle import Fidelity
 
 FOLDER = Path(__file__).parents[2] / "tests" / "data" / "fidelity"
 NAMES = ("kerb_test", "double_lane_change_replay", "drop")
 INTERVAL = 0.01  # s, between the samples of a reference
 FREQUENCY = 10.0  # Hz, of the low-pass
-MOMENTS = tuple(f"bending_moment.{g}" for g in GAUGES)
+MOMENTS = tuple(f"bending_moment.{g}" for g in prototype_car.car().tubular_frame.section.gauges)
 POSITION = ("chassis.x", "chassis.y", "chassis.z")
 LOADS = tuple(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR"))
 FILTERED = "filtered."

@@ -9,8 +9,10 @@ from scipy.spatial.transform import Rotation
 from benchmarks.car import fidelity_runs, manoeuvres
 from mbs import Simulation
 from mbs.input_signals import InputSignals
-from mbs.scenes.prototype_car.fidelity import Fidelity
-from mbs.scenes.prototype_car.frame import INTERFACES
+from mbs.scenes import prototype_car
+from mbs.vehicle import Fidelity
+
+INTERFACES = prototype_car.car().tubular_frame.interfaces
 
 GUIDED = "kerb_test"
 H, EVERY = 0.005, 4

@@ -16,7 +16,6 @@ from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulat
 from mbs.elements.road import GridRoad
 from mbs.input_signals import Signal
 from mbs.scenes import prototype_car
-from mbs.scenes.prototype_car.tyre_data import FRICTION
 
 FOLDER = Path(__file__).with_name("data")
 HOST = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "steady_cornering")
@@ -52,7 +51,7 @@ def rise(grade: float = GRADE) -> GridRoad:
     s = np.clip((x - RISE_BEGINS) / (RISE_ENDS - RISE_BEGINS), 0.0, 1.0)
     # the slope grows like 3 s^2 - 2 s^3; its integral
     height = grade * ((RISE_ENDS - RISE_BEGINS) * (s**3 - 0.5 * s**4) + np.clip(x - RISE_ENDS, 0.0, None))
-    return GridRoad((-20.0, -10.0), (0.5, 20.0), np.column_stack([height, height]), FRICTION)
+    return GridRoad((-20.0, -10.0), (0.5, 20.0), np.column_stack([height, height]), prototype_car.car().road.friction)
 
 
 def start_of(manoeuvre: Manoeuvre) -> tuple[dict[str, float], Pose | None]:

@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
-from mbs.scenes.prototype_car.car_data import (
-    FRONT,
-    FRONT_BODIES,
-    FRONT_WHEEL,
-    GRAVITY,
-    REAR,
-    REAR_BODIES,
-    REAR_WHEEL,
-    REFERENCE_POINT,
-    TOTAL_MASS,
-    WHEELBASE,
-)
+from mbs.scenes import prototype_car
+from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.part import Part
 
+CAR = prototype_car.car()
 # interface node of the frame (without its side) to the point of the suspension
 FRONT_NODES = {
     "LF": "lower_pivot_front",
@@ -34,8 +25,8 @@ REAR_NODES = {"AF": "lower_pivot_front", "AR": "lower_pivot_rear", "TL": "toe_li
 
 def wheel_loads() -> tuple[float, float]:
     """Front and rear vertical wheel load, N."""
-    weight = TOTAL_MASS * GRAVITY
-    front = weight * (WHEELBASE + REFERENCE_POINT[0]) / WHEELBASE / 2
+    weight = CAR.vehicle.mass * GRAVITY
+    front = weight * (CAR.wheelbase + CAR.vehicle.reference_point[0]) / CAR.wheelbase / 2
     return front, weight / 2 - front
 
 
@@ -78,13 +69,13 @@ class _Corner:
         return forces
 
 
-def _weigh(c: _Corner, body: str, data: dict[str, Any]) -> None:
-    c.known(body, np.array([0.0, 0.0, -data["mass"] * GRAVITY]), np.array(data["com"]))
+def _weigh(c: _Corner, body: str, data: Part) -> None:
+    c.known(body, np.array([0.0, 0.0, -data.mass * GRAVITY]), np.array(data.com))
 
 
 def front_forces() -> dict[str, np.ndarray]:
     """Forces on the left front interfaces of the frame, N."""
-    p = {k: np.array(v) for k, v in FRONT.items()}
+    p = {k: np.array(v) for k, v in CAR.front.suspension.points}
     c = _Corner(["lower", "upper", "upright"])
     axes = np.eye(3)
     for end, node in (("front", "F"), ("rear", "R")):
@@ -99,16 +90,16 @@ def front_forces() -> dict[str, np.ndarray]:
     rod = p["tie_rod_inner"] - p["tie_rod_outer"]
     c.unknown("RK", "frame", "upright", (rod / np.linalg.norm(rod))[None], p["tie_rod_inner"], p["tie_rod_outer"])
     for body, name in (("lower", "lower_wishbone"), ("upper", "upper_wishbone"), ("upright", "upright")):
-        _weigh(c, body, FRONT_BODIES[name])
-    up = wheel_loads()[0] - FRONT_WHEEL["mass"] * GRAVITY
-    c.known("upright", np.array([0.0, 0.0, up]), p["wheel_centre"])
+        _weigh(c, body, getattr(CAR.front.suspension.bodies, name))
+    up = wheel_loads()[0] - CAR.front.wheel.mass * GRAVITY
+    c.known("upright", np.array([0.0, 0.0, up]), np.array(CAR.front.wheel.centre))
     solution = c.solve()
     return {n: solution[n] for n in FRONT_NODES}
 
 
 def rear_forces() -> dict[str, np.ndarray]:
     """Forces on the left rear interfaces of the frame, N."""
-    p = {k: np.array(v) for k, v in REAR.items()}
+    p = {k: np.array(v) for k, v in CAR.rear.suspension.points}
     c = _Corner(["arm", "upright"])
     axes = np.eye(3)
     for end, node in (("front", "AF"), ("rear", "AR")):
@@ -117,10 +108,11 @@ def rear_forces() -> dict[str, np.ndarray]:
     c.unknown("TR", "frame", "upright", axes, p["strut_top"], p["strut_top"])
     rod = p["toe_link_inner"] - p["toe_link_outer"]
     c.unknown("TL", "frame", "upright", (rod / np.linalg.norm(rod))[None], p["toe_link_inner"], p["toe_link_outer"])
-    _weigh(c, "arm", REAR_BODIES["lower_arm"])
-    _weigh(c, "upright", REAR_BODIES["upright"])
-    up = wheel_loads()[1] - REAR_WHEEL["mass"] * GRAVITY
-    c.known("upright", np.array([0.0, 0.0, up]), p["wheel_centre"])
+    bodies = CAR.rear.suspension.bodies
+    _weigh(c, "arm", bodies.lower_arm)
+    _weigh(c, "upright", bodies.upright)
+    up = wheel_loads()[1] - CAR.rear.wheel.mass * GRAVITY
+    c.known("upright", np.array([0.0, 0.0, up]), np.array(CAR.rear.wheel.centre))
     solution = c.solve()
     return {n: solution[n] for n in REAR_NODES}
 

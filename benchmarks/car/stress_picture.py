@@ -15,7 +15,7 @@ from mbs import Simulation, compile
 from mbs.flexible import Frame, ReducedBody
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.scenes import kerb_test
-from mbs.scenes.prototype_car.fidelity import Fidelity
+from mbs.vehicle import Fidelity
 
 Array = NDArray[np.float64]
 SCALE = 150.0  # of the deformation

@@ -17,7 +17,7 @@ from benchmarks.methods.kernel_methods import TITLES
 from benchmarks.paper.assembly_defect import STEP
 from benchmarks.references.assembly_defect import COMPONENTS, reference
 from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
-from mbs.scenes.prototype_car.car_data import GRAVITY, TOTAL_MASS
+from mbs.vehicle.environment import GRAVITY
 
 SPIN_UP = Path(__file__).parents[2] / "tests" / "data" / "reference" / "spin_up_beam.csv"
 Found = tuple[float, mbs.Trajectory]
@@ -98,7 +98,7 @@ def drive(settings: mbs.Settings, h: float) -> Found:
         _system("car"), 1000.0, h, inputs, settings, every=max(1, round(0.1 / h)), progress=False, estimate_error=False
     )
     loads = sum(np.asarray(t[f"wheel_{w}.Fz"]) for w in ("FL", "FR", "RL", "RR"))
-    return float(abs(np.mean(loads) / (TOTAL_MASS * GRAVITY) - 1.0)), t
+    return float(abs(np.mean(loads) / (prototype_car.car().vehicle.mass * GRAVITY) - 1.0)), t
 
 
 SCENES = {

@@ -16,7 +16,7 @@ from benchmarks.shared.command import pyplot, save_chart, watched
 from benchmarks.shared.machine import machine
 from mbs.flexible import craig_bampton
 from mbs.scenes import double_four_bar
-from mbs.scenes.prototype_car.frame import DAMPING, INTERFACES, REFERENCE, prototype_frame
+from mbs.vehicle import load
 
 STEP, END = 0.01, 0.6  # s: up to before the first singular position
 CHASSIS_STEP, CHASSIS_STEPS, CHASSIS_REPEATS = 0.005, 100, 5  # s
@@ -86,13 +86,16 @@ def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
 
 def chassis(modes: Sequence[int], repeats: int) -> list[dict[str, Any]]:
     """Rows of the car's frame alone, thrown and spinning: what its modes cost without the suspension."""
-    frame, _ = prototype_frame()
+    flexible = load("prototype").flexible_frame
+    frame, _ = flexible.tubular.frame()
     model = frame.finite_element_model()
     rows: list[dict[str, Any]] = []
     systems = []
     for count in watched(modes):
         m = mbs.Model("thrown chassis", gravity=(0.0, 0.0, -9.81))
-        reduced = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=True, damping=DAMPING)
+        reduced = craig_bampton(
+            model, flexible.section.reference, flexible.interfaces, count, inertia_modes=True, damping=flexible.damping
+        )
         body = m.flexible_body("chassis", reduced)
         m.initial_velocity(body, (5.0, 0.0, 3.0), (0.3, 0.5, 2.0))
         m.sense_energy("energy.total", "total")

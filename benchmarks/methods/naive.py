@@ -18,6 +18,7 @@ from mbs.model.perpendicular import perpendicular
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin
 from mbs.scenes import double_four_bar, prototype_car
+from mbs.vehicle import car
 
 ROD_MASS = 0.5  # kg
 H, DURATION = 0.01, 3.0  # s
@@ -102,7 +103,7 @@ def _naive(module: Any) -> Iterator[None]:
 
 def naive_car() -> Model:
     """The rigid car: twelve bodies more than it needs."""
-    with _naive(prototype_car):
+    with _naive(car):
         m = prototype_car.build()
     m.start_in_equilibrium = False
     return m

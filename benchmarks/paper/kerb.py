@@ -10,7 +10,7 @@ from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity import size_of
 from mbs import Simulation, Trajectory
 from mbs.scenes import kerb_test
-from mbs.scenes.prototype_car.fidelity import Fidelity
+from mbs.vehicle import Fidelity
 
 GAUGES = ("SG1", "SG3")
 RELEASE = 13.0  # s: tyres let go

@@ -6,6 +6,7 @@ from mbs.elements.body_torque import BodyTorque
 from mbs.elements.brake import Brake
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.drag import Drag
+from mbs.elements.electric_drive import ElectricDrive
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.elements.input_force import InputForce
 from mbs.elements.record import ElementRecord, Output
@@ -23,6 +24,7 @@ __all__ = [
     "Brake",
     "ContactPoints",
     "Drag",
+    "ElectricDrive",
     "ElementRecord",
     "ElementType",
     "EndStops",

@@ -12,6 +12,9 @@ from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import index, several, size
 from mbs.kernel.header import ElementType
 
+OF_SELECTOR = {"reverse_ratio": positive, "engage_speed": not_negative, "engage_time": positive}
+"""Numbers that a drive with a selector has besides, with their checks."""
+
 
 @dataclass(frozen=True)
 class AutomaticDrive:
@@ -37,6 +40,13 @@ class AutomaticDrive:
         Least time between shifts and duration of a shift, s.
     ratios : sequence of float
         Total ratio of each gear, first gear first.
+    reverse_ratio : float
+        Total ratio of reverse; used where there is a selector, as the two next.
+    engage_speed : float
+        Mean wheel speed, rad/s: while the wheels turn faster against a direction it does not engage, and the drive
+        stays in neutral.
+    engage_time : float
+        In which the torque fades out of one direction, and into the other, s.
     """
 
     max_torque: float
@@ -57,9 +67,20 @@ class AutomaticDrive:
     dwell: float = 0.6
     ramp: float = 0.2
     ratios: Sequence[float] = (10.5, 5.9, 4.0)
+    reverse_ratio: float = 10.0
+    engage_speed: float = 8.0
+    engage_time: float = 0.3
 
     def record(
-        self, name: str, left: Affine, right: Affine, f: AffineVector, g: AffineVector, throttle: int, gear: int = 1
+        self,
+        name: str,
+        left: Affine,
+        right: Affine,
+        f: AffineVector,
+        g: AffineVector,
+        throttle: int,
+        gear: int = 1,
+        selector: int | None = None,
     ) -> ElementRecord:
         """The force element; the frame carries the reaction.
 
@@ -75,6 +96,8 @@ class AutomaticDrive:
             Number of an input, 0 to 1.
         gear : int
             Gear at the start, from 1.
+        selector : int, optional
+            Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
 
         Returns
         -------
@@ -89,7 +112,8 @@ class AutomaticDrive:
         what = f"the drive '{name}'"
         size(f, (3,), f"The vector f of {what}")
         size(g, (3,), f"The vector g of {what}")
-        names = tuple(field.name for field in fields(self) if field.name != "ratios")
+        own = ("ratios", *OF_SELECTOR)
+        names = tuple(field.name for field in fields(self) if field.name not in own)
         values = [not_negative(getattr(self, n), f"The {n.replace('_', ' ')} of {what}") for n in names]
         ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
         if not ratios or any(b >= a for a, b in pairwise(ratios)):
@@ -106,21 +130,29 @@ class AutomaticDrive:
         if self.dwell < self.ramp:
             raise ValueError(f"The dwell {self.dwell:g} s of {what} must not be shorter than its ramp {self.ramp:g} s.")
         self._check_hysteresis(what, ratios)
+        more = tuple(
+            check(getattr(self, n), f"The {n.replace('_', ' ')} of {what}") for n, check in OF_SELECTOR.items()
+        )
+        inputs = [index(throttle, f"The input of {what}"), len(ratios)]
+        if selector is None:
+            more = ()
+        else:
+            inputs.append(index(selector, f"The selector of {what}"))
         return ElementRecord(
             name,
             ElementType.AUTOMATIC_DRIVE,
             (left, right, *f.components, *g.components),
-            (*values, *ratios),
-            (index(throttle, f"The input of {what}"), len(ratios)),
-            (float(gear), float(gear), 1e3, 0.0),
+            (*values, *ratios, *more),
+            inputs,
+            (float(gear), float(gear), 1e3, 0.0, *((1.0, 1.0) if more else ())),
             (
                 Output("engine_speed", "rad/s", "speed of the engine", display_unit="rpm"),
-                Output("gear", "1", "gear engaged", whole=True),
+                Output("gear", "1", "gear engaged" + (", -1: reverse, 0: neutral" if more else ""), whole=True),
                 Output("wheel_torque", "N m", "torque on each of the two wheels"),
                 Output("engine_torque", "N m", "torque of the engine"),
             ),
-            (*names, *(f"ratio_{i + 1}" for i in range(len(ratios)))),
-            (*(not_negative for _ in names), *(positive for _ in ratios)),
+            (*names, *(f"ratio_{i + 1}" for i in range(len(ratios))), *(OF_SELECTOR if more else ())),
+            (*(not_negative for _ in names), *(positive for _ in ratios), *(OF_SELECTOR.values() if more else ())),
         )
 
     def _check_hysteresis(self, what: str, ratios: Sequence[float]) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbs.affine import AffineVector
-from mbs.checks import capital, number, shown, whole
+from mbs.checks import capital, number, positive, shown, whole
 from mbs.errors import ModelError
 
 MOST = 2**31 - 1
@@ -20,6 +20,14 @@ def index(value: int, what: str) -> int:
     if n > MOST:
         raise ModelError(f"{capital(what)} is {shown(value)}; it must be a whole number, at most {MOST}.")
     return n
+
+
+def share(value: object, what: str) -> float:
+    """A number above zero, at most one."""
+    x = positive(value, what)
+    if x > 1.0:
+        raise ModelError(f"{capital(what)} is {shown(value)}; it must be above 0 and at most 1.")
+    return x
 
 
 def size(vector: AffineVector, sizes: Sequence[int], what: str) -> None:

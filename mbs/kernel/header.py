@@ -367,6 +367,7 @@ class ElementType(IntEnum):
     AUTOMATIC_DRIVE = 10
     CONTACT_POINTS = 11
     SPIN_TORQUE = 12
+    ELECTRIC_DRIVE = 13
 
 
 class SettingsFields(Structure):

@@ -67,7 +67,7 @@ class JointSensorVocabulary(SensorBase):
         if not rows:
             raise ModelError(
                 f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
-                "drives, gears, racks and screws have one."
+                "drop links, drives, gears, racks and screws have one."
             )
         unit = self._unit(unit, "N m" if found.type == "gear" else "N")
         if found.equations[rows[0]].kind == "driven_distance":
@@ -85,7 +85,8 @@ class JointSensorVocabulary(SensorBase):
                     f"The component of sensor '{name}' is {shown(component)}; for a {found.type} it must be "
                     f"'{expected}'."
                 )
-            rows, weights = rows[:1], [found.rows_weight if found.type == "distance" else -found.rows_weight]
+            sign = 1.0 if expected == "tension" else -1.0
+            rows, weights = rows[:1], [sign * found.rows_weight]
         else:
             k = component_number(component, self.dimension, f"sensor '{name}'")
             rows, weights = rows[k : k + 1], [-found.rows_weight]

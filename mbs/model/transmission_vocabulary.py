@@ -1,4 +1,4 @@
-"""Transmissions by name: gears, racks and screws."""
+"""Transmissions by name: gears, racks, screws and levers with a link."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 from mbs.model.body import Body
 from mbs.model.core import Coordinate
 from mbs.model.joint_vocabulary import JointVocabulary
+from mbs.model.joints.drop_link import drop_link
 from mbs.model.joints.gear import gear
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.rack import rack
@@ -111,3 +112,45 @@ class TransmissionVocabulary(JointVocabulary):
         self._join(joint)
         self._join(angle)
         return joint
+
+    def drop_link(
+        self,
+        name: str,
+        carrier: Body,
+        body: Body,
+        *,
+        pivot: ArrayLike,
+        axis: ArrayLike,
+        lever_end: ArrayLike,
+        link_end: ArrayLike,
+    ) -> Coordinate:
+        """A lever that turns on a carrier and a rod from its end to a point of another body, both without mass.
+
+        Two of them and `anti_roll_bar` are an anti-roll bar with its links. Against two bodies with joints it costs one
+        coordinate and one equation. The tension of the rod is a joint force.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the joints.
+        carrier, body : Body
+            What the lever turns on, and where the rod ends; in space, not point masses.
+        pivot, axis : array_like, shape (3,)
+            A point of the lever's axis, m, and its direction, fixed in the carrier; earth axes as drawn.
+        lever_end, link_end : array_like, shape (3,)
+            Ends of the rod on the lever and on the body, earth axes as drawn, m.
+
+        Returns
+        -------
+        Coordinate
+            Angle of the lever about the axis, rad, 0 as drawn and not wrapped.
+
+        Raises
+        ------
+        ModelError
+            The bodies are one or not of this model, the lever lies along its axis, or the rod pulls along the lever or
+            across its plane and could not turn it.
+        """
+        coordinate, joint = drop_link(self, name, carrier, body, pivot, axis, lever_end, link_end)
+        self._join(joint)
+        return coordinate

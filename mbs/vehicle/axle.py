@@ -13,6 +13,7 @@ from mbs.vehicle.quantities import PartInertia, PartMass, Point
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
+from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
 from mbs.vehicle.tyre import TMeasy
 
 
@@ -40,6 +41,8 @@ class Axle(Section):
     """Damper of each wheel."""
     stops: Stops | None = None
     """Bump and rebound stops."""
+    anti_roll_bar: AntiRollBar | None = None
+    """Anti-roll bar with its links."""
     wheel: Wheel
     """Wheels."""
     tyre: TMeasy
@@ -71,12 +74,15 @@ class Axle(Section):
         brake : callable
             Adds the brake of a wheel.
         """
-        spins = {}
+        spins, corners = {}, []
         springs = AxleSprings(self.spring, self.damper, self.stops)
         for corner in self.suspension.corners(b, axle, springs, tie_rod):
+            corners.append(corner)
             spin = self._wheel(b, corner)
             brake(b, corner, spin)
             spins[corner.side.wheel] = spin
+        if self.anti_roll_bar is not None:
+            self.anti_roll_bar.build(b, axle, corners)
         return spins
 
     def _wheel(self, b: CarBuilder, corner: Corner) -> Spin:

@@ -43,6 +43,7 @@ from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.suspensions.twist_beam import TwistBeam
 
 SCHEMA = 1
 """Version of the car file that this release reads and writes."""
@@ -274,7 +275,9 @@ class Car(Section):
 
     def _rack_way(self) -> float:
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
-        return 1.0 if self.front.suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
+        suspension = self.front.suspension
+        assert not isinstance(suspension, TwistBeam), "refused with the file"
+        return 1.0 if suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
 
     def _footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and largest x and y of the car as drawn, with a hand's breadth around."""

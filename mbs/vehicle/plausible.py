@@ -10,14 +10,18 @@ from pydantic import BaseModel
 
 from mbs.vehicle.part import Part
 from mbs.vehicle.section import Section, sections_of
+from mbs.vehicle.suspensions.twist_beam import TwistBeam
 
 if TYPE_CHECKING:
     from mbs.vehicle.axle import Axle
     from mbs.vehicle.car import Car
+    from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
 
 MASS_TOLERANCE = 0.005  # of the car's mass
 REACH = 1.2  # m: no point of a suspension is farther from the centre of its wheel
 LEAST_WHEELBASE, LEAST_TRACK = 1.0, 0.6  # m
+LEAST_LEVER = 0.02  # m
+DEAD_POINT = 0.2  # sine between lever and link of an anti-roll bar, seen along the bar
 LARGEST_DEFLECTION = 0.25  # of the free radius of a tyre at rest
 
 
@@ -34,6 +38,11 @@ def implausible(car: Car) -> Iterator[str]:
     for axle in (car.front, car.rear):
         yield from _points(axle)
         yield from _tyre(axle)
+        if axle.anti_roll_bar is not None:
+            yield from _anti_roll_bar(axle, axle.anti_roll_bar)
+    if isinstance(car.front.suspension, TwistBeam):
+        kind = car.front.suspension.key("kind")
+        yield f"{kind} is 'twist_beam'; such an axle cannot steer and may be the rear one only."
 
 
 def _dimensions(car: Car) -> Iterator[str]:
@@ -79,8 +88,10 @@ def parts_of(car: Car) -> list[Part]:
 
 
 def _points(axle: Axle) -> Iterator[str]:
-    points: Section = axle.suspension.points
-    for name, point in points:
+    tables: list[Section] = [axle.suspension.points]
+    if axle.anti_roll_bar is not None:
+        tables.append(axle.anti_roll_bar.points)
+    for points, name, point in ((table, *item) for table in tables for item in table):
         if isinstance(point, BaseModel):
             continue
         key = points.key(name)
@@ -92,6 +103,27 @@ def _points(axle: Axle) -> Iterator[str]:
                 f"{key} is {far:.3g} m from the centre of its wheel; a suspension reaches {REACH:g} m at most: is the "
                 "unit m?"
             )
+
+
+def _anti_roll_bar(axle: Axle, bar: AntiRollBar) -> Iterator[str]:
+    """The link must hang on a part that is there, and turn its lever."""
+    parts = list(type(axle.suspension.bodies).model_fields)
+    if bar.part not in parts:
+        yield f"{bar.key('part')} is '{bar.part}'; the suspension has {', '.join(parts)}."
+    p = bar.points
+    lever = p.lever_end[0] - p.pivot[0], p.lever_end[2] - p.pivot[2]  # seen along the bar
+    link = p.link_end[0] - p.lever_end[0], p.link_end[2] - p.lever_end[2]
+    length, rod = math.hypot(*lever), math.dist(p.link_end, p.lever_end)
+    if length < LEAST_LEVER:
+        yield (
+            f"{p.key('lever_end')} lies {length:.3g} m from the axis of the bar; "
+            f"a lever is {LEAST_LEVER:g} m long or more."
+        )
+    elif rod < LEAST_LEVER or abs(lever[0] * link[1] - lever[1] * link[0]) < DEAD_POINT * length * rod:
+        yield (
+            f"{p.key('link_end')} is where the drop link cannot turn its lever; "
+            f"the link must be {LEAST_LEVER:g} m long or more and stand across the lever."
+        )
 
 
 def _tyre(axle: Axle) -> Iterator[str]:

@@ -126,6 +126,7 @@ Factor = Annotated[float, Quantity("1", 0.0, 10.0, change="tunable")]
 """Multiplies what the file gives; 1 leaves it."""
 Time = Annotated[float, Quantity("s", 0.01, 9.0)]
 CreepTorque = Annotated[float, Quantity("N.m", 0.0, 200.0, change="tunable")]
+TorsionalStiffness = Annotated[float, Quantity("N.m/rad", 20.0, 1.9e4, change="tunable")]
 StickStiffness = Annotated[float, Quantity("N.m/rad", 1e4, 5e6)]
 RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
 RoadWheelAngle = Annotated[float, Quantity("rad", 0.1, 1.2)]

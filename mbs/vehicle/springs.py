@@ -24,7 +24,7 @@ class Spring(Section):
 
 
 class Damper(Section):
-    """Damper of one wheel, along the spring."""
+    """Damper of one wheel, along the spring where the suspension has no points of its own for it."""
 
     damping: Damping
     """Damping coefficient."""
@@ -113,17 +113,54 @@ def spring_and_damper(
     ElementRecord
         Its numbers are tied to the file's.
     """
-    spring, damper, stops = springs.spring, springs.damper, springs.stops
+    return _between(b, name, lower, upper, springs.spring, springs.damper, springs.stops)
+
+
+def spring_beside_damper(
+    b: CarBuilder,
+    wheel: str,
+    spring: tuple[tuple[Body, Point], tuple[Body, Point]],
+    damper: tuple[tuple[Body, Point], tuple[Body, Point]],
+    springs: AxleSprings,
+) -> None:
+    """Add the spring of a wheel with its stops, and its damper at other points.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The car so far.
+    wheel : str
+        Name of the wheel.
+    spring, damper : pair of (Body, point)
+        Lower and upper end as drawn, m.
+    springs : AxleSprings
+        Of the axle.
+    """
+    _between(b, f"spring {wheel}", *spring, springs.spring, None, springs.stops)
+    _between(b, f"damper {wheel}", *damper, None, springs.damper, None)
+
+
+def _between(
+    b: CarBuilder,
+    name: str,
+    lower: tuple[Body, Point],
+    upper: tuple[Body, Point],
+    spring: Spring | None,
+    damper: Damper | None,
+    stops: Stops | None,
+) -> ElementRecord:
     element = b.m.spring_damper(
         name,
         lower,
         upper,
-        stiffness=spring.stiffness,
-        free_length=spring.free_length,
-        damping=damper.damping,
+        stiffness=0.0 if spring is None else spring.stiffness,
+        free_length=None if spring is None else spring.free_length,
+        damping=0.0 if damper is None else damper.damping,
         stops=None if stops is None else stops.between(lower[1], upper[1]),
     )
-    b.tie(spring, "stiffness", element, "stiffness")
-    b.tie(spring, "free_length", element, "free_length")
-    b.tie(damper, "damping", element, "damping")
+    if spring is not None:
+        b.tie(spring, "stiffness", element, "stiffness")
+        b.tie(spring, "free_length", element, "free_length")
+    if damper is not None:
+        b.tie(damper, "damping", element, "damping")
     return element

@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks.car import fidelity, fidelity_runs
 from benchmarks.methods import naive
-from mbs.scenes.prototype_car import Fidelity
+from mbs.vehicle import Fidelity
 
 
 def row(model: str, h: float, us: float, moment: float | None, motion: float, name: str = "kerb") -> dict[str, object]:

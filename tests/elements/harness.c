@@ -19,7 +19,7 @@ EXPORT int32_t harness_sizes_match(int32_t type, const int32_t sizes[5]) {
   const int32_t want[5] = {t->nsig, t->nreal, t->nint, t->nstate, t->nout};
   for (int i = 0; i < 5; i++)
     if (want[i] >= 0 && want[i] != sizes[i]) return 0; /* below 0: any, or a number for each item */
-  return 1;
+  return t->states == NULL || t->states(sizes[2]) == sizes[3];
 }
 
 EXPORT const char *harness_check(int32_t type, const int32_t sizes[5], const double *real, const int32_t *integer,

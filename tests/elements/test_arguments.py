@@ -17,6 +17,7 @@ from mbs.elements import (
     Brake,
     ContactPoints,
     Drag,
+    ElectricDrive,
     EndStops,
     GridRoad,
     GyroscopicSpin,
@@ -28,8 +29,10 @@ from mbs.elements import (
     SpringDamper,
     Tyre,
 )
-from mbs.scenes.prototype_car.tyre_data import LATERAL, LONGITUDINAL
+from mbs.vehicle import load
 from tests.wrong_values import as_scalars, problems_of
+
+CURVES = load("prototype").front.tyre.tyre()
 
 M = Model("bench")
 BODY = M.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
@@ -45,8 +48,8 @@ TYRE = Tyre(
     bottoming_radius=0.18,
     stiffness=1e5,
     damping=100.0,
-    longitudinal=LONGITUDINAL,
-    lateral=LATERAL,
+    longitudinal=CURVES.longitudinal,
+    lateral=CURVES.lateral,
     trail=(0.17, 0.18),
     trail_zero=(0.2, 0.22),
     trail_end=(0.35, 0.4),
@@ -62,6 +65,7 @@ USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "Brake": (Brake(100.0, 1e4, 10.0), lambda e: e.record("e", F, G, SPIN, 0)),
     "ContactPoints": (ContactPoints.for_mass(10.0), lambda e: e.record("e", POINT, FRAME, np.eye(3), 0)),
     "Drag": (Drag(0.5), lambda e: e.record("e", POINT)),
+    "ElectricDrive": (ElectricDrive(200.0, 1e5, 9.0), lambda e: e.record("e", SPIN, SPIN, F, G, 0, 1)),
     "EndStops": (EndStops(), lambda e: SpringDamper(1.0, stops=e).record("e", POINT)),
     "GyroscopicSpin": (GyroscopicSpin(1.0), lambda e: e.record("e", F, G, SPIN)),
     "InputForce": (InputForce(0, (1.0,)), lambda e: e.record("e", [SPIN])),

@@ -183,3 +183,109 @@ def test_kernel_checks_the_drive() -> None:
     assert "input that does not exist" in (element.check(n_inputs=0) or "")
     element.element = replace(element.element, integer=(0, 4))
     assert "one ratio per gear" in (element.check() or "")
+
+
+def selected(selector: float, speed: float, throttle: float, drive: AutomaticDrive = DRIVE) -> Element:
+    """A drive with a selector, started there."""
+    left, right, f, g = vectors(1, 1, 3, 3)
+    element = Element(drive.record("drive", left[0], right[0], f, g, 0, selector=1))
+    y = element(*signals_of(speed, speed), inputs=[throttle, selector], accept=True).y
+    element.element = replace(element.element, states=tuple(y))
+    return element
+
+
+def test_in_drive_a_drive_with_a_selector_is_one_without_bit_by_bit() -> None:
+    rng = np.random.default_rng(41)
+    plain = drive_element()
+    with_selector = selected(1.0, 0.0, 0.4)
+    y, z = np.array(plain.element.states), np.array(with_selector.element.states)
+    for _ in range(400):
+        u, ud = signals_of(*(30.0 + 30.0 * rng.normal(size=2)), rng.normal(size=3), frame(rng))
+        throttle = rng.uniform()
+        a = plain(u, ud, y, 0.01, 0.005, 0.0, [throttle], accept=True)
+        b = with_selector(u, ud, z, 0.01, 0.005, 0.0, [throttle, 1.0], accept=True)
+        assert np.array_equal(a.f, b.f)
+        assert np.array_equal(a.S, b.S)
+        assert a.out == b.out
+        assert np.array_equal(a.y, b.y[:4])
+        y, z = a.y, b.y
+
+
+def test_reverse_is_a_first_gear_turned_round() -> None:
+    drive = replace(DRIVE, reverse_ratio=DRIVE.ratios[0])
+    for throttle in (0.0, 0.5, 1.0):
+        for W in (-30.0, -2.0, 0.0, 5.0):
+            u, ud = signals_of(W, W)
+            back = selected(-1.0, W, throttle, drive)(u, ud, None, 0.01, 0.005, 0.0, [throttle, -1.0])
+            front = drive_element()(-u, -ud, None, 0.01, 0.005, 0.0, [throttle])
+            plain = drive_element()(*signals_of(-W, -W), None, 0.01, 0.005, 0.0, [throttle])
+            assert back.out["gear"] == -1.0
+            assert back.out["wheel_torque"] == -plain.out["wheel_torque"]
+            assert back.out["engine_speed"] == plain.out["engine_speed"]
+            assert np.array_equal(back.f[:2], -plain.f[:2])
+            assert np.allclose(back.S, plain.S, rtol=1e-14)
+            assert front.f[0] != 0.0 or throttle == 0.0
+    other = selected(-1.0, 0.0, 1.0, replace(DRIVE, reverse_ratio=2.0 * DRIVE.ratios[0]))
+    stall = other(*signals_of(0.0, 0.0), None, 0.01, inputs=[1.0, -1.0]).out["wheel_torque"]
+    assert stall == pytest.approx(-2.0 * 0.5 * 110.0 * 10.5 * 0.85 * 1.9)
+
+
+def test_in_neutral_the_engine_runs_up_and_the_wheels_get_nothing() -> None:
+    for W in (-20.0, 0.0, 50.0):
+        r = selected(0.0, W, 1.0)(*signals_of(W, W), None, 0.01, 0.005, 0.0, [1.0, 0.0])
+        assert not r.f.any()
+        assert not r.S.any()
+        assert r.out["gear"] == 0.0
+        assert r.out["engine_torque"] == 0.0
+        assert r.out["engine_speed"] == DRIVE.limit_speed
+
+
+def test_reverse_at_speed_waits_in_neutral_and_drive_comes_back_in_the_gear_that_fits() -> None:
+    element, h = selected(1.0, 120.0, 1.0), 0.01
+    y, gears, torques = np.array(element.element.states), [], []
+    assert y[0] == 3.0
+    for i in range(400):
+        W = 120.0 if i < 200 else 119.0
+        r = element(*signals_of(W, W), y, h, inputs=[1.0, -1.0 if i < 200 else 1.0], accept=True)
+        y = r.y
+        gears.append(r.out["gear"])
+        torques.append(r.out["wheel_torque"])
+    assert gears[0] == 3.0
+    assert gears[199] == 0.0
+    assert gears[-1] == 3.0
+    assert set(gears) == {0.0, 3.0}
+    assert np.max(np.abs(np.diff(torques))) < 0.06 * np.max(torques)  # 0.3 s at 10 ms
+    assert torques[199] == 0.0
+    assert torques[-1] > 0.0
+
+
+def test_drive_engages_in_the_gear_that_fits_not_in_that_of_the_past() -> None:
+    element, h = selected(1.0, 120.0, 0.0), 0.01
+    y = np.array(element.element.states)
+    for _ in range(100):
+        y = element(*signals_of(120.0, 120.0), y, h, inputs=[0.0, 0.0], accept=True).y
+    assert np.array_equal(y[[0, 4]], [3.0, 0.0])
+    y = element(*signals_of(5.0, 5.0), y, h, inputs=[0.0, 1.0], accept=True).y
+    assert np.array_equal(y[[0, 1, 4]], [1.0, 1.0, 1.0])
+
+
+def test_moving_to_reverse_at_walking_speed_fades_through_zero() -> None:
+    element, h = selected(1.0, 3.0, 0.2), 0.01
+    y, torques = np.array(element.element.states), []
+    for _ in range(100):
+        r = element(*signals_of(3.0, 3.0), y, h, inputs=[0.2, -1.0], accept=True)
+        y = r.y
+        torques.append(r.out["wheel_torque"])
+    assert torques[0] > 0.0 > torques[-1]
+    assert np.all(np.diff(torques) <= 0.0)
+    assert r.out["gear"] == -1.0
+
+
+def test_bad_selectors_are_refused() -> None:
+    left, right, f, g = vectors(1, 1, 3, 3)
+    with pytest.raises(ValueError, match="selector of the drive 'D' is -2"):
+        DRIVE.record("D", left[0], right[0], f, g, 0, selector=-2)
+    with pytest.raises(ValueError, match="reverse ratio of the drive 'D' is 0"):
+        replace(DRIVE, reverse_ratio=0.0).record("D", left[0], right[0], f, g, 0)
+    element = selected(1.0, 0.0, 0.0)
+    assert "input that does not exist" in (element.check(n_inputs=1) or "")

@@ -16,16 +16,12 @@ from mbs.flexible.inertia_relief import inertia_relief
 from mbs.flexible.load_path_modes import interface_loads, load_path_modes
 from mbs.flexible.recovery import gauge_rows, peak_tube_stress, section_force_field
 from mbs.flexible.shape_integrals import shape_integrals
-from mbs.scenes.prototype_car import car_data
-from mbs.scenes.prototype_car.frame import (
-    DAMPING,
-    DYNAMIC_MODES,
-    GAUGES,
-    INTERFACES,
-    REFERENCE,
-    prototype_frame,
-    strain_gauges,
-)
+from mbs.vehicle import load
+
+CAR = load("prototype")
+FRAME = CAR.tubular_frame
+REFERENCE, DYNAMIC_MODES = FRAME.section.reference, FRAME.section.dynamic_modes
+DAMPING = CAR.flexible_frame.damping
 
 # project data: computed once from the same layout by an independent script (dense numpy, own elements)
 LOADED_HZ = [15.20, 23.56, 27.45, 28.23, 28.81, 30.50, 32.44, 34.29, 34.79, 42.60, 46.27, 47.91, 53.06, 56.52, 61.03]
@@ -41,47 +37,47 @@ MOMENT_DIGITS = 5e-3
 
 @pytest.fixture(scope="module")
 def model() -> FiniteElementModel:
-    return prototype_frame()[0].finite_element_model()
+    return FRAME.frame()[0].finite_element_model()
 
 
 def test_size_mass_and_inertia(model: FiniteElementModel) -> None:
-    frame, tubes = prototype_frame()
+    frame, tubes = FRAME.frame()
     assert (len(frame.positions), model.n_dof, len(frame.beams), len(tubes)) == (211, 1266, 282, 129)
     assert frame.structural_mass() == pytest.approx(73.67, abs=0.005)
-    chassis = car_data.CHASSIS
-    assert model.mass.masses.sum() == pytest.approx(chassis["mass"], abs=1e-3)
-    x = model.mass.positions - np.array(chassis["com"])
+    chassis = CAR.chassis
+    assert model.mass.masses.sum() == pytest.approx(chassis.mass, abs=1e-3)
+    x = model.mass.positions - np.array(chassis.com)
     np.testing.assert_allclose(model.mass.masses @ x / model.mass.masses.sum(), 0.0, atol=5e-5)
     J = (model.mass.masses[:, None] * x).T @ x
-    np.testing.assert_allclose(np.trace(J) * np.eye(3) - J, chassis["inertia"], atol=0.051)
+    np.testing.assert_allclose(np.trace(J) * np.eye(3) - J, chassis.tensor, atol=0.051)
 
 
 def test_every_interface_is_a_hardpoint_of_the_car() -> None:
-    frame, _ = prototype_frame()
+    frame, _ = FRAME.frame()
     points = dict(zip(frame.names, frame.positions, strict=True))
     for node, name in {
         "LF": "lower_pivot_front", "LR": "lower_pivot_rear", "UF": "upper_pivot_front",
         "UR": "upper_pivot_rear", "RK": "tie_rod_inner", "TF": "spring_upper",
     }.items():  # fmt: skip
-        np.testing.assert_array_equal(points[node + "L"], car_data.FRONT[name])
+        np.testing.assert_array_equal(points[node + "L"], getattr(CAR.front.suspension.points, name))
     for node, name in {
         "AF": "lower_pivot_front", "AR": "lower_pivot_rear", "TL": "toe_link_inner", "TR": "strut_top"
     }.items():  # fmt: skip
-        np.testing.assert_array_equal(points[node + "L"], car_data.REAR[name])
-    assert len(INTERFACES) == 20
+        np.testing.assert_array_equal(points[node + "L"], getattr(CAR.rear.suspension.points, name))
+    assert len(FRAME.interfaces) == 20
 
 
 def test_free_frequencies_loaded_and_bare(model: FiniteElementModel) -> None:
     hertz, _ = natural_modes(model, 21)
     assert hertz[:6].max() < 1e-2
     np.testing.assert_allclose(hertz[6:], LOADED_HZ, rtol=FIGURES)
-    bare, _ = natural_modes(prototype_frame(carried_masses=False)[0].finite_element_model(), 10)
+    bare, _ = natural_modes(FRAME.frame(carried_masses=False)[0].finite_element_model(), 10)
     np.testing.assert_allclose(bare[6:], BARE_HZ, rtol=FIGURES)
 
 
 def test_lumped_masses_and_rotary_inertia_are_negligible_for_the_frame(model: FiniteElementModel) -> None:
     consistent = natural_modes(model, 21)[0][6:]
-    frame = prototype_frame()[0]
+    frame = FRAME.frame()[0]
     without_rotary = natural_modes(frame.finite_element_model("consistent", rotary=False), 21)[0][6:]
     lumped = natural_modes(frame.finite_element_model("lumped", rotary=False), 21)[0][6:]
     assert 0 < (without_rotary / consistent - 1).max() < 3e-4
@@ -103,7 +99,7 @@ def test_torsional_stiffness_between_the_towers(model: FiniteElementModel) -> No
 
 @pytest.mark.parametrize("count", [5, 10])
 def test_craig_bampton_has_the_frequencies_and_the_errors_of_the_data(model: FiniteElementModel, count: int) -> None:
-    body = craig_bampton(model, REFERENCE, INTERFACES, count, damping=DAMPING)
+    body = craig_bampton(model, REFERENCE, FRAME.interfaces, count, damping=DAMPING)
     assert body.n_static == 60
     assert body.n_modes == 60 + count
     np.testing.assert_allclose(body.frequencies, FIXED_HZ[:count], rtol=FIGURES)
@@ -126,61 +122,61 @@ def test_damping_is_the_fit_of_the_data() -> None:
 def test_gauges_sit_where_the_data_puts_them_at_every_refinement() -> None:
     places = {"SG1": (-0.25, 0.345), "SG2": (-0.25, -0.345), "SG3": (-1.7875, 0.425), "SG4": (-1.7875, -0.425)}
     for refinement in (1, 2, 3):
-        frame, tubes = prototype_frame(refinement=refinement)
-        for gauge in strain_gauges(tubes):
+        frame, tubes = FRAME.frame(refinement=refinement)
+        for gauge in FRAME.strain_gauges(tubes):
             beam = frame.beams[gauge.element]
             place = (1 - gauge.xi) * frame.positions[beam.i] + gauge.xi * frame.positions[beam.j]
             np.testing.assert_allclose(place[:2], places[gauge.name], atol=1e-12)
-    frame, tubes = prototype_frame()
-    assert [g.element for g in strain_gauges(tubes)] == [38, 40, 127, 129]
-    assert list(GAUGES) == ["SG1", "SG2", "SG3", "SG4"]
+    frame, tubes = FRAME.frame()
+    assert [g.element for g in FRAME.strain_gauges(tubes)] == [38, 40, 127, 129]
+    assert list(FRAME.section.gauges) == ["SG1", "SG2", "SG3", "SG4"]
 
 
 @pytest.mark.parametrize("factors", list(STATIC_MOMENTS))
 def test_gauge_moments_by_inertia_relief(model: FiniteElementModel, factors: tuple[int, int]) -> None:
-    frame, tubes = prototype_frame()
-    moments, bridges = gauge_rows(frame, strain_gauges(tubes))
-    forces = interface_forces(INTERFACES, *factors)
-    relief = inertia_relief(model, REFERENCE, INTERFACES, moments)
+    frame, tubes = FRAME.frame()
+    moments, bridges = gauge_rows(frame, FRAME.strain_gauges(tubes))
+    forces = interface_forces(FRAME.interfaces, *factors)
+    relief = inertia_relief(model, REFERENCE, FRAME.interfaces, moments)
     found = relief.balanced @ forces
     front, rear = STATIC_MOMENTS[factors]
     np.testing.assert_allclose(found, [front, front, rear, rear], rtol=MOMENT_DIGITS)
     if factors == (1, 1):
         np.testing.assert_allclose(relief.acceleration_of_forces @ forces, [0, 0, 9.81, 0, 0, 0], atol=5e-4)
     # half-bridge: upper minus lower fibre = 2 M r / I
-    stress = inertia_relief(model, REFERENCE, INTERFACES, bridges).balanced @ forces
-    tube = frame.beams[strain_gauges(tubes)[0].element].section
+    stress = inertia_relief(model, REFERENCE, FRAME.interfaces, bridges).balanced @ forces
+    tube = frame.beams[FRAME.strain_gauges(tubes)[0].element].section
     np.testing.assert_allclose(stress, 2 * found * 0.020 / tube.Iy, rtol=1e-9)
 
 
 def test_largest_stress_and_sag_at_rest(model: FiniteElementModel) -> None:
-    frame, _ = prototype_frame()
-    forces = interface_forces(INTERFACES)
-    field = inertia_relief(model, REFERENCE, INTERFACES, section_force_field(frame)).balanced @ forces
+    frame, _ = FRAME.frame()
+    forces = interface_forces(FRAME.interfaces)
+    field = inertia_relief(model, REFERENCE, FRAME.interfaces, section_force_field(frame)).balanced @ forces
     assert peak_tube_stress(frame, field).max() == pytest.approx(PEAK_STRESS, abs=0.05e6)
     towers = np.zeros((2, model.n_dof))
     for row, name in enumerate(("TFL", "TRL")):
         towers[row, model.freedoms(name)[2]] = 1.0
-    sag = inertia_relief(model, REFERENCE, INTERFACES, towers).balanced @ forces
+    sag = inertia_relief(model, REFERENCE, FRAME.interfaces, towers).balanced @ forces
     np.testing.assert_allclose(sag, SAG, atol=0.005e-3)
 
 
 def test_static_and_dynamic_modes_need_inertia_modes_for_the_moments_at_rest(model: FiniteElementModel) -> None:
     """60 + 5 modes carry a third to a half less than the moment at rest; with the inertia modes all of it."""
-    frame, tubes = prototype_frame()
-    rows, _ = gauge_rows(frame, strain_gauges(tubes))
-    forces = interface_forces(INTERFACES)
-    relief = inertia_relief(model, REFERENCE, INTERFACES, rows)
+    frame, tubes = FRAME.frame()
+    rows, _ = gauge_rows(frame, FRAME.strain_gauges(tubes))
+    forces = interface_forces(FRAME.interfaces)
+    relief = inertia_relief(model, REFERENCE, FRAME.interfaces, rows)
     exact = relief.balanced @ forces
     weight = (
         -model.mass_matrix() @ model.rigid_motions(model.origin(REFERENCE)) @ (relief.acceleration_of_forces @ forces)
     )
     load = weight.copy()
-    load[np.concatenate([model.freedoms(n) for n in INTERFACES])] += forces
+    load[np.concatenate([model.freedoms(n) for n in FRAME.interfaces])] += forces
     errors = {}
-    plain = craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES)
-    full = craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES, inertia_modes=True)
-    paths = load_path_modes(full, interface_loads(full, {n: np.eye(3) for n in INTERFACES}))
+    plain = craig_bampton(model, REFERENCE, FRAME.interfaces, DYNAMIC_MODES)
+    full = craig_bampton(model, REFERENCE, FRAME.interfaces, DYNAMIC_MODES, inertia_modes=True)
+    paths = load_path_modes(full, interface_loads(full, {n: np.eye(3) for n in FRAME.interfaces}))
     for name, body in (("plain", plain), ("inertia", full), ("paths", paths)):
         eta = np.linalg.solve(body.K, body.modes.T @ load)
         errors[name] = np.abs(body.recovery(rows) @ eta / exact - 1).max()

@@ -80,6 +80,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "cylindrical": lambda b: between(b, point=X, axis=X),
     "weld": lambda b: between(b),
     "point_on_line": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": (b.box, X), "axis": X},
+    "mean_on_plane": lambda b: {"name": "new", "ends": [(b.arm, X), (b.box, X)], "carrier": b.m.ground, "normal": Y},
     "distance": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": b.ball, "length": 2.0},
     "drive": lambda b: {"name": "new", "driven": b.angle, "guide": b.guide},
     "pin": lambda b: {"name": "new", "body": b.arm, "point": X, "on": False},
@@ -103,6 +104,15 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "point": X,
     },
     "screw": lambda b: between(b, point=X, axis=X, pitch=0.01),
+    "drop_link": lambda b: {
+        "name": "new",
+        "carrier": b.arm,
+        "body": b.box,
+        "pivot": X,
+        "axis": Y,
+        "lever_end": (0.5, 0.0, 0.5),
+        "link_end": (0.5, 0.3, 1.5),
+    },
     "relative_angle": lambda b: between(b, axis=Y, zero=0.5),
     "armature": lambda b: {"name": "new", "coordinate": b.angle, "inertia": 1.0},
     "spin": lambda b: {

@@ -11,10 +11,10 @@ import pytest
 from mbs import ModelError, Pose, Simulation, compile, simulate
 from mbs.flexible import shape_integrals
 from mbs.scenes import kerb_test, prototype_car
-from mbs.scenes.prototype_car import car_data, chassis
-from mbs.scenes.prototype_car.chassis import reduced_chassis
-from mbs.scenes.prototype_car.fidelity import Fidelity
-from mbs.scenes.prototype_car.frame import GAUGES, INTERFACES
+from mbs.vehicle import Fidelity
+from mbs.vehicle.environment import GRAVITY
+
+CAR = prototype_car.car()
 
 NEUTRAL = {"drive.creep_torque": 0.0}
 FLEXIBLE = (2, 3, 4)
@@ -34,13 +34,13 @@ def at_rest(fidelity):
 
 @pytest.mark.parametrize("fidelity", FLEXIBLE)
 def test_the_frame_has_the_mass_of_the_rigid_chassis(fidelity):
-    s = shape_integrals(reduced_chassis(fidelity))
+    s = shape_integrals(CAR.flexible_frame.reduced(fidelity))
     centre = s.S0 / s.mass
     second = s.J0 - s.mass * np.outer(centre, centre)
     inertia = np.trace(second) * np.eye(3) - second
-    given = np.array(car_data.CHASSIS["inertia"])
-    assert s.mass == pytest.approx(car_data.CHASSIS["mass"], rel=1e-4)
-    np.testing.assert_allclose(centre + car_data.FLOOR_CENTRE, car_data.CHASSIS["com"], rtol=0, atol=2e-4)
+    given = np.array(CAR.chassis.tensor)
+    assert s.mass == pytest.approx(CAR.chassis.mass, rel=1e-4)
+    np.testing.assert_allclose(centre + CAR.chassis.reference, CAR.chassis.com, rtol=0, atol=2e-4)
     np.testing.assert_allclose(inertia, given, rtol=0, atol=2e-3 * given.max())
 
 
@@ -62,7 +62,7 @@ def test_a_start_with_turned_wheels_does_not_bend_the_frame(fidelity, steering, 
     turned = Simulation(car(fidelity), inputs={"steering": steering}, parameters=NEUTRAL).sensors
     straight = at_rest(fidelity).sensors
     assert abs(turned["wheel_FL.steer"] - straight["wheel_FL.steer"]) > 0.03
-    for gauge in GAUGES:
+    for gauge in CAR.chassis.frame.gauges:
         assert abs(turned[f"bending_moment.{gauge}"] - straight[f"bending_moment.{gauge}"]) < bound
 
 
@@ -75,7 +75,7 @@ def test_the_modes_of_the_paper_alone_miss_the_weight():
 def test_the_rigid_car_says_that_it_computes_no_stress():
     sensors = at_rest(0).sensors
     assert sensors["stress.computed"] == 0.0
-    assert all(sensors[f"{kind}.{g}"] == 0.0 for kind in ("bending_moment", "stress") for g in GAUGES)
+    assert all(sensors[f"{kind}.{g}"] == 0.0 for kind in ("bending_moment", "stress") for g in CAR.chassis.frame.gauges)
 
 
 def test_all_fidelities_have_the_same_inputs_parameters_and_sensors():
@@ -90,9 +90,9 @@ def test_forces_at_the_ports_carry_the_chassis():
     simulation = at_rest(1)
     names = [row["name"] for row in simulation.system.meta["rows"]]
     lam = simulation.state.lam * simulation.system.arrays["row_scale"]
-    force = {n: lam[[k for k, row in enumerate(names) if row == f"chassis.{n}"]] for n in INTERFACES}
+    force = {n: lam[[k for k, row in enumerate(names) if row == f"chassis.{n}"]] for n in CAR.tubular_frame.interfaces}
     total = np.sum(list(force.values()), axis=0)
-    weight = car_data.CHASSIS["mass"] * car_data.GRAVITY
+    weight = CAR.chassis.mass * GRAVITY
     np.testing.assert_allclose(total, (0.0, 0.0, weight), rtol=0, atol=1e-4)
     for mount, vertical in SPRING_MOUNTS.items():
         for side in "LR":
@@ -108,14 +108,15 @@ def test_ports_do_not_change_the_motion():
 
 
 def test_a_stiff_frame_moves_like_a_rigid_body(monkeypatch):
-    body = reduced_chassis(3)
+    body = CAR.flexible_frame.reduced(3)
     inputs = {"steering": ([0.0, 0.2, 0.6, 2.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.4}
 
     def drive(system):
         return simulate(system, 2.0, 0.001, inputs, progress=False)
 
     rigid, soft = drive(car(0)), drive(car(3))  # before the change, or the cache keeps a stiff car
-    monkeypatch.setattr(chassis, "reduced_chassis", lambda fidelity: replace(body, K=100.0 * body.K, C=100.0 * body.C))
+    stiff = replace(body, K=100.0 * body.K, C=100.0 * body.C)
+    monkeypatch.setattr(CAR.flexible_frame, "reduced", lambda fidelity: stiff)
     hard = drive(compile(prototype_car.build(fidelity=3)))
     for name, least in (("chassis.roll", 1e-5), ("chassis.y", 1e-5), ("chassis.z", 1e-5)):
         gap_soft, gap_hard = (np.abs(t[name] - rigid[name]).max() for t in (soft, hard))
@@ -139,7 +140,7 @@ def test_in_a_steady_turn_the_flexible_and_the_quasi_static_car_agree():
     quasi, flexible = (simulate(car(f), 8.0, 0.01, inputs, progress=False) for f in (1, 3))
     last = quasi.t > 7.0
     largest = 0.0
-    for gauge in GAUGES:
+    for gauge in CAR.chassis.frame.gauges:
         a, b = (t[f"bending_moment.{gauge}"][last] for t in (quasi, flexible))
         assert np.abs(a - b).max() < 0.02 * abs(REST[gauge])
         largest = max(largest, np.abs(a - REST[gauge]).max() / abs(REST[gauge]))

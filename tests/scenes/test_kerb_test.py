@@ -11,7 +11,7 @@ from benchmarks.car import fidelity_runs
 from hosts.low_pass import low_pass
 from mbs import Simulation, compile
 from mbs.scenes import kerb_test
-from mbs.scenes.prototype_car.frame import GAUGES
+from mbs.vehicle import load
 
 H = kerb_test.STEP
 PAPER = {"coordinates": 293, "rows": 239, "iterations": 2.0}
@@ -89,7 +89,7 @@ def test_moments_return_once_the_tyres_let_go(fidelity):
     simulation.set_parameter("road.friction", 0.0)
     simulation.run(kerb_test.DURATION, H, progress=False)
     free = simulation.sensors
-    for gauge in GAUGES:
+    for gauge in load("prototype").chassis.frame.gauges:
         name = f"bending_moment.{gauge}"
         peak = np.abs(t[name] - rest[name]).max()
         assert abs(free[name] - rest[name]) < 0.01 * peak

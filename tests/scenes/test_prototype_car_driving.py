@@ -7,10 +7,14 @@ import pytest
 
 from benchmarks.car import manoeuvres
 from mbs import Pose, Simulation
-from mbs.scenes.prototype_car import car_data
-from mbs.scenes.prototype_car.tyre_data import FRICTION, RADIUS, tyre
+from mbs.scenes import prototype_car
+from mbs.vehicle.environment import GRAVITY
 from tests.elements import tmeasy
 from tests.scenes.car import WHEELS, H, car, drive, place
+
+CAR = prototype_car.car()
+FRICTION, AIR = CAR.road.friction, CAR.aerodynamics
+TYRES = {"front": CAR.front.tyre.tyre(), "rear": CAR.rear.tyre.tyre()}
 
 MASS, WHEELBASE = 597.0, 2.3
 LOAD, DEFLECTION = {"front": 1267.3, "rear": 1661.0}, {"front": 0.02112, "rear": 0.02768}
@@ -27,9 +31,9 @@ def bicycle(speed, angle, slips):
     for axle in LOAD:
         q = LOAD[axle] / 1500.0
         sx, sy = (1e-3 * s for s in slips[axle])
-        stiffness[axle] = 2.0 * tmeasy.forces(tyre(axle), LOAD[axle], FRICTION, sx, sy)[1] / sy
-        t = tyre(axle).trail
-        trail[axle] = (t[0] + (t[1] - t[0]) * (q - 1.0)) * 2.0 * np.sqrt(RADIUS[axle] * DEFLECTION[axle])
+        stiffness[axle] = 2.0 * tmeasy.forces(TYRES[axle], LOAD[axle], FRICTION, sx, sy)[1] / sy
+        t = TYRES[axle].trail
+        trail[axle] = (t[0] + (t[1] - t[0]) * (q - 1.0)) * 2.0 * np.sqrt(TYRES[axle].radius * DEFLECTION[axle])
     a, b = TO_FRONT - trail["front"], WHEELBASE - TO_FRONT + trail["rear"]
     gradient = MASS * (b / stiffness["front"] - a / stiffness["rear"]) / (a + b)
     return speed * angle / (a + b + gradient * speed**2), gradient
@@ -89,14 +93,14 @@ def test_friction_of_the_road_bounds_the_deceleration(friction, pedal):
     assert used.max() < 1.035 * friction
     if pedal == 1.0 or friction < 0.5:
         assert used.max() > 0.7 * friction
-    drag = 0.5 * car_data.AIR_DENSITY * car_data.DRAG_AREA * t["speed"] ** 2 / MASS
+    drag = 0.5 * AIR.air_density * AIR.drag_area * t["speed"] ** 2 / MASS
     slowing = (t["speed"][0] - t["speed"][-1]) / t.t[-1]
-    assert slowing < 1.035 * friction * car_data.GRAVITY + drag.max()
+    assert slowing < 1.035 * friction * GRAVITY + drag.max()
 
 
 def test_the_friction_a_user_reads_is_that_of_the_tyre():
     parameter = next(p for p in car().meta["parameters"] if p["name"] == "road.friction")
-    largest = tyre("front").longitudinal.max_force[0] / tyre("front").nominal_load
+    largest = TYRES["front"].longitudinal.max_force[0] / TYRES["front"].nominal_load
     assert parameter["value"] == pytest.approx(1.125 * largest)  # a dry road, a little better than that of the curves
     assert "largest longitudinal tyre force over load at 1500 N" in parameter["description"]
 
@@ -118,10 +122,10 @@ def powers(t):
     """Power of drive, drag, rolling resistance, brakes and tyre slip, W; all but the first take energy."""
     omega = {w: t[f"wheel_{w}.omega"] for w in WHEELS}
     drive_power = t["drive_torque"] * (omega["RL"] + omega["RR"] - 2.0 * t["chassis.wy"])
-    drag = 0.5 * car_data.AIR_DENSITY * car_data.DRAG_AREA * t["speed"] ** 3
+    drag = 0.5 * AIR.air_density * AIR.drag_area * t["speed"] ** 3
     rolling = brakes = slip = 0.0
     for w in WHEELS:
-        radius = RADIUS["front" if w[0] == "F" else "rear"]
+        radius = TYRES["front" if w[0] == "F" else "rear"].radius
         rolling = rolling + 0.015 * t[f"wheel_{w}.Fz"] * radius * omega[w] * np.tanh(omega[w])
         brakes = brakes - t[f"wheel_{w}.brake_torque"] * omega[w]
         faster = np.maximum(np.abs(omega[w]) * radius, np.abs(t["chassis.vx"]))

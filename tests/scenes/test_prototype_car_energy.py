@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbs.scenes.prototype_car import car_data
+from mbs.scenes import prototype_car
 from mbs.simulation import Pose
 from tests.scenes.car import WHEELS, car, drive
+
+AIR = prototype_car.car().aerodynamics
 
 WORKS = ("drive", "brakes", "tyres", "dampers", "drag", "ground")
 MANOEUVRES = Path(__file__).parents[2] / "hosts" / "manoeuvres"
@@ -61,7 +63,7 @@ def test_works_are_those_of_the_powers_that_sensors_tell():
     powers = {
         "drive": t["drive_torque"] * (omega["RL"] + omega["RR"] - 2.0 * t["chassis.wy"]),
         "brakes": sum(t[f"wheel_{w}.brake_torque"] * (omega[w] - t["chassis.wy"]) for w in WHEELS),
-        "drag": -0.5 * car_data.AIR_DENSITY * car_data.DRAG_AREA * t["speed"] ** 3,
+        "drag": -0.5 * AIR.air_density * AIR.drag_area * t["speed"] ** 3,
     }
     for name, power in powers.items():
         work = np.sum(0.5 * (power[1:] + power[:-1]) * np.diff(t.t))

@@ -10,7 +10,7 @@ import pytest
 from mbs import Simulation, compile, linearise
 from mbs.elements.road import PlaneRoad
 from mbs.scenes import prototype_car
-from mbs.scenes.prototype_car import wheels
+from mbs.vehicle.tyre import TMeasy
 from tests.scenes.car import NEUTRAL, car, car_on_ice
 
 # the figures take the parts of the suspension as points and leave the damping of the tyres out
@@ -30,8 +30,8 @@ def symmetric_modes(system):
 
 
 def test_ride_and_wheel_hop(monkeypatch):
-    original = wheels.tyre
-    monkeypatch.setattr(wheels, "tyre", lambda axle: replace(original(axle), damping=0.0))
+    original = TMeasy.tyre
+    monkeypatch.setattr(TMeasy, "tyre", lambda self: replace(original(self), damping=0.0))
     modes = symmetric_modes(compile(prototype_car.build(PlaneRoad(friction=0.0))))
     assert len(modes) == 4
     for (f, zeta), (expected_f, expected_zeta) in zip(modes[:2], RIDE, strict=True):
@@ -44,8 +44,8 @@ def test_ride_and_wheel_hop(monkeypatch):
 
 def test_tyre_damping_damps_the_hop_only(monkeypatch):
     with_damping = symmetric_modes(car_on_ice())
-    original = wheels.tyre
-    monkeypatch.setattr(wheels, "tyre", lambda axle: replace(original(axle), damping=0.0))
+    original = TMeasy.tyre
+    monkeypatch.setattr(TMeasy, "tyre", lambda self: replace(original(self), damping=0.0))
     without = symmetric_modes(compile(prototype_car.build(PlaneRoad(friction=0.0))))
     rise = np.array(with_damping)[:, 1] - np.array(without)[:, 1]
     assert np.all(np.abs(rise[:2]) < 0.01)

@@ -10,8 +10,6 @@ from benchmarks.car.manoeuvres import rise
 from mbs import Pose, Settings, compile, simulate
 from mbs.elements.road import PlaneRoad
 from mbs.scenes import prototype_car
-from mbs.scenes.prototype_car import car_data
-from mbs.scenes.prototype_car.tyre_data import RADIUS
 from tests.scenes.car import H, car, drive, moved, place
 
 STILL = 1e-3  # m in 100 s
@@ -79,7 +77,8 @@ def test_braked_from_15_m_s_to_a_stop_that_lasts(road, slope):
 def test_wheels_of_a_car_that_drives_forward_turn_forward():
     """Without slip: 10 m/s over the rolling radius, (2 R + height of the centre) / 3."""
     simulation = mbs.Simulation(mbs.compile(prototype_car.build()), pose=mbs.Pose(speed=10.0))
-    for axle, data in (("front", car_data.FRONT), ("rear", car_data.REAR)):
-        radius = (2.0 * RADIUS[axle] + data["wheel_centre"][2]) / 3.0
+    car = prototype_car.car()
+    for axle, data in (("front", car.front), ("rear", car.rear)):
+        radius = (2.0 * data.tyre.radius + data.wheel.centre[2]) / 3.0
         for side in "LR":
             assert simulation.sensors[f"wheel_{axle[0].upper()}{side}.omega"] == pytest.approx(10.0 / radius, rel=1e-3)

@@ -8,8 +8,9 @@ import pytest
 from mbs import Pose, Simulation, compile, simulate
 from mbs.elements import GridRoad
 from mbs.scenes import prototype_car
-from mbs.scenes.prototype_car import car_data
 from tests.scenes.car import NEUTRAL, car, car_on_ice, drive
+
+CAR = prototype_car.car()
 
 MASS, WEIGHT = 597.0, 597.0 * 9.81
 STATIC = {  # front, rear: wheel load N, spring length m, spring deflection m, tyre deflection m
@@ -43,9 +44,9 @@ def at_rest():
 
 def test_size_of_the_system():
     assert car().report["degrees_of_freedom"] == 14
-    parts = [car_data.CHASSIS["mass"]]
-    parts += [2 * b["mass"] for b in (*car_data.FRONT_BODIES.values(), *car_data.REAR_BODIES.values())]
-    parts += [2 * car_data.FRONT_WHEEL["mass"], 2 * car_data.REAR_WHEEL["mass"]]
+    parts = [CAR.chassis.mass]
+    parts += [2 * part.mass for axle in (CAR.front, CAR.rear) for _, part in axle.suspension.bodies]
+    parts += [2 * CAR.front.wheel.mass, 2 * CAR.rear.wheel.mass]
     assert sum(parts) == pytest.approx(MASS, abs=1e-9)
 
 
@@ -53,7 +54,7 @@ def test_size_of_the_system():
 @pytest.mark.parametrize("side", ["L", "R"])
 def test_wheel_loads_and_deflections(at_rest, axle, side):
     load, length, compression, tyre = STATIC[axle]
-    stiffness = (car_data.FRONT_SPRING if axle == "F" else car_data.REAR_SPRING)["stiffness"]
+    stiffness = (CAR.front if axle == "F" else CAR.rear).spring.stiffness
     w = axle + side
     assert at_rest[f"wheel_{w}.Fz"] == pytest.approx(load, abs=0.1)
     assert at_rest[f"spring_{w}.length"] == pytest.approx(length, abs=1e-4)
@@ -63,7 +64,7 @@ def test_wheel_loads_and_deflections(at_rest, axle, side):
 
 def test_wheel_loads_carry_the_weight_and_the_car_stands_as_designed(at_rest):
     assert sum(at_rest[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR")) == pytest.approx(WEIGHT, abs=1e-6)
-    design = car_data.REFERENCE_POINT
+    design = CAR.vehicle.reference_point
     assert at_rest["chassis.x"] == pytest.approx(design[0], abs=1e-5)
     assert at_rest["chassis.z"] - design[2] == pytest.approx(-0.165e-3, abs=2e-6)
     assert np.degrees(at_rest["chassis.pitch"]) == pytest.approx(-0.004, abs=5e-4)
@@ -88,7 +89,7 @@ def slope_at_rest(trajectory, w, name):
 def test_motion_ratio_wheel_rate_and_camber_gain(heaving, axle):
     w = f"{axle}L"
     ratio = -slope_at_rest(heaving, w, f"spring_{w}.length")
-    stiffness = (car_data.FRONT_SPRING if axle == "F" else car_data.REAR_SPRING)["stiffness"]
+    stiffness = (CAR.front if axle == "F" else CAR.rear).spring.stiffness
     assert ratio == pytest.approx(MOTION_RATIO[axle], abs=1.5e-3)
     assert stiffness * ratio**2 == pytest.approx(WHEEL_RATE[axle], rel=5e-3)
     camber = np.degrees(slope_at_rest(heaving, w, f"wheel_{w}.camber"))

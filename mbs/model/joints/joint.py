@@ -22,7 +22,14 @@ if TYPE_CHECKING:
 
 FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
 """Kinds of equations whose multipliers are a force or a torque that can be read."""
-SCALAR_FORCES = {"distance": "tension", "drive": "drive", "gear": "torque", "rack": "force", "screw": "force"}
+SCALAR_FORCES = {
+    "distance": "tension",
+    "drop_link": "tension",
+    "drive": "drive",
+    "gear": "torque",
+    "rack": "force",
+    "screw": "force",
+}
 """What the one force or torque of a type of joint is called."""
 
 

@@ -5,6 +5,8 @@
  * Reals: see the enum, then one total ratio per gear, tallest last. Integers: throttle input (0..1), number of gears.
  * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step. Outputs: engine
  * speed rad/s, gear, torque per wheel N m, engine torque N m.
+ * With a selector its input is a third integer, ratio of reverse, engage speed and engage time are three more reals, and
+ * the states of selector.h follow. Reverse is one gear, with the torque of a first gear of its ratio turned round.
  *
  * There is no engine inertia: with turbine speed wt = ratio * W and stall speed ws (idle .. stall with the throttle)
  * the engine turns at sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over
@@ -12,6 +14,7 @@
  * within the step, so its time does not depend on the step. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
+#include "selector.h"
 
 enum {
   MAX_TORQUE,
@@ -33,6 +36,8 @@ enum {
   RAMP,
   RATIOS
 };
+enum { REVERSE_RATIO, ENGAGE_SPEED, ENGAGE_TIME, OF_SELECTOR }; /* behind the ratios */
+enum { STATES = 4 };
 #define LIMITER_WIDTH 0.05 /* of the limit speed */
 #define LONG_AGO 1e3 /* s */
 
@@ -74,22 +79,48 @@ static double torque(const double *p, double ratio, double throttle, double W, d
          2.0 * closed * p[CREEP_TORQUE] * (1.0 - x * x * (3.0 - 2.0 * x));
 }
 
+static const double *of_selector(const ali3_element_args *a) { return a->real + RATIOS + a->integer[1]; }
+
+static double selector_input(const ali3_element_args *a) { return a->input[a->integer[2]]; }
+
+/* In the direction of the selector with the share of the torque that is engaged; without torque the engine runs up to
+ * its limit speed. */
+static double selected(ali3_element_args *a, double ratio, double *slope, double *speed, double *engine,
+                       int *direction) {
+  const double *p = a->real, *q = of_selector(a), throttle = throttle_of(a), W = wheel_rate(a);
+  double share;
+  *direction =
+      ali3_selector_step(a->y_old + STATES, a->y_new + STATES, selector_input(a), a->h / q[ENGAGE_TIME], &share);
+  const double free = p[IDLE_SPEED] + throttle * (p[LIMIT_SPEED] - p[IDLE_SPEED]);
+  *slope = *engine = 0.0;
+  *speed = free;
+  if (*direction == 0) return 0.0;
+  const double sign = *direction,
+               total = torque(p, sign < 0.0 ? q[REVERSE_RATIO] : ratio, throttle, sign * W, slope, speed, engine);
+  *slope *= share;
+  *engine *= share;
+  *speed = share * *speed + (1.0 - share) * free;
+  return sign * share * total;
+}
+
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real, *ratios = p + RATIOS;
   const int gears = a->integer[1], gear = gear_of(a->y_old[0], gears), before = gear_of(a->y_old[1], gears);
-  for (int i = 0; i < 4; i++) a->y_new[i] = a->y_old[i];
+  for (int i = 0; i < STATES; i++) a->y_new[i] = a->y_old[i];
   if (a->h > 0.0) a->y_new[2] = ali3_clamp(a->y_old[2] + a->h, 0.0, LONG_AGO);
   const double x = p[RAMP] > 0.0 ? ali3_clamp(a->y_new[2] / p[RAMP], 0.0, 1.0) : 1.0;
   const double ratio = ratios[before - 1] + (ratios[gear - 1] - ratios[before - 1]) * x * x * (3.0 - 2.0 * x);
   double slope, speed, engine;
-  const double total = torque(p, ratio, throttle_of(a), wheel_rate(a), &slope, &speed, &engine);
+  int direction = 1;
+  const double total = a->nint > 2 ? selected(a, ratio, &slope, &speed, &engine, &direction)
+                                   : torque(p, ratio, throttle_of(a), wheel_rate(a), &slope, &speed, &engine);
   double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
   for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
   for (int i = 0; i < 8; i++) a->f[i] = total * b[i];
   if (a->S && slope < 0.0) ali3_add_outer(a->S, 8, -a->wC * slope, b); /* turning of f, g within the step is left out */
   a->potential = 0.0;
   a->out[0] = speed;
-  a->out[1] = gear;
+  a->out[1] = direction > 0 ? gear : direction;
   a->out[2] = 0.5 * total;
   a->out[3] = engine;
 }
@@ -100,17 +131,28 @@ static void shift_rates(const double *p, int gear, double throttle, double *up, 
   *down = (p[DOWN_CLOSED] + throttle * (p[DOWN_OPEN] - p[DOWN_CLOSED])) / p[RATIOS + gear - 1];
 }
 
+/* The gear that fits the speed from `gear` on, long engaged. */
+static void fitting_gear(ali3_element_args *a, int gear, double rate) {
+  const double *p = a->real, throttle = throttle_of(a);
+  double up, down;
+  for (shift_rates(p, gear, throttle, &up, &down); rate > up && gear < a->integer[1];)
+    shift_rates(p, ++gear, throttle, &up, &down);
+  a->y_new[0] = a->y_new[1] = gear;
+  a->y_new[2] = LONG_AGO;
+}
+
 static void accept(ali3_element_args *a) {
   const double *p = a->real, throttle = throttle_of(a), now = wheel_rate(a), before = a->y_new[3];
-  const int gears = a->integer[1];
-  int gear = gear_of(a->y_new[0], gears);
+  const int gears = a->integer[1], start = !(a->h > 0.0);
+  int gear = gear_of(a->y_new[0], gears), engaged = 0;
   double up, down, limit;
   a->y_new[3] = now;
-  if (!(a->h > 0.0)) { /* a start: the gear that fits the speed, long engaged */
-    for (shift_rates(p, gear, throttle, &up, &down); now > up && gear < gears;)
-      shift_rates(p, ++gear, throttle, &up, &down);
-    a->y_new[0] = a->y_new[1] = gear;
-    a->y_new[2] = LONG_AGO;
+  if (a->nint > 2) {
+    engaged = ali3_selector_accept(a->y_new + STATES, selector_input(a), now, of_selector(a)[ENGAGE_SPEED], start);
+    if (engaged && !start) gear = 1;
+  }
+  if (start || engaged) {
+    fitting_gear(a, gear, now);
     return;
   }
   if (a->y_new[2] < p[DWELL]) return;
@@ -132,9 +174,12 @@ static void accept(ali3_element_args *a) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nint, (void)n_roads;
-  if (integer[0] < 0 || integer[0] >= n_inputs) return "an automatic drive names an input that does not exist";
-  if (integer[1] < 1 || integer[1] != nreal - RATIOS)
+  (void)nsig, (void)n_roads;
+  if (nint != 2 && nint != 3) return "an automatic drive has two integers, three with a selector";
+  const int32_t more = nint > 2 ? OF_SELECTOR : 0;
+  for (int i = 0; i < nint; i += 2)
+    if (integer[i] < 0 || integer[i] >= n_inputs) return "an automatic drive names an input that does not exist";
+  if (integer[1] < 1 || integer[1] != nreal - RATIOS - more)
     return "an automatic drive needs one ratio per gear, at least one";
   for (int i = 0; i < nreal; i++)
     if (real[i] < 0.0) return "the numbers of an automatic drive must not be negative";
@@ -143,16 +188,21 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   if (!(real[COUPLING_RATIO] > 0.0 && real[CREEP_SPEED] > 0.0))
     return "coupling ratio and creep speed of an automatic drive must be positive";
   if (real[DWELL] < real[RAMP]) return "the dwell time of an automatic drive must not be shorter than its ramp";
+  if (more > 0 && !(real[nreal - OF_SELECTOR + REVERSE_RATIO] > 0.0 && real[nreal - OF_SELECTOR + ENGAGE_TIME] > 0.0))
+    return "the ratio of reverse and the engage time of an automatic drive must be positive";
   return 0;
 }
+
+static int32_t states(int32_t nint) { return nint > 2 ? STATES + ALI3_SELECTOR_STATES : STATES; }
 
 const ali3_element_type ali3_automatic_drive = {
     .evaluate = evaluate,
     .accept = accept,
     .nsig = 8,
     .nreal = -1,
-    .nint = 2,
-    .nstate = 4,
+    .nint = -1,
+    .nstate = -1,
+    .states = states,
     .nout = 4,
     .check = check,
 };

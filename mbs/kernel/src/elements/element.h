@@ -56,6 +56,7 @@ typedef struct ali3_element_type {
   const char *start_words;
   /* sizes that the loader checks; -1: any; nstate = -k, k > 1: k for each of the items that the last integer counts */
   int32_t nsig, nreal, nint, nstate, nout;
+  int32_t (*states)(int32_t nint); /* where nstate is -1: how many for so many integers; NULL: any */
   /* NULL or one sentence for bad data */
   const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                        int32_t n_inputs, int32_t n_roads);

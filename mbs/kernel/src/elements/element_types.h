@@ -17,6 +17,7 @@
   X(9, brake) \
   X(10, automatic_drive) \
   X(11, contact_points) \
-  X(12, spin_torque)
+  X(12, spin_torque) \
+  X(13, electric_drive)
 /* clang-format on */
 #endif

@@ -7,8 +7,10 @@
 
 static bool fits(int32_t expected, int32_t n) { return expected == -1 || expected == n; }
 
-/* A negative number of states is that of each item, see element.h. */
-static bool states_fit(const ali3_system *s, int32_t e, int32_t expected, int32_t n) {
+/* The number of states may follow from the integers, see element.h. */
+static bool states_fit(const ali3_system *s, int32_t e, const ali3_element_type *type, int32_t n) {
+  const int32_t expected = type->nstate;
+  if (type->states != NULL) return type->states(s->el_int_ptr[e + 1] - s->el_int_ptr[e]) == n;
   if (expected >= -1) return fits(expected, n);
   const int32_t last = s->el_int_ptr[e + 1] - 1, items = last < s->el_int_ptr[e] ? 0 : s->el_int[last];
   return items > 0 && (int64_t)items * -expected == n;
@@ -51,7 +53,7 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
                   nstate = s->el_state_ptr[e + 1] - s->el_state_ptr[e];
     if (type == NULL) return ali3_bad(m, "element %d has the unknown type %d", (int)e, (int)s->el_type[e]);
     if (nsig > ALI3_MAX_SIGNALS || !fits(type->nsig, nsig) || !fits(type->nreal, nreal) || !fits(type->nint, nint) ||
-        !states_fit(s, e, type->nstate, nstate) || !fits(type->nout, nout))
+        !states_fit(s, e, type, nstate) || !fits(type->nout, nout))
       return ali3_bad(m, "element %d of type %d has %d signals, %d reals, %d integers, %d states, %d outputs", (int)e,
                       (int)s->el_type[e], (int)nsig, (int)nreal, (int)nint, (int)nstate, (int)nout);
     int64_t entries = 0;

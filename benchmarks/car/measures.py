@@ -1,0 +1,221 @@
+"""Measures by which a car is held against its class: ride, wheel hop, roll, understeer, performance, brakes.
+
+Definitions after ISO 8855 and, for the steady turn, ISO 4138 (constant speed, slowly rising steering-wheel angle).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks.car.rig import NEUTRAL, kinematics
+from mbs import Pose, Simulation, System, compile, linearise
+from mbs.elements.road import PlaneRoad
+from mbs.linear_model import LinearModel, Mode
+from mbs.vehicle import Car
+from mbs.vehicle.environment import GRAVITY
+
+TURN_SPEED, TURN_STEERING, TURN_TIME = 22.22, 0.10, 40.0  # m/s, of full steering at the end, s
+TURN_RANGE = (0.05, 0.30)  # g, of the straight line through angles over lateral acceleration
+INTERVAL, STEP = 0.02, 0.01  # s, of the driver and of the steps
+HUNDRED = 100.0 / 3.6  # m/s
+BODY_MODES = 5.0  # Hz: those of the body are slower, those of the wheels faster
+HOP_MODES = 25.0  # Hz: those of the wheels are slower, those of the tyres' carcasses have friction
+ROLL_FREE = 1e-3  # roll in a mode without it
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A number about a car.
+
+    Attributes
+    ----------
+    name, unit : str
+    values : dict of str to float
+        By car.
+    usual : tuple of float or None
+        What cars of the small class have.
+    meaning : str
+        How it is defined.
+    """
+
+    name: str
+    unit: str
+    usual: tuple[float, float] | None
+    meaning: str
+
+
+MEASURES = (
+    Measure("mass", "kg", (950.0, 1500.0), "with the payloads of the file"),
+    Measure("front_load", "%", (50.0, 65.0), "share of the front wheels in the weight"),
+    Measure("bounce_frequency", "Hz", (1.0, 1.5), "slower natural motion of the body without roll, from `linearise`"),
+    Measure("pitch_frequency", "Hz", (1.0, 1.7), "the faster one"),
+    Measure("bounce_damping", "1", (0.2, 0.45), "its damping ratio"),
+    Measure("pitch_damping", "1", (0.2, 0.45), "its damping ratio"),
+    Measure("roll_frequency", "Hz", (1.2, 3.0), "natural motion of the body with roll, on ice"),
+    Measure("hop_frequency_front", "Hz", (10.0, 16.0), "natural motion of the front wheels, both alike"),
+    Measure("hop_frequency_rear", "Hz", (10.0, 16.0), "natural motion of the rear wheels, both alike"),
+    Measure("hop_damping_front", "1", (0.15, 0.5), "its damping ratio"),
+    Measure("hop_damping_rear", "1", (0.15, 0.5), "its damping ratio"),
+    Measure("roll_centre_front", "mm", (20.0, 120.0), "height above the road, suspension drawn"),
+    Measure("roll_centre_rear", "mm", (80.0, 250.0), "height above the road, suspension drawn"),
+    Measure("roll_share_front", "%", (50.0, 75.0), "of the front axle in the suspension roll stiffness"),
+    Measure("roll_gradient", "deg/g", (3.0, 6.0), "roll of the chassis over lateral acceleration, 0.05 to 0.3 g"),
+    Measure(
+        "understeer_gradient", "deg/g", (1.0, 4.0), "steering-wheel angle over the steering ratio, less Ackermann's"
+    ),
+    Measure("sideslip_gradient", "deg/g", None, "at the rear axle's centre, at the same speed"),
+    Measure("turning_circle", "m", (9.5, 11.5), "diameter between kerbs at full lock: outer front wheel's path"),
+    Measure("time_to_100", "s", (8.0, 16.0), "0 to 100 km/h at full throttle"),
+    Measure("top_speed", "km/h", (125.0, 190.0), "after two minutes at full throttle"),
+    Measure("deceleration", "g", (0.7, 1.1), "mean from 100 to 20 km/h at full pedal"),
+    Measure("brake_share_front", "%", (65.0, 85.0), "of the front wheels in the brake torque"),
+    Measure("dive_gradient", "deg/g", (0.5, 3.0), "pitch of the chassis over deceleration in that stop"),
+)
+
+
+def measure(car: Car) -> dict[str, float]:
+    """All `MEASURES` of a car, by name.
+
+    Parameters
+    ----------
+    car : Car
+        Of a file.
+    """
+    system = compile(car.model())
+    return _weight(car, system) | _modes(car) | _axles(car) | steady_turn(car, system) | _straight(car, system)
+
+
+def _neutral(system: System) -> dict[str, float]:
+    return {name: v for name, v in NEUTRAL.items() if name in {p["name"] for p in system.meta["parameters"]}}
+
+
+def _weight(car: Car, system: System) -> dict[str, float]:
+    at_rest = Simulation(system, parameters=_neutral(system)).sensors
+    loads = [at_rest[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR")]
+    return {"mass": sum(loads) / GRAVITY, "front_load": 100.0 * sum(loads[:2]) / sum(loads)}
+
+
+def _modes(car: Car) -> dict[str, float]:
+    """On ice, where the standing tyres do not hold the car sideways."""
+    system = compile(car.model(PlaneRoad(friction=0.0)))
+    model = linearise(Simulation(system, parameters=_neutral(system)), side=1)  # an engine drags forwards only
+    roll = model.coordinates.index("chassis.bz")
+    modes = model.oscillating_modes()
+    level = [m for m in modes if abs(m.shape[roll]) < ROLL_FREE]
+    bounce, pitch = [m for m in level if m.frequency_hz < BODY_MODES]
+    hop = [m for m in level if BODY_MODES < m.frequency_hz < HOP_MODES]
+    front, rear = sorted(hop, key=lambda m: -_front_share(model, m))
+    (rolling,) = [m for m in modes if abs(m.shape[roll]) >= ROLL_FREE and m.frequency_hz < BODY_MODES]
+    found = {"roll_frequency": rolling.frequency_hz}
+    for name, mode in (("bounce", bounce), ("pitch", pitch)):
+        found |= {f"{name}_frequency": mode.frequency_hz, f"{name}_damping": mode.damping_ratio}
+    for name, mode in (("front", front), ("rear", rear)):
+        found |= {f"hop_frequency_{name}": mode.frequency_hz, f"hop_damping_{name}": mode.damping_ratio}
+    return found
+
+
+def _front_share(model: LinearModel, mode: Mode) -> float:
+    """How much of a motion is that of the front axle's parts."""
+    size = {"F": 0.0, "R": 0.0}
+    for name, value in zip(model.coordinates, mode.shape, strict=True):
+        words = name.partition(".")[0].split()
+        if words[-1] in ("FL", "FR", "RL", "RR") and words[0] != "wheel":
+            size[words[-1][0]] += abs(value) ** 2
+    return size["F"] / (size["F"] + size["R"])
+
+
+def _axles(car: Car) -> dict[str, float]:
+    k = kinematics(car)
+    stiffness = k["front.roll_stiffness"], k["rear.roll_stiffness"]
+    # radius of the outer front wheel's contact in a slow turn about a point on the rear axle's line
+    radius = car.wheelbase / math.sin(k["lock_outer"])
+    return {
+        "roll_centre_front": 1e3 * k["front.roll_centre_height"],
+        "roll_centre_rear": 1e3 * k["rear.roll_centre_height"],
+        "roll_share_front": 100.0 * stiffness[0] / sum(stiffness),
+        "steering_ratio": k["steering_ratio"],
+        "turning_circle": 2.0 * radius,
+    }
+
+
+def steady_turn(car: Car, system: System, ratio: float | None = None) -> dict[str, float]:
+    """Gradients of a turn to the left at constant speed.
+
+    Parameters
+    ----------
+    car : Car
+        The file.
+    system : System
+        Of its model.
+    ratio : float, optional
+        Steering ratio at straight ahead; by default from the rig.
+    """
+    ratio = ratio or kinematics(car)["steering_ratio"]
+    pedal = _hold_speed(TURN_SPEED)
+    run = Simulation(system, pose=Pose(speed=TURN_SPEED))
+    rows = []
+    for k in range(round(TURN_TIME / INTERVAL)):
+        run.set_input("throttle", pedal(run.sensors["speed"]))
+        run.set_input("steering", TURN_STEERING * max(0.0, k * INTERVAL / TURN_TIME - 0.1) / 0.9)
+        run.step(STEP, round(INTERVAL / STEP))
+        s = run.sensors
+        if s["speed"] < 0.9 * TURN_SPEED:
+            break
+        ahead = s["chassis.vy"] - s["chassis.wz"] * (car.wheelbase + car.vehicle.reference_point[0])
+        rows.append([s["speed"], s["chassis.wz"], s["steering_wheel_angle"], s["chassis.roll"], ahead])
+    speed, yaw_rate, angle, roll, lateral = np.array(rows).T
+    g = speed * yaw_rate / GRAVITY
+    inside = (g > TURN_RANGE[0]) & (g < TURN_RANGE[1])
+    ackermann = car.wheelbase * yaw_rate / speed
+    curves = {"roll_gradient": roll, "understeer_gradient": angle / ratio - ackermann}
+    curves["sideslip_gradient"] = np.arctan2(lateral, speed)
+    return {name: math.degrees(np.polyfit(g[inside], curve[inside], 1)[0]) for name, curve in curves.items()}
+
+
+def _hold_speed(target: float) -> Callable[[float], float]:
+    integral = 0.0
+
+    def pedal(speed: float) -> float:
+        nonlocal integral
+        error = target - speed
+        integral += INTERVAL * error
+        return min(max(0.3 * error + 0.1 * integral, 0.0), 1.0)
+
+    return pedal
+
+
+def _straight(car: Car, system: System) -> dict[str, float]:
+    """Full throttle from rest, then a full stop from 100 km/h."""
+    run = Simulation(system)
+    run.set_input("throttle", 1.0)
+    to_hundred = math.inf
+    for k in range(round(120.0 / INTERVAL)):
+        before = run.sensors["speed"]
+        run.step(STEP, round(INTERVAL / STEP))
+        now = run.sensors["speed"]
+        if before < HUNDRED <= now:
+            to_hundred = INTERVAL * (k + (HUNDRED - before) / (now - before))
+    top = now
+    stop = Simulation(system, parameters=_neutral(system), pose=Pose(speed=HUNDRED))
+    stop.set_input("brake", 1.0)
+    level, times, pitches, torques = stop.sensors["chassis.pitch"], [], [], []
+    while stop.sensors["speed"] > 0.2 * HUNDRED:
+        stop.step(STEP, round(INTERVAL / STEP))
+        s = stop.sensors
+        times.append(s["speed"])
+        pitches.append(s["chassis.pitch"])
+        torques.append([abs(s[f"wheel_{w}.brake_torque"]) for w in ("FL", "FR", "RL", "RR")])
+    deceleration = (HUNDRED - times[-1]) / (INTERVAL * len(times)) / GRAVITY
+    half = len(times) // 2
+    front, whole = np.array(torques)[half:, :2].sum(), np.array(torques)[half:].sum()
+    return {
+        "time_to_100": to_hundred,
+        "top_speed": 3.6 * top,
+        "deceleration": deceleration,
+        "brake_share_front": 100.0 * front / whole,
+        "dive_gradient": math.degrees(float(np.mean(pitches[half:])) - level) / deceleration,
+    }

@@ -1,0 +1,130 @@
+"""A car whose chassis is moved by guides while its wheels stand on ice: kinematics, rates and stiffnesses of its axles.
+
+The chassis heaves, rolls about the x axis of the drawing, or stands while the steering goes from lock to lock; slowly,
+so that inertia counts for nothing. All numbers are slopes at the place of the drawing, taken where it moves one way:
+what the dampers add there is the same on both sides of the drawing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs import Trajectory, compile, simulate
+from mbs.affine import Affine, AffineVector
+from mbs.elements.road import PlaneRoad
+from mbs.model import Model
+from mbs.vehicle import Car
+
+DURATION, STEP = 4.0, 0.002  # s
+HEAVE, ROLL = 0.04, np.radians(3.0)  # amplitudes, m and rad
+NEAR = {"travel": 0.01, "roll": np.radians(1.0), "angle": 0.5}  # ranges of the fits: m, rad, rad
+WHEELS = {"front": ("FL", "FR"), "rear": ("RL", "RR")}
+NEUTRAL = {"drive.creep_torque": 0.0}
+
+
+def kinematics(car: Car) -> dict[str, float]:
+    """What the axles do, by name as ``front.roll_centre_height``.
+
+    Parameters
+    ----------
+    car : Car
+        Its drawing is taken for its equilibrium.
+
+    Returns
+    -------
+    dict of str to float
+        Per axle, in the words of ISO 8855: ``wheel_rate`` (wheel load per travel, N/m), ``spring_ratio`` (spring travel
+        per wheel travel), ``bump_steer`` (left wheel, toe-out positive, rad/m), ``bump_camber`` (left wheel, top
+        outwards positive, rad/m); and per suspension roll angle, which is that of the chassis less what the tyres give,
+        ``roll_centre_height`` (m), ``roll_steer`` (mean steering angle to the left as the left side comes up),
+        ``roll_camber`` (inclination of the left wheel against the axle), ``roll_stiffness`` (N m/rad). Of the steering:
+        ``steering_ratio`` at straight ahead, and ``lock_inner``, ``lock_outer`` (rad).
+    """
+    heave, roll, steer = (moved(car, **{kind: True}) for kind in ("heave", "roll", "steer"))
+    found: dict[str, float] = {}
+    for axle, (left, right) in WHEELS.items():
+        z = heave[f"wheel_{left}.travel"]
+        track = getattr(car, axle).track
+        for name, values in (
+            ("wheel_rate", heave[f"wheel_{left}.Fz"]),
+            ("spring_ratio", -heave[f"spring_{left}.length"]),
+            ("bump_steer", heave[f"wheel_{left}.steer"]),
+            ("bump_camber", -heave[f"wheel_{left}.inclination"]),
+        ):
+            found[f"{axle}.{name}"] = slope(z, values, NEAR["travel"])
+        phi = (roll[f"wheel_{right}.travel"] - roll[f"wheel_{left}.travel"]) / track
+        tilt = roll["chassis.roll"] - phi  # of the axle on its tyres
+        shift = 0.5 * (contact_y(roll, left) + contact_y(roll, right))
+        moment = 0.5 * track * (roll[f"wheel_{right}.Fz"] - roll[f"wheel_{left}.Fz"])
+        for name, values in (
+            ("roll_centre_height", -shift),
+            ("roll_steer", 0.5 * (roll[f"wheel_{left}.steer"] + roll[f"wheel_{right}.steer"])),
+            ("roll_camber", roll[f"wheel_{left}.inclination"] - tilt),
+            ("roll_stiffness", moment),
+        ):
+            found[f"{axle}.{name}"] = slope(phi, values, NEAR["roll"])
+    angle = steer["steering_wheel_angle"]
+    mean = 0.5 * (steer["wheel_FL.steer"] + steer["wheel_FR.steer"])
+    found["steering_ratio"] = 1.0 / slope(angle, mean, NEAR["angle"])
+    found["lock_inner"], found["lock_outer"] = steer["wheel_FL.steer"][-1], steer["wheel_FR.steer"][-1]
+    return found
+
+
+def moved(car: Car, *, heave: bool = False, roll: bool = False, steer: bool = False) -> Trajectory:
+    """One slow period of a motion; the sensors are those of the car and the contacts' ``rig_FL.y`` and so on."""
+    m = car.model(PlaneRoad(friction=0.0))
+    m.start_in_equilibrium = False
+    m.equilibrium_parameters = {}
+    _hold(m, car, HEAVE if heave else 0.0, float(np.sin(ROLL)) if roll else 0.0)
+    _contacts(m)
+    system = compile(m)
+    parameters = {name: v for name, v in NEUTRAL.items() if name in {p["name"] for p in system.meta["parameters"]}}
+    times = [0.0, 0.05 * DURATION, 0.95 * DURATION, DURATION]
+    inputs = {"steering": (times, [0.0, -1.0, 1.0, 1.0])} if steer else None
+    return simulate(system, DURATION, STEP, inputs, None, parameters, progress=False, estimate_error=False)
+
+
+def slope(x: NDArray[np.float64], y: NDArray[np.float64], near: float) -> float:
+    """Slope of a cubic through what lies near zero in the middle half of a motion."""
+    inside = np.abs(x) < near
+    inside[: len(x) // 4] = inside[-(len(x) // 4) :] = False
+    return float(np.polyfit(x[inside], y[inside], 3)[-2])
+
+
+def contact_y(run: Trajectory, wheel: str) -> NDArray[np.float64]:
+    """Lateral place of a wheel's contact point, m."""
+    y, z, a_y, a_z = (run[f"rig_{wheel}.{name}"] for name in ("y", "z", "ay", "az"))
+    return np.asarray(y + z * a_z * a_y / (1.0 - a_z**2))
+
+
+def _hold(m: Model, car: Car, heave: float, roll: float) -> None:
+    """Guides of all six freedoms of the chassis."""
+    chassis = next(body for body in m.bodies if body.name == "chassis")
+    t = np.linspace(0.0, DURATION, 81)
+    wave = np.sin(2.0 * np.pi * np.clip((t / DURATION - 0.05) / 0.9, 0.0, 1.0))
+    still, up, over = (
+        m.guide_time(f"rig {name}", (t, size * wave), unit="m")
+        for name, size in (("still", 0.0), ("heave", heave), ("roll", roll))
+    )
+    base = np.array([car.vehicle.reference_point[0], 0.0, 0.0])
+    at, ahead, beside = (chassis.point(base + e) for e in ((0, 0, 0), (1, 0, 0), (0, 1, 0)))
+    for name, value, start, guide in (
+        ("x", at[0], base[0], still),
+        ("y", at[1], 0.0, still),
+        ("z", at[2], 0.0, up),
+        ("yaw", ahead[1] - at[1], 0.0, still),
+        ("pitch", ahead[2] - at[2], 0.0, still),
+        ("roll", beside[2] - at[2], 0.0, over),
+    ):
+        m.drive(f"rig {name}", value + Affine({}, -start), guide)
+
+
+def _contacts(m: Model) -> None:
+    """Sensors of the wheels' centres and axes."""
+    axes = {c: AffineVector.constant(e) for c, e in zip("xyz", np.eye(3), strict=True)}
+    for spin in m.spins:
+        wheel = spin.name.removeprefix("wheel ")
+        for c in "yz":
+            m.sense_component(f"rig_{wheel}.{c}", spin.centre, axes[c])
+            m.sense_component(f"rig_{wheel}.a{c}", spin.axis, axes[c])

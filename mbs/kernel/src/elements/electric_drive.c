@@ -1,0 +1,138 @@
+/* Electric motor with a fixed ratio and an open differential: equal torques on two wheels, reaction on the frame that
+ * carries the motor.
+ * Signals: chi of the left and right wheel (absolute rates about the axis f x g), f (3), g (3) orthonormal on the
+ * frame.
+ * Reals: see the enum. Integers: throttle input (0..1), and a selector input (-1, 0, 1) or none. States: none, with a
+ * selector those of selector.h. Outputs: motor speed rad/s and torque N m, torque per wheel N m, electric power W
+ * (negative: into the battery), direction engaged.
+ *
+ * In the direction engaged the torque is the throttle's part of min(max torque, max power / speed), which fades beyond
+ * the limit speed, less the other part of the regeneration torque, which follows the sign of the speed and fades to
+ * zero around standstill. What gears and motor lose is taken in both directions of the power. The inertia of the rotor
+ * is not here: it belongs to the spins. */
+#include "../algebra/small_vectors.h"
+#include "element.h"
+#include "selector.h"
+
+enum {
+  MAX_TORQUE, /* of the motor */
+  MAX_POWER,
+  RATIO,
+  LIMIT_SPEED, /* of the motor, forwards */
+  EFFICIENCY, /* between battery and shaft */
+  GEAR_EFFICIENCY, /* between shaft and wheels */
+  REGENERATION_TORQUE,
+  REGENERATION_POWER,
+  REGENERATION_SPEED, /* of the motor, below which regeneration fades */
+  REVERSE_TORQUE, /* factor on the largest torque */
+  REVERSE_SPEED, /* limit speed of the motor in reverse */
+  ENGAGE_SPEED, /* of the wheels */
+  ENGAGE_TIME,
+  REALS
+};
+#define LIMITER_WIDTH 0.05 /* of the limit speed */
+#define GEAR_FADE 5.0 /* rad/s of the motor, below which the loss of the gears, a friction, fades */
+
+typedef struct {
+  double value, slope; /* torque, and its derivative by the speed */
+} torque;
+
+/* min(largest, power / |speed|) */
+static torque envelope(double largest, double power, double speed) {
+  const double w = fabs(speed);
+  if (!(largest * w > power)) return (torque){largest, 0.0};
+  return (torque){power / w, -power / w / speed};
+}
+
+/* Torque of the motor over its speed, both positive in the direction engaged. */
+static torque motor(const double *p, double throttle, double speed, int reverse) {
+  const double limit = reverse ? p[REVERSE_SPEED] : p[LIMIT_SPEED], width = LIMITER_WIDTH * limit;
+  torque full = envelope(p[MAX_TORQUE] * (reverse ? p[REVERSE_TORQUE] : 1.0), p[MAX_POWER], speed);
+  const double over = (speed - limit) / width;
+  if (over >= 1.0) {
+    full = (torque){0.0, 0.0};
+  } else if (over > 0.0) {
+    full = (torque){full.value * (1.0 - over), full.slope * (1.0 - over) - full.value / width};
+  }
+  const torque taken = envelope(p[REGENERATION_TORQUE], p[REGENERATION_POWER], speed);
+  const double x = ali3_clamp(speed / p[REGENERATION_SPEED], -1.0, 1.0), fade = 0.5 * x * (3.0 - x * x);
+  const double steep = 1.5 * (1.0 - x * x) / p[REGENERATION_SPEED], closed = 1.0 - throttle;
+  return (torque){throttle * full.value - closed * taken.value * fade,
+                  throttle * full.slope - closed * (taken.slope * fade + taken.value * steep)};
+}
+
+/* Torque behind the gears per ratio: they take power in both directions. */
+static torque geared(double efficiency, torque m, double speed) {
+  const int drives = m.value > 0.0 ? speed >= 0.0 : speed <= 0.0;
+  const double x = ali3_clamp(fabs(speed) / GEAR_FADE, 0.0, 1.0), sign = speed < 0.0 ? -1.0 : 1.0;
+  const double change = drives ? efficiency - 1.0 : 1.0 / efficiency - 1.0;
+  const double factor = 1.0 + change * x * x * (3.0 - 2.0 * x);
+  return (torque){m.value * factor, m.slope * factor + m.value * change * sign * 6.0 * x * (1.0 - x) / GEAR_FADE};
+}
+
+static double wheel_rate(const ali3_element_args *a) {
+  return 0.5 * (a->ud[0] + a->ud[1]) - 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
+}
+
+static double selector_of(const ali3_element_args *a) { return a->input[a->integer[1]]; }
+
+static void evaluate(ali3_element_args *a) {
+  const double *p = a->real;
+  double share = 1.0;
+  const int direction =
+      a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_of(a), a->h / p[ENGAGE_TIME], &share) : 1;
+  const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[0]], 0.0, 1.0);
+  torque m = {0.0, 0.0};
+  if (direction != 0) {
+    m = motor(p, throttle, direction * speed, direction < 0);
+    m = (torque){direction * share * m.value, share * m.slope};
+  }
+  const torque wheels = geared(p[GEAR_EFFICIENCY], m, speed);
+  const double total = p[RATIO] * wheels.value, slope = p[RATIO] * p[RATIO] * wheels.slope;
+  const double power = m.value * speed;
+  double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
+  for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
+  for (int i = 0; i < 8; i++) a->f[i] = total * b[i];
+  if (a->S && slope < 0.0) ali3_add_outer(a->S, 8, -a->wC * slope, b); /* turning of f, g within the step is left out */
+  a->potential = 0.0;
+  a->out[0] = speed;
+  a->out[1] = m.value;
+  a->out[2] = 0.5 * total;
+  a->out[3] = power > 0.0 ? power / p[EFFICIENCY] : power * p[EFFICIENCY];
+  a->out[4] = direction;
+}
+
+static void accept(ali3_element_args *a) {
+  if (a->nint > 1) ali3_selector_accept(a->y_new, selector_of(a), wheel_rate(a), a->real[ENGAGE_SPEED], !(a->h > 0.0));
+}
+
+static int32_t states(int32_t nint) { return nint > 1 ? ALI3_SELECTOR_STATES : 0; }
+
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
+  (void)nsig, (void)nreal, (void)n_roads;
+  if (nint != 1 && nint != 2) return "an electric drive has one input, two with a selector";
+  for (int i = 0; i < nint; i++)
+    if (integer[i] < 0 || integer[i] >= n_inputs) return "an electric drive names an input that does not exist";
+  for (int i = 0; i < REALS; i++)
+    if (real[i] < 0.0) return "the numbers of an electric drive must not be negative";
+  if (!(real[LIMIT_SPEED] > 0.0 && real[REVERSE_SPEED] > 0.0 && real[REGENERATION_SPEED] > 0.0))
+    return "the speeds of an electric drive must be positive";
+  if (!(real[RATIO] > 0.0 && real[ENGAGE_TIME] > 0.0))
+    return "ratio and engage time of an electric drive must be positive";
+  for (int i = EFFICIENCY; i <= GEAR_EFFICIENCY; i++)
+    if (!(real[i] > 0.0 && real[i] <= 1.0)) return "the efficiencies of an electric drive must be above 0, at most 1";
+  return 0;
+}
+
+const ali3_element_type ali3_electric_drive = {
+    .evaluate = evaluate,
+    .accept = accept,
+    .nsig = 8,
+    .nreal = REALS,
+    .nint = -1,
+    .nstate = -1,
+    .states = states,
+    .nout = 5,
+    .check = check,
+};

@@ -1,0 +1,69 @@
+"""A lever on a carrier and a rod from its end to another body, both without mass: one angle and one row."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import Affine
+from mbs.checks import direction, vector
+from mbs.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.body import Body
+from mbs.model.core import Coordinate
+from mbs.model.ends import different
+from mbs.model.equation import AnglePart, Equation, dot_products
+from mbs.model.joints.joint import Joint
+
+DEAD_POINT = 0.1
+"""Smallest sine between lever and rod as drawn, and smallest part of the lever that is square to its axis."""
+
+
+def drop_link(
+    model: BodyVocabulary,
+    name: str,
+    carrier: Body,
+    body: Body,
+    pivot: ArrayLike,
+    axis: ArrayLike,
+    lever_end: ArrayLike,
+    link_end: ArrayLike,
+) -> tuple[Coordinate, Joint]:
+    """``(|g|^2 + r^2 - L^2)/2 - g . (cos(theta) u + sin(theta) w) = 0`` with theta = 0 as drawn.
+
+    The lever u of length r is square to its axis a, ``w = a x u``; both are vectors of the carrier. The vector g goes
+    from the axis to the end of the rod on the body.
+    """
+    what = f"drop link '{name}'"
+    different(carrier, body, what)
+    for each in (carrier, body):
+        if model.owned(each, f"The {what}").is_point:
+            raise ModelError(f"The {what} needs bodies with axes; '{each.name}' is a point mass.")
+    if model.dimension != 3:
+        raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
+    a = direction(axis, 3, f"the axis of {what}")
+    c, e, p = (
+        vector(point, 3, f"the {label} of {what}")
+        for point, label in ((pivot, "pivot"), (lever_end, "end of the lever"), (link_end, "end of the rod"))
+    )
+    along = float(np.dot(e - c, a))
+    u = e - c - along * a
+    lever, rod = float(np.linalg.norm(u)), float(np.linalg.norm(p - e))
+    if lever <= DEAD_POINT * float(np.linalg.norm(e - c)) or rod <= 0.0:
+        raise ModelError(f"The lever of {what} lies along its axis, or its rod has no length; nothing could turn.")
+    w = np.cross(a, u)
+    if abs(float(np.dot(p - e, w))) < DEAD_POINT * lever * rod:
+        raise ModelError(f"The {what} is drawn at a dead point: its rod goes along the lever or across its plane.")
+    # from the point of the axis that is level with the end of the lever
+    centre = c + along * a
+    gap = model.anchor(body, p, what) - model.anchor(carrier, centre, what)
+    model.anchor_axis(carrier, a, what)
+    theta = model.new_coordinate(name, "angle", 0.0)
+    row = Equation(
+        name,
+        "distance",
+        dot_products(gap, gap, 0.5),
+        Affine({}, 0.5 * (lever * lever - rod * rod)),
+        angle=AnglePart(theta, dot_products(gap, carrier.vector(w)), dot_products(gap, carrier.vector(-u))),
+    )
+    return Coordinate(name, theta, "rad"), Joint(name, "drop_link", [row], rows_weight=rod)

@@ -1,0 +1,62 @@
+"""Anti-roll bar of an axle: a torsion spring between two levers on the chassis, drop links to the suspension.
+
+Levers and links have no mass of their own; that of the bar is in the chassis, that of the links in what they hang on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.corner import Corner
+from mbs.vehicle.quantities import Point, TorsionalStiffness
+from mbs.vehicle.section import Section
+
+
+class AntiRollBarPoints(Section):
+    """Points of the left half."""
+
+    pivot: Point
+    """Bush of the bar on the chassis; the bar turns there about a lateral axis."""
+    lever_end: Point
+    """End of the lever, where the drop link begins."""
+    link_end: Point
+    """End of the drop link on the suspension."""
+
+
+class AntiRollBar(Section):
+    """Anti-roll bar with its links."""
+
+    stiffness: TorsionalStiffness
+    """Torque of the bar per angle between both levers."""
+    part: str
+    """Part of the suspension that the drop link ends on, as the suspension's bodies are called."""
+    points: AntiRollBarPoints
+    """Points of bar and link."""
+
+    def build(self, b: CarBuilder, axle: str, corners: Sequence[Corner]) -> None:
+        """Add the bar with its links.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        axle : str
+            "front" or "rear".
+        corners : sequence of Corner
+            Left and right side of the axle.
+        """
+        levers = []
+        for corner in corners:
+            p = {name: corner.side.point(point) for name, point in self.points}
+            levers.append(
+                b.m.drop_link(
+                    f"anti-roll link {corner.side.wheel}",
+                    b.chassis.body,
+                    corner.parts[self.part],
+                    axis=(0.0, 1.0, 0.0),
+                    **p,
+                )
+            )
+        bar = b.m.anti_roll_bar(f"anti-roll bar {axle}", *levers, stiffness=self.stiffness)
+        b.tie(self, "stiffness", bar, "stiffness")

@@ -1,0 +1,101 @@
+"""Twist beam: two trailing arms, joined by a cross-beam that is stiff in bending and soft in torsion.
+
+Each half is a rigid body. They turn on each other about the shear-centre axis of the cross-beam, against its torsional
+stiffness: so W. Matschinsky ("Road Vehicle Suspensions", Wiley) and J. Reimpell, H. Stoll, J. W. Betzler
+("The Automotive Chassis", Butterworth-Heinemann) find the kinematics of such an axle. In bump both arms turn about the
+line of their pivots; in roll each turns about the line from its pivot through the middle of the shear-centre axis.
+
+The bushes hold the pivots along x and z of the chassis. Sideways they are soft and alike and share the side force:
+there the mean of both pivots is held, which leaves the two freedoms of bump and roll and is the same mirrored. Held one
+by one the pivots could not come nearer to each other, as they must when the beam is twisted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.part import Part
+from mbs.vehicle.quantities import Point, TorsionalStiffness
+from mbs.vehicle.section import Section
+from mbs.vehicle.side import sides
+from mbs.vehicle.springs import AxleSprings, spring_beside_damper
+
+LATERAL = (0.0, 1.0, 0.0)
+
+
+class TwistBeamPoints(Section):
+    """Hard points of the left side."""
+
+    pivot: Point
+    """Bush of the trailing arm on the chassis."""
+    cross_beam: Point
+    """End of the cross-beam at the trailing arm, on its shear-centre axis, which is lateral."""
+    spring_lower: Point
+    """Lower end of the spring on the axle."""
+    spring_upper: Point
+    """Upper end of the spring on the chassis."""
+    damper_lower: Point
+    """Lower end of the damper on the axle."""
+    damper_upper: Point
+    """Upper end of the damper on the chassis."""
+
+
+class TwistBeamBodies(Section):
+    """Parts of the left side."""
+
+    half: Part
+    """Left half of the axle with half the cross-beam, hub and brake, without wheel."""
+
+
+class TwistBeam(Section):
+    """Suspension by a twist beam; it cannot steer."""
+
+    kind: Literal["twist_beam"]
+    """Names this template."""
+    torsional_stiffness: TorsionalStiffness
+    """Torque of the cross-beam per angle between both trailing arms."""
+    points: TwistBeamPoints
+    """Hard points."""
+    bodies: TwistBeamBodies
+    """Masses and inertias."""
+
+    def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
+        """Add the left half, then the right one, then what joins them.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        axle : str
+            "front" or "rear".
+        springs : AxleSprings
+            Springs, dampers and stops of the axle.
+        tie_rod : TieRodEnd
+            Of no use here.
+        """
+        m, chassis = b.m, b.chassis.body
+        pivots = []
+        for side in sides(axle):
+            w = side.wheel
+            p = {name: side.point(point) for name, point in self.points}
+            half = side.body(m, "half axle", self.bodies.half)
+            m.point_on_line(f"pivot {w}", (half, p["pivot"]), (chassis, p["pivot"]), axis=LATERAL)
+            pivots.append((half, p["pivot"]))
+            spring_beside_damper(
+                b,
+                w,
+                ((half, p["spring_lower"]), (chassis, p["spring_upper"])),
+                ((half, p["damper_lower"]), (chassis, p["damper_upper"])),
+                springs,
+            )
+            yield Corner(side, half, {"half": half})
+        (left, _), (right, _) = pivots
+        x, _, z = self.points.cross_beam
+        m.mean_on_plane(f"pivots {axle}", pivots, chassis, normal=LATERAL)
+        m.revolute(f"cross-beam {axle}", left, right, point=(x, 0.0, z), axis=LATERAL)
+        twist = m.relative_angle(f"twist {axle}", left, right, axis=LATERAL)
+        beam = m.torsional_spring_damper(f"cross-beam {axle}", twist, stiffness=self.torsional_stiffness)
+        b.tie(self, "torsional_stiffness", beam, "stiffness")

@@ -1,0 +1,180 @@
+"""Levers with a link, the bars they carry, and means held on a plane, against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs import Model, ModelError, compile
+
+B, LEVER, ROD, K, INERTIA = 0.5, 0.25, 0.3, 120.0, 8.0  # half track m, m, m, N m/rad, kg m2
+Y = (0.0, 1.0, 0.0)
+
+
+def lifted(axis=Y, side=0.0):
+    """A lever of 0.25 m on the ground and a rod down to a body that a guide lifts by 0.1 m."""
+    m = Model("lever", gravity=(0, 0, 0))
+    body = m.body("body", mass=2.0, com=(LEVER, side, -ROD), inertia=(0.1, 0.1, 0.1))
+    m.prismatic("column", body, m.ground, axis=(0, 0, 1))
+    m.drive("lift", body.point(body.com)[2] + ROD, m.guide_time("way", ([0, 1, 2], [0, 0.1, 0]), unit="m"))
+    angle = m.drop_link(
+        "link", m.ground, body, pivot=(0, 0, 0), axis=axis, lever_end=(LEVER, side, 0), link_end=(LEVER, side, -ROD)
+    )
+    m.torsional_spring_damper("bar", angle, stiffness=K)
+    m.sense_coordinate("angle", angle)
+    m.sense_position("z", body, body.com, "z")
+    m.sense_joint_force("tension", "link", "tension")
+    return m
+
+
+def exact_angle(z):
+    """Angle of the lever about y (positive: its end goes down) with the rod's lower end at (LEVER, z)."""
+    d = np.hypot(LEVER, z)
+    turned = np.arccos((LEVER**2 + d**2 - ROD**2) / (2.0 * LEVER * d))  # between the lever and the line to the end
+    return -(np.arctan2(z, LEVER) + turned)
+
+
+def test_the_lever_follows_the_law_of_cosines_and_its_rod_carries_the_torque():
+    run = mbs.simulate(compile(lifted()), 2.0, 0.01, progress=False)
+    theta = exact_angle(run["z"])
+    np.testing.assert_allclose(run["angle"], theta, atol=1e-9)
+    assert np.ptp(theta) > 0.3
+    end = LEVER * np.array([np.cos(theta), -np.sin(theta)])
+    rod = (np.array([np.full_like(theta, LEVER), run["z"]]) - end) / ROD
+    arm = end[0] * rod[1] - end[1] * rod[0]  # of the tension about the pivot, against y
+    np.testing.assert_allclose(run["tension"] * -arm, K * theta, atol=1e-3 * K * 0.3)
+
+
+def test_an_end_of_the_lever_beside_the_pivot_turns_in_its_own_plane():
+    """The place of the pivot along the axis is of no account."""
+    near, beside = (mbs.simulate(compile(lifted(side=y)), 2.0, 0.01, progress=False) for y in (0.0, 0.2))
+    np.testing.assert_allclose(near["angle"], beside["angle"], atol=1e-12)
+
+
+def rolling(linked):
+    """A body that rolls about x, drop links to the ground: levers without mass, or bodies of a gram."""
+    m = Model("roll", gravity=(0, 0, 0))
+    body = m.body("body", mass=10.0, com=(0, 0, 0), inertia=(INERTIA, 9.0, 9.0))
+    m.revolute("roll axis", m.ground, body, point=(0, 0, 0), axis=(1, 0, 0))
+    angles = []
+    for name, y in (("left", B), ("right", -B)):
+        places = {"lever_end": (LEVER, y, 0), "link_end": (LEVER, y, -ROD)}
+        if linked:
+            angles.append(m.drop_link(f"{name} link", body, m.ground, pivot=(0, y, 0), axis=Y, **places))
+            continue
+        arm = m.body(f"{name} arm", mass=1e-3, com=(0.1, y, 0), inertia=(1e-6, 1e-5, 1e-5))
+        m.revolute(f"{name} bush", body, arm, point=(0, y, 0), axis=Y)
+        m.distance(f"{name} link", (arm, places["lever_end"]), (m.ground, places["link_end"]))
+        angles.append(m.relative_angle(f"{name} angle", body, arm, axis=Y))
+    m.anti_roll_bar("bar", *angles, stiffness=K)
+    m.sense_roll("roll", body)
+    m.sense_element("torque", "bar", "force")
+    m.initial_velocity(body, angular=(1.0, 0, 0))
+    return m
+
+
+def test_a_bar_with_links_gives_the_roll_stiffness_of_its_levers():
+    modes = mbs.linearise(mbs.Simulation(compile(rolling_at_rest()))).modes
+    expected = np.sqrt(K * (2.0 * B / LEVER) ** 2 / INERTIA) / (2.0 * np.pi)
+    assert max(mode.frequency_hz for mode in modes) == pytest.approx(expected, rel=1e-6)
+
+
+def rolling_at_rest():
+    m = rolling(True)
+    m.body_velocities.clear()
+    return m
+
+
+def test_levers_without_mass_move_as_light_ones_do():
+    without, light = (mbs.simulate(compile(rolling(linked)), 0.5, 0.001, progress=False) for linked in (True, False))
+    assert np.ptp(without["roll"]) > 0.1
+    np.testing.assert_allclose(without["roll"], light["roll"], atol=2e-4)
+    np.testing.assert_allclose(without["torque"], light["torque"], atol=0.1)
+    report = compile(rolling(True)).report
+    assert report["degrees_of_freedom"] == 1
+
+
+def halves(method="mean"):
+    """Two arms on a line of pivots, hinged to each other off that line, as those of a twist beam."""
+    m = Model("beam", gravity=(0, 0, 0))
+    arms = []
+    for name, y in (("left", 0.5), ("right", -0.5)):
+        arm = m.body(name, mass=5.0, com=(-0.4, 0.9 * y, 0.0), inertia=(0.1, 0.1, 0.1))
+        m.point_on_line(f"{name} pivot", (arm, (0, y, 0)), (m.ground, (0, y, 0)), axis=Y)
+        m.sense_position(f"{name}.y", arm, (0, y, 0), "y")
+        m.sense_position(f"{name}.z", arm, (-0.5, y, 0), "z")
+        arms.append(arm)
+    if method == "mean":
+        m.mean_on_plane("centred", [(arms[0], (0, 0.5, 0)), (arms[1], (0, -0.5, 0))], m.ground, normal=Y)
+    else:
+        m.mean_on_plane("centred", [(arms[0], (0, 0.5, 0))], m.ground, normal=Y)
+    m.revolute("shear axis", *arms, point=(-0.2, 0, 0), axis=Y)
+    return m, arms
+
+
+def test_a_mean_on_a_plane_leaves_two_freedoms_and_keeps_mirrored_motions_mirrored():
+    ways = []
+    for one, other in ((0, 1), (1, 0)):
+        m, arms = halves()
+        m.initial_velocity(arms[one], angular=(0.0, 2.0, 0.0))
+        m.initial_velocity(arms[other], angular=(0.0, -0.5, 0.0))
+        system = compile(m)
+        assert system.report["degrees_of_freedom"] == 2
+        ways.append(mbs.simulate(system, 0.2, 0.002, progress=False))
+    first, mirrored = ways
+    assert abs(first["left.z"][-1] - first["right.z"][-1]) > 0.1
+    assert np.abs(first["left.y"] - 0.5).max() > 1e-4  # the pivots do come nearer to each other
+    np.testing.assert_allclose(first["left.y"] + first["right.y"], 0.0, atol=1e-12)
+    for a, b in (("left", "right"), ("right", "left")):
+        np.testing.assert_allclose(first[f"{a}.z"], mirrored[f"{b}.z"], atol=1e-9)
+        np.testing.assert_allclose(first[f"{a}.y"], -mirrored[f"{b}.y"], atol=1e-9)
+
+
+def test_one_point_stays_on_its_plane():
+    m, arms = halves("one")
+    m.initial_velocity(arms[0], angular=(0.0, 2.0, 0.0))
+    m.initial_velocity(arms[1], angular=(0.0, -0.5, 0.0))
+    system = compile(m)
+    assert system.report["degrees_of_freedom"] == 2
+    run = mbs.simulate(system, 0.2, 0.002, progress=False)
+    np.testing.assert_allclose(run["left.y"], 0.5, atol=1e-12)
+    assert np.abs(run["right.y"] + 0.5).max() > 1e-4
+
+
+def link_of(m, body, **changes):
+    places = {"pivot": (0, 0, 0), "axis": Y, "lever_end": (0.2, 0, 0), "link_end": (0.2, 0, -0.3)} | changes
+    return m.drop_link("link", m.ground, body, **places)
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda m, a: link_of(m, a, lever_end=(0, 0.2, 0)), "lever of drop link 'link' lies along its axis"),
+        (lambda m, a: link_of(m, a, link_end=(0.2, 0, 0)), "rod has no length"),
+        (lambda m, a: link_of(m, a, link_end=(0.4, 0, 0)), "drawn at a dead point"),
+        (lambda m, a: link_of(m, a, link_end=(0.2, 0.3, 0)), "drawn at a dead point"),
+        (lambda m, a: link_of(m, a, axis=(0, 0, 0)), "axis of drop link 'link'"),
+        (lambda m, a: link_of(m, m.ground), "with itself"),
+        (lambda m, a: link_of(m, m.point_mass("p", mass=1.0, position=(1, 0, 0))), "'p' is a point mass"),
+        (lambda m, a: m.mean_on_plane("p", [], m.ground, normal=Y), "needs a list of"),
+        (lambda m, a: m.mean_on_plane("p", a, m.ground, normal=Y), "needs a list of"),
+        (lambda m, a: m.mean_on_plane("p", [(a, (0, 0, 0))], a, normal=Y), "with itself"),
+        (lambda m, a: m.mean_on_plane("p", [(a, (0, 0, 0))], m.ground, normal=(0, 0, 0)), "axis of mean on plane 'p'"),
+        (lambda m, a: m.mean_on_plane("p", [(a, (0, 0))], m.ground, normal=Y), "mean on plane 'p'"),
+    ],
+)
+def test_nonsense_is_refused_with_a_sentence(make, sentence):
+    m = Model("nonsense")
+    a = m.body("a", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    before = len(m.joints), len(m.coordinates)
+    with pytest.raises(ModelError, match=sentence):
+        make(m, a)
+    assert len(m.joints) == before[0]
+
+
+def test_a_planar_model_has_no_drop_link():
+    m = Model("flat", dimension=2)
+    a = m.body("a", mass=1.0, com=(0, 0), inertia=1.0)
+    with pytest.raises(ModelError, match="needs a spatial model"):
+        m.drop_link("link", m.ground, a, pivot=(0, 0), axis=(0, 1), lever_end=(1, 0), link_end=(1, 1))
