@@ -152,7 +152,7 @@ class StrainGauge:
         return sp.csr_array(self.half_bridge(frame) * 0.5)
 
     def quarter_bridge(self, frame: Frame) -> sp.csr_array:
-        """Normal stress of the fibre, by pull and by bending about both axes: Young's modulus times what one gauge reads.
+        """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads.
 
         Parameters
         ----------

@@ -133,13 +133,15 @@ class Car(Section):
         frame = self._frame()
         structure = frame.structure(self._folder)
         check_mass(structure.model, self.chassis)
-        points: dict[Coordinates, str] = {}
+        points: dict[Coordinates, str] = {
+            point: self.chassis.key(f"accelerometers.{name}") for name, point in self.chassis.accelerometers.items()
+        }
         for axle in (self.front, self.rear):
             points |= {tuple(point): axle.suspension.points.key(name) for name, point in axle.suspension.points}
         b = self._builder(None)
         b.chassis = build_chassis(b.m, self.chassis, None, Fidelity.RIGID)
         driven = ("front", "rear").index(self.drive.wheels)
-        joints = JointFinder(frame, structure, attachments(b), points).joints(self.chassis.reference, driven)
+        joints = JointFinder(frame, structure, attachments(b), points).joints(self.chassis, driven)
         return FlexibleFrame(frame, self._folder, structure, joints)
 
     def _frame(self) -> FrameSection:
@@ -230,7 +232,7 @@ class Car(Section):
         The rigid one alone where the car has no frame; no load paths where the frame has no table of loads.
         """
         frame = self.chassis.frame
-        offered = OFFERED if frame is not None else OFFERED[:1]
+        offered: tuple[Fidelity, ...] = OFFERED if frame is not None else OFFERED[:1]
         if frame is not None and frame.loads is None:
             offered = tuple(fidelity for fidelity in OFFERED if fidelity is not Fidelity.LOAD_PATHS)
         return {fidelity: partial(self.model, None, fidelity) for fidelity in offered}

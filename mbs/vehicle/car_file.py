@@ -147,15 +147,17 @@ def _sentences(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]
 def _path(loc: Sequence[int | str], data: Any) -> list[str]:
     """Key path of an error, without the names of templates that stand in it."""
     path: list[str] = []
-    here = data
+    here, template = data, None  # the table whose template was named last
     for part in loc:
-        if isinstance(here, Mapping) and part in here:
+        if isinstance(here, Mapping) and part == here.get("kind") and here is not template:
+            template = here
+        elif isinstance(here, Mapping) and part in here:
             path.append(str(part))
             here = here[part]
         elif isinstance(here, (list, tuple)) and isinstance(part, int):
             path.append(str(part))
             here = here[part] if part < len(here) else None
-        elif isinstance(here, Mapping) and part != here.get("kind"):
+        elif isinstance(here, Mapping):
             path.append(str(part))
             here = None
     return path

@@ -43,12 +43,12 @@ class _Noted(Body):
 
     def __init__(self, owner: Body, reference: Point) -> None:
         super().__init__(owner.model, owner.name, owner.com, owner.start)
-        self.reference = reference
+        self.left_out = reference
         self.points: dict[Point, None] = {}
 
     def point(self, position: ArrayLike) -> AffineVector:
         x, y, z = (float(v) for v in np.asarray(position))
-        if np.linalg.norm(np.subtract((x, y, z), self.reference)) > SAME:
+        if np.linalg.norm(np.subtract((x, y, z), self.left_out)) > SAME:
             self.points[x, y, z] = None
         return super().point(position)
 
@@ -84,5 +84,3 @@ def _held(chassis: Body, joints: list[Joint]) -> Iterator[tuple[Point, Point]]:
         for a, b in combinations(points, 2):
             if a[1] + b[1] >= 0.0:
                 yield a, b
-
-

@@ -200,8 +200,8 @@ class FlexibleFrame:
 
 
 def _at_hard_points(model: FiniteElementModel, joints: FrameJoints) -> FiniteElementModel:
-    """The model with interfaces where the hard points are, to the last digit: files print fewer."""
+    """The model with joints where the car's file has them, to the last digit: files of matrices print fewer."""
     positions = model.positions.copy()
-    for name, place in joints.interfaces.items():
+    for name, place in (*joints.accelerometers.items(), *joints.interfaces.items()):
         positions[model.node(name)] = place
     return replace(model, positions=positions)

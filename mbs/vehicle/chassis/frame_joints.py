@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from mbs.errors import ModelError
 from mbs.vehicle.chassis.attachments import Attachments
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.side import Point
+
+if TYPE_CHECKING:
+    from mbs.vehicle.chassis.section import Chassis
 
 SAME_PLACE = 1e-5
 """A hard point is a joint of the frame if it is no farther from it, m: coordinates printed with six digits pass."""
@@ -35,6 +38,8 @@ class FrameJoints:
         Left and right joints that take forces of the ground on the chassis.
     reference : str or tuple of str
         What carries the floating frame.
+    accelerometers : dict of str to tuple of float
+        Where accelerometers sit, m.
     """
 
     interfaces: dict[str, Point]
@@ -42,6 +47,7 @@ class FrameJoints:
     drive: tuple[Pair, ...]
     ground: tuple[Pair, ...]
     reference: str | tuple[str, ...]
+    accelerometers: dict[str, Point]
 
 
 class JointFinder:
@@ -56,7 +62,7 @@ class JointFinder:
     attached : Attachments
         Hard points on the chassis.
     keys : mapping of tuple to str
-        Key paths of hard points, for messages.
+        Key paths of hard points and accelerometers, for messages.
     """
 
     def __init__(
@@ -70,13 +76,13 @@ class JointFinder:
         self._names = list(structure.joints)
         self._places = np.array(list(structure.joints.values()))
 
-    def joints(self, reference: Point, driven: int) -> FrameJoints:
+    def joints(self, chassis: Chassis, driven: int) -> FrameJoints:
         """All joints that the car needs.
 
         Parameters
         ----------
-        reference : tuple of float
-            Place of the floating frame, m.
+        chassis : Chassis
+            With the place of the floating frame and accelerometers.
         driven : int
             0: the front axle is driven, 1: the rear one.
 
@@ -95,7 +101,8 @@ class JointFinder:
                 held.append((self._at(_image(a), a), self._at(_image(b), b)))
         drive = self._drive(driven)
         ground = self._named("ground_mounts") or (self._pair(self._axles[1 - driven][0]), *drive)
-        return FrameJoints(interfaces, tuple(held), drive, ground, self._reference(reference))
+        accelerometers = {self._at(point): point for point in chassis.accelerometers.values()}
+        return FrameJoints(interfaces, tuple(held), drive, ground, self._reference(chassis.reference), accelerometers)
 
     def _drive(self, driven: int) -> tuple[Pair, ...]:
         named = self._named("drive_mounts")

@@ -34,7 +34,8 @@ def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
     masses, total = model.mass.masses, float(model.mass.masses.sum())
     if abs(total - chassis.mass) > MASS * chassis.mass:
         raise ModelError(
-            f"{chassis.key('mass')} is {chassis.mass:g} kg, but the frame with the masses it carries has {total:.6g} kg."
+            f"{chassis.key('mass')} is {chassis.mass:g} kg, but the frame with the masses it carries has "
+            f"{total:.6g} kg."
         )
     centre = masses @ model.mass.positions / total
     if np.linalg.norm(centre - chassis.com) > CENTRE:

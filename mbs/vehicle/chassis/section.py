@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from pydantic import Field
+from typing import Annotated
+
+from pydantic import Discriminator, Field, Tag
 
 from mbs.vehicle.chassis.frames import Frame
 from mbs.vehicle.quantities import (
@@ -17,12 +19,17 @@ from mbs.vehicle.quantities import (
 )
 from mbs.vehicle.section import Section
 
+ContactPoint = Annotated[
+    Annotated[str, Tag("joint")] | Annotated[Point, Tag("point")],
+    Discriminator(lambda value: "joint" if isinstance(value, str) else "point"),
+]
+
 
 class GroundContact(Section):
     """Points of the chassis that may touch the ground; without this table it passes through."""
 
-    points: tuple[Point, ...]
-    """Points of the left half, each with its image on the right."""
+    points: tuple[ContactPoint, ...]
+    """Points of the left half, each with its image on the right: coordinates, or the name of a joint of the frame."""
     radius: Thickness
     """Radius of the tubes or edges at the points."""
     depth: SmallLength

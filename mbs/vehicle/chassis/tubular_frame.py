@@ -58,7 +58,9 @@ class TubularFrame:
         sections = {}
         for name, s in self.section.sections.items():
             if 2.0 * s.wall > s.diameter:
-                raise ModelError(f"{s.key('wall')} is {s.wall:g} m; a tube of {s.diameter:g} m has at most half of that.")
+                raise ModelError(
+                    f"{s.key('wall')} is {s.wall:g} m; a tube of {s.diameter:g} m has at most half of that."
+                )
             sections[name] = tube(s.diameter, s.wall)
         return sections
 

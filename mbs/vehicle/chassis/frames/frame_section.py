@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from mbs.flexible import FiniteElementModel
 from mbs.vehicle.chassis.gauges.reading import Reading
@@ -17,7 +17,10 @@ from mbs.vehicle.quantities import Fraction, Frequency
 from mbs.vehicle.section import Section
 
 Count = Annotated[int, Field(strict=True, ge=0, le=1000)]
-Reference = str | tuple[str, str, str]
+Reference = Annotated[
+    Annotated[str, Tag("joint")] | Annotated[tuple[str, str, str], Tag("nodes")],
+    Discriminator(lambda value: "joint" if isinstance(value, str) else "nodes"),
+]
 
 
 @dataclass(frozen=True)

@@ -52,4 +52,5 @@ class NastranFrame(MatrixFrame):
         ModelError
             A file or a matrix is missing, or a grid point has axes of its own.
         """
-        return read_nastran(*self.files(folder), self.stiffness, self.mass)
+        bulk_data, matrices = self.files(folder)
+        return read_nastran(bulk_data, matrices, self.stiffness, self.mass)

@@ -67,7 +67,7 @@ class RecoveryRows(Section):
         for quantity, (unit, text) in QUANTITIES.items():
             if quantity in rows:
                 row = rows[quantity]
-                if (np.abs(row @ rigid) > RIGID * (np.abs(row) @ np.abs(rigid))).any():
+                if np.abs(row @ rigid).max() > RIGID * (np.abs(row) @ np.abs(rigid)).max():
                     raise ModelError(
                         f"{self.key('table')} ({self.table}): the factors of {quantity} of gauge {name} read a rigid "
                         "motion of the frame; a strain does not."

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import model_validator
+from pydantic import Discriminator, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
 from mbs.errors import ModelError
@@ -18,7 +18,11 @@ from mbs.vehicle.quantities import Fraction, Quantity
 from mbs.vehicle.section import Section
 
 Angle = Annotated[float, Quantity("deg", -360.0, 360.0)]
-Side = Literal["top", "bottom", "left", "right", "front", "rear"]
+Way = Literal["top", "bottom", "left", "right", "front", "rear"]
+Fibre = Annotated[
+    Annotated[Way, Tag("way")] | Annotated[Angle, Tag("angle")],
+    Discriminator(lambda value: "way" if isinstance(value, str) else "angle"),
+]
 WAYS = {
     "top": (0.0, 0.0, 1.0),
     "bottom": (0.0, 0.0, -1.0),
@@ -40,7 +44,7 @@ class TubeGauge(Section):
     bridge: Literal["half", "quarter", "axial", "torsion"] = "half"
     """half: a gauge on the fibre minus one on the opposite fibre, for bending; quarter: the gauge on the fibre alone;
     axial: all round, for pull; torsion: under 45 degrees all round, for twist."""
-    fibre: Side | Angle = "top"
+    fibre: Fibre = "top"
     """Fibre of the gauge: the one farthest up, down, to the left, right, front or rear of the car as drawn; or its
     angle in degrees from the highest fibre (of a tube steeper than 18 degrees from upright: the foremost),
     right-handed about the tube from its first to its last joint."""
@@ -51,7 +55,9 @@ class TubeGauge(Section):
             raise PydanticCustomError("gauge", "A bridge all round the tube has no fibre; leave fibre out")
         return self
 
-    def strain_gauge(self, name: str, ends: tuple[np.ndarray, np.ndarray], radius: float, elements: range) -> StrainGauge:
+    def strain_gauge(
+        self, name: str, ends: tuple[np.ndarray, np.ndarray], radius: float, elements: range
+    ) -> StrainGauge:
         """The gauge on the elements of its tube.
 
         Parameters
@@ -122,7 +128,7 @@ class TubeGauge(Section):
         size = math.hypot(y, z)
         if size < ALONG:
             raise ModelError(
-                f"{self.key('fibre')} is '{self.fibre}', but the tube from {self.tube[0]} to {self.tube[1]} runs in that "
-                "direction; name another fibre or its angle."
+                f"{self.key('fibre')} is '{self.fibre}', but the tube from {self.tube[0]} to {self.tube[1]} runs in "
+                "that direction; name another fibre or its angle."
             )
         return y / size, z / size
