@@ -10,6 +10,7 @@ from datetime import datetime, timezone
 from xml.etree import ElementTree
 
 from fmu_src.probe import Dependencies
+from fmu_src.text_variables import TextVariable
 from fmu_src.units import DISPLAY_UNITS, QUANTITIES, parse_unit
 from fmu_src.variables import Variable
 
@@ -41,6 +42,8 @@ class Description:
         Of the model; by default those of the solver.
     sources : sequence of str
         C files in the folder ``sources``, if it can be compiled from them.
+    texts : sequence of TextVariable
+        Variables that are text; their value references come after those of the others.
     """
 
     model_name: str
@@ -56,6 +59,7 @@ class Description:
     copyright: str
     licence: str
     sources: Sequence[str] = ()
+    texts: Sequence[TextVariable] = ()
 
 
 def generation_date() -> str:
@@ -132,6 +136,12 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
     types = declared_types(table)
     for reference, v in enumerate(table):
         _variable(variables, reference, v, types)
+    for reference, text in enumerate(head.texts, start=len(table)):
+        fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
+        named = {"name": text.name, "valueReference": str(reference), "description": text.description}
+        ElementTree.SubElement(
+            ElementTree.SubElement(variables, "ScalarVariable", named | fixed), "String", start=text.start
+        )
     _structure(root, table, reach)
     return to_bytes(root)
 

@@ -79,6 +79,10 @@ def model_description_fmi3(
         _variable(variables, reference, array, types)
     if time == len(arrays):
         _time(variables, time)
+    for reference, text in enumerate(head.texts, start=len(arrays) + 1):
+        fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
+        named = {"name": text.name, "valueReference": str(reference), "description": text.description}
+        ElementTree.SubElement(ElementTree.SubElement(variables, "String", named | fixed), "Start", value=text.start)
     _structure(root, arrays, reach)
     return to_bytes(root)
 

@@ -72,6 +72,8 @@ class Variable:
         Whether it is an integer of FMI.
     nominal : float, optional
         A typical size, where there is one.
+    road : int
+        Of a parameter of the built-in form of a road, without effect on one from a file: its number; else -1.
     """
 
     name: str
@@ -87,6 +89,7 @@ class Variable:
     display_unit: str | None = None
     whole: bool = False
     nominal: float | None = None
+    road: int = -1
 
 
 def variable_table(
@@ -240,6 +243,7 @@ def _ranged(
         _bound(entry["min"]),
         _bound(entry["max"]),
         _display(entry["name"], unit),
+        road=entry.get("road", -1),
     )
 
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from mbs.large_bending import BendingWarning
     from mbs.linear_model import LinearModel, linearise
     from mbs.periodic_motion import FloquetModel, floquet
+    from mbs.roads import RoadFile, RoadFileError, read_road, write_road
     from mbs.settings import Settings
     from mbs.simulation import Pose, Simulation, simulate
     from mbs.trajectory import Trajectory
@@ -30,6 +31,10 @@ _LAZY = {
     "AccuracyWarning": "mbs.accuracy",
     "Control": "mbs.control",
     "Pose": "mbs.simulation",
+    "RoadFile": "mbs.roads",
+    "RoadFileError": "mbs.roads",
+    "read_road": "mbs.roads",
+    "write_road": "mbs.roads",
     "Settings": "mbs.settings",
     "Simulation": "mbs.simulation",
     "SimulationError": "mbs.errors",
@@ -58,6 +63,8 @@ __all__ = [
     "Model",
     "ModelError",
     "Pose",
+    "RoadFile",
+    "RoadFileError",
     "Settings",
     "Simulation",
     "SimulationError",
@@ -67,7 +74,9 @@ __all__ = [
     "compile",
     "floquet",
     "linearise",
+    "read_road",
     "simulate",
+    "write_road",
 ]
 
 

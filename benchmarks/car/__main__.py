@@ -1,4 +1,4 @@
-"""Accuracy and speed of the prototype car: ``python -m benchmarks.car [--json FILE] [--no-fmu] [--chart FILE]``.
+"""Accuracy and speed of a car: ``python -m benchmarks.car [--car CAR] [--json FILE] [--no-fmu] [--chart FILE]``.
 
 Per manoeuvre and step, against the stored reference (see `benchmarks.car_references`):
 
@@ -47,11 +47,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--no-fmu", action="store_true", help="leave the runs through FMPy out")
     parser.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs per row; default: 5")
     parser.add_argument("--manoeuvres", nargs="+", default=manoeuvres.NAMES, choices=manoeuvres.NAMES, metavar="NAME")
+    parser.add_argument("--car", default=manoeuvres.PROTOTYPE, choices=manoeuvres.CARS, help="default: the prototype")
     options = parser.parse_args(arguments)
     todo = [(name, h) for name in options.manoeuvres for h in STEPS]
     with tempfile.TemporaryDirectory() as folder:
-        fmu = None if options.no_fmu else _build_fmu(Path(folder))
-        rows = [measure(name, h, fmu, options.repeats) for name, h in watched(todo)]
+        fmu = None if options.no_fmu else _build_fmu(Path(folder), options.car)
+        rows = [measure(name, h, fmu, options.repeats, options.car) for name, h in watched(todo)]
     print_table(rows, COLUMNS)
     print()
     print(
@@ -64,6 +65,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "car",
         Settings(),
         reference=f"own engine, h = {trajectories.STEP:g} s, tests/data/car",
+        car=options.car,
         repeats=options.repeats,
         warm_up=1,
         fmpy="set 3 inputs, one communication step of h, get 4 outputs; null: without FMU or another road",
@@ -71,7 +73,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     save_rows(options.json, meta, rows)
     if options.chart:
-        chart(rows, options.chart)
+        chart(rows, options.chart, options.car)
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Accuracy and speed of the car over its manoeuvres: rows, verdict, chart."""
+"""Accuracy and speed of a car over its manoeuvres: rows, verdict, chart."""
 
 from __future__ import annotations
 
@@ -21,18 +21,22 @@ AIM = 50.0  # times real time
 OUTPUTS = (*trajectories.POSITION, "speed")
 
 
-def wall_of_fmu(file: Path, name: str, h: float, repeats: int) -> float:
+def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeuvres.PROTOTYPE) -> float:
     """Median wall time of the communication loop of a manoeuvre through FMPy, s."""
     from hosts.fmu import Fmu
 
-    manoeuvre = manoeuvres.load(name)
+    manoeuvre = manoeuvres.load(name, car)
+    system = manoeuvres.system_of(name, car)
+    parameters = manoeuvres.start_of(manoeuvre, system)[0]
+    start = {k: v for k, v in manoeuvre.start.items() if k.startswith(manoeuvres.INITIAL)} | parameters
+    held = {k: float(v) for k, v in manoeuvres.inputs_of(manoeuvre, system).items() if isinstance(v, float)}
     steps = round(manoeuvre.stop_time / h)
     rows = [list(manoeuvre.at(k * h).values()) for k in range(steps)]
 
     def once() -> float:
         with Fmu(file) as fmu:
             set_inputs, get_outputs = fmu.setter(list(manoeuvre.inputs)), fmu.getter(OUTPUTS)
-            fmu.initialise(manoeuvre.start | manoeuvre.at(0.0) | {"step_size": h})
+            fmu.initialise(start | held | manoeuvre.at(0.0) | {"step_size": h})
             begin = time.perf_counter()
             for k, row in enumerate(rows):
                 set_inputs(row)
@@ -43,19 +47,20 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int) -> float:
     return median_wall(once, repeats)
 
 
-def measure(name: str, h: float, fmu: Path | None, repeats: int) -> dict[str, Any]:
+def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = manoeuvres.PROTOTYPE) -> dict[str, Any]:
     """One row: a manoeuvre with one step."""
-    t, values, length = trajectories.read(name)
-    found: Trajectory = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
+    t, values, length = trajectories.read(name, car)
+    found: Trajectory = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))
     report = found.report
     assert report is not None
     if len(found.t) != len(t) or not np.allclose(found.t, t, rtol=0.0, atol=1e-6):
         raise ValueError(
-            f"The reference of {name} is of another duration; run python -m benchmarks.car_references {name}."
+            f"The reference of {name} is of another duration; "
+            f"run python -m benchmarks.car_references --car {car} {name}."
         )
     error = trajectories.path_error(found, values)
     duration = float(found.t[-1])
-    system, manoeuvre = manoeuvres.system_of(name), manoeuvres.load(name)
+    system, manoeuvre = manoeuvres.system_of(name, car), manoeuvres.load(name, car)
     wall = manoeuvres.time_on(system, manoeuvre, h, repeats, time.perf_counter)
     row: dict[str, Any] = {
         "manoeuvre": name,
@@ -72,7 +77,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int) -> dict[str, An
         "realtime_factor_fmpy": None,
     }
     if fmu is not None and name not in manoeuvres.OTHER_ROAD:
-        wall = wall_of_fmu(fmu, name, h, max(1, repeats // 2))
+        wall = wall_of_fmu(fmu, name, h, max(1, repeats // 2), car)
         row |= {"us_per_step_fmpy": 1e6 * wall * h / duration, "realtime_factor_fmpy": duration / wall}
     return row
 
@@ -103,7 +108,7 @@ def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
     return lines
 
 
-def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
+def chart(rows: Sequence[dict[str, Any]], file: Path, car: str = manoeuvres.PROTOTYPE) -> None:
     """Errors over wall time of a step, as a picture."""
     plt = pyplot()
     figure, axes = plt.subplots(1, 2, figsize=(13, 5.5), layout="constrained", sharex=True)
@@ -123,11 +128,11 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
         ax.set_ylabel(label)
         ax.grid(True, which="major", alpha=0.3)
     figure.legend(*axes[1].get_legend_handles_labels(), loc="outside right center", fontsize="small")
-    figure.suptitle("Prototype car: error against cost")
+    figure.suptitle(f"{car.capitalize()} car: error against cost")
     save_chart(figure, file)
 
 
-def _build_fmu(folder: Path) -> Path | None:
+def _build_fmu(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
     """The FMU of the car for this platform, or None when it cannot be had."""
     try:
         import fmpy
@@ -137,4 +142,4 @@ def _build_fmu(folder: Path) -> Path | None:
     from fmu_src.build import build_fmu
 
     say = partial(print, file=sys.stderr, flush=True)
-    return build_fmu(manoeuvres.system_of("drop"), "prototype_car", folder, (fmpy.platform,), say)
+    return build_fmu(manoeuvres.system_of("drop", car), f"{car}_car", folder, (fmpy.platform,), say)

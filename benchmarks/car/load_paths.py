@@ -21,9 +21,9 @@ H, EVERY = 0.005, 4
 def port_forces(name: str) -> NDArray[np.float64]:
     """Forces on the chassis at the interfaces in its axes through a manoeuvre, shape (60, samples), N."""
     manoeuvre = fidelity_runs.manoeuvre_of(name) if name == GUIDED else manoeuvres.load(name)
-    parameters, pose = manoeuvres.start_of(manoeuvre)
     system = fidelity_runs.system_of(name, Fidelity.QUASI_STATIC)
-    signals = InputSignals(manoeuvres.inputs_of(manoeuvre), system.meta["inputs"])
+    parameters, pose = manoeuvres.start_of(manoeuvre, system)
+    signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
     car = Simulation(system, parameters=parameters, pose=pose)
     names = [row["name"] for row in system.meta["rows"]]
     rows = [[k for k, row in enumerate(names) if row == f"chassis.{node}"] for node in INTERFACES]

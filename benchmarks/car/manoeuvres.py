@@ -1,4 +1,8 @@
-"""Manoeuvres of the prototype car: the host's files and some more, run in the kernel without an FMU."""
+"""Manoeuvres of cars: the host's files and some more, run in the kernel without an FMU.
+
+They are the prototype's; where another car wants other pedals or steering there is a file in its folder. A manoeuvre in
+neutral has the parameter that stops a converter from creeping; a car without one gets the selector in neutral.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +19,7 @@ from hosts.manoeuvre import Manoeuvre, load_manoeuvre
 from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulate
 from mbs.elements.road import GridRoad
 from mbs.input_signals import Signal
-from mbs.scenes import prototype_car
+from mbs.vehicle import load as load_car
 
 FOLDER = Path(__file__).with_name("data")
 HOST = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "steady_cornering")
@@ -25,52 +29,74 @@ CLOSED_LOOP = "double_lane_change"  # of the host; its replay is OWN[0]
 RISE_BEGINS, RISE_ENDS, GRADE = 20.0, 25.0, 0.1  # m, m, dz/dx behind
 OTHER_ROAD = ("brake_on_slope",)  # not the road of the FMU
 INITIAL = "initial."
+PROTOTYPE = "prototype"
+CARS = (PROTOTYPE, "hatchback")
+CREEP, SELECTOR = "drive.creep_torque", "selector"
 
 
-def load(name: str) -> Manoeuvre:
-    """A manoeuvre by name: one of `NAMES` or any other of the host."""
+def load(name: str, car: str = PROTOTYPE) -> Manoeuvre:
+    """A manoeuvre of a car by name: one of `NAMES` or any other of the host."""
+    own = FOLDER / car / f"{name}.csv"
+    if own.is_file():
+        return load_manoeuvre(str(own))
     return load_manoeuvre(str(FOLDER / f"{name}.csv") if name in OWN else name)
 
 
 @cache
-def system_of(name: str) -> System:
-    """The car on the road of a manoeuvre; a System may be used by several runs."""
+def system_of(name: str, car: str = PROTOTYPE) -> System:
+    """A car on the road of a manoeuvre; a System may be used by several runs."""
     if name in OTHER_ROAD:
-        return compile(prototype_car.build(rise()))
-    return _default_system()
+        return compile(load_car(car).model(rise(car)))
+    return _default_system(car)
 
 
 @cache
-def _default_system() -> System:
-    return compile(prototype_car.build())
+def _default_system(car: str) -> System:
+    return compile(load_car(car).model())
 
 
-def rise(grade: float = GRADE) -> GridRoad:
+def rise(car: str = PROTOTYPE, grade: float = GRADE) -> GridRoad:
     """Level road that goes over into a rise dz/dx, with a curvature that begins and ends at zero."""
     x = np.arange(-20.0, 200.1, 0.5)
     s = np.clip((x - RISE_BEGINS) / (RISE_ENDS - RISE_BEGINS), 0.0, 1.0)
     # the slope grows like 3 s^2 - 2 s^3; its integral
     height = grade * ((RISE_ENDS - RISE_BEGINS) * (s**3 - 0.5 * s**4) + np.clip(x - RISE_ENDS, 0.0, None))
-    return GridRoad((-20.0, -10.0), (0.5, 20.0), np.column_stack([height, height]), prototype_car.car().road.friction)
+    return GridRoad((-20.0, -10.0), (0.5, 20.0), np.column_stack([height, height]), load_car(car).road.friction)
 
 
-def start_of(manoeuvre: Manoeuvre) -> tuple[dict[str, float], Pose | None]:
+def start_of(manoeuvre: Manoeuvre, system: System) -> tuple[dict[str, float], Pose | None]:
     """Parameters and pose at the start."""
     pose = {k[len(INITIAL) :]: v for k, v in manoeuvre.start.items() if k.startswith(INITIAL)}
     parameters = {k: v for k, v in manoeuvre.start.items() if not k.startswith(INITIAL)}
+    if _without_creep(system):
+        parameters.pop(CREEP, None)
     return parameters, Pose(**pose) if pose else None
 
 
-def inputs_of(manoeuvre: Manoeuvre) -> dict[str, Signal]:
+def inputs_of(manoeuvre: Manoeuvre, system: System) -> dict[str, Signal]:
     """Inputs over time as `mbs.simulate` takes them."""
-    return {name: (manoeuvre.time, values) for name, values in manoeuvre.inputs.items()}
+    inputs: dict[str, Signal] = {name: (manoeuvre.time, values) for name, values in manoeuvre.inputs.items()}
+    if CREEP in manoeuvre.start and _without_creep(system):
+        inputs[SELECTOR] = 0.0
+    return inputs
+
+
+def _without_creep(system: System) -> bool:
+    return CREEP not in {p["name"] for p in system.meta["parameters"]}
 
 
 def run(
-    name: str, h: float, *, every: int = 1, settings: Settings | None = None, estimate_error: bool | None = False
+    name: str,
+    h: float,
+    *,
+    car: str = PROTOTYPE,
+    every: int = 1,
+    settings: Settings | None = None,
+    estimate_error: bool | None = False,
 ) -> Trajectory:
     """Drive a manoeuvre in the kernel with steps of `h` seconds, recording after every so many."""
-    return run_on(system_of(name), load(name), h, every=every, settings=settings, estimate_error=estimate_error)
+    system, manoeuvre = system_of(name, car), load(name, car)
+    return run_on(system, manoeuvre, h, every=every, settings=settings, estimate_error=estimate_error)
 
 
 def run_on(
@@ -83,12 +109,12 @@ def run_on(
     estimate_error: bool | None = False,
 ) -> Trajectory:
     """The same with any car. Runs that are held against a reference need no estimate of their error."""
-    parameters, pose = start_of(manoeuvre)
+    parameters, pose = start_of(manoeuvre, system)
     return simulate(
         system,
         manoeuvre.stop_time,
         h,
-        inputs_of(manoeuvre),
+        inputs_of(manoeuvre, system),
         settings,
         parameters,
         every=every,
@@ -100,16 +126,16 @@ def run_on(
 
 def time_on(system: System, manoeuvre: Manoeuvre, h: float, repeats: int, clock: Callable[[], float]) -> float:
     """Median time of all steps of a manoeuvre by a clock, s; start and input table are made before."""
-    parameters, pose = start_of(manoeuvre)
-    return step_time(system, manoeuvre.stop_time, h, repeats, clock, inputs_of(manoeuvre), parameters, pose)
+    parameters, pose = start_of(manoeuvre, system)
+    return step_time(system, manoeuvre.stop_time, h, repeats, clock, inputs_of(manoeuvre, system), parameters, pose)
 
 
-def sampling(name: str) -> float:
+def sampling(name: str, car: str = PROTOTYPE) -> float:
     """Interval between the samples of a reference, s: a multiple of 0.01 s, some hundred samples."""
-    return max(1, round(load(name).stop_time / 400.0 / 0.01)) * 0.01
+    return max(1, round(load(name, car).stop_time / 400.0 / 0.01)) * 0.01
 
 
-def record_driver(h: float = 1e-3, interval: float = 0.02) -> NDArray[np.float64]:
+def record_driver(car: str = PROTOTYPE, h: float = 1e-3, interval: float = 0.02) -> NDArray[np.float64]:
     """What the host's driver does in the double lane change when it acts every `interval` seconds.
 
     Returns
@@ -117,16 +143,16 @@ def record_driver(h: float = 1e-3, interval: float = 0.02) -> NDArray[np.float64
     ndarray of shape (n, 4)
         Time, steering, throttle, brake.
     """
-    manoeuvre = load(CLOSED_LOOP)
-    system = system_of(CLOSED_LOOP)
+    manoeuvre = load(CLOSED_LOOP, car)
+    system = system_of(CLOSED_LOOP, car)
     driver = make_driver(manoeuvre.driver, {c["name"]: c["value"] for c in system.meta["constants"]})
-    parameters, pose = start_of(manoeuvre)
-    car = Simulation(system, parameters=parameters, pose=pose)
+    parameters, pose = start_of(manoeuvre, system)
+    run = Simulation(system, parameters=parameters, pose=pose)
     rows = []
     for k in range(round(manoeuvre.stop_time / interval) + 1):
-        acts = driver.act(k * interval, car.sensors)
+        acts = driver.act(k * interval, run.sensors)
         rows.append([k * interval, *acts.values()])
         for name, value in acts.items():
-            car.set_input(name, value)
-        car.step(h, round(interval / h))
+            run.set_input(name, value)
+        run.step(h, round(interval / h))
     return np.array(rows)

@@ -1,4 +1,4 @@
-"""Reference trajectories of the prototype car: made, read, and the errors against them."""
+"""Reference trajectories of cars: made, read, and the errors against them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,14 @@ SENSORS = (
 )
 
 
-def read(name: str) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], float]:
+def folder_of(car: str) -> Path:
+    """Where the references of a car are: the prototype's in the folder itself, those of others in one of their own."""
+    return FOLDER if car == manoeuvres.PROTOTYPE else FOLDER / car
+
+
+def read(
+    name: str, car: str = manoeuvres.PROTOTYPE
+) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], float]:
     """A stored reference.
 
     Returns
@@ -39,7 +46,7 @@ def read(name: str) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]
     length : float
         Of the path of the reference point, m.
     """
-    file = FOLDER / f"{name}.csv"
+    file = folder_of(car) / f"{name}.csv"
     lines = file.read_text(encoding="utf-8").splitlines()
     head = [line for line in lines if line.startswith("#")]
     length = float(next(line for line in head if line.startswith("# path_length_m:")).partition(":")[2])
@@ -60,16 +67,16 @@ def load_error(found: Trajectory, values: dict[str, NDArray[np.float64]]) -> flo
     return max(float(np.abs(found[s] - values[s]).max()) for s in LOADS) / peak
 
 
-def write(name: str) -> str:
+def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
     """Run a manoeuvre with the small step, write its file and return one line about it."""
-    interval = manoeuvres.sampling(name)
-    fine = manoeuvres.run(name, STEP, every=1, settings=TIGHT)
+    interval = manoeuvres.sampling(name, car)
+    fine = manoeuvres.run(name, STEP, car=car, every=1, settings=TIGHT)
     every = round(interval / STEP)
     length = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
     values = {s: fine[s][::every] for s in SENSORS}
     errors, loads = [], []
     for h in CHECKS:
-        coarse = manoeuvres.run(name, h, every=round(interval / h), settings=TIGHT)
+        coarse = manoeuvres.run(name, h, car=car, every=round(interval / h), settings=TIGHT)
         errors.append(path_error(coarse, values))
         loads.append(load_error(coarse, values))
     order = np.log2(errors[0] / errors[1])
@@ -77,7 +84,7 @@ def write(name: str) -> str:
     report = fine.report
     assert report is not None
     lines = [
-        f"# Prototype car, {name.replace('_', ' ')}: this engine with steps of {STEP:g} s, tolerance_r = "
+        f"# {car.capitalize()} car, {name.replace('_', ' ')}: this engine with steps of {STEP:g} s, tolerance_r = "
         f"{TIGHT.tolerance_r:g}; made by python -m benchmarks.car_references",
         f"# path_length_m: {length:.9g}",
         "# path error and relative wheel load error of larger steps: "
@@ -87,22 +94,24 @@ def write(name: str) -> str:
     ]
     table = np.column_stack([fine.t[::every], *values.values()])
     lines += [",".join(f"{v:.8g}" for v in row) for row in table]
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    write_text(FOLDER / f"{name}.csv", "\n".join(lines) + "\n")
+    folder_of(car).mkdir(parents=True, exist_ok=True)
+    write_text(folder_of(car) / f"{name}.csv", "\n".join(lines) + "\n")
     return (
         f"{name:<26} path {length:8.3f} m, order {order:5.2f}, own error {own:.1e} m, "
         f"iterations {report.mean_iterations:.2f} (at most {report.max_iterations}), {report.halvings} halvings"
     )
 
 
-def write_replay() -> None:
+def write_replay(car: str = manoeuvres.PROTOTYPE) -> None:
     """The driver's acts in the double lane change as a manoeuvre file, and its start values."""
-    closed = manoeuvres.load(manoeuvres.CLOSED_LOOP)
-    rows = manoeuvres.record_driver()
+    closed = manoeuvres.load(manoeuvres.CLOSED_LOOP, car)
+    rows = manoeuvres.record_driver(car)
     head = ",".join(f'"{n}"' for n in ("time", "steering", "throttle", "brake"))
     lines = [head, *(",".join(f"{v:.6g}" for v in row) for row in rows)]
+    folder = manoeuvres.FOLDER if car == manoeuvres.PROTOTYPE else manoeuvres.FOLDER / car
+    folder.mkdir(parents=True, exist_ok=True)
     name = manoeuvres.OWN[0]
-    write_text(manoeuvres.FOLDER / f"{name}.csv", "\n".join(lines) + "\n")
+    write_text(folder / f"{name}.csv", "\n".join(lines) + "\n")
     text = "# What the host's driver did in the double lane change; made by python -m benchmarks.car_references\n"
     text += "[start]\n" + "".join(f"{k} = {v:g}\n" for k, v in closed.start.items())
-    write_text(manoeuvres.FOLDER / f"{name}.ini", text)
+    write_text(folder / f"{name}.ini", text)

@@ -14,7 +14,7 @@ from fmu_src.variables import Variable
 
 
 def _tables_fmi2(contents: NativeContents, identity: str, guid: str) -> str:
-    return c_table(contents.table, contents.names, identity, guid)
+    return c_table(contents.table, contents.names, identity, guid, contents.texts)
 
 
 def _documents_fmi2(head: Description, contents: NativeContents) -> dict[str, bytes]:

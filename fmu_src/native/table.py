@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
 from fmu_src.arrays import Array, references
+from fmu_src.text_variables import TextVariable
 from fmu_src.variables import Variable
 
 _SOURCES = {
@@ -20,7 +21,13 @@ _SOURCES = {
 }
 
 
-def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str]]], identity: str, token: str) -> str:
+def c_table(
+    table: Sequence[Variable],
+    names: Mapping[str, Sequence[Sequence[str]]],
+    identity: str,
+    token: str,
+    texts: Sequence[TextVariable] = (),
+) -> str:
     """`table.c` of the shell.
 
     Parameters
@@ -33,6 +40,8 @@ def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str
         32 hexadecimal digits.
     token : str
         GUID or instantiation token.
+    texts : sequence of TextVariable
+        Variables that are text.
 
     Returns
     -------
@@ -43,7 +52,7 @@ def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str
     variables = "\n".join(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
-        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}}},"
+        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {v.road}}},"
         for v, unit in zip(table, units, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
@@ -52,10 +61,19 @@ def c_table(table: Sequence[Variable], names: Mapping[str, Sequence[Sequence[str
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
-        f"{_names('row', names['row'])}{_names('element', names['element'])}"
+        f"{_texts(texts)}{_names('row', names['row'])}{_names('element', names['element'])}"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
-        f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])},\n}};\n"
+        f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])},\n    texts, "
+        f"{len(texts)},\n}};\n"
     )
+
+
+def _texts(texts: Sequence[TextVariable]) -> str:
+    lines = (
+        "\n".join(f"    {{{c_string(t.name)}, {t.road}, {c_string(t.start)}}}," for t in texts)
+        or "    {NULL, 0, NULL},"
+    )
+    return f"static const slave_text texts[] = {{\n{lines}\n}};\n\n"
 
 
 def _names(what: str, of_systems: Sequence[Sequence[str]]) -> str:

@@ -63,7 +63,7 @@ def pack_python(
     main, own = f"main_{identity[:12]}", f"ali3_{identity[:12]}"
     script = template.replace("ModelName", name).replace("PackageName", own)
     files = {f"resources/{own}/{path}": data for path, data in package.items()}
-    files |= contents.system_files | _pythonfmu_libraries(name, platforms)
+    files |= contents.resources | _pythonfmu_libraries(name, platforms)
     files |= {
         f"resources/{main}.py": script.encode(),
         "resources/slavemodule.txt": main.encode(),
@@ -76,8 +76,9 @@ def pack_python(
             contents.step_size,
             contents.table,
             [
+                *contents.origin_words,
                 "FMI 2.0 co-simulation through Python: the host's machine needs Python 3.10 or newer, and no package. "
-                "The calls pass a class in Python; the slave in C answers them as it does in the native FMU."
+                "The calls pass a class in Python; the slave in C answers them as it does in the native FMU.",
             ],
         ).encode(),
         "modelDescription.xml": model_description(
@@ -90,7 +91,7 @@ def pack_python(
     }
     with tempfile.TemporaryDirectory() as temporary:
         table = Path(temporary, "table.c")
-        table.write_text(c_table(contents.table, contents.names, identity, guid), encoding="utf-8")
+        table.write_text(c_table(contents.table, contents.names, identity, guid, contents.texts), encoding="utf-8")
         for platform in platforms:
             library = name + SUFFIXES[platform]
             if (name, platform) not in libraries:

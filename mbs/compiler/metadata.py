@@ -7,7 +7,20 @@ from typing import Any
 
 from mbs.checks import flag, positive
 from mbs.compiler.polynomial import RowTerms
+from mbs.kernel.header import ParameterTarget
 from mbs.model.model import Model
+from mbs.model.parameters import Parameter
+
+
+def _built_in_road(model: Model, parameter: Parameter) -> dict[str, int]:
+    """The road whose own form a parameter sets, so that it says nothing of a road from a file."""
+    roads = {road for family, road, *_ in parameter.targets if family == ParameterTarget.ROAD}
+    others = any(
+        family != ParameterTarget.ROAD or model.roads[owner].real_names[real] == "friction_factor"
+        for family, owner, real, *_ in parameter.targets
+    )
+    files = {f.road for f in model.road_files}
+    return {"road": roads.pop()} if len(roads) == 1 and not others and roads <= files else {}
 
 
 def metadata(
@@ -44,7 +57,11 @@ def metadata(
         "parameters": [
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
             | ({} if p.tunable else {"fixed": True})
+            | _built_in_road(model, p)
             for p in model.parameters
+        ],
+        "road_files": [
+            {"name": f.name, "road": f.road, "start": f.start, "description": f.description} for f in model.road_files
         ],
         "constants": [
             {"name": c.name, "unit": c.unit, "description": c.description, "value": c.value} for c in model.constants

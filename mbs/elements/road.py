@@ -27,15 +27,18 @@ class PlaneRoad:
         Slopes dz/dx and dz/dy, 0.1 for a ten per cent rise.
     friction : float
         Coefficient of friction: the largest longitudinal force over load of a tyre on it, at the tyre's nominal load.
+    friction_factor : float
+        Multiplies the friction, also that of a road file in place of this road.
     """
 
     height: float = 0.0
     grade_x: float = 0.0
     grade_y: float = 0.0
     friction: float = 0.9
+    friction_factor: float = 1.0
     type: ClassVar[RoadType] = RoadType.PLANE
-    real_names: ClassVar[tuple[str, ...]] = ("height", "grade_x", "grade_y", "friction")
-    real_checks: ClassVar[tuple[Check, ...]] = (number, number, number, not_negative)
+    real_names: ClassVar[tuple[str, ...]] = ("height", "grade_x", "grade_y", "friction", "friction_factor")
+    real_checks: ClassVar[tuple[Check, ...]] = (number, number, number, not_negative, not_negative)
 
     @property
     def real(self) -> tuple[float, ...]:
@@ -45,6 +48,7 @@ class PlaneRoad:
             number(self.grade_x, "The grade in x of a plane road"),
             number(self.grade_y, "The grade in y of a plane road"),
             not_negative(self.friction, "The friction of a plane road"),
+            not_negative(self.friction_factor, "The friction factor of a plane road"),
         )
 
 
@@ -64,6 +68,8 @@ class KerbRoad:
         The upper level lies at smaller x ("before": driving forward is a drop) or at larger x.
     friction : float
         Coefficient of friction everywhere, as in `PlaneRoad`.
+    friction_factor : float
+        Multiplies the friction, also that of a road file in place of this road.
     """
 
     position: float
@@ -71,9 +77,13 @@ class KerbRoad:
     lower_height: float = 0.0
     upper: Literal["before", "after"] = "before"
     friction: float = 0.9
+    friction_factor: float = 1.0
     type: ClassVar[RoadType] = RoadType.KERB
-    real_names: ClassVar[tuple[str, ...]] = ("position", "lower_height", "step", "side", "friction")
-    real_checks: ClassVar[tuple[Check, ...]] = (number, number, positive, not_zero, not_negative)
+    real_names: ClassVar[tuple[str, ...]] = (
+        *("position", "lower_height", "step", "side", "friction"),
+        "friction_factor",
+    )
+    real_checks: ClassVar[tuple[Check, ...]] = (number, number, positive, not_zero, not_negative, not_negative)
 
     @property
     def real(self) -> tuple[float, ...]:
@@ -85,6 +95,7 @@ class KerbRoad:
             positive(self.step, "The step of a kerb"),
             1.0 if self.upper == "before" else -1.0,
             not_negative(self.friction, "The friction of a kerb"),
+            not_negative(self.friction_factor, "The friction factor of a kerb"),
         )
 
 
@@ -112,7 +123,7 @@ class GridRoad:
     frictions: ArrayLike = 0.9
     friction_factor: float = 1.0
     type: ClassVar[RoadType] = RoadType.GRID
-    real_names: ClassVar[tuple[str, ...]] = ("nx", "ny", "x0", "y0", "dx", "dy", "friction")
+    real_names: ClassVar[tuple[str, ...]] = ("nx", "ny", "x0", "y0", "dx", "dy", "friction_factor")
     real_checks: ClassVar[tuple[Check, ...]] = (positive, positive, number, number, positive, positive, not_negative)
 
     @property

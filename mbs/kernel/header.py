@@ -199,6 +199,8 @@ class Status(IntEnum):
     NO_EQUILIBRIUM = 16
     BRANCH_CHANGED = 17
     FIXED_PARAMETER = 18
+    BAD_ROAD = 19
+    ROAD_LOST = 20
 
 
 class Update(IntEnum):
@@ -368,6 +370,8 @@ class ElementType(IntEnum):
     CONTACT_POINTS = 11
     SPIN_TORQUE = 12
     ELECTRIC_DRIVE = 13
+    SPRING_DAMPER_TABLE = 14
+    LIFT = 15
 
 
 class SettingsFields(Structure):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from mbs.model.guides import Guide
     from mbs.model.inputs import Input
     from mbs.model.joints.joint import Joint
-    from mbs.model.parameters import Parameter
+    from mbs.model.parameters import Parameter, RoadFileParameter
     from mbs.model.sensors import Sensor
     from mbs.model.spin import Spin
     from mbs.model.switches import Switch
@@ -144,6 +144,7 @@ class ModelCore:
         self.guides: list[Guide] = []
         self.switches: list[Switch] = []
         self.roads: list[Road] = []
+        self.road_files: list[RoadFileParameter] = []
         self.sensors: list[Sensor] = []
         self.parameters: list[Parameter] = []
         self.constants: list[Constant] = []

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
-from mbs.checks import array, instance_of, number, one_of, shown, whole
+from mbs.checks import array, direction, instance_of, number, one_of, shown, whole
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.drag import Drag
 from mbs.elements.input_force import InputForce
+from mbs.elements.lift import Lift
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
@@ -27,7 +29,9 @@ from mbs.model.core import Coordinate
 from mbs.model.ends import FixedEnd, body_and_point, different
 from mbs.model.flexible import FlexibleBody
 from mbs.model.inputs import Input, owned_input
+from mbs.model.parameters import RoadFileParameter
 from mbs.model.spin import Spin
+from mbs.roads.road_file import RoadFile
 
 
 class ForceVocabulary(BodyVocabulary):
@@ -256,13 +260,65 @@ class ForceVocabulary(BodyVocabulary):
         self.owned(body, f"The drag '{name}'")
         return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'")))
 
-    def road(self, road: Road) -> int:
+    def lift(
+        self,
+        name: str,
+        body: Body,
+        point: ArrayLike,
+        *,
+        forward: ArrayLike,
+        up: ArrayLike,
+        lift_area: float,
+        air_density: float = 1.225,
+    ) -> ElementRecord:
+        """Aerodynamic lift in still air at a point, along an axis of the body.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements.
+        body : Body
+            Of this model.
+        point : array_like, shape (dimension,)
+            Earth axes in the reference configuration, m.
+        forward, up : array_like, shape (dimension,)
+            Axes of the body, as drawn, of any length: lift goes with the square of the point's speed along the first
+            and acts along the second.
+        lift_area : float
+            Lift coefficient times frontal area, m2; negative: downforce.
+        air_density : float
+            kg/m3.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
+        Raises
+        ------
+        ModelError
+            The body is not of this model, a number is not one, an axis has no direction, or the density is negative.
+        """
+        what = f"lift '{name}'"
+        owned = self.owned(body, f"The {what}")
+        axes = [
+            owned.vector(direction(axis, self.dimension, f"the {word} axis of {what}"))
+            for axis, word in ((forward, "forward"), (up, "upward"))
+        ]
+        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), *axes))
+
+    def road(self, road: Road | RoadFile, *, file: str | None = None) -> int:
         """Add a road.
 
         Parameters
         ----------
-        road : PlaneRoad, KerbRoad or GridRoad
-            Of `mbs.elements`.
+        road : PlaneRoad, KerbRoad, GridRoad or RoadFile
+            Of `mbs.elements`, or a file (`mbs.RoadFile`).
+        file : str, optional
+            Name of a parameter, as ``"road.file"``, that exchanges this road for one of a file before a start: of an
+            FMU a variable of type String, of runs `parameters={"road.file": "path.road"}`. Its start value is the
+            path of a `RoadFile`, else nothing: then the road is the one given here. A `RoadFile` without a name has
+            ``"road.file"``, from the second road on with its number, ``"road_1.file"``.
 
         Returns
         -------
@@ -272,15 +328,23 @@ class ForceVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            A number of the road is not one.
+            A number of the road is not one, the file is none, or the name of the parameter is taken.
         ArgumentTypeError
             It is no road.
         """
-        kinds = (PlaneRoad, KerbRoad, GridRoad)
-        instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad or GridRoad")
+        kinds = (PlaneRoad, KerbRoad, GridRoad, RoadFile)
+        instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad or RoadFile")
+        k, start = len(self.roads), ""
+        if isinstance(road, RoadFile):
+            _ = road.header  # whether there is such a file
+            start = str(Path(road.path).absolute())
+            file = file or ("road.file" if k == 0 else f"road_{k}.file")
+            road = road.road
         _ = road.real  # its numbers are looked at
+        if file is not None:
+            self.road_files.append(RoadFileParameter(self.unique("parameter", file), k, start))
         self.roads.append(road)
-        return len(self.roads) - 1
+        return k
 
     def contact_points(
         self, name: str, body: Body, points: ArrayLike, *, road: int, contact: ContactPoints

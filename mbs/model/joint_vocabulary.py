@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from numpy.typing import ArrayLike
 
 from mbs.affine import Affine
@@ -15,7 +13,6 @@ from mbs.model.guides import Guide
 from mbs.model.joints.distance import distance
 from mbs.model.joints.drive import drive
 from mbs.model.joints.joint import Joint
-from mbs.model.joints.mean_on_plane import mean_on_plane
 from mbs.model.joints.pin import pin
 from mbs.model.joints.points import revolute, spherical, universal
 from mbs.model.joints.rolling import rolling, skate
@@ -219,37 +216,6 @@ class JointVocabulary(BodyVocabulary):
             The bodies are one or not of this model, body 2 is a point mass, or a number is not one.
         """
         return self._join(point_on_line(self, name, end_1, end_2, axis))
-
-    def mean_on_plane(
-        self, name: str, ends: Sequence[tuple[Body, ArrayLike]], carrier: Body, *, normal: ArrayLike
-    ) -> Joint:
-        """The mean of points of several bodies stays in a plane of a carrier, where it is drawn.
-
-        With one point it is a point on a plane. With two it is what two equal bushes do that are soft along the normal:
-        neither point leads, and mirrored motions stay mirrored.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the joints.
-        ends : sequence of (Body, array_like)
-            Bodies and their points, earth axes in the reference configuration, m.
-        carrier : Body
-            Body or the ground.
-        normal : array_like, shape (dimension,)
-            Of the plane, fixed in the carrier, of any length.
-
-        Returns
-        -------
-        Joint
-            It has no force that can be read.
-
-        Raises
-        ------
-        ModelError
-            There is no point, a body is the carrier or not of this model, or a number is not one.
-        """
-        return self._join(mean_on_plane(self, name, ends, carrier, normal))
 
     def distance(self, name: str, end_1: End, end_2: End, *, length: float | None = None) -> Joint:
         """Massless rod: the distance of two points is constant.

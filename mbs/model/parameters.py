@@ -49,6 +49,33 @@ class Parameter:
 
 
 @dataclass(frozen=True)
+class RoadFileParameter:
+    """A parameter that is text: the file in place of a road.
+
+    Parameters
+    ----------
+    name : str
+        Unique among the parameters.
+    road : int
+        Number of the road.
+    start : str
+        Path of the file; empty: none, the road of the model.
+    """
+
+    name: str
+    road: int
+    start: str
+
+    @property
+    def description(self) -> str:
+        """One sentence for hosts."""
+        return (
+            "File of the road (made by ali3 road) in place of the built-in one, which an empty text means: a path, or "
+            "the name of one in the folder roads of the resources"
+        )
+
+
+@dataclass(frozen=True)
 class _Target:
     """Where a value goes, and what checks it there."""
 

@@ -48,6 +48,7 @@ def refusal(
         Status.UNRESOLVED,
         Status.TOO_STIFF,
         Status.TOO_FAR,
+        Status.ROAD_LOST,
     ):
         message += _worst_equations(simulation, report)
     return SimulationError(message, simulation.time, error.status, trajectory)
@@ -66,6 +67,8 @@ def _remedy(simulation: Simulation, status: int) -> str:
         height, element, words = simulation.instance.start_excess()
         name = prepared(simulation.system)[1]["elements"][element]["name"]
         return f" '{name}' {words}. {height:.3g} m higher (z of the pose) it would be clear of it."
+    if status == Status.ROAD_LOST:
+        return f" Of the road {simulation.instance.road_lost()}."
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
     if rate > 0.0:
         h = simulation.step_tried

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -40,7 +41,7 @@ def simulate(
     h: float | None = None,
     inputs: Mapping[str, Signal] | None = None,
     settings: Settings | None = None,
-    parameters: Mapping[str, float] | None = None,
+    parameters: Mapping[str, Any] | None = None,
     *,
     every: int = 1,
     progress: bool | Callable[[float], None] | None = None,

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import os
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import astuple
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from mbs.checks import flag, instance_of, is_finite, number, positive, shown, wh
 from mbs.input_signals import InputSignals, Signal, unit_text
 from mbs.kernel.binding import Instance, KernelError, Status
 from mbs.large_bending import BendingWatch
+from mbs.roads.shipped import road_path
 from mbs.run_report import Report
 from mbs.settings import Settings
 from mbs.simulation.arguments import (
@@ -71,7 +74,7 @@ class Simulation:
         *,
         settings: Settings | None = None,
         inputs: Mapping[str, float] | None = None,
-        parameters: Mapping[str, float] | None = None,
+        parameters: Mapping[str, Any] | None = None,
         pose: Pose | None = None,
         t0: float = 0.0,
     ) -> None:
@@ -83,13 +86,20 @@ class Simulation:
         loaded, self._meta = prepared(system)
         self.instance = Instance(loaded)
         self.instance.set_settings(**self.settings.kernel_fields())
+        self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
+        self._started = False
+        for name, entry in self._road_files.items():
+            if entry["start"] and name not in check_values(parameters, "The parameters"):
+                self.set_parameter(name, entry["start"])
         for name, value in check_values(parameters, "The parameters").items():
             self.set_parameter(name, value)
+        self._warn_of_other_road(check_values(parameters, "The parameters"))
         for name, value in check_values(inputs, "The inputs").items():
             self.set_input(name, value)
         if (placed := check_pose(pose, self._meta)) is not None:
             self._call(f"The starting {placed} was refused", lambda: self.instance.set_pose(*astuple(placed)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(start))
+        self._started = True
 
     @property
     def time(self) -> float:
@@ -136,25 +146,29 @@ class Simulation:
         InputSignals({name: x}, self._meta["inputs"]).at(np.array([self.time]), 0.0)
         self.instance.set_input(index, x)
 
-    def set_parameter(self, name: str, value: float) -> None:
+    def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
         """Value of a tunable parameter from now on; the next step is the first with it.
 
         Parameters
         ----------
         name : str
             Of a parameter of the System.
-        value : float
-            In its unit, within its limits.
+        value : float or path
+            In its unit, within its limits. Of the file of a road its path, or the name of a road that comes with the
+            package; empty for the road of the model. Such a parameter is given to the constructor: it is fixed.
 
         Raises
         ------
         ValueError
-            There is no such parameter, it is fixed, the value is not within its limits, or the model cannot take it
-            beside the other values.
+            There is no such parameter, it is fixed, the value is not within its limits, the model cannot take it beside
+            the other values, or the file of a road is refused.
         """
+        if isinstance(name, str) and name in self._road_files:
+            self._set_road(self._road_files[name], value)
+            return
         index = self._index("parameters", name)
         entry = self._meta["parameters"][index]
-        x = float(value) if is_finite(value) else math.nan
+        x = float(value) if is_finite(value) else math.nan  # type: ignore[arg-type]
         if not entry["min"] <= x <= entry["max"]:
             raise ValueError(
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}; "
@@ -172,6 +186,27 @@ class Simulation:
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
+
+    def _warn_of_other_road(self, parameters: Mapping[str, Any]) -> None:
+        """A word about parameters of roads that files replace."""
+        files = {e["road"] for n, e in self._road_files.items() if parameters.get(n, e["start"])}
+        for entry in self._meta["parameters"]:
+            if entry["name"] in parameters and entry.get("road") in files:
+                warnings.warn(
+                    f"The parameter {entry['name']!r} has no effect: it is of the road that the file replaces.",
+                    stacklevel=3,
+                )
+
+    def _set_road(self, entry: Mapping[str, Any], value: object) -> None:
+        name = entry["name"]
+        if self._started:
+            raise ValueError(f"Parameter {name!r} is fixed: give the file of a road to the Simulation's constructor.")
+        if not isinstance(value, str | os.PathLike):
+            raise ValueError(f"Parameter {name!r} is set to {shown(value)}; it is the path of a road file.")
+        try:
+            self.instance.set_road(entry["road"], road_path(value))
+        except KernelError as error:
+            raise ValueError(f"Parameter {name!r}: {error.message}") from None
 
     def set_switch(self, name: str, on: bool) -> float:
         """Turn the rows of a switch on or off.

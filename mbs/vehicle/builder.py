@@ -112,4 +112,5 @@ class CarBuilder:
                 q.unit,
                 type(tied.section).model_fields[tied.name].description or "",
                 targets=tied.targets,
+                tunable=q.change == "tunable",
             )

@@ -16,6 +16,7 @@ from mbs.model import Model
 from mbs.model.ends import End
 from mbs.model.guides import Guide
 from mbs.model.spin import Spin
+from mbs.roads import RoadFile
 from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
@@ -151,20 +152,20 @@ class Car(Section):
 
     def model(
         self,
-        road: Road | None = None,
+        road: Road | RoadFile | None = None,
         fidelity: Fidelity | int | str = Fidelity.RIGID,
         guide: Callable[[Model], Guide] | None = None,
     ) -> Model:
         """The car at rest in static equilibrium, its front axle over the origin.
 
         Where the road under it is not level nothing but the brakes could hold it: there it starts as drawn, level, and
-        settles; a pose must lift it above the road.
+        settles; a pose must lift it above the road. On a road from a file it is lifted by itself.
 
         Parameters
         ----------
-        road : Road, optional
+        road : Road or RoadFile, optional
             By default level ground with a kerb, down by `road.kerb_height` at `road.kerb_x` (parameters; far away
-            unless set), and the friction `road.friction`.
+            unless set), and the friction `road.friction`. The parameter `road.file` exchanges it for a file.
         fidelity : Fidelity, int or str
             How much of the chassis is modelled, a member of `Fidelity`, its number or its name.
         guide : callable, optional
@@ -206,8 +207,11 @@ class Car(Section):
             "steering": m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left"),
             "throttle": m.input("throttle", min=0.0, max=1.0, description="throttle pedal"),
             "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
+            "selector": m.input(
+                "selector", start=1.0, min=-1.0, max=1.0, description="selector: -1 reverse, 0 neutral, 1 drive"
+            ),
         }
-        return CarBuilder(self, m, m.road(road or self.road.default()), inputs)
+        return CarBuilder(self, m, m.road(road or self.road.default(), file="road.file"), inputs)
 
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add steering and front axle, then the rear axle.

@@ -8,11 +8,13 @@ import numpy as np
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.model import Model
-from mbs.vehicle.quantities import RoadFriction
+from mbs.roads import RoadFile
+from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
 
 FAR_AWAY = 1e6  # m: the default kerb lies where no manoeuvre goes
 KERB_HEIGHT = 0.08  # m, of the paper's test
+BUILT_IN = "of the built-in road, without effect on one from a file"
 
 
 class RoadSection(Section):
@@ -20,73 +22,86 @@ class RoadSection(Section):
 
     friction: RoadFriction
     """Largest longitudinal tyre force over load at the tyre's nominal load."""
+    friction_factor: Factor = 1.0
+    """Multiplies it, and the frictions of a road from a file."""
 
     def default(self) -> KerbRoad:
         """Level ground with a kerb."""
-        return KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction)
+        return KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction, self.friction_factor)
 
-    def parameters(self, m: Model, road: Road | None, ground: int, nominal_load: float) -> None:
+    def parameters(self, m: Model, road: Road | RoadFile | None, ground: int, nominal_load: float) -> None:
         """What a user may set of the road.
 
         Parameters
         ----------
         m : Model
             The car.
-        road : Road or None
+        road : Road, RoadFile or None
             Under it; None: `default`.
         ground : int
             Its number in the model.
         nominal_load : float
             Of the tyres, N, for the description.
         """
-        names = (road or KerbRoad).real_names
+        own = self.default() if road is None else road.road if isinstance(road, RoadFile) else road
         target = ("road", ground)
-        if "friction" in names:
-            friction = (
-                road.friction if isinstance(road, KerbRoad | PlaneRoad) else self.friction if road is None else 1.0
-            )
+        if isinstance(own, KerbRoad | PlaneRoad):
             m.parameter(
                 "road.friction",
-                friction,
+                own.friction,
                 0.0,
                 2.0,
                 "1",
-                ("factor on the friction of the road" if isinstance(road, GridRoad) else "friction coefficient")
-                + f": largest longitudinal tyre force over load at {nominal_load:g} N",
-                targets=[(target, names.index("friction"), 1.0)],
+                f"friction coefficient: largest longitudinal tyre force over load at {nominal_load:g} N; {BUILT_IN}",
+                targets=[(target, "friction", 1.0)],
             )
         if road is None:
-            place, low, step = (names.index(n) for n in ("position", "lower_height", "step"))
-            m.parameter(
-                "road.kerb_x",
-                FAR_AWAY,
-                -FAR_AWAY,
-                FAR_AWAY,
-                "m",
-                "x of the kerb's edge",
-                targets=[(target, place, 1.0)],
-            )
-            m.parameter(
-                "road.kerb_height",
-                KERB_HEIGHT,
-                0.001,
-                0.5,
-                "m",
-                "drop behind the kerb's edge",
-                targets=[(target, low, -1.0), (target, step, 1.0)],
-            )
+            self._kerb(m, ground)
+        m.parameter(
+            "road.friction_factor",
+            own.friction_factor,
+            0.0,
+            10.0,
+            "1",
+            "factor on the friction of the road, also of one from a file",
+            targets=[(target, "friction_factor", 1.0)],
+        )
+
+    @staticmethod
+    def _kerb(m: Model, ground: int) -> None:
+        target = ("road", ground)
+        m.parameter(
+            "road.kerb_x",
+            FAR_AWAY,
+            -FAR_AWAY,
+            FAR_AWAY,
+            "m",
+            f"x of the kerb's edge; {BUILT_IN}",
+            targets=[(target, "position", 1.0)],
+        )
+        m.parameter(
+            "road.kerb_height",
+            KERB_HEIGHT,
+            0.001,
+            0.5,
+            "m",
+            f"drop behind the kerb's edge; {BUILT_IN}",
+            targets=[(target, "lower_height", -1.0), (target, "step", 1.0)],
+        )
 
 
-def level_within(road: Road | None, footprint: tuple[tuple[float, float], tuple[float, float]]) -> bool:
+def level_within(road: Road | RoadFile | None, footprint: tuple[tuple[float, float], tuple[float, float]]) -> bool:
     """Whether a road is level under the car as drawn.
 
     Parameters
     ----------
-    road : Road or None
-        None: level.
+    road : Road, RoadFile or None
+        None: level. Of a file that which stands in its place: the kernel lifts a start to the height of the file.
     footprint : pair of (float, float)
         Least and largest x and y of the car, m.
     """
+    if isinstance(road, RoadFile):
+        road = road.road
     if isinstance(road, PlaneRoad):
         return road.grade_x == 0.0 and road.grade_y == 0.0
     if isinstance(road, GridRoad):

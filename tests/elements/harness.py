@@ -22,7 +22,10 @@ Array = NDArray[np.float64]
 KERNEL = Path(__file__).parents[2] / "mbs" / "kernel" / "src"
 APART = ("forces.c", "road.c")  # the one needs a System, the other may be replaced
 SOURCES = [f for f in sorted((KERNEL / "elements").glob("*.c")) if f.name not in APART]
-SOURCES.append(KERNEL / "algebra" / "elementary.c")
+SOURCES += [
+    KERNEL / "algebra" / "elementary.c",
+    *(f for room in ("roads", "files") for f in (KERNEL / room).glob("*.c")),
+]
 
 
 def compiled(road: Path) -> ctypes.CDLL:
@@ -107,7 +110,7 @@ class Element:
     def conservative(self) -> bool:
         """Whether the kernel says that forces of this element take no energy."""
         e = self.element
-        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real)))
+        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real), _ints(e.integer)))
 
     @property
     def has_discrete(self) -> bool:

@@ -28,8 +28,10 @@ ROOMS = (
     "tree",
     "rows",
     "elements",
+    "roads",
     "flexible",
     "algebra",
+    "files",
 )
 """Rooms of the kernel; each may include headers of those behind it."""
 SHARED = ("method.h", "instance.h", "system.h")

@@ -80,7 +80,6 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "cylindrical": lambda b: between(b, point=X, axis=X),
     "weld": lambda b: between(b),
     "point_on_line": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": (b.box, X), "axis": X},
-    "mean_on_plane": lambda b: {"name": "new", "ends": [(b.arm, X), (b.box, X)], "carrier": b.m.ground, "normal": Y},
     "distance": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": b.ball, "length": 2.0},
     "drive": lambda b: {"name": "new", "driven": b.angle, "guide": b.guide},
     "pin": lambda b: {"name": "new", "body": b.arm, "point": X, "on": False},
@@ -130,6 +129,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "left": b.arm,
         "right": b.box,
         "stiffness": 1.0,
+        "stiffness_factor": 1.0,
         "damping": 1.0,
         "carrier": b.m.ground,
         "axis": Y,
@@ -177,8 +177,17 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "force": lambda b: {"name": "new", "body": b.arm, "point": X, "inputs": [b.pedal, None, None], "axes": "body"},
     "torque": lambda b: {"name": "new", "body": b.arm, "inputs": [b.pedal, None, None], "axes": "body"},
     "torque_on": lambda b: {"name": "new", "angle": b.angle, "input": b.pedal, "gain": 2.0},
+    "lift": lambda b: {
+        "name": "new",
+        "body": b.arm,
+        "point": X,
+        "forward": X,
+        "up": Y,
+        "lift_area": 1.0,
+        "air_density": 1.0,
+    },
     "drag": lambda b: {"name": "new", "body": b.arm, "point": X, "drag_area": 1.0, "air_density": 1.0},
-    "road": lambda b: {"road": PlaneRoad()},
+    "road": lambda b: {"road": PlaneRoad(), "file": "road.file"},
     "contact_points": lambda b: {
         "name": "new",
         "body": b.arm,
@@ -254,8 +263,8 @@ def allowed(function: Any, parameter: inspect.Parameter, label: str, value: Any)
         return "None" in kind
     if label == "True":
         return kind.startswith("bool")
-    if isinstance(value, str) and parameter.name in ("name", "unit", "description", "display_unit", "text"):
-        return label == "text" or (label == "empty" and parameter.name not in ("name", "text"))
+    if isinstance(value, str) and parameter.name in ("name", "unit", "description", "display_unit", "text", "file"):
+        return label == "text" or (label == "empty" and parameter.name not in ("name", "text", "file"))
     return parameter.name in ("min", "max") and function == "input" and label == "inf"
 
 

@@ -1,4 +1,4 @@
-"""Levers with a link, the bars they carry, and means held on a plane, against closed forms."""
+"""Levers with a link, and the bars they carry, against closed forms."""
 
 from __future__ import annotations
 
@@ -95,53 +95,6 @@ def test_levers_without_mass_move_as_light_ones_do():
     assert report["degrees_of_freedom"] == 1
 
 
-def halves(method="mean"):
-    """Two arms on a line of pivots, hinged to each other off that line, as those of a twist beam."""
-    m = Model("beam", gravity=(0, 0, 0))
-    arms = []
-    for name, y in (("left", 0.5), ("right", -0.5)):
-        arm = m.body(name, mass=5.0, com=(-0.4, 0.9 * y, 0.0), inertia=(0.1, 0.1, 0.1))
-        m.point_on_line(f"{name} pivot", (arm, (0, y, 0)), (m.ground, (0, y, 0)), axis=Y)
-        m.sense_position(f"{name}.y", arm, (0, y, 0), "y")
-        m.sense_position(f"{name}.z", arm, (-0.5, y, 0), "z")
-        arms.append(arm)
-    if method == "mean":
-        m.mean_on_plane("centred", [(arms[0], (0, 0.5, 0)), (arms[1], (0, -0.5, 0))], m.ground, normal=Y)
-    else:
-        m.mean_on_plane("centred", [(arms[0], (0, 0.5, 0))], m.ground, normal=Y)
-    m.revolute("shear axis", *arms, point=(-0.2, 0, 0), axis=Y)
-    return m, arms
-
-
-def test_a_mean_on_a_plane_leaves_two_freedoms_and_keeps_mirrored_motions_mirrored():
-    ways = []
-    for one, other in ((0, 1), (1, 0)):
-        m, arms = halves()
-        m.initial_velocity(arms[one], angular=(0.0, 2.0, 0.0))
-        m.initial_velocity(arms[other], angular=(0.0, -0.5, 0.0))
-        system = compile(m)
-        assert system.report["degrees_of_freedom"] == 2
-        ways.append(mbs.simulate(system, 0.2, 0.002, progress=False))
-    first, mirrored = ways
-    assert abs(first["left.z"][-1] - first["right.z"][-1]) > 0.1
-    assert np.abs(first["left.y"] - 0.5).max() > 1e-4  # the pivots do come nearer to each other
-    np.testing.assert_allclose(first["left.y"] + first["right.y"], 0.0, atol=1e-12)
-    for a, b in (("left", "right"), ("right", "left")):
-        np.testing.assert_allclose(first[f"{a}.z"], mirrored[f"{b}.z"], atol=1e-9)
-        np.testing.assert_allclose(first[f"{a}.y"], -mirrored[f"{b}.y"], atol=1e-9)
-
-
-def test_one_point_stays_on_its_plane():
-    m, arms = halves("one")
-    m.initial_velocity(arms[0], angular=(0.0, 2.0, 0.0))
-    m.initial_velocity(arms[1], angular=(0.0, -0.5, 0.0))
-    system = compile(m)
-    assert system.report["degrees_of_freedom"] == 2
-    run = mbs.simulate(system, 0.2, 0.002, progress=False)
-    np.testing.assert_allclose(run["left.y"], 0.5, atol=1e-12)
-    assert np.abs(run["right.y"] + 0.5).max() > 1e-4
-
-
 def link_of(m, body, **changes):
     places = {"pivot": (0, 0, 0), "axis": Y, "lever_end": (0.2, 0, 0), "link_end": (0.2, 0, -0.3)} | changes
     return m.drop_link("link", m.ground, body, **places)
@@ -157,11 +110,6 @@ def link_of(m, body, **changes):
         (lambda m, a: link_of(m, a, axis=(0, 0, 0)), "axis of drop link 'link'"),
         (lambda m, a: link_of(m, m.ground), "with itself"),
         (lambda m, a: link_of(m, m.point_mass("p", mass=1.0, position=(1, 0, 0))), "'p' is a point mass"),
-        (lambda m, a: m.mean_on_plane("p", [], m.ground, normal=Y), "needs a list of"),
-        (lambda m, a: m.mean_on_plane("p", a, m.ground, normal=Y), "needs a list of"),
-        (lambda m, a: m.mean_on_plane("p", [(a, (0, 0, 0))], a, normal=Y), "with itself"),
-        (lambda m, a: m.mean_on_plane("p", [(a, (0, 0, 0))], m.ground, normal=(0, 0, 0)), "axis of mean on plane 'p'"),
-        (lambda m, a: m.mean_on_plane("p", [(a, (0, 0))], m.ground, normal=Y), "mean on plane 'p'"),
     ],
 )
 def test_nonsense_is_refused_with_a_sentence(make, sentence):

@@ -86,7 +86,7 @@ def recovery_table(readings: Sequence[Reading], nodes: Sequence[str], dof: np.nd
     lines = ["gauge,quantity,node,axis,factor"]
     for reading in readings:
         for node, numbers in zip(nodes, dof, strict=True):
-            for axis, number in zip(AXES, numbers, strict=True):
+            for axis, number in zip(AXES, numbers, strict=False):
                 if number >= 0 and reading.row[number] != 0.0:
                     lines.append(f"{reading.gauge},{reading.quantity},{node},{axis},{float(reading.row[number])!r}")
     path.write_text("\n".join(lines) + "\n")

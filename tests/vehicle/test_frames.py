@@ -75,17 +75,16 @@ def test_without_loads_the_load_paths_say_what_is_missing(small: Car) -> None:
         small.model(fidelity="load_paths")
 
 
-def test_mounts_may_be_named(small: Car, tmp_path: Path) -> None:
+def test_mounts_may_be_named(small: Car) -> None:
     """Named as found, nothing changes; drive mounts at other heights still take the torque about the lateral axis."""
-    frame = small._data["chassis"]["frame"]
     same = small.changed({"chassis.frame.drive_mounts": ["gL", "hL", "jL"], "chassis.frame.reference": "oc"})
     assert same.flexible_frame.joints == small.flexible_frame.joints
     other = small.changed({"chassis.frame.drive_mounts": ["lL", "iL", "nL"]})
     assert other.flexible_frame.joints.ground[1:] == (("lL", "lR"), ("iL", "iR"), ("nL", "nR"))
-    z, x = other.model(fidelity=3).elements and _drive_axes(other)
+    z, x = _drive_axes(other)
     np.testing.assert_allclose((z, x), ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)), rtol=0, atol=1e-12)
     with pytest.raises(ModelError, match=r"drive_mounts names 'zL'; the frame has no such joint"):
-        prototype_with({**frame, "drive_mounts": ["gL", "hL", "zL"]}, tmp_path).flexible_frame  # noqa: B018
+        small.changed({"chassis.frame.drive_mounts": ["gL", "hL", "zL"]}).flexible_frame  # noqa: B018
 
 
 def _drive_axes(car: Car) -> tuple[np.ndarray, np.ndarray]:
@@ -123,7 +122,7 @@ def test_the_own_frame_of_the_prototype_comes_back_from_nastran(tmp_path: Path) 
     op4.write(str(tmp_path / "frame.op4"), matrices, binary=True)
     numbers = {name: str(101 + k) for k, name in enumerate(model.names)}
     grid = [
-        f"GRID*,{numbers[name]},,{x[0]:.9g},{x[1]:.9g}\n*,{x[2]:.9g}"
+        f"GRID,{numbers[name]},,{x[0]:.6f},{x[1]:.6f},{x[2]:.6f}"
         for name, x in zip(model.names, model.positions, strict=True)
     ]
     (tmp_path / "frame.bdf").write_text("\n".join(grid) + "\n")

@@ -78,6 +78,10 @@ bool slave_fidelity_choose(slave *s) {
   const size_t wanted = (size_t)s->value[s->fidelity_reference];
   if (wanted == s->fidelity.number) return true;
   if (!slave_fidelity_load(s, wanted, &loaded)) return false;
+  if (!slave_texts_to(s, loaded.kernel, s->text)) {
+    slave_fidelity_free(s, &loaded);
+    return false;
+  }
   slave_fidelity_take(s, &loaded);
   return true;
 }

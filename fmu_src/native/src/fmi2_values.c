@@ -33,7 +33,8 @@ static fmi2Status other_type(fmi2Component c, const char *function, unsigned mas
   slave *s = fmi2_slave(c, function, mask);
   if (s == NULL) return fmi2Error;
   if (n == 0) return fmi2OK;
-  return (fmi2Status)slave_say(s, SLAVE_ERROR, "%s: all variables of this FMU are of type Real or Integer.", function);
+  return (fmi2Status)slave_say(s, SLAVE_ERROR, "%s: all variables of this FMU are of type Real, Integer or String.",
+                               function);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBoolean)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -42,10 +43,12 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBoolean)(fmi2Component c, const fmi2Valu
   return other_type(c, "fmi2GetBoolean", FMI2_GET, n);
 }
 
+/* Text variables come after all others. */
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetString)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                                 fmi2String value[]) {
-  (void)vr, (void)value;
-  return other_type(c, "fmi2GetString", FMI2_GET, n);
+  slave *s = fmi2_slave(c, "fmi2GetString", FMI2_GET);
+  if (s == NULL || !fmi2_given(s, "fmi2GetString", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
+  return (fmi2Status)slave_get_text(s, (uint32_t)slave_the_table.n_variables, vr, n, value);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -56,6 +59,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component c, const fmi2Valu
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                                 const fmi2String value[]) {
-  (void)vr, (void)value;
-  return other_type(c, "fmi2SetString", FMI2_SET, n);
+  slave *s = fmi2_slave(c, "fmi2SetString", FMI2_SET);
+  if (s == NULL || !fmi2_given(s, "fmi2SetString", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
+  return (fmi2Status)slave_set_text(s, (uint32_t)slave_the_table.n_variables, vr, n, value);
 }

@@ -57,12 +57,18 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetFloat64)(fmi3Instance instance, const fm
   return (fmi3Status)slave_set(face->s, face->items[0], n_values, value);
 }
 
+static bool as_many(fmi3_face *face, size_t n, size_t n_values) {
+  if (n == n_values) return true;
+  slave_say(face->s, SLAVE_ERROR, "The variables have %zu values, the call gives room for %zu.", n, n_values);
+  return false;
+}
+
 static fmi3Status other_type(fmi3Instance instance, const char *function, unsigned mask, size_t n) {
   fmi3_face *face = fmi3_slave(instance, function, mask);
   if (face == NULL) return fmi3Error;
   if (n == 0) return fmi3OK;
-  return (fmi3Status)slave_say(face->s, SLAVE_ERROR, "%s: all variables of this FMU are of type Float64 or Int32.",
-                               function);
+  return (fmi3Status)slave_say(face->s, SLAVE_ERROR,
+                               "%s: all variables of this FMU are of type Float64, Int32 or String.", function);
 }
 
 #define OTHER_TYPE(Type)                                                                                               \
@@ -86,7 +92,23 @@ OTHER_TYPE(UInt32)
 OTHER_TYPE(Int64)
 OTHER_TYPE(UInt64)
 OTHER_TYPE(Boolean)
-OTHER_TYPE(String)
+
+/* Text variables come after all others. */
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetString)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
+                                                fmi3String value[], size_t n_values) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3GetString", FMI3_GET);
+  if (face == NULL || !fmi3_given(face, "fmi3GetString", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
+  if (!as_many(face, n, n_values)) return fmi3Error;
+  return (fmi3Status)slave_get_text(face->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
+}
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetString)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
+                                                const fmi3String value[], size_t n_values) {
+  fmi3_face *face = fmi3_slave(instance, "fmi3SetString", FMI3_SET);
+  if (face == NULL || !fmi3_given(face, "fmi3SetString", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
+  if (!as_many(face, n, n_values)) return fmi3Error;
+  return (fmi3Status)slave_set_text(face->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
+}
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetBinary)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                 size_t size[], fmi3Binary value[], size_t n_values) {

@@ -56,6 +56,8 @@ static const char *refused(const slave *s, char *text, size_t size) {
 /* What is wrong with a start, in numbers. */
 static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
   if (status == ALI3_TOO_FAR) return farthest(s, text, size);
+  if (status == ALI3_ROAD_LOST) snprintf(text, size, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
+  if (status == ALI3_ROAD_LOST) return text;
   return status == ALI3_START_REFUSED ? refused(s, text, size) : slave_worst_row(s, text, size);
 }
 

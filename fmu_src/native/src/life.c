@@ -9,7 +9,8 @@ static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const size_t numbers = t->n_variables + t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + (size_t)z.nu;
-  double *pool = s->memory.allocate(1, numbers * sizeof(double) + 2 * t->n_known + (size_t)z.ns + 1);
+  const size_t texts = t->n_texts * sizeof *s->text;
+  double *pool = s->memory.allocate(1, numbers * sizeof(double) + 2 * t->n_known + (size_t)z.ns + texts + 1);
   if (pool == NULL) {
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
@@ -21,6 +22,7 @@ static bool take_arrays(slave *s) {
   s->pending = (unsigned char *)(s->direction + z.nu);
   s->clamped = s->pending + t->n_known;
   s->known = s->clamped + t->n_known;
+  s->text = (slave_text_value *)(s->known + z.ns);
   return true;
 }
 
@@ -92,7 +94,9 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
     return NULL;
   }
   start_values(s);
-  return s;
+  if (slave_texts_start(s)) return s;
+  slave_free(s);
+  return NULL;
 }
 
 void slave_free(slave *s) {
@@ -125,6 +129,7 @@ slave_status slave_enter(slave *s) {
 slave_status slave_exit(slave *s) {
   if (!s->calls.initialised && !slave_initialise(s)) return SLAVE_ERROR;
   s->calls.phase = SLAVE_STEPPING;
+  slave_texts_remark(s);
   return slave_say(s, SLAVE_OK, "Initialised at %g s.", s->calls.start_time);
 }
 
@@ -136,5 +141,5 @@ slave_status slave_terminate(slave *s) {
 slave_status slave_reset(slave *s) {
   ali3_reset(s->fidelity.kernel);
   start_values(s);
-  return SLAVE_OK;
+  return slave_texts_start(s) ? SLAVE_OK : SLAVE_ERROR;
 }

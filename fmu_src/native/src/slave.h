@@ -27,7 +27,14 @@ typedef struct {
   double start, min, max; /* infinite where open */
   bool whole;             /* an integer of FMI */
   bool fixed;             /* a parameter that can be set before the first step only */
+  int32_t road;           /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
 } slave_variable;
+
+typedef struct {
+  const char *name;
+  int32_t road; /* whose file it names */
+  const char *start;
+} slave_text;
 
 typedef struct {
   const char *token;           /* GUID or instantiation token */
@@ -39,6 +46,8 @@ typedef struct {
   const char *const *element;  /* names of the force elements of all Systems */
   const size_t *first_element; /* n_systems + 1 */
   size_t n_systems;            /* to choose from by the fidelity */
+  const slave_text *text;      /* variables that are text; numbered by themselves */
+  size_t n_texts;
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -54,7 +63,8 @@ typedef enum { /* bits, for masks of allowed calls */
                SLAVE_TERMINATED = 16
 } slave_phase;
 
-enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096 };
+enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MOST_TEXT = 1024 };
+typedef char slave_text_value[SLAVE_MOST_TEXT]; /* with zeros behind its end */
 
 typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
@@ -92,6 +102,7 @@ struct slave {
   double *slope;          /* per variable and order: derivatives of the inputs from the communication point on */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *clamped; /* per known variable: said once */
+  slave_text_value *text; /* per text variable: the one whose road the kernel has */
   bool outputs_fresh;
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
@@ -114,6 +125,14 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded);
 void slave_fidelity_take(slave *s, const slave_fidelity *loaded);
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded);
 bool slave_fidelity_choose(slave *s);
+
+/* texts.c: n numbers of text variables, the first of which is `first`, and as many texts */
+slave_status slave_get_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char **value);
+slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char *const *value);
+bool slave_texts_to(slave *s, ali3_instance *kernel, const slave_text_value *value);
+bool slave_texts_start(slave *s);
+void slave_texts_remark(slave *s);
+bool slave_without_effect(const slave *s, const slave_variable *v);
 
 /* life.c */
 slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bool logging, const char *name,

@@ -23,13 +23,15 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 3, CRC_AT = 12, CHECKED_FROM = 16 };
+enum { STATE_VERSION = 4, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
+static size_t texts_size(void) { return slave_the_table.n_texts * sizeof(slave_text_value); }
+
 static size_t own_size(void) {
   const size_t n = slave_the_table.n_known;
-  return sizeof(header) + n * (1 + SLAVE_MOST_ORDERS) * sizeof(double) + 2 * n;
+  return sizeof(header) + n * (1 + SLAVE_MOST_ORDERS) * sizeof(double) + 2 * n + texts_size();
 }
 
 static size_t whole_size(const slave *s) { return own_size() + ali3_state_size(s->fidelity.system); }
@@ -64,6 +66,7 @@ static void save(const slave *s, unsigned char *bytes) {
   put(&p, s->slope, n * SLAVE_MOST_ORDERS * sizeof(double));
   put(&p, s->pending, n);
   put(&p, s->clamped, n);
+  put(&p, s->text, texts_size());
   ali3_state_save(s->fidelity.kernel, p, ali3_state_size(s->fidelity.system));
 }
 
@@ -105,6 +108,13 @@ static const char *bad_value(const unsigned char *p) {
   for (size_t i = 0; i < t->n_known; i++)
     if (flag[i] && t->variable[i].source != SLAVE_INPUT && t->variable[i].source != SLAVE_PARAMETER)
       return "a flag in them is neither 0 nor 1";
+  const unsigned char *text = flag + 2 * t->n_known;
+  for (size_t k = 0; k < t->n_texts; k++, text += SLAVE_MOST_TEXT) {
+    const unsigned char *end = memchr(text, 0, SLAVE_MOST_TEXT);
+    if (end == NULL) return "a text in them has no end";
+    for (; end < text + SLAVE_MOST_TEXT; end++)
+      if (*end != 0) return "a text in them has no end";
+  }
   return NULL;
 }
 
@@ -113,11 +123,16 @@ static void get(void *to, const unsigned char **from, size_t size) {
   *from += size;
 }
 
-/* The state of the kernel, of another System too; false, said and nothing changed, if that fails. */
-static bool restore_kernel(slave *s, size_t fidelity, const unsigned char *bytes, size_t size) {
+/* The state of the kernel, of another System or on other roads too; false, said and nothing changed, if that fails. */
+static bool restore_kernel(slave *s, size_t fidelity, const unsigned char *texts, const unsigned char *bytes,
+                           size_t size) {
   slave_fidelity other = s->fidelity;
-  const bool same = fidelity == s->fidelity.number;
+  const bool same = fidelity == s->fidelity.number && (texts_size() == 0 || memcmp(texts, s->text, texts_size()) == 0);
   if (!same && !slave_fidelity_load(s, fidelity, &other)) return false;
+  if (!same && !slave_texts_to(s, other.kernel, (const slave_text_value *)texts)) {
+    slave_fidelity_free(s, &other);
+    return false;
+  }
   const ali3_status status = ali3_state_restore(other.kernel, bytes, size);
   if (status != ALI3_OK) {
     if (!same) slave_fidelity_free(s, &other);
@@ -136,7 +151,8 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   if (why == NULL) why = bad_value(p);
   if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
   memcpy(&head, bytes, sizeof head);
-  if (!restore_kernel(s, head.fidelity, bytes + own_size(), size - own_size())) return SLAVE_ERROR;
+  const unsigned char *texts = bytes + own_size() - texts_size();
+  if (!restore_kernel(s, head.fidelity, texts, bytes + own_size(), size - own_size())) return SLAVE_ERROR;
   s->calls.phase = (slave_phase)head.phase;
   s->calls.initialised = (int32_t)head.initialised;
   s->calls.step_warned = (int32_t)head.step_warned;
@@ -149,6 +165,7 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   get(s->slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
   get(s->pending, &p, n);
   get(s->clamped, &p, n);
+  get(s->text, &p, texts_size());
   s->outputs_fresh = false;
   return SLAVE_OK;
 }

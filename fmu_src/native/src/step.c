@@ -1,6 +1,7 @@
 /* A communication step: equal inner steps, inputs along their derivatives, all or nothing. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
@@ -123,6 +124,7 @@ static slave_status try_step(slave *s, double time, double step) {
   const ali3_status status = advance(s, n, h);
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
+    if (status == ALI3_ROAD_LOST) snprintf(worst, sizeof worst, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
     ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.snapshot);
     return slave_refuse_step(s, status, now, step, worst);
   }

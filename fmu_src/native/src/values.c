@@ -80,6 +80,9 @@ static slave_status try_parameter(slave *s, uint32_t reference, double value) {
 static void take(slave *s, uint32_t reference, double value) {
   const slave_variable *v = &slave_the_table.variable[reference];
   if (value == s->value[reference]) return;
+  if ((s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED)) && slave_without_effect(s, v))
+    slave_say(s, SLAVE_WARNING, "'%s' was set to %.10g%s, without effect: it is of the built-in road.", v->name, value,
+              v->unit);
   s->value[reference] = value;
   slave_forget_refusal(s);
   if (v->source == SLAVE_INPUT || v->source == SLAVE_PARAMETER) s->pending[reference] = 1;

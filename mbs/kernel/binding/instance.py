@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import math
+import os
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_p
 from typing import Any
@@ -137,6 +139,26 @@ class Instance:
         self._check(self._library.ali3_get_parameter(self._handle, index, byref(value)))
         return value.value
 
+    def set_road(self, index: int, path: str | os.PathLike[str] | None) -> None:
+        """A road file in place of a road of the System, for the next `initialise`; None: the System's own again.
+
+        Raises
+        ------
+        KernelError
+            The file is refused; the road stays as it was.
+        """
+        message = ctypes.create_string_buffer(512)
+        text = "" if path is None else os.fspath(path)
+        name = text.encode() if sys.platform == "win32" else os.fsencode(text)
+        status = self._library.ali3_set_road(self._handle, index, name, message, len(message))
+        if status and message.value:
+            raise KernelError(status, f"the road '{path}' was refused: {message.value.decode(errors='replace')}.")
+        self._check(status)
+
+    def road_lost(self) -> str:
+        """What is wrong with which part of a road's file, after `ROAD_LOST`; else empty."""
+        return bytes(self._library.ali3_road_lost(self._handle)).decode(errors="replace")
+
     def set_pose(self, x: float, y: float, z: float, yaw: float, speed: float) -> None:
         """Start of a scene that is not tied to the ground (m, rad, m/s); before `initialise`."""
         self._check(self._library.ali3_set_pose(self._handle, x, y, z, yaw, speed))
@@ -175,6 +197,12 @@ class Instance:
         element, words = c_int32(), c_char_p()
         height = self._library.ali3_start_excess(self._handle, byref(element), byref(words))
         return float(height), element.value, (words.value or b"").decode()
+
+    def start_lift(self) -> tuple[float, float]:
+        """How much a road from a file raised the last start, m; how far its highest part has to sink to rest, m."""
+        uneven = c_double()
+        lift = self._library.ali3_start_lift(self._handle, byref(uneven))
+        return float(lift), uneven.value
 
     def method_excludes(self) -> str:
         """What the method of the settings takes no System with, in words; empty if it takes all."""

@@ -39,6 +39,8 @@ typedef enum {
   ALI3_NO_EQUILIBRIUM,    /* a scene that starts in static equilibrium has none with the parameters it was given */
   ALI3_BRANCH_CHANGED,    /* reported by ali3_run_status only: a closed loop changed its assembly mode */
   ALI3_FIXED_PARAMETER,   /* a parameter that is fixed was set after the start */
+  ALI3_BAD_ROAD,          /* the file of a road is refused; the message says why */
+  ALI3_ROAD_LOST,         /* a part of a road's file cannot be read or was altered; see ali3_road_lost */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -135,6 +137,14 @@ ALI3_API ali3_sizes ali3_system_sizes(const ali3_system *s);
 
 ALI3_API ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out);
 ALI3_API void ali3_instance_free(ali3_instance *in);
+/* A file (roads/road_file.h, path in UTF-8) in place of a road of the System, for the next ali3_initialise; NULL or an
+ * empty path: the road of the System again. The file is opened, checked and gets the memory it needs: what is not near
+ * is read when a step comes there. The friction factor of the road goes on. ALI3_BAD_ROAD leaves the road as it was and
+ * a sentence without its full stop in the message, which may be NULL. Files stay over ali3_reset. */
+ALI3_API ali3_status ali3_set_road(ali3_instance *in, int32_t road, const char *path, char *message,
+                                   size_t message_size);
+/* After ALI3_ROAD_LOST: what is wrong with which part of a file, in words without a full stop; else "". */
+ALI3_API const char *ali3_road_lost(const ali3_instance *in);
 ALI3_API ali3_status ali3_reset(ali3_instance *in); /* back to q0, qd0, y0, default inputs, parameters and settings */
 ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
@@ -184,6 +194,10 @@ ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
 ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);
+/* A scene that a pose may place starts on a road of a file at the height at which it rests on its own: how much the last
+ * start was raised for that, m; *uneven: how far the part that is highest above its place of rest has to sink, m; NULL:
+ * not asked for. */
+ALI3_API double ali3_start_lift(const ali3_instance *in, double *uneven);
 /* After ALI3_WRONG_METHOD: what the method of the settings takes no System with, in words; "" if it takes all. */
 ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
 /* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m);
@@ -265,7 +279,7 @@ enum { /* report of the solver; the integer of sensors of type 13 */
 };
 ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
 
-/* Flat, versioned, pointer-free, checksummed; bound to the System by its CRC. Holds all that continues bit for bit,
+/* Flat, versioned, pointer-free, checksummed; bound to the System and the files of its roads by CRC. Holds all that continues bit for bit,
  * parameters and settings too. */
 ALI3_API size_t ali3_state_size(const ali3_system *s);
 ALI3_API ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size);

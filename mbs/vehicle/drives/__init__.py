@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from mbs.vehicle.drives.automatic import Automatic
+from typing import Annotated
 
-Drive = Automatic
+from pydantic import Field
+
+from mbs.vehicle.drives.automatic import Automatic
+from mbs.vehicle.drives.electric import Electric
+
+Drive = Annotated[Automatic | Electric, Field(discriminator="kind")]
 
 __all__ = ["Drive"]

@@ -8,7 +8,18 @@ from typing import Literal
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import AngularSpeed, CreepTorque, Fraction, Power, Ratio, SmallTorque, Time, Torque
+from mbs.vehicle.quantities import (
+    AngularSpeed,
+    CreepTorque,
+    Fraction,
+    MotorPower,
+    Ratio,
+    RatioFactor,
+    SmallTorque,
+    Time,
+    Torque,
+    WheelSpeed,
+)
 from mbs.vehicle.section import Section
 
 
@@ -21,7 +32,7 @@ class Automatic(Section):
     """Driven wheels."""
     max_torque: Torque
     """Torque of the engine; full torque is the lesser of it and of the power over the speed."""
-    max_power: Power
+    max_power: MotorPower
     """Power of the engine."""
     efficiency: Fraction
     """Efficiency of the driveline under power."""
@@ -31,6 +42,14 @@ class Automatic(Section):
     """Torque per driven wheel at rest with closed throttle, the selector in drive; 0: neutral."""
     ratios: tuple[Ratio, ...]
     """Total ratio of each gear, first gear first."""
+    ratio_factor: RatioFactor = 1.0
+    """Factor on all ratios, reverse among them, as a final drive has it."""
+    reverse_ratio: Ratio = 10.0
+    """Total ratio of reverse."""
+    engage_speed: WheelSpeed = 8.0
+    """Mean speed of the wheels above which a direction against the motion does not engage."""
+    engage_time: Time = 0.3
+    """Time in which the torque fades out of one direction, and into the other."""
     coupling_ratio: Fraction = 0.9
     """Speed ratio of the converter from which on its torque ratio is 1."""
     idle_speed: AngularSpeed = 90.0
@@ -68,11 +87,20 @@ class Automatic(Section):
         neutral : bool
             Whether the selector is in neutral.
         """
-        values = {name: getattr(self, name) for name in type(self).model_fields if name not in ("kind", "wheels")}
+        own = ("kind", "wheels", "ratio_factor")
+        values = {name: getattr(self, name) for name in type(self).model_fields if name not in own}
+        values["ratios"] = tuple(self.ratio_factor * ratio for ratio in self.ratios)
+        values["reverse_ratio"] = self.ratio_factor * self.reverse_ratio
         drive = AutomaticDrive(**(values | {"creep_torque": 0.0} if neutral else values))
         left, right = (spins[self.wheels[0].upper() + side].coordinate for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
-        element = b.m.add(drive.record("drive", left, right, z, x, b.inputs["throttle"].index))
+        inputs = b.inputs["throttle"].index, 1, b.inputs["selector"].index
+        element = b.m.add(drive.record("drive", left, right, z, x, *inputs))
+        for name in ("max_torque", "max_power"):
+            b.tie(self, name, element, name)
+        for k, ratio in enumerate(self.ratios):
+            b.tie(self, "ratio_factor", element, f"ratio_{k + 1}", ratio)
+        b.tie(self, "ratio_factor", element, "reverse_ratio", self.reverse_ratio)
         b.tie(self, "creep_torque", element, "creep_torque", value=drive.creep_torque)
         b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
 

@@ -5,9 +5,9 @@ stiffness: so W. Matschinsky ("Road Vehicle Suspensions", Wiley) and J. Reimpell
 ("The Automotive Chassis", Butterworth-Heinemann) find the kinematics of such an axle. In bump both arms turn about the
 line of their pivots; in roll each turns about the line from its pivot through the middle of the shear-centre axis.
 
-The bushes hold the pivots along x and z of the chassis. Sideways they are soft and alike and share the side force:
-there the mean of both pivots is held, which leaves the two freedoms of bump and roll and is the same mirrored. Held one
-by one the pivots could not come nearer to each other, as they must when the beam is twisted.
+The bushes hold the pivots as ball joints. As the beam is twisted the pivots would come nearer to each other by tenths
+of a millimetre: by so much both halves may slide on each other along the shear-centre axis. Two freedoms remain, bump
+and roll, and mirrored motions are mirrored; each bush takes the side force of its wheel.
 """
 
 from __future__ import annotations
@@ -77,13 +77,13 @@ class TwistBeam(Section):
             Of no use here.
         """
         m, chassis = b.m, b.chassis.body
-        pivots = []
+        halves = []
         for side in sides(axle):
             w = side.wheel
             p = {name: side.point(point) for name, point in self.points}
             half = side.body(m, "half axle", self.bodies.half)
-            m.point_on_line(f"pivot {w}", (half, p["pivot"]), (chassis, p["pivot"]), axis=LATERAL)
-            pivots.append((half, p["pivot"]))
+            m.spherical(f"pivot {w}", half, chassis, point=p["pivot"])
+            halves.append(half)
             spring_beside_damper(
                 b,
                 w,
@@ -92,10 +92,9 @@ class TwistBeam(Section):
                 springs,
             )
             yield Corner(side, half, {"half": half})
-        (left, _), (right, _) = pivots
+        left, right = halves
         x, _, z = self.points.cross_beam
-        m.mean_on_plane(f"pivots {axle}", pivots, chassis, normal=LATERAL)
-        m.revolute(f"cross-beam {axle}", left, right, point=(x, 0.0, z), axis=LATERAL)
+        m.cylindrical(f"cross-beam {axle}", left, right, point=(x, 0.0, z), axis=LATERAL)
         twist = m.relative_angle(f"twist {axle}", left, right, axis=LATERAL)
         beam = m.torsional_spring_damper(f"cross-beam {axle}", twist, stiffness=self.torsional_stiffness)
         b.tie(self, "torsional_stiffness", beam, "stiffness")

@@ -17,6 +17,7 @@
 #include "../rows/guides.h"
 #include "../rows/velocity_rows.h"
 #include "../sensors/sensors.h"
+#include "../state/road_files.h"
 
 enum { POSITION, VELOCITY, ACCELERATION, MOST_CORRECTIONS = 60, SWEEPS = 2 };
 static const double PART = 1e-5; /* of an input's range: the difference taken */
@@ -124,7 +125,9 @@ static ali3_status factorise(ali3_instance *in, const linear_step *step) {
                                 .out = in->out_work,
                                 .potential = in->potential_work};
   ali3_constraints(in, v->q, v->s, in->Phi, in->J_tangent);
+  ali3_roads_forgive(in);
   ali3_forces(in, &call);
+  if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J_tangent, step->c * step->alpha, in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, v->lam, step->c, in->F);

@@ -9,6 +9,7 @@
 #include "../methods/newton.h"
 #include "../rows/constraints.h"
 #include "../rows/guides.h"
+#include "../state/road_files.h"
 
 static void copy(double *to, const double *from, int64_t n) {
   if (to != NULL && n > 0) memcpy(to, from, (size_t)n * sizeof(double));
@@ -46,6 +47,7 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
                                 .y_new = in->y_work,
                                 .out = in->out_work,
                                 .potential = in->potential_work};
+  ali3_roads_forgive(in);
   ali3_forces(in, &call);
   copy(phi, in->Phi, z->nc);
   copy(jacobian_values, in->J, z->nnz_rows);
@@ -53,7 +55,7 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   copy(gamma, in->gamma, z->nc);
   copy(force, in->Q, z->nq);
   copy(outputs, in->out_work, z->nout);
-  return ALI3_OK;
+  return ali3_roads_status(in);
 }
 
 /* Lower triangles of the fronts as a dense symmetric matrix. */
@@ -99,13 +101,14 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
                                 .out = in->out_work,
                                 .potential = in->potential_work};
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  ali3_roads_forgive(in);
   ali3_forces(in, &call);
   memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J, c * ali3_penalty(in, h), in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
   ali3_forces_tangent(in, in->F);
   spread(in, dense);
-  return ALI3_OK;
+  return ali3_roads_status(in);
 }
 
 ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *qd, const double *y_old, double h,
@@ -124,8 +127,9 @@ ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *
                                 .y_new = in->y_work,
                                 .out = in->out_work,
                                 .potential = in->potential_work};
+  ali3_roads_forgive(in);
   ali3_forces(in, &call);
   copy(y_new, in->y_work, z->ny);
   copy(force, in->Q, z->nq);
-  return ALI3_OK;
+  return ali3_roads_status(in);
 }

@@ -11,10 +11,13 @@
 #include "../methods/stiffness.h"
 #include "../sensors/sensors.h"
 #include "../start/initialise.h"
+#include "../start/start_on_road.h"
+#include "../state/road_files.h"
 #include "../state/vectors.h"
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
 static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
+  if (ali3_roads_status(in) != ALI3_OK) status = ALI3_ROAD_LOST;
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     ali3_vectors_copy(in, &in->now, &in->start);
@@ -26,6 +29,7 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   in->h_last = 0.0;
   in->count = 0;
   in->mode_known = false;
+  in->to_lift = false;
   in->initialised = 1;
   ali3_balance_open(in);
   return ALI3_OK;
@@ -35,8 +39,10 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   const ali3_report none = {0};
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
   in->report = none;
+  ali3_roads_forgive(in);
   ali3_vectors_copy(in, &in->start, &in->now);
   ali3_status status = ali3_start_in_equilibrium(in, t0);
+  if (status == ALI3_OK) ali3_start_on_road(in);
   if (status == ALI3_OK) status = ali3_solve_initial(in, t0);
   if (status == ALI3_OK) {
     int32_t refusing;
@@ -50,7 +56,9 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
   const ali3_report none = {0};
   if (in == NULL || !(t0 - t0 == 0.0) || !(tolerance > 0.0) || max_iterations < 1) return ALI3_BAD_ARGUMENT;
   in->report = none;
+  ali3_roads_forgive(in);
   ali3_vectors_copy(in, &in->start, &in->now);
+  ali3_start_on_road(in);
   return begin(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
 }
 
@@ -59,6 +67,7 @@ static ali3_status step(ali3_instance *in, double h) {
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const ali3_report before = in->report;
+  ali3_roads_forgive(in);
   in->backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
   in->t_now = ali3_time(in);
   ali3_branch_before(in);

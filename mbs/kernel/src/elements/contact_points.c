@@ -195,6 +195,20 @@ static void every_point(ali3_element_args *a, int by_gradients) {
   }
 }
 
+static double depth(const ali3_element_args *a, double raised, double *part) {
+  const double *p = a->real;
+  double deepest = -INFINITY, point[3];
+  ali3_clearance clearance[2];
+  *part = 1.0;
+  for (int32_t i = 0; i < a->integer[POINTS]; i++) {
+    place(a->u, p + HEAD + 3 * i, point);
+    point[2] += raised;
+    const int count = ali3_road_clearance(&a->roads[a->integer[ROAD]], point, clearance);
+    for (int k = 0; k < count; k++) deepest = fmax(deepest, p[RADIUS] - clearance[k].distance);
+  }
+  return deepest;
+}
+
 static void evaluate(ali3_element_args *a) { every_point(a, 0); }
 
 static void discrete(ali3_element_args *a) { every_point(a, 1); }
@@ -220,6 +234,7 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 const ali3_element_type ali3_contact_points = {
     .evaluate = evaluate,
     .discrete = discrete,
+    .depth = depth,
     .nsig = SIGNALS,
     .nreal = -1,
     .nint = INTEGERS,

@@ -1,6 +1,8 @@
 /* Plane, kerb and regular grid. A wheel is a disc: its nearest point is sought within the wheel plane. */
 #include "road.h"
+
 #include "../algebra/small_vectors.h"
+#include "../roads/grid.h"
 
 #define FLATTEST 0.05 /* least cosine of an edge used as a divisor */
 /* Sine between wheel axis and road normal below which the width of a wheel matters: lying flat it touches with its
@@ -15,8 +17,8 @@ static double upright(double sine, double *slope) {
   return part < 1.0 ? 0.5 * LYING * (1.0 + part * part) : sine;
 }
 
-enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_REALS };
-enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_REALS };
+enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_FACTOR, PLANE_REALS };
+enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_FACTOR, KERB_REALS };
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
 
 /* Half-space below the plane through q with outward unit normal n. Returns the centre's distance along the disc. */
@@ -99,20 +101,6 @@ static int kerb(const double *p, const double centre[3], const double axis[3], d
   return count + 1;
 }
 
-/* Cubic Hermite weights (slopes by central differences, one-sided at the border) of values first..first+3 (clamped to
- * 0..n-1). */
-static int cubic(double s, int n, double w[4], double dw[4]) {
-  int i = s >= (double)(n - 1) ? n - 2 : s > 0.0 ? (int)s : 0;
-  const int outside = s < 0.0 || s > (double)(n - 1);
-  const double t = ali3_clamp(s - i, 0.0, 1.0), left = i > 0 ? 0.5 : 1.0, right = i + 2 < n ? 0.5 : 1.0;
-  const double h10 = t * (1.0 - t) * (1.0 - t) * left, h11 = t * t * (t - 1.0) * right, h01 = t * t * (3.0 - 2.0 * t);
-  const double d10 = (1.0 - t) * (1.0 - 3.0 * t) * left, d11 = t * (3.0 * t - 2.0) * right, d01 = 6.0 * t * (1.0 - t);
-  w[0] = -h10, w[1] = 1.0 - h01 - h11, w[2] = h01 + h10, w[3] = h11;
-  dw[0] = -d10, dw[1] = -d01 - d11, dw[2] = d01 + d10, dw[3] = d11;
-  if (outside) dw[0] = dw[1] = dw[2] = dw[3] = 0.0; /* the border value goes on */
-  return i - 1;
-}
-
 static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   const double a = p[GRID_NX], b = p[GRID_NY];
   if (!(a >= 2.0 && a <= 1e6 && b >= 2.0 && b <= 1e6 && GRID_DATA + 2.0 * a * b <= (double)nreal)) return 0;
@@ -122,44 +110,53 @@ static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   return 1;
 }
 
-typedef struct {
-  double height, normal[3], friction;
-} surface;
-
-static surface grid_at(const double *p, int nx, int ny, double x, double y) {
-  const double *z = p + GRID_DATA, *mu = z + (int64_t)nx * ny;
-  double wx[4], dx[4], wy[4], dy[4], height = 0.0, slope[2] = {0.0, 0.0};
-  const double sx = ali3_clamp((x - p[GRID_X0]) / p[GRID_DX], -1.0, (double)nx),
-               sy = ali3_clamp((y - p[GRID_Y0]) / p[GRID_DY], -1.0, (double)ny);
-  const int i0 = cubic(sx, nx, wx, dx), j0 = cubic(sy, ny, wy, dy);
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++) {
-      const int ic = i0 + i < 0     ? 0
-                     : i0 + i >= nx ? nx - 1
-                                    : i0 + i,
-                jc = j0 + j < 0     ? 0
-                     : j0 + j >= ny ? ny - 1
-                                    : j0 + j;
-      const double value = z[(int64_t)ic * ny + jc];
-      height += wx[i] * wy[j] * value;
-      slope[0] += dx[i] * wy[j] * value / p[GRID_DX];
-      slope[1] += wx[i] * dy[j] * value / p[GRID_DY];
-    }
-  const double tx = ali3_clamp(sx - (i0 + 1), 0.0, 1.0), ty = ali3_clamp(sy - (j0 + 1), 0.0, 1.0);
-  const double *m = mu + (int64_t)(i0 + 1) * ny + j0 + 1;
-  const double friction = (1.0 - tx) * ((1.0 - ty) * m[0] + ty * m[1]) + tx * ((1.0 - ty) * m[ny] + ty * m[ny + 1]);
-  const double size = sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
-  const surface found = {height, {-slope[0] / size, -slope[1] / size, 1.0 / size}, p[GRID_FRICTION] * friction};
-  return found;
+/* What a road is: its file, or its own numbers. */
+static int32_t type_of(const ali3_road *road) {
+  return road->file != NULL ? ali3_road_file_kind(road->file) : road->type;
 }
 
-static int grid(const double *p, int32_t nreal, const double centre[3], const double axis[3], double radius,
-                ali3_contact *out) {
+static const double *reals_of(const ali3_road *road) {
+  return road->file != NULL ? ali3_road_file_reals(road->file) : road->real;
+}
+
+/* 1 where a plane or kerb was written without one. */
+static double factor_of(const ali3_road *road) {
+  if (road->type == ALI3_ROAD_GRID) return road->real[GRID_FRICTION];
+  const int32_t place = road->type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
+  return place < road->nreal ? road->real[place] : 1.0;
+}
+
+/* False where a parameter has spoilt the header. */
+static int grid_of(const ali3_road *road, ali3_grid *g) {
+  const double *p = road->real;
+  if (road->file != NULL) {
+    const double *h = ali3_road_file_reals(road->file);
+    const ali3_grid of_file = {.x0 = h[0], .y0 = h[1], .dx = h[2], .dy = h[3], .file = road->file};
+    *g = of_file;
+    ali3_road_file_size(road->file, &g->nx, &g->ny);
+    return 1;
+  }
   int nx, ny;
-  if (!grid_size(p, nreal, &nx, &ny)) return 0; /* a parameter may have spoilt the header */
+  if (!grid_size(p, road->nreal, &nx, &ny)) return 0;
+  const double *z = p + GRID_DATA;
+  const ali3_grid own = {.nx = nx,
+                         .ny = ny,
+                         .x0 = p[GRID_X0],
+                         .y0 = p[GRID_Y0],
+                         .dx = p[GRID_DX],
+                         .dy = p[GRID_DY],
+                         .z = z,
+                         .mu = z + (int64_t)nx * ny};
+  *g = own;
+  return 1;
+}
+
+static int grid(const ali3_road *road, const double centre[3], const double axis[3], double radius, ali3_contact *out) {
+  ali3_grid g;
+  if (!grid_of(road, &g)) return 0;
   double x = centre[0], y = centre[1];
   for (int pass = 0; pass < 3; pass++) { /* tangent plane under the centre, then twice at the point it gives */
-    const surface under = grid_at(p, nx, ny, x, y);
+    const ali3_surface under = ali3_grid_at(&g, x, y);
     const double q[3] = {x, y, under.height};
     const double reach = ali3_clamp(half_space(centre, axis, radius, q, under.normal, out), -radius, radius);
     out->friction = under.friction;
@@ -169,14 +166,20 @@ static int grid(const double *p, int32_t nreal, const double centre[3], const do
   return 1;
 }
 
+/* Neither negative nor NaN, times the factor. */
+static double friction_of(const ali3_road *road, double friction) {
+  const double product = factor_of(road) * friction;
+  return product > 0.0 ? product : 0.0;
+}
+
 int ali3_road_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
                        ali3_contact out[2]) {
+  const int32_t type = type_of(road);
   int count = 0;
-  if (road->type == ALI3_ROAD_PLANE) count = plane(road->real, centre, axis, radius, out);
-  if (road->type == ALI3_ROAD_KERB) count = kerb(road->real, centre, axis, radius, out);
-  if (road->type == ALI3_ROAD_GRID) count = grid(road->real, road->nreal, centre, axis, radius, out);
-  for (int i = 0; i < count; i++)
-    if (!(out[i].friction > 0.0)) out[i].friction = 0.0;
+  if (type == ALI3_ROAD_PLANE) count = plane(reals_of(road), centre, axis, radius, out);
+  if (type == ALI3_ROAD_KERB) count = kerb(reals_of(road), centre, axis, radius, out);
+  if (type == ALI3_ROAD_GRID) count = grid(road, centre, axis, radius, out);
+  for (int i = 0; i < count; i++) out[i].friction = friction_of(road, out[i].friction);
   return count;
 }
 
@@ -218,12 +221,12 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
 #define NEAR 0.1 /* m: farther from the tangent plane under it a point is not evaluated again */
 
 /* Distance to the nearest point of the surface: tangent plane under the point, then twice at the foot it gives. */
-static int grid_clearance(const double *p, int32_t nreal, const double point[3], ali3_clearance *out) {
-  int nx, ny;
-  if (!grid_size(p, nreal, &nx, &ny)) return 0;
+static int grid_clearance(const ali3_road *road, const double point[3], ali3_clearance *out) {
+  ali3_grid g;
+  if (!grid_of(road, &g)) return 0;
   double x = point[0], y = point[1];
   for (int pass = 0; pass < 3; pass++) {
-    const surface under = grid_at(p, nx, ny, x, y);
+    const ali3_surface under = ali3_grid_at(&g, x, y);
     const double q[3] = {x, y, under.height};
     plane_clearance(under.normal, q, point, out);
     out->friction = under.friction;
@@ -236,9 +239,10 @@ static int grid_clearance(const double *p, int32_t nreal, const double point[3],
 }
 
 int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clearance out[2]) {
-  const double *p = road->real;
+  const int32_t type = type_of(road);
+  const double *p = reals_of(road);
   int count = 0;
-  if (road->type == ALI3_ROAD_PLANE) {
+  if (type == ALI3_ROAD_PLANE) {
     const double size = sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
     const double n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
                  q[3] = {0.0, 0.0, p[PLANE_HEIGHT]};
@@ -246,68 +250,46 @@ int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clear
     out->friction = p[PLANE_FRICTION];
     count = 1;
   }
-  if (road->type == ALI3_ROAD_KERB) count = kerb_clearance(p, point, out);
-  if (road->type == ALI3_ROAD_GRID) count = grid_clearance(p, road->nreal, point, out);
-  for (int i = 0; i < count; i++)
-    if (!(out[i].friction > 0.0)) out[i].friction = 0.0;
+  if (type == ALI3_ROAD_KERB) count = kerb_clearance(p, point, out);
+  if (type == ALI3_ROAD_GRID) count = grid_clearance(road, point, out);
+  for (int i = 0; i < count; i++) out[i].friction = friction_of(road, out[i].friction);
   return count;
 }
 
-enum { MOST_CELLS = 400 };     /* looked at for a top */
-#define OVERSHOOT 0.35         /* a bicubic patch leaves the range of its values by less than this part of it */
-
-/* Indices low..high of the values that cells within reach of a place take. */
-static void cells(double place, double reach, double first, double spacing, int n, int *low, int *high) {
-  const double last = (double)(n - 1), a = (place - reach - first) / spacing, b = (place + reach - first) / spacing;
-  *low = (int)ali3_clamp(a - 1.0, 0.0, last);
-  *high = (int)ali3_clamp(b + 3.0, 0.0, last);
-}
-
-static double grid_top(const double *p, int32_t nreal, const double place[3], double reach) {
-  int nx, ny, low[2], high[2];
-  if (!grid_size(p, nreal, &nx, &ny)) return -INFINITY;
-  cells(place[0], reach, p[GRID_X0], p[GRID_DX], nx, &low[0], &high[0]);
-  cells(place[1], reach, p[GRID_Y0], p[GRID_DY], ny, &low[1], &high[1]);
-  if ((int64_t)(high[0] - low[0] + 1) * (high[1] - low[1] + 1) > MOST_CELLS) return INFINITY;
-  double top = -INFINITY, bottom = INFINITY;
-  for (int i = low[0]; i <= high[0]; i++)
-    for (int j = low[1]; j <= high[1]; j++) {
-      const double z = p[GRID_DATA + (int64_t)i * ny + j];
-      top = z > top ? z : top;
-      bottom = z < bottom ? z : bottom;
-    }
-  return top + OVERSHOOT * (top - bottom);
-}
-
 double ali3_road_top(const ali3_road *road, const double place[3], double reach) {
-  const double *p = road->real;
-  if (road->type == ALI3_ROAD_PLANE)
+  const int32_t type = type_of(road);
+  const double *p = reals_of(road);
+  ali3_grid g;
+  if (type == ALI3_ROAD_PLANE)
     return p[PLANE_HEIGHT] + p[PLANE_GRADE_X] * place[0] + p[PLANE_GRADE_Y] * place[1] +
            ali3_hypot(p[PLANE_GRADE_X], p[PLANE_GRADE_Y]) * reach;
-  if (road->type == ALI3_ROAD_KERB)
+  if (type == ALI3_ROAD_KERB)
     return p[KERB_LOWER] + (p[KERB_SIDE] * (place[0] - p[KERB_X]) > reach ? 0.0 : p[KERB_STEP]);
-  return grid_top(p, road->nreal, place, reach);
+  return grid_of(road, &g) ? ali3_grid_top(&g, place, reach) : -INFINITY;
 }
 
 const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {
+  static const char negative[] = "the friction of a road must not be negative";
   int nx, ny;
   switch (type) {
   case ALI3_ROAD_PLANE:
-    if (nreal != PLANE_REALS) return "a plane road has 4 numbers: height, grade in x, grade in y, friction";
-    return real[PLANE_FRICTION] < 0.0 ? "the friction of a road must not be negative" : 0;
+    if (nreal != PLANE_FACTOR && nreal != PLANE_REALS)
+      return "a plane road has 4 numbers: height, grade in x, grade in y, friction; and a factor on the friction";
+    return real[PLANE_FRICTION] < 0.0 || (nreal == PLANE_REALS && real[PLANE_FACTOR] < 0.0) ? negative : 0;
   case ALI3_ROAD_KERB:
-    if (nreal != KERB_REALS) return "a kerb has 5 numbers: x of the edge, lower height, step, side, friction";
+    if (nreal != KERB_FACTOR && nreal != KERB_REALS)
+      return "a kerb has 5 numbers: x of the edge, lower height, step, side, friction; and a factor on the friction";
     if (!(real[KERB_STEP] > 0.0)) return "the step of a kerb must be positive";
     if (real[KERB_SIDE] != 1.0 && real[KERB_SIDE] != -1.0) return "the side of a kerb must be 1 or -1";
-    return real[KERB_FRICTION] < 0.0 ? "the friction of a road must not be negative" : 0;
+    return real[KERB_FRICTION] < 0.0 || (nreal == KERB_REALS && real[KERB_FACTOR] < 0.0) ? negative : 0;
   case ALI3_ROAD_GRID:
     if (nreal < GRID_DATA || !grid_size(real, nreal, &nx, &ny))
       return "a grid road needs at least 2 x 2 points at positive spacing";
     if (nx != real[GRID_NX] || ny != real[GRID_NY] || GRID_DATA + 2 * (int64_t)nx * ny != nreal)
       return "a grid road needs one height and one friction per point";
-    if (real[GRID_FRICTION] < 0.0) return "the friction of a road must not be negative";
+    if (real[GRID_FRICTION] < 0.0) return negative;
     for (int64_t i = GRID_DATA + (int64_t)nx * ny; i < nreal; i++)
-      if (real[i] < 0.0) return "the friction of a road must not be negative";
+      if (real[i] < 0.0) return negative;
     return 0;
   default:
     return "unknown type of road";

@@ -3,16 +3,19 @@
 #define ALI3_ROAD_H
 #include <stdint.h>
 
+typedef struct ali3_road_file ali3_road_file; /* roads/road_file.h */
+
 struct ali3_road { /* typedef in element.h */
   int32_t type, nreal;
   const double *real;
+  ali3_road_file *file; /* in place of the road's own numbers, all but its friction factor; NULL: none */
 };
 typedef struct ali3_road ali3_road;
 
 enum { /* `RoadType` in Python is read from here */
-       ALI3_ROAD_PLANE = 0, /* [height at the origin, grade dz/dx, grade dz/dy, friction] */
-       ALI3_ROAD_KERB, /* [x of the edge, lower height, step height, side, friction]; the upper part is at smaller x for
-                          side 1, at larger x for -1 */
+       ALI3_ROAD_PLANE = 0, /* [height at the origin, grade dz/dx, grade dz/dy, friction, its factor or nothing] */
+       ALI3_ROAD_KERB, /* [x of the edge, lower height, step height, side, friction, its factor or nothing]; the upper part is at
+                          smaller x for side 1, at larger x for -1 */
        ALI3_ROAD_GRID, /* [nx, ny, x0, y0, dx, dy, friction factor, nx*ny heights, nx*ny frictions], y runs fastest */
        ALI3_ROAD_COUNT
 };

@@ -244,11 +244,9 @@ static void evaluate(ali3_element_args *a) {
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, n), upright);
 }
 
-/* A start with the wheel's centre below the surface: the spring of a tyre is not meant for that and would throw the
- * scene up. The rise is the depth along the road's normal; walls are climbed a depth at a time. */
-static ali3_start_verdict start(const ali3_element_args *a, double raised) {
+static double depth(const ali3_element_args *a, double raised, double *part) {
   const double *axis = a->u + 3, length = ali3_norm(axis), radius = a->real[RADIUS];
-  double centre[3], e[3], deepest = 0.0, climb = 0.0;
+  double centre[3], e[3], deepest = -INFINITY;
   for (int i = 0; i < 3; i++) {
     centre[i] = a->u[i] + (i == 2 ? raised : 0.0);
     e[i] = length > 1e-6 ? axis[i] / length : (i == 1);
@@ -258,9 +256,17 @@ static ali3_start_verdict start(const ali3_element_args *a, double raised) {
   for (int k = 0; k < count; k++)
     if (contact[k].penetration > deepest) {
       deepest = contact[k].penetration;
-      climb = deepest * contact[k].cosine;
+      *part = contact[k].cosine;
     }
-  return (ali3_start_verdict){.excess = deepest - radius, .rise = deepest > CLEAR ? climb : 0.0};
+  return deepest;
+}
+
+/* A start with the wheel's centre below the surface: the spring of a tyre is not meant for that and would throw the
+ * scene up. The rise is the depth along the road's normal; walls are climbed a depth at a time. */
+static ali3_start_verdict start(const ali3_element_args *a, double raised) {
+  double part = 0.0;
+  const double deepest = fmax(depth(a, raised, &part), 0.0);
+  return (ali3_start_verdict){.excess = deepest - a->real[RADIUS], .rise = deepest > CLEAR ? deepest * part : 0.0};
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
@@ -298,6 +304,7 @@ const ali3_element_type ali3_tyre = {
     .evaluate = evaluate,
     .start = start,
     .start_words = "lies deeper in the road than its radius",
+    .depth = depth,
     .nsig = 7,
     .nreal = REALS,
     .nint = 1,

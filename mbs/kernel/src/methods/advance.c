@@ -2,6 +2,7 @@
 #include "../instance.h"
 #include "../method.h"
 #include "../state/inputs.h"
+#include "../state/road_files.h"
 #include "../state/vectors.h"
 #include "energy_balance.h"
 #include "steps.h"
@@ -22,6 +23,7 @@ ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   const ali3_status status = by_method(in, t, h);
   if (status == ALI3_OK) in->t_now = t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, h);
+  if (status != ALI3_OK && ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
   if (status == ALI3_OK || status == ALI3_BAD_ARGUMENT || depth <= 0) return status;
   in->report.halvings++;
   ali3_back_up(in);

@@ -12,6 +12,7 @@
 #include "../rows/guides.h"
 #include "../start/initialise.h"
 #include "../state/inputs.h"
+#include "../state/road_files.h"
 #include "../state/vectors.h"
 #include "branch_watch.h"
 #include "check_method.h"
@@ -171,7 +172,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     const double size = fmin(c->h, longest), tried = fitted(size, end - t);
     const ali3_status status = ali3_step_doubling(in, measure, t, tried, &error);
     *h = tried;
-    if (status == ALI3_BAD_ARGUMENT) return status;
+    if (status == ALI3_BAD_ARGUMENT || ali3_roads_status(in) != ALI3_OK) return status;
     if (status != ALI3_OK) {
       in->report.failures++;
       c->failed++;
@@ -247,6 +248,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   ali3_status status = ali3_check_method(in);
   if (status != ALI3_OK) return status;
   const ali3_measure measure = {control, scale};
+  ali3_roads_forgive(in);
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST * control->span);
   if (jumped(in)) status = ali3_refresh(in);
   ali3_branch_before(in); /* the modes of the start, where they have not been evaluated yet */

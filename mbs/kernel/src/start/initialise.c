@@ -14,6 +14,7 @@
 #include "../rows/guides.h"
 #include "../rows/velocity_rows.h"
 #include "../rows/violation.h"
+#include "../state/road_files.h"
 #include "../state/work.h"
 #include "index_one.h"
 #include "initialise.h"
@@ -123,7 +124,8 @@ ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
     memcpy(v->mean_before, v->qd, (size_t)S->size.nq * sizeof(double));
   }
   status = ali3_index_one_solve(in, in->Q, in->gamma, ROUND_OFF, v->qdd, v->lam);
-  return status == ALI3_OK && !ali3_finite(v->q, (int64_t)in->n_vector) ? ALI3_NOT_FINITE : status;
+  if (status != ALI3_OK) return status;
+  return ali3_finite(v->q, (int64_t)in->n_vector) ? ali3_roads_status(in) : ALI3_NOT_FINITE;
 }
 
 ali3_status ali3_solve_initial(ali3_instance *in, double t) {

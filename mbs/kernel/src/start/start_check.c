@@ -1,16 +1,14 @@
 /* Starts that an element refuses, and how much higher the scene must begin. */
-#include "../elements/element.h"
 #include "../elements/road.h"
 #include "../instance.h"
+#include "initialise.h"
 
 enum { MOST_RISES = 100 }; /* an element may ask for its rise bit by bit */
 
-/* Verdict of element e on in->now; {0} of elements without one. */
-static ali3_start_verdict verdict(const ali3_instance *in, int32_t e, double raised) {
+ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road *roads, const double *q, int32_t e,
+                                       double *u) {
   const ali3_system *S = in->system;
   const int32_t first = S->el_sig_ptr[e];
-  double u[ALI3_MAX_SIGNALS] = {0.0};
-  if (S->el_kind[e]->start == NULL) return (ali3_start_verdict){0};
   const ali3_element_args a = {
       .nsig = S->el_sig_ptr[e + 1] - first,
       .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
@@ -18,15 +16,22 @@ static ali3_start_verdict verdict(const ali3_instance *in, int32_t e, double rai
       .u = u,
       .real = in->el_real + S->el_real_ptr[e],
       .integer = S->el_int + S->el_int_ptr[e],
-      .roads = in->road,
+      .roads = roads,
   };
   for (int32_t i = 0; i < a.nsig; i++) {
     const int32_t signal = S->el_sig[first + i];
     u[i] = S->sig_const[signal];
-    for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++)
-      u[i] += S->sig_val[k] * in->now.q[S->sig_col[k]];
+    for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) u[i] += S->sig_val[k] * q[S->sig_col[k]];
   }
-  return S->el_kind[e]->start(&a, raised);
+  return a;
+}
+
+/* Verdict of element e on in->now; {0} of elements without one. */
+static ali3_start_verdict verdict(const ali3_instance *in, int32_t e, double raised) {
+  double u[ALI3_MAX_SIGNALS] = {0.0};
+  if (in->system->el_kind[e]->start == NULL) return (ali3_start_verdict){0};
+  const ali3_element_args a = ali3_start_arguments(in, in->road, in->now.q, e, u);
+  return in->system->el_kind[e]->start(&a, raised);
 }
 
 double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words) {

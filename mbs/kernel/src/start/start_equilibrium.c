@@ -43,13 +43,20 @@ static bool changed(const ali3_instance *in) {
   return false;
 }
 
-/* Roads of the file, the values for the search, the inputs' start values; the instance's own stay in *_work. */
+static void exchange_roads(ali3_instance *in) {
+  ali3_road *road = in->road;
+  in->road = in->own_road;
+  in->own_road = road;
+}
+
+/* Roads of the System, the values for the search, the inputs' start values; the instance's own stay in *_work. */
 static ali3_status prepare(ali3_instance *in) {
   const ali3_system *S = in->system;
   memcpy(in->parameter_work, in->parameter, (size_t)S->size.np * sizeof(double));
   memcpy(in->input_work, in->input, (size_t)S->size.nu * sizeof(double));
   for (int64_t i = 0; i < S->n_static_par; i++) in->parameter[S->static_par[i]] = S->static_value[i];
   const ali3_status status = ali3_parameters_apply(in);
+  exchange_roads(in);
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
       if (S->par_target[k] == ALI3_TARGET_ROAD)
@@ -62,6 +69,7 @@ static void put_back(ali3_instance *in) {
   const ali3_system *S = in->system;
   memcpy(in->parameter, in->parameter_work, (size_t)S->size.np * sizeof(double));
   memcpy(in->input, in->input_work, (size_t)S->size.nu * sizeof(double));
+  exchange_roads(in);
   ali3_parameters_apply(in);
 }
 

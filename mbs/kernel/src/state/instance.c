@@ -9,6 +9,7 @@
 #include "../rows/guides.h"
 #include "../tree/tree.h"
 #include "parameters.h"
+#include "road_files.h"
 #include "vectors.h"
 #include "workspace.h"
 
@@ -34,6 +35,8 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_NO_EQUILIBRIUM] = "with these parameters there is no static equilibrium near the drawing to start from",
       [ALI3_BRANCH_CHANGED] = "a closed loop changed its assembly mode",
       [ALI3_FIXED_PARAMETER] = "a fixed parameter can be set before the start only",
+      [ALI3_BAD_ROAD] = "the file is not a valid road",
+      [ALI3_ROAD_LOST] = "a part of the road cannot be read from its file",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -54,6 +57,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   ali3_workspace_place(s, in, &pool);
   in->system = s;
   in->release = s->memory.release;
+  in->n_roads = s->nr;
   in->n_vector = ali3_vector_count(s);
   in->force_input = in->input;
   if (s->tree != NULL) ali3_tree_start(s, in->tree);
@@ -67,7 +71,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
 }
 
 void ali3_instance_free(ali3_instance *in) {
-  if (in != NULL) in->release(in);
+  if (in == NULL) return;
+  ali3_roads_close(in);
+  in->release(in);
 }
 
 ali3_settings ali3_default_settings(void) {
@@ -113,6 +119,8 @@ ali3_status ali3_reset(ali3_instance *in) {
   in->mode_known = false;
   in->placed = ALI3_PLACED_BY_FILE;
   in->start_moved = false;
+  in->to_lift = true;
+  in->lift = in->uneven = 0.0;
   ali3_start_of_file(in);
   memset(in->now.q, 0, in->n_vector * sizeof(double));
   copy(in->now.q, S->q0, S->size.nq);
@@ -130,8 +138,10 @@ ali3_status ali3_reset(ali3_instance *in) {
   for (int32_t r = 0; r < S->nr; r++) {
     const ali3_road road = {.type = S->road_type[r],
                             .nreal = S->road_real_ptr[r + 1] - S->road_real_ptr[r],
-                            .real = in->road_real + S->road_real_ptr[r]};
-    in->road[r] = road;
+                            .real = in->road_real + S->road_real_ptr[r],
+                            .file = in->road[r].file};
+    in->road[r] = in->own_road[r] = road;
+    in->own_road[r].file = NULL;
   }
   return ali3_parameters_apply(in);
 }
@@ -162,6 +172,7 @@ ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, doubl
   }
   memcpy(in->pose, given, sizeof given);
   in->placed = ALI3_PLACED_BY_POSE;
+  in->to_lift = true;
   in->initialised = 0;
   return ALI3_OK;
 }
@@ -173,6 +184,7 @@ ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd) {
   if (q != NULL) {
     copy(in->now.q, q, nq);
     in->placed = ALI3_PLACED_BY_Q;
+    in->to_lift = false;
   }
   if (qd != NULL) copy(in->now.qd, qd, nq);
   in->initialised = 0;

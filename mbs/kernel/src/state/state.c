@@ -2,15 +2,16 @@
  * for bit. */
 #include <string.h>
 
+#include "../files/crc32.h"
 #include "../instance.h"
 #include "../rows/assembly_mode.h"
-#include "../system/crc32.h"
 #include "parameters.h"
+#include "road_files.h"
 #include "vectors.h"
 
 typedef struct { /* 40 bytes without holes */
   char magic[8];
-  uint32_t version, system_crc;
+  uint32_t version, model_crc; /* of the System, and of its roads where they come from files */
   uint64_t size;
   uint32_t crc, initialised;
   int64_t count;
@@ -36,7 +37,7 @@ ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size) {
   if (in == NULL || bytes == NULL || size != ali3_state_size(in->system)) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &in->system->size;
   ali3_state_header header = {.version = ALI3_STATE_VERSION,
-                              .system_crc = in->system->crc,
+                              .model_crc = ali3_model_crc(in),
                               .size = size,
                               .initialised = (uint32_t)in->initialised,
                               .count = in->count};
@@ -111,7 +112,7 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   const unsigned char *p = bytes;
   get(&header, &p, sizeof header);
   if (memcmp(header.magic, MAGIC, sizeof MAGIC) != 0 || header.version != ALI3_STATE_VERSION || header.size != size ||
-      header.system_crc != in->system->crc || header.initialised > 1 || !counted(header.count) ||
+      header.model_crc != ali3_model_crc(in) || header.initialised > 1 || !counted(header.count) ||
       header.crc != ali3_crc32((const unsigned char *)bytes + CHECKED_FROM, size - CHECKED_FROM))
     return ALI3_BAD_STATE;
   get(&settings, &p, sizeof settings);
@@ -136,6 +137,7 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   in->count = header.count;
   in->mode_known = false;
   in->placed = ALI3_PLACED_BY_Q; /* a start from here is from these coordinates */
+  in->to_lift = false;
   get(&in->t_base, &p, sizeof(double));
   get(&in->h_last, &p, sizeof(double));
   get(in->now.q, &p, in->n_vector * sizeof(double));

@@ -3,6 +3,7 @@
 
 #include "../algebra/finite.h"
 #include "../instance.h"
+#include "road_files.h"
 #include "vectors.h"
 
 void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, ali3_pool *pool) {
@@ -54,9 +55,10 @@ void ali3_back_up(ali3_instance *in) {
   in->backed_up = true;
 }
 
-/* in->next becomes the state when all of it is finite. */
+/* in->next becomes the state when all of it is finite and the road under it is known. */
 ali3_status ali3_accept(ali3_instance *in) {
   if (!ali3_finite(in->next.q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
+  if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
   const ali3_vectors swap = in->now;
   in->now = in->next;
   in->next = swap;

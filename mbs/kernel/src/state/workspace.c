@@ -143,6 +143,7 @@ static void place_start_and_work(const ali3_system *s, ali3_instance *in, ali3_p
 
 void ali3_workspace_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool) {
   in->road = ali3_pool_items(pool, (size_t)s->nr, sizeof *in->road);
+  in->own_road = ali3_pool_items(pool, (size_t)s->nr, sizeof *in->own_road);
   in->tree = s->tree != NULL ? ali3_pool_items(pool, 1, sizeof *in->tree) : NULL;
   place_states(s, in, pool);
   place_data(s, in, pool);

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../files/crc32.h"
 #include "../system.h"
-#include "crc32.h"
 #include "loading.h"
 #include "message.h"
 

@@ -1,0 +1,115 @@
+/* Variables that are text: the files of roads, fixed parameters. The kernel has the road that the text names, so what
+ * is refused is refused when it is set. */
+#include <stdio.h>
+#include <string.h>
+
+#include "slave.h"
+
+/* A name without a folder lies in the resources. False, and said, if the path is too long. */
+static bool path_of(slave *s, const char *name, const char *value, char *path) {
+  if (strchr(value, '/') == NULL && strchr(value, '\\') == NULL) {
+    const int n = snprintf(path, SLAVE_PATH, "%s/roads/%s", s->resources, value);
+    if (n >= 0 && n < SLAVE_PATH) return true;
+  } else if (slave_path_of_uri(value, path, SLAVE_PATH)) {
+    return true;
+  }
+  slave_say(s, SLAVE_ERROR, "'%s': the path '%.128s...' is too long.", name, value);
+  return false;
+}
+
+/* The road of a text in a kernel; said if it is refused, then the kernel keeps the one it has. */
+static bool put(slave *s, ali3_instance *kernel, const slave_text *t, const char *value) {
+  char path[SLAVE_PATH] = "", why[256];
+  if (value[0] != 0 && !path_of(s, t->name, value, path)) return false;
+  const ali3_status status = ali3_set_road(kernel, t->road, path, why, sizeof why);
+  if (status == ALI3_OK) return true;
+  slave_say(s, SLAVE_ERROR, "'%s' cannot be '%.256s' (%.256s): %s.", t->name, value, path,
+            why[0] != 0 ? why : ali3_status_text(status));
+  return false;
+}
+
+bool slave_texts_to(slave *s, ali3_instance *kernel, const slave_text_value *value) {
+  for (size_t k = 0; k < slave_the_table.n_texts; k++)
+    if (!put(s, kernel, &slave_the_table.text[k], value[k])) return false;
+  return true;
+}
+
+bool slave_texts_start(slave *s) {
+  slave_text_value start;
+  for (size_t k = 0; k < slave_the_table.n_texts; k++) {
+    const slave_text *t = &slave_the_table.text[k];
+    memset(start, 0, sizeof start);
+    snprintf(start, sizeof start, "%s", t->start);
+    if (memcmp(s->text[k], start, sizeof start) != 0 && !put(s, s->fidelity.kernel, t, start)) return false;
+    memcpy(s->text[k], start, sizeof start);
+  }
+  return true;
+}
+
+static bool known(slave *s, uint32_t first, const uint32_t *reference, size_t n) {
+  for (size_t i = 0; i < n; i++)
+    if (reference[i] < first || reference[i] - first >= slave_the_table.n_texts) {
+      slave_say(s, SLAVE_ERROR, "There is no text variable with value reference %u.", (unsigned)reference[i]);
+      return false;
+    }
+  return true;
+}
+
+slave_status slave_get_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char **value) {
+  if (!known(s, first, reference, n)) return SLAVE_ERROR;
+  for (size_t i = 0; i < n; i++) value[i] = s->text[reference[i] - first];
+  return SLAVE_OK;
+}
+
+slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char *const *value) {
+  if (!known(s, first, reference, n)) return SLAVE_ERROR;
+  for (size_t i = 0; i < n; i++) {
+    const char *name = slave_the_table.text[reference[i] - first].name;
+    if (!(s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)))
+      return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s; it is a fixed parameter.", name,
+                       slave_phase_name(s->calls.phase));
+    if (value[i] == NULL) return slave_say(s, SLAVE_ERROR, "'%s' was set to no text at all.", name);
+    if (strlen(value[i]) >= SLAVE_MOST_TEXT)
+      return slave_say(s, SLAVE_ERROR, "'%s' was set to a text of %zu bytes; at most %d are taken.", name,
+                       strlen(value[i]), SLAVE_MOST_TEXT - 1);
+  }
+  for (size_t i = 0; i < n; i++)
+    if (!put(s, s->fidelity.kernel, &slave_the_table.text[reference[i] - first], value[i])) {
+      while (i-- > 0) { /* nothing half changed */
+        const size_t k = reference[i] - first;
+        put(s, s->fidelity.kernel, &slave_the_table.text[k], s->text[k]);
+      }
+      return SLAVE_ERROR;
+    }
+  for (size_t i = 0; i < n; i++) {
+    char *to = s->text[reference[i] - first];
+    const size_t length = strlen(value[i]);
+    memmove(to, value[i], length);
+    memset(to + length, 0, SLAVE_MOST_TEXT - length);
+  }
+  slave_stale(s);
+  return SLAVE_OK;
+}
+
+/* What a start on a road from a file is worth a word about. */
+void slave_texts_remark(slave *s) {
+  double uneven;
+  const double lift = ali3_start_lift(s->fidelity.kernel, &uneven);
+  if (uneven > 1e-3)
+    slave_say(s, SLAVE_WARNING,
+              "The road is not level where this starts: the start is raised by %.3g m so that nothing is in the road, "
+              "and the part that hangs highest above its place of rest sinks by %.3g m.",
+              lift, uneven);
+  for (size_t i = 0; i < slave_the_table.n_known; i++) {
+    const slave_variable *v = &slave_the_table.variable[i];
+    if (s->value[i] != v->start && slave_without_effect(s, v))
+      slave_say(s, SLAVE_WARNING, "'%s' is %.10g%s, without effect: it is of the built-in road.", v->name, s->value[i],
+                v->unit);
+  }
+}
+
+bool slave_without_effect(const slave *s, const slave_variable *v) {
+  for (size_t k = 0; k < slave_the_table.n_texts; k++)
+    if (slave_the_table.text[k].road == v->road && s->text[k][0] != 0) return true;
+  return false;
+}

@@ -1,0 +1,114 @@
+/* Opening and reading with what the C library of each platform has for paths in UTF-8 and files above 2 GB. */
+#if !defined(_WIN32)
+#define _POSIX_C_SOURCE 200809L
+#define _FILE_OFFSET_BITS 64
+#endif
+#include "regular_file.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+
+#if defined(_WIN32)
+#include <io.h>
+#include <wchar.h>
+typedef struct _stat64 file_kind;
+#define IS_REGULAR(mode) (((mode) & _S_IFMT) == _S_IFREG)
+
+/* UTF-16 of UTF-8; 0 where it does not fit or is none. */
+static int wide_path(const char *path, wchar_t *wide) {
+  const unsigned char *p = (const unsigned char *)path;
+  size_t n = 0;
+  while (*p != 0) {
+    const int more = *p < 0x80 ? 0 : *p >= 0xc2 && *p < 0xe0 ? 1 : *p >= 0xe0 && *p < 0xf0 ? 2 : *p < 0xf5 ? 3 : -1;
+    if (more < 0 || (*p >= 0x80 && *p < 0xc2) || n + 3 > ALI3_MOST_PATH) return 0;
+    uint32_t code = more == 0 ? *p : *p & (0x3fu >> more);
+    p++;
+    for (int k = 0; k < more; k++, p++) {
+      if ((*p & 0xc0u) != 0x80u) return 0;
+      code = code << 6 | (*p & 0x3fu);
+    }
+    if (code >= 0x10000u) {
+      wide[n++] = (wchar_t)(0xd800u + ((code - 0x10000u) >> 10));
+      code = 0xdc00u + ((code - 0x10000u) & 0x3ffu);
+    }
+    wide[n++] = (wchar_t)code;
+  }
+  wide[n] = 0;
+  return 1;
+}
+
+static FILE *open_path(const char *path) {
+  wchar_t wide[ALI3_MOST_PATH];
+  if (wide_path(path, wide)) return _wfopen(wide, L"rb");
+  errno = EINVAL;
+  return NULL;
+}
+
+static int kind_of(FILE *file, file_kind *kind) { return _fstat64(_fileno(file), kind); }
+
+static int seek(FILE *file, int64_t from) { return _fseeki64(file, from, SEEK_SET); }
+#else
+#include <fcntl.h>
+#include <unistd.h>
+typedef struct stat file_kind;
+#define IS_REGULAR(mode) S_ISREG(mode)
+
+/* A pipe would wait for its writer, a terminal might become the process's own. */
+static FILE *open_path(const char *path) {
+  const int number = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  FILE *file = number >= 0 ? fdopen(number, "rb") : NULL;
+  if (number >= 0 && file == NULL) close(number);
+  return file;
+}
+
+static int kind_of(FILE *file, file_kind *kind) { return fstat(fileno(file), kind); }
+
+static int seek(FILE *file, int64_t from) { return fseeko(file, (off_t)from, SEEK_SET); }
+#endif
+
+static const char *reason(int error) {
+  switch (error) {
+  case ENOENT:
+  case ENOTDIR:
+    return "there is no such file";
+  case EACCES:
+    return "it may not be read";
+  case EISDIR:
+    return "it is no regular file";
+#if defined(ELOOP)
+  case ELOOP:
+    return "its links go in a circle";
+#endif
+  case ENAMETOOLONG:
+    return "its name is too long";
+  case EMFILE:
+  case ENFILE:
+    return "too many files are open";
+  default:
+    return "it cannot be opened";
+  }
+}
+
+FILE *ali3_file_open(const char *path, int64_t *size, const char **why) {
+  file_kind kind;
+  errno = 0;
+  FILE *file = open_path(path);
+  if (file == NULL) {
+    *why = reason(errno);
+    return NULL;
+  }
+  if (kind_of(file, &kind) == 0 && IS_REGULAR(kind.st_mode)) {
+    setvbuf(file, NULL, _IONBF, 0); /* a buffer would be allocated by the first read */
+    *size = (int64_t)kind.st_size;
+    return file;
+  }
+  *why = "it is no regular file";
+  fclose(file);
+  return NULL;
+}
+
+int ali3_file_read(FILE *file, int64_t from, void *to, size_t size) {
+  return seek(file, from) == 0 && fread(to, 1, size, file) == size;
+}

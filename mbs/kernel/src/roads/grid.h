@@ -1,0 +1,22 @@
+/* Heights and frictions on a regular grid: C1 bicubic and bilinear in between; outside the border goes on. */
+#ifndef ALI3_ROAD_GRID_H
+#define ALI3_ROAD_GRID_H
+#include <stdint.h>
+
+#include "road_file.h"
+
+typedef struct { /* the values lie in memory, y fastest, or in the tiles of a file */
+  int32_t nx, ny;
+  double x0, y0, dx, dy;
+  const double *z, *mu;
+  ali3_road_file *file;
+} ali3_grid;
+
+typedef struct {
+  double height, normal[3], friction;
+} ali3_surface;
+
+ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y);
+/* No point of the grid within reach of a place in x and y is higher; infinite where that takes too long to see. */
+double ali3_grid_top(const ali3_grid *g, const double place[3], double reach);
+#endif

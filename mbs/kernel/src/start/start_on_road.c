@@ -1,0 +1,77 @@
+/* A scene that a pose may place starts on the roads that files give it: raised or lowered as a whole until every part
+ * that touches the road in the drawing is at most as deep as there. The others then hang above it and settle. */
+#include "start_on_road.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../elements/element.h"
+#include "../elements/road.h"
+#include "../state/parameters.h"
+#include "../state/road_files.h"
+#include "initialise.h"
+
+static const double LEVEL = 1e-10; /* m: a height that needs no lift, and the error of one */
+enum { MOST_MOVES = 100 };
+
+/* Depth of element e at q, raised; its signals are those of `roads`. */
+static double depth(const ali3_instance *in, const ali3_road *roads, const double *q, int32_t e, double raised,
+                    double *part) {
+  double u[ALI3_MAX_SIGNALS] = {0.0};
+  const ali3_element_args a = ali3_start_arguments(in, roads, q, e, u);
+  return in->system->el_kind[e]->depth(&a, raised, part);
+}
+
+/* Depths of the drawing on the roads of the file, in in->potential_work. True where any element touches. */
+static bool drawn_depths(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  bool touching = false;
+  if (S->n_road_real > 0) memcpy(in->road_real, S->road_real, (size_t)S->n_road_real * sizeof(double));
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    double part;
+    if (S->el_kind[e]->depth == NULL) continue;
+    in->potential_work[e] = depth(in, in->own_road, in->start_q, e, 0.0, &part);
+    touching = touching || in->potential_work[e] > 0.0;
+  }
+  ali3_parameters_apply(in);
+  return touching;
+}
+
+/* The rise from `from` on at which element e is as deep as `wanted`. */
+static double rise_of(const ali3_instance *in, int32_t e, double from, double wanted) {
+  double rise = from, part = 1.0;
+  for (int k = 0; k < MOST_MOVES; k++) {
+    const double excess = depth(in, in->road, in->now.q, e, rise, &part) - wanted;
+    if (!(fabs(excess) > LEVEL)) break;
+    rise += excess * part;
+  }
+  return rise;
+}
+
+void ali3_start_on_road(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  double lift = -INFINITY, part;
+  in->lift = in->uneven = 0.0;
+  if (!in->to_lift || !S->size.has_pose || !ali3_roads_from_files(in)) return;
+  const bool touching = drawn_depths(in);
+  for (int32_t e = 0; e < S->size.ne; e++)
+    if (S->el_kind[e]->depth != NULL && (!touching || in->potential_work[e] > 0.0))
+      lift = fmax(lift, rise_of(in, e, 0.0, in->potential_work[e]));
+  if (!(lift > -INFINITY)) return; /* nothing meets a road */
+  for (int32_t e = 0; e < S->size.ne && touching; e++) {
+    if (S->el_kind[e]->depth == NULL) continue;
+    if (in->potential_work[e] <= 0.0 && depth(in, in->road, in->now.q, e, lift, &part) > 0.0)
+      lift = fmax(lift, rise_of(in, e, lift, 0.0));
+  }
+  for (int32_t e = 0; e < S->size.ne && touching; e++)
+    if (S->el_kind[e]->depth != NULL && in->potential_work[e] > 0.0)
+      in->uneven = fmax(in->uneven, in->potential_work[e] - depth(in, in->road, in->now.q, e, lift, &part));
+  if (fabs(lift) <= LEVEL) return;
+  in->lift = lift;
+  for (int32_t i = 0; i < S->size.nq; i++) in->now.q[i] += lift * S->pose_z[i];
+}
+
+double ali3_start_lift(const ali3_instance *in, double *uneven) {
+  if (uneven != NULL) *uneven = in != NULL ? in->uneven : 0.0;
+  return in != NULL ? in->lift : 0.0;
+}

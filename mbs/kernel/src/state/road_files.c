@@ -1,0 +1,63 @@
+/* Files in place of the roads of a System: set before a start, read as the scene comes near. */
+#include "road_files.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../elements/road.h"
+#include "../files/crc32.h"
+#include "../roads/road_file.h"
+
+ali3_status ali3_set_road(ali3_instance *in, int32_t road, const char *path, char *message, size_t message_size) {
+  if (message != NULL && message_size > 0) message[0] = 0;
+  if (in == NULL || road < 0 || road >= in->system->nr) return ALI3_BAD_ARGUMENT;
+  ali3_road_file *file = NULL;
+  if (path != NULL && path[0] != 0) {
+    const ali3_memory *memory = &in->system->memory;
+    file = ali3_road_file_open(path, memory->allocate, memory->release, message, message_size);
+    if (file == NULL) return ALI3_BAD_ROAD;
+  }
+  ali3_road_file_close(in->road[road].file);
+  in->road[road].file = file;
+  in->initialised = 0;
+  in->to_lift = in->placed != ALI3_PLACED_BY_Q;
+  return ALI3_OK;
+}
+
+ali3_status ali3_roads_status(const ali3_instance *in) {
+  for (int32_t r = 0; r < in->system->nr; r++)
+    if (in->road[r].file != NULL && ali3_road_file_lost(in->road[r].file) != NULL) return ALI3_ROAD_LOST;
+  return ALI3_OK;
+}
+
+void ali3_roads_forgive(ali3_instance *in) {
+  for (int32_t r = 0; r < in->system->nr; r++)
+    if (in->road[r].file != NULL) ali3_road_file_forgive(in->road[r].file);
+}
+
+bool ali3_roads_from_files(const ali3_instance *in) {
+  for (int32_t r = 0; r < in->system->nr; r++)
+    if (in->road[r].file != NULL) return true;
+  return false;
+}
+
+const char *ali3_road_lost(const ali3_instance *in) {
+  for (int32_t r = 0; in != NULL && r < in->system->nr; r++)
+    if (in->road[r].file != NULL && ali3_road_file_lost(in->road[r].file) != NULL)
+      return ali3_road_file_lost(in->road[r].file);
+  return "";
+}
+
+uint32_t ali3_model_crc(const ali3_instance *in) {
+  uint32_t crc = in->system->crc;
+  for (int32_t r = 0; r < in->system->nr; r++)
+    if (in->road[r].file != NULL) {
+      const uint32_t parts[3] = {crc, (uint32_t)r, ali3_road_file_identity(in->road[r].file)};
+      crc = ali3_crc32(parts, sizeof parts);
+    }
+  return crc;
+}
+
+void ali3_roads_close(ali3_instance *in) {
+  for (int32_t r = 0; r < in->n_roads; r++) ali3_road_file_close(in->road[r].file);
+}

@@ -1,0 +1,209 @@
+"""A road in words: the TOML file that says what it is made of."""
+
+from __future__ import annotations
+
+import math
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.roads.grid_files import read_grid
+from mbs.roads.road_file import MOST_FRICTION, RoadFileError
+from mbs.roads.rough_road import ISO_8608, rough_heights
+
+Length = Annotated[float, Field(gt=0.0, le=1e5)]
+Place = Annotated[float, Field(ge=-1e6, le=1e6)]
+Height = Annotated[float, Field(ge=-1e4, le=1e4)]
+Friction = Annotated[float, Field(ge=0.0, le=2.0)]
+Range = tuple[float, float]
+RESOLUTION = 2.0**-17
+"""m, 0.008 mm: heights of waves and rough roads are multiples of it, so that their files are the same everywhere."""
+
+
+class _Road(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    description: str = ""
+
+
+class Plane(_Road):
+    """z = height + grade_x x + grade_y y."""
+
+    kind: Literal["plane"]
+    height: Height = 0.0
+    grade_x: Annotated[float, Field(ge=-1.0, le=1.0)] = 0.0
+    grade_y: Annotated[float, Field(ge=-1.0, le=1.0)] = 0.0
+    friction: Friction = 0.9
+
+    def road(self, folder: Path) -> PlaneRoad:
+        """As the kernel takes it."""
+        return PlaneRoad(self.height, self.grade_x, self.grade_y, self.friction)
+
+
+class Kerb(_Road):
+    """A step across the way at x = position."""
+
+    kind: Literal["kerb"]
+    position: Place
+    step: Annotated[float, Field(gt=0.0, le=1.0)]
+    lower_height: Height = 0.0
+    upper: Literal["before", "after"] = "before"
+    friction: Friction = 0.9
+
+    def road(self, folder: Path) -> KerbRoad:
+        """As the kernel takes it."""
+        return KerbRoad(self.position, self.step, self.lower_height, self.upper, self.friction)
+
+
+class GridOfFiles(_Road):
+    """Heights and frictions from CSV tables, NumPy arrays or pictures beside this file."""
+
+    kind: Literal["grid"]
+    heights: str
+    frictions: str | Friction = 0.9
+    origin: tuple[Place, Place] | None = None
+    spacing: tuple[Length, Length] | None = None
+    height_range: Range | None = None
+    friction_range: Range | None = None
+
+    def road(self, folder: Path) -> GridRoad:
+        """As the kernel takes it."""
+        frictions = self.frictions if isinstance(self.frictions, float) else folder / self.frictions
+        return grid_road(
+            folder / self.heights, frictions, self.origin, self.spacing, self.height_range, self.friction_range
+        )
+
+
+class Washboard(_Road):
+    """Waves across the way from x = start on; the first one grows."""
+
+    kind: Literal["washboard"]
+    start: Place
+    length: Length
+    width: Length
+    wavelength: Annotated[float, Field(ge=0.1, le=100.0)]
+    amplitude: Annotated[float, Field(gt=0.0, le=0.5)]
+    friction: Friction = 0.9
+
+    def road(self, folder: Path) -> GridRoad:
+        """As the kernel takes it: 24 points a wave."""
+        dx = self.wavelength / 24.0
+        x = dx * np.arange(-24, math.ceil(self.length / dx) + 25)
+        grown = np.clip(x / self.wavelength, 0.0, 1.0) * np.clip((self.length - x) / self.wavelength, 0.0, 1.0)
+        z = self.amplitude * grown * np.sin(2.0 * np.pi * x / self.wavelength)
+        heights = np.repeat(_rounded(z)[:, None], 2, axis=1)
+        return GridRoad((self.start + x[0], -0.5 * self.width), (dx, self.width), heights, self.friction)
+
+
+class Rough(_Road):
+    """An uneven surface of a class of ISO 8608, in all directions alike; from x = start on, where it is level."""
+
+    kind: Literal["rough"]
+    start: Place
+    length: Length
+    width: Length
+    spacing: Annotated[float, Field(ge=0.01, le=1.0)] = 0.1
+    roughness: Literal[tuple(ISO_8608)]  # type: ignore[valid-type]
+    seed: int = 1
+    friction: Friction = 0.9
+
+    def road(self, folder: Path) -> GridRoad:
+        """As the kernel takes it."""
+        n = [math.ceil(side / self.spacing) + 1 for side in (self.length, self.width)]
+        heights = rough_heights(n[0], n[1], self.spacing, ISO_8608[self.roughness], self.seed)
+        x = self.spacing * np.arange(n[0])
+        heights *= np.clip(np.minimum(x, self.length - x) / 5.0, 0.0, 1.0)[:, None]
+        return GridRoad((self.start, -0.5 * self.width), (self.spacing,) * 2, _rounded(heights), self.friction)
+
+
+class Split(_Road):
+    """A level road with one friction for y > 0, the left of who drives along x, and one for y < 0."""
+
+    kind: Literal["split"]
+    start: Place
+    length: Length
+    left: Friction
+    right: Friction
+
+    def road(self, folder: Path) -> GridRoad:
+        """As the kernel takes it: the frictions change within 0.1 m."""
+        y = 0.1 * np.arange(-2, 2) + 0.05
+        frictions = np.where(y > 0.0, self.left, self.right)
+        return GridRoad((self.start, y[0]), (self.length, 0.1), np.zeros((2, 4)), np.tile(frictions, (2, 1)))
+
+
+_ADAPTER: TypeAdapter[Any] = TypeAdapter(
+    Annotated[Plane | Kerb | GridOfFiles | Washboard | Rough | Split, Field(discriminator="kind")]
+)
+
+
+def _rounded(heights: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
+    return np.asarray(np.round(heights / RESOLUTION) * RESOLUTION + 0.0)
+
+
+def described_road(path: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
+    """The road that a TOML file describes.
+
+    Raises
+    ------
+    RoadFileError
+        With file, key, value and what would be right.
+    """
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
+    try:
+        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except tomllib.TOMLDecodeError as error:
+        raise RoadFileError(f"{path} is no TOML file: {error}.") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise RoadFileError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
+    try:
+        description = _ADAPTER.validate_python(table, strict=False)
+    except ValidationError as error:
+        raise RoadFileError(_sentence(path, error)) from None
+    road: PlaneRoad | KerbRoad | GridRoad = description.road(Path(path).parent)
+    return road
+
+
+def _sentence(path: object, error: ValidationError) -> str:
+    first = error.errors()[0]
+    place = ".".join(str(part) for part in first["loc"][1:]) or "kind"
+    given = "" if first["type"] in ("missing", "union_tag_not_found") else f" is {first['input']!r}"
+    words = first["msg"][:1].lower() + first["msg"][1:]
+    return f"{path}: '{place}'{given}: {words}."
+
+
+def grid_road(
+    heights: str | os.PathLike[str],
+    frictions: str | os.PathLike[str] | float,
+    origin: tuple[float, float] | None,
+    spacing: tuple[float, float] | None,
+    height_range: Range | None = None,
+    friction_range: Range | None = None,
+) -> GridRoad:
+    """A grid from files; what is given here goes before what the files say."""
+    grid = read_grid(heights, height_range, "heights")
+    step = spacing or grid.spacing
+    if step is None:
+        raise RoadFileError(f"{heights} does not say how far its points are apart; give the spacing in x and y, m.")
+    values: Any = frictions
+    if not isinstance(frictions, int | float):
+        second = read_grid(frictions, friction_range, "frictions")
+        values = second.values
+        if values.shape != grid.values.shape:
+            raise RoadFileError(
+                f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} "
+                f"{grid.values.shape}; both must agree."
+            )
+    elif grid.frictions is not None:
+        values = grid.frictions
+    if np.any(np.asarray(values) > MOST_FRICTION) or np.any(np.asarray(values) < 0.0):
+        raise RoadFileError(f"The frictions of {heights} must lie between 0 and {MOST_FRICTION:g}.")
+    return GridRoad(origin or grid.origin or (0.0, 0.0), step, grid.values, values)

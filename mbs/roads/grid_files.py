@@ -1,0 +1,197 @@
+"""Grids of numbers from CSV tables, NumPy arrays and pictures; each as rows along x and columns along y."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.roads.road_file import RoadFileError
+
+REGULAR = 1e-6
+"""Coordinates of a table may be off a regular grid by this part of its spacing."""
+MOST_BYTES = 2**31
+SUFFIXES = (".csv", ".txt", ".npy", ".npz", ".png")
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A grid of numbers.
+
+    Parameters
+    ----------
+    values : ndarray, shape (nx, ny)
+    origin, spacing : (float, float), optional
+        Of its points in x and y, m, where the file says it.
+    frictions : ndarray, shape (nx, ny), optional
+        Where the same file has them.
+    """
+
+    values: NDArray[np.float64]
+    origin: tuple[float, float] | None = None
+    spacing: tuple[float, float] | None = None
+    frictions: NDArray[np.float64] | None = None
+
+
+def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] | None, what: str) -> Grid:
+    """A grid from a file.
+
+    Parameters
+    ----------
+    path : path
+        ``.csv`` or ``.txt``, ``.npy``, ``.npz`` or ``.png``.
+    picture_range : (float, float), optional
+        What black and white of a picture mean.
+    what : str
+        "heights" or "frictions".
+
+    Raises
+    ------
+    RoadFileError
+        With the file and what is wrong with it.
+    """
+    file = Path(path)
+    kind = file.suffix.lower()
+    if kind not in SUFFIXES:
+        raise RoadFileError(f"{path} has the {what} of a road in a form that is not read; {', '.join(SUFFIXES)} are.")
+    try:
+        if not file.is_file():
+            words = "it is no regular file" if file.exists() else "there is no such file"
+            raise RoadFileError(f"{path} cannot be read: {words}.")
+        if file.stat().st_size > MOST_BYTES:
+            raise RoadFileError(f"{path} is larger than 2 GB.")
+        if kind in (".csv", ".txt"):
+            grid = _table(file.read_text(encoding="utf-8-sig"), path)
+        elif kind == ".png":
+            grid = _picture(file, picture_range, what)
+        else:
+            grid = _arrays(file, what)
+    except (OSError, UnicodeDecodeError) as error:
+        raise RoadFileError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
+    if grid.values.ndim != 2 or min(grid.values.shape) < 2:
+        raise RoadFileError(f"The {what} in {path} have shape {grid.values.shape}; at least 2 x 2 points are needed.")
+    for values in (grid.values, grid.frictions):
+        if values is not None and not np.all(np.isfinite(values)):
+            i, j = np.argwhere(~np.isfinite(values))[0].tolist()
+            raise RoadFileError(f"{path}: the value at row {i}, column {j} is {values[i, j]}, not a finite number.")
+    return grid
+
+
+def _table(text: str, path: object) -> Grid:
+    """Rows are along x, columns along y; with coordinates where the first cell is no number."""
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if len(lines) < 2:
+        raise RoadFileError(f"{path} has {len(lines)} rows; a grid needs at least two.")
+    mark = next((m for m in (";", ",", "\t") if m in lines[0]), None)
+    rows = [[cell.strip() for cell in line.split(mark)] for line in lines]
+    if mark == ";":  # then the comma may be the decimal mark
+        rows = [[cell.replace(",", ".") for cell in row] for row in rows]
+    for k, row in enumerate(rows):
+        if len(row) != len(rows[0]):
+            raise RoadFileError(f"{path}: row {k + 1} has {len(row)} cells, the first one {len(rows[0])}.")
+    labelled = not _is_number(rows[0][0])
+    if not labelled:
+        return Grid(_numbers(rows, 0, path))
+    y = _numbers([rows[0][1:]], 0, path)[0]
+    body = _numbers(rows[1:], 1, path)
+    if body.shape[0] < 2 or body.shape[1] < 3:
+        raise RoadFileError(f"{path} has {body.shape[0]} x {body.shape[1] - 1} points; at least 2 x 2 are needed.")
+    (x0, dx), (y0, dy) = _regular(body[:, 0], "x", path), _regular(y, "y", path)
+    return Grid(body[:, 1:], (x0, y0), (dx, dy))
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        return math.isfinite(float(cell)) and "_" not in cell
+    except ValueError:
+        return False
+
+
+def _numbers(rows: list[list[str]], first: int, path: object) -> NDArray[np.float64]:
+    try:
+        return np.array([[float(cell) for cell in row] for row in rows])
+    except ValueError:
+        k, cell = next((k, c) for k, row in enumerate(rows) for c in row if not _is_number(c))
+        raise RoadFileError(f"{path}: {cell!r} in row {k + first + 1} is no number.") from None
+
+
+def _regular(values: NDArray[np.float64], name: str, path: object) -> tuple[float, float]:
+    """First value and spacing of ascending coordinates."""
+    spacing = float((values[-1] - values[0]) / (len(values) - 1))
+    if not (math.isfinite(spacing) and spacing > 0.0):
+        raise RoadFileError(f"{path}: the coordinates {name} do not ascend.")
+    off = np.abs(values - (values[0] + spacing * np.arange(len(values))))
+    k = int(np.argmax(off))
+    if not off[k] <= REGULAR * spacing + 1e-12 * float(np.abs(values).max()):
+        raise RoadFileError(
+            f"{path}: the coordinates {name} are not regular: {values[k]:g} should be {values[0] + spacing * k:g}."
+        )
+    return float(values[0]), spacing
+
+
+def _arrays(file: Path, what: str) -> Grid:
+    try:
+        loaded = np.load(file, allow_pickle=False)
+        if isinstance(loaded, np.ndarray):
+            return Grid(_real(loaded, file))
+        with loaded:
+            return _archive({name: loaded[name] for name in loaded.files}, file, what)
+    except RoadFileError:
+        raise
+    except Exception as error:  # numpy raises many kinds, also for pickles, which are not read
+        raise RoadFileError(f"{file} cannot be read as a NumPy file: {error}") from None
+
+
+def _archive(arrays: dict[str, NDArray[np.float64]], file: Path, what: str) -> Grid:
+    known = {"heights", "frictions", "origin", "spacing"}
+    if unknown := sorted(set(arrays) - known):
+        raise RoadFileError(f"{file} has an array '{unknown[0]}'; known are {', '.join(sorted(known))}.")
+    if what not in arrays:
+        raise RoadFileError(f"{file} has no array '{what}'.")
+    pairs = {
+        name: _pair(_real(arrays[name], file), f"'{name}' in {file}")
+        for name in ("origin", "spacing")
+        if name in arrays
+    }
+    frictions = _real(arrays["frictions"], file) if "frictions" in arrays and what == "heights" else None
+    return Grid(_real(arrays[what], file), pairs.get("origin"), pairs.get("spacing"), frictions)
+
+
+def _real(values: NDArray[np.float64], file: Path) -> NDArray[np.float64]:
+    if values.dtype.kind not in "fiu":
+        raise RoadFileError(f"{file} has values of type {values.dtype}; real numbers are needed.")
+    return values.astype(float)
+
+
+def _pair(values: NDArray[np.float64], what: str) -> tuple[float, float]:
+    if values.shape not in ((2,), (1,), ()):
+        raise RoadFileError(f"{what} has shape {values.shape}; it is one number or two, of x and y.")
+    first, *rest = np.atleast_1d(values).tolist()
+    return float(first), float(rest[0] if rest else first)
+
+
+def _picture(file: Path, limits: tuple[float, float] | None, what: str) -> Grid:
+    """Seen from above, x to the right and y up; black and white are the ends of the range."""
+    try:
+        from PIL import Image, UnidentifiedImageError
+    except ModuleNotFoundError:
+        raise RoadFileError(
+            f"{file} is a picture; the package Pillow reads it: python -m pip install 'ali3[roads]'"
+        ) from None
+    if limits is None:
+        raise RoadFileError(f"{file} is a picture: say which {what} black and white mean, as in --range 0 0.25.")
+    try:
+        with Image.open(file) as image:
+            white = {"L": 255.0, "I;16": 65535.0, "I;16B": 65535.0, "I": 65535.0, "1": 1.0}.get(image.mode)
+            if white is None:
+                raise RoadFileError(f"{file} is a picture of mode {image.mode}; 8 or 16 bits of grey are needed.")
+            grey = np.asarray(image, float) / white
+    except RoadFileError:
+        raise
+    except (UnidentifiedImageError, Image.DecompressionBombError, ValueError, SyntaxError) as error:
+        raise RoadFileError(f"{file} cannot be read as a picture: {error}.") from None
+    return Grid(np.ascontiguousarray((limits[0] + (limits[1] - limits[0]) * grey)[::-1].T))

@@ -1,0 +1,61 @@
+"""Roads from files of any kind, whole in memory."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.roads.road_file import RoadFile, RoadFileError
+
+SUFFIXES = (".road", ".toml", ".csv", ".txt", ".npy", ".npz", ".png")
+
+
+def read_road(
+    path: str | os.PathLike[str],
+    *,
+    frictions: str | os.PathLike[str] | float = 0.9,
+    origin: tuple[float, float] | None = None,
+    spacing: tuple[float, float] | None = None,
+    height_range: tuple[float, float] | None = None,
+    friction_range: tuple[float, float] | None = None,
+) -> PlaneRoad | KerbRoad | GridRoad:
+    """A road from a road file, a TOML description, or a grid of heights.
+
+    Parameters
+    ----------
+    path : path
+        ``.road``; ``.toml``; or heights: ``.csv`` or ``.txt`` (a row for each x, a column for each y; with coordinates
+        in the first row and column where the first cell is no number), ``.npy`` (``heights[i, j]`` at x number i and y
+        number j), ``.npz`` (arrays `heights`, and as one likes `frictions`, `origin`, `spacing`), ``.png`` (8 or 16
+        bits of grey, seen from above with x to the right and y up).
+    frictions : path or float
+        Of a grid: a second file of the same shape, or one number.
+    origin : (float, float), optional
+        Of a grid: x and y of its first point, m; by default what the file says, else 0.
+    spacing : (float, float), optional
+        Of a grid: distances of its points in x and y, m.
+    height_range, friction_range : (float, float), optional
+        What black and white of a picture mean.
+
+    Returns
+    -------
+    PlaneRoad, KerbRoad or GridRoad
+
+    Raises
+    ------
+    RoadFileError
+        With the file and what is wrong with it.
+    ModelError
+        A number is none that a road can have.
+    """
+    kind = Path(path).suffix.lower()
+    if kind == ".road":
+        return RoadFile(path).read()
+    if kind not in SUFFIXES:
+        raise RoadFileError(f"{path} is of a kind that is not read as a road; {', '.join(SUFFIXES)} are.")
+    from mbs.roads.description import described_road, grid_road
+
+    if kind == ".toml":
+        return described_road(path)
+    return grid_road(path, frictions, origin, spacing, height_range, friction_range)

@@ -1,0 +1,47 @@
+"""Uneven surfaces with the spectrum of ISO 8608."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+ISO_8608 = {"A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6}
+"""Displacement power spectral density Gd at 0.1 1/m, m3: geometric means of the classes (ISO 8608:2016, table C.2)."""
+REFERENCE = 0.1
+"""Spatial frequency of these, 1/m."""
+LOWEST, HIGHEST = 0.011, 2.83
+"""Range of spatial frequencies, 1/m (ISO 8608:2016, 5.1.2)."""
+
+
+def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -> NDArray[np.float64]:
+    """Heights of an isotropic surface: along every straight line the one-sided density is Gd(n) = Gd(n0) (n0/n)^2.
+
+    A surface whose two-dimensional density is A n^-3 has the two-sided density 2 A n^-2 along a line (the integral over
+    the other component), so A = Gd(n0) n0^2 / 4. Random phases, amplitudes as given.
+
+    Parameters
+    ----------
+    nx, ny : int
+        Points.
+    spacing : float
+        m.
+    density : float
+        Gd(n0), m3.
+    seed : int
+        Of the phases.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        m.
+    """
+    side = max(nx, ny, round(1.0 / (LOWEST * spacing)))
+    n = np.fft.fftfreq(side, spacing)
+    frequency = np.hypot(n[:, None], n[None, : side // 2 + 1])
+    cell = 1.0 / (side * spacing) ** 2
+    with np.errstate(divide="ignore"):
+        spectrum = np.where(frequency > 0.0, 0.25 * density * REFERENCE**2 * frequency**-3.0, 0.0)
+    spectrum[(frequency < LOWEST) | (frequency > HIGHEST)] = 0.0
+    phases = np.exp(2j * np.pi * np.random.default_rng(seed).random(spectrum.shape))
+    surface = np.fft.irfft2(np.sqrt(spectrum * cell) * phases, s=(side, side)) * side * side
+    return np.asarray(surface[:nx, :ny])

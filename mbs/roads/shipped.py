@@ -1,0 +1,15 @@
+"""Roads that come with the package."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+FOLDER = Path(__file__).with_name("files")
+
+
+def road_path(value: str | os.PathLike[str]) -> str:
+    """A path as it is; a bare name that is no file here may be that of a road of the package."""
+    text = os.fspath(value)
+    shipped = text in {path.name for path in FOLDER.glob("*.road")}
+    return str(FOLDER / text) if shipped and not Path(text).exists() else text

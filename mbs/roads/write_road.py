@@ -1,0 +1,96 @@
+"""Writes road files."""
+
+from __future__ import annotations
+
+import os
+import struct
+import zlib
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.files import whole_file
+from mbs.checks import instance_of
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.kernel.header import RoadType
+from mbs.roads.road_file import MOST_FRICTION, REALS, TILE, Header, RoadFileError, check_grid
+
+
+def write_road(road: PlaneRoad | KerbRoad | GridRoad, file: str | os.PathLike[str]) -> None:
+    """Write a road to a file that the kernel and FMUs read.
+
+    Parameters
+    ----------
+    road : PlaneRoad, KerbRoad or GridRoad
+        Its friction factor is multiplied into the frictions.
+    file : path
+        Whole or not at all; an older file is replaced.
+
+    Raises
+    ------
+    ModelError
+        A number of the road is none, a height lies beyond 1e5 m or a friction outside 0 to 10.
+    ali3.errors.FileError
+        The file cannot be written.
+    """
+    instance_of((PlaneRoad, KerbRoad, GridRoad), road, "What write_road writes", "a PlaneRoad, KerbRoad or GridRoad")
+    with whole_file(file) as made, made.open("wb") as out:
+        _write(road, out, file)
+
+
+def road_bytes(road: PlaneRoad | KerbRoad | GridRoad) -> bytes:
+    """The same in memory, for archives."""
+    import io
+
+    out = io.BytesIO()
+    _write(road, out, "the road")
+    return out.getvalue()
+
+
+def _write(road: PlaneRoad | KerbRoad | GridRoad, out: BinaryIO, name: object) -> None:
+    if isinstance(road, GridRoad):
+        _write_grid(road, out, name)
+        return
+    *real, factor = road.real
+    real[-1] *= factor
+    if real[-1] > MOST_FRICTION:
+        raise RoadFileError(f"The friction of {name} is {real[-1]:g}; it must lie between 0 and {MOST_FRICTION:g}.")
+    out.write(Header(road.type, 0, 0, 0, _padded(real)).to_bytes())
+
+
+def _padded(real: list[float]) -> tuple[float, ...]:
+    return (*real, *([0.0] * (REALS - len(real))))
+
+
+def _write_grid(road: GridRoad, out: BinaryIO, name: object) -> None:
+    nx, ny, x0, y0, dx, dy, factor, *_ = road.real
+    heights = np.asarray(road.heights, float)
+    frictions = np.asarray(road.frictions, float) * factor
+    check_grid(heights, np.atleast_2d(frictions), name)
+    uniform = frictions.ndim == 0
+    head = Header(
+        RoadType.GRID,
+        int(nx),
+        int(ny),
+        1 if uniform else 2,
+        _padded([x0, y0, dx, dy, float(frictions) if uniform else 1.0]),
+    )
+    out.write(head.to_bytes())
+    maps = [heights] if uniform else [heights, frictions]
+    tiles_y, checksums = head.tiles[1], []
+    for number in range(head.tiles[0] * tiles_y):
+        i, j = (number // tiles_y) * TILE, (number % tiles_y) * TILE
+        data = b"".join(_tile(values[i : i + TILE, j : j + TILE]) for values in maps)
+        data += struct.pack("<qI", number, 0)
+        checksums.append(zlib.crc32(data))
+        out.write(data + struct.pack("<I", checksums[-1]))
+    out.seek(0)
+    contents = zlib.crc32(struct.pack(f"<{len(checksums)}I", *checksums))
+    out.write(Header(head.kind, head.nx, head.ny, head.maps, head.real, contents).to_bytes())
+
+
+def _tile(values: NDArray[np.float64]) -> bytes:
+    whole = np.zeros((TILE, TILE), "<f8")
+    whole[: values.shape[0], : values.shape[1]] = values
+    return whole.tobytes()

@@ -1,0 +1,102 @@
+"""Electric motor with a fixed ratio and an open differential."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from mbs.elements.electric_drive import ElectricDrive
+from mbs.model.spin import Spin
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.quantities import (
+    AngularSpeed,
+    DriveRatio,
+    Fraction,
+    MotorPower,
+    MotorSpeed,
+    PartInertia,
+    RegenerationTorque,
+    Time,
+    Torque,
+)
+from mbs.vehicle.section import Section
+
+TIED = ("max_torque", "max_power", "ratio", "regeneration_torque", "regeneration_power")
+
+
+class Electric(Section):
+    """Drive by an electric motor."""
+
+    kind: Literal["electric"]
+    """Names this template."""
+    wheels: Literal["front", "rear"]
+    """Driven wheels."""
+    max_torque: Torque
+    """Largest torque of the motor."""
+    max_power: MotorPower
+    """Largest power of the motor at its shaft."""
+    ratio: DriveRatio
+    """Speed of the motor over the mean speed of the wheels."""
+    limit_speed: MotorSpeed
+    """Speed of the motor beyond which its torque fades."""
+    rotor_inertia: PartInertia
+    """Moment of inertia of the rotor as each driven wheel feels it: half of its own times the ratio squared."""
+    efficiency: Fraction = 0.9
+    """Efficiency between battery and shaft of the motor, both ways."""
+    gear_efficiency: Fraction = 0.97
+    """Efficiency between shaft and wheels, both ways."""
+    regeneration_torque: RegenerationTorque = 0.0
+    """Torque of the motor that brakes with closed throttle."""
+    regeneration_power: MotorPower = 50e3
+    """Largest power of it."""
+    regeneration_speed: AngularSpeed = 60.0
+    """Speed of the motor below which it fades, so that the car rests."""
+    reverse_torque: Fraction = 0.5
+    """Share of the largest torque in reverse."""
+    reverse_speed: MotorSpeed = 250.0
+    """Speed of the motor beyond which its torque fades in reverse."""
+    engage_speed: AngularSpeed = 8.0
+    """Speed of the wheels up to which the selector may go to the other direction."""
+    engage_time: Time = 0.3
+    """Time in which the torque fades out and in when the selector moves."""
+
+    def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
+        """Add the drive; its reaction is on the chassis.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        spins : mapping of str to Spin
+            Of the wheels, by their names.
+        neutral : bool
+            Whether the selector is in neutral.
+        """
+        own = ("kind", "wheels", "rotor_inertia")
+        drive = ElectricDrive(**{name: getattr(self, name) for name in type(self).model_fields if name not in own})
+        left, right = (spins[self.wheels[0].upper() + side] for side in "LR")
+        z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
+        throttle, selector = b.inputs["throttle"].index, b.inputs.get("selector")
+        chosen = None if selector is None else selector.index
+        element = b.m.add(drive.record("drive", left.coordinate, right.coordinate, z, x, throttle, selector=chosen))
+        for spin in (left, right):
+            b.m.armature(f"rotor at {spin.name}", spin, inertia=self.rotor_inertia)
+        for name in TIED:
+            b.tie(self, name, element, name)
+
+    def outputs(self, b: CarBuilder) -> None:
+        """Add the outputs of the drive.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        """
+        for name, output, text in (
+            ("motor_speed", "motor_speed", "speed of the motor"),
+            ("motor_torque", "motor_torque", "torque of the motor at its shaft"),
+            ("gear", "gear", "selector engaged: -1 reverse, 0 neutral, 1 drive"),
+            ("drive_torque", "wheel_torque", f"torque on each {self.wheels} wheel"),
+            ("electric_power", "electric_power", "power from the battery; negative: regeneration"),
+        ):
+            b.m.sense_element(name, "drive", output, description=text)

@@ -1,0 +1,314 @@
+"""The text parameter of a road's file: set, refused, reset, saved and restored; the same bits as in Python."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi3 import FMU3Slave
+
+import mbs
+from fmu_src.build import build_fmu
+from mbs.elements import GridRoad, KerbRoad, PlaneRoad
+from mbs.roads import RoadFile, write_road
+from mbs.roads.shipped import FOLDER
+from mbs.scenes import prototype_car
+from mbs.scenes.prototype_car import Fidelity
+
+OK, ERROR = 0, 3
+H = 0.002
+FRICTION = 1.2705
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> Callable[[str], Path]:
+    made: dict[str, Path] = {}
+    systems = {}
+
+    def make(kind: str) -> Path:
+        need(kind)
+        if not systems:
+            offered = prototype_car.fidelities()
+            systems.update({k: mbs.compile(offered[k]()) for k in (Fidelity.RIGID, Fidelity.QUASI_STATIC)})
+        if kind not in made:
+            folder = tmp_path_factory.mktemp("car")
+            made[kind] = build_fmu(systems, "prototype_car", folder, [fmpy.platform], kind=kind)
+        return made[kind]
+
+    return make
+
+
+@pytest.fixture
+def car(built: Callable[[str], Path], kind: str) -> Path:
+    return built(kind)
+
+
+@pytest.fixture
+def roads(tmp_path: Path) -> Path:
+    rng = np.random.default_rng(1)
+    write_road(
+        GridRoad((-10.0, -4.0), (0.1, 0.1), 0.004 * rng.standard_normal((900, 80)), 0.9), tmp_path / "rough.road"
+    )
+    write_road(GridRoad((-10.0, -4.0), (0.1, 0.1), np.zeros((3000, 80)), 0.9), tmp_path / "long.road")
+    write_road(PlaneRoad(2.0, 0.0, 0.0, FRICTION), tmp_path / "high.road")
+    write_road(PlaneRoad(2.0, 0.05, 0.0, FRICTION), tmp_path / "slope.road")
+    return tmp_path
+
+
+def text(host: Any, value: str) -> int:
+    return int(host.call("setString", [host.references["road.file"]], [value]))
+
+
+def get(host: Any) -> str:
+    (value,) = host.slave.getString([host.references["road.file"]])
+    return str(value.decode() if isinstance(value, bytes) else value)
+
+
+def heights(host: Any, steps: int = 300, time: float = 0.0) -> list[float]:
+    found = []
+    for k in range(steps):
+        assert host.step(time + k * H, H) == OK
+        found.append(host.get("chassis.z"))
+    return found
+
+
+def test_the_description_has_it_after_all_others(car: Path) -> None:
+    variables = fmpy.read_model_description(str(car)).modelVariables
+    v = variables[-1]
+    assert (v.name, v.type, v.causality, v.variability, v.initial) == (
+        *("road.file", "String", "parameter", "fixed", "exact"),
+    )
+    assert v.start in ("", None)
+    assert v.valueReference not in {w.valueReference for w in variables[:-1]}
+    assert "resources" in v.description
+
+
+def test_a_path_gives_the_same_bits_as_in_python(car: Path, host: Any, roads: Path) -> None:
+    driven = host(car)
+    assert text(driven, str(roads / "rough.road")) == OK
+    driven.start({"initial.speed": 12.0})
+    assert get(driven) == str(roads / "rough.road")
+    system = mbs.compile(prototype_car.build())
+    simulation = mbs.Simulation(system, pose=mbs.Pose(speed=12.0), parameters={"road.file": roads / "rough.road"})
+    expected = []
+    for _ in range(300):
+        simulation.step(H)
+        expected.append(simulation.sensors["chassis.z"])
+    assert heights(driven) == expected
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in FOLDER.glob("*.road")))
+def test_the_roads_in_the_resources_are_found_by_name(car: Path, host: Any, name: str) -> None:
+    driven = host(car)
+    assert text(driven, name) == OK
+    driven.start({"initial.speed": 10.0})
+    assert np.all(np.isfinite(heights(driven, 100)))
+
+
+def test_a_road_can_be_put_into_the_resources_without_a_build(car: Path, host: Any, roads: Path) -> None:
+    driven = host(car)
+    (driven.folder / "resources" / "roads" / "mine.road").write_bytes((roads / "high.road").read_bytes())
+    assert text(driven, "mine.road") == OK
+    driven.start()
+    own = host(car).start()
+    assert driven.get("chassis.z") == pytest.approx(own.get("chassis.z") + 2.0, abs=1e-9)
+
+
+def test_a_uri_and_letters_of_any_language(car: Path, host: Any, roads: Path) -> None:
+    place = roads / "straße путь 道.road"
+    place.write_bytes((roads / "high.road").read_bytes())
+    for value in (str(place), place.as_uri(), place.as_uri().replace("file:", "FILE:")):
+        driven = host(car)
+        assert text(driven, value) == OK, driven.messages
+        driven.start()
+        assert driven.get("chassis.z") > 2.0
+
+
+def test_a_refused_file_changes_nothing_and_says_why(car: Path, host: Any, roads: Path) -> None:
+    driven = host(car)
+    assert text(driven, str(roads / "high.road")) == OK
+    data = (roads / "rough.road").read_bytes()
+    (roads / "cut.road").write_bytes(data[: len(data) // 2])
+    (roads / "x.csv").write_text("1,2\n3,4\n")
+    cases = {
+        "nothing.road": "there is no such file",
+        str(roads): "no regular file",
+        "..": "no regular file",
+        str(roads / "cut.road"): "it ends too early: it was cut off",
+        str(roads / "x.csv"): "ali3 road INPUT OUTPUT.road",
+        "x" * 2000: "at most 1023",
+        "/" + "x/" * 500: "no such file",
+    }
+    if sys.platform != "win32":
+        os.mkfifo(roads / "pipe")
+        cases[str(roads / "pipe")] = "no regular file"
+    for value, sentence in cases.items():
+        driven.messages.clear()
+        assert text(driven, value) == ERROR
+        (said,) = driven.messages
+        assert "'road.file'" in said
+        assert sentence in said
+    driven.start()
+    assert get(driven) == str(roads / "high.road")
+    assert driven.get("chassis.z") > 2.0
+
+
+def test_it_is_fixed_after_initialisation(car: Path, host: Any, roads: Path) -> None:
+    driven = host(car).start()
+    assert text(driven, str(roads / "high.road")) == ERROR
+    assert "it is a fixed parameter" in driven.messages[-1]
+    assert get(driven) == ""
+
+
+def test_in_initialisation_mode_and_empty_again(car: Path, host: Any, roads: Path) -> None:
+    driven, own = host(car), host(car).start()
+    driven.slave.setupExperiment()
+    driven.slave.enterInitializationMode()
+    assert driven.get("chassis.z") == own.get("chassis.z")
+    assert text(driven, str(roads / "high.road")) == OK
+    assert driven.get("chassis.z") > 2.0
+    assert text(driven, "") == OK
+    assert driven.get("chassis.z") == own.get("chassis.z")
+    driven.slave.exitInitializationMode()
+    assert heights(driven, 20) == heights(own, 20)
+
+
+def test_reset_takes_it_away(car: Path, host: Any, roads: Path) -> None:
+    driven, own = host(car), host(car).start()
+    text(driven, str(roads / "high.road"))
+    driven.start()
+    assert driven.call("reset") == OK
+    driven.start()
+    assert get(driven) == ""
+    assert driven.get("chassis.z") == own.get("chassis.z")
+
+
+def test_a_state_brings_its_road_with_it(car: Path, host: Any, roads: Path) -> None:
+    driven = host(car)
+    text(driven, str(roads / "rough.road"))
+    driven.start({"initial.speed": 12.0})
+    heights(driven, 50)
+    state = driven.slave.serializeFMUstate(driven.slave.getFMUState())
+    later = heights(driven, 100, 50 * H)
+    for other in (host(car), host(car).start()):
+        assert other.restore(state) == OK, other.messages
+        assert get(other) == str(roads / "rough.road")
+        assert heights(other, 100, 50 * H) == later
+    back = driven.slave.getFMUState()
+    fresh = driven.instance()  # the state of an instance that has no road, and back
+    fresh.setupExperiment()
+    fresh.enterInitializationMode()
+    fresh.exitInitializationMode()
+    flat = fresh.serializeFMUstate(fresh.getFMUState())
+    assert driven.restore(flat) == OK
+    assert get(driven) == ""
+    assert driven.call("setFMUstate", back) == OK
+    assert get(driven) == str(roads / "rough.road")
+    (roads / "rough.road").unlink()
+    third = host(car).start()
+    before = third.outputs()
+    assert third.restore(state) == ERROR
+    assert "there is no such file" in third.messages[-1]
+    assert third.outputs() == before
+
+
+def test_another_fidelity_has_the_road_too(car: Path, host: Any, roads: Path) -> None:
+    driven = host(car)
+    text(driven, str(roads / "high.road"))
+    assert driven.call("setInteger", [driven.references["fidelity"]], [1]) == OK
+    driven.start()
+    assert driven.get("chassis.z") > 2.0
+    assert heights(driven, 20)[-1] > 2.0
+
+
+def test_a_road_that_is_cut_while_driving_is_a_refused_step(car: Path, host: Any, roads: Path) -> None:
+    driven = host(car)
+    path = roads / "long.road"
+    text(driven, str(path))
+    driven.start({"initial.speed": 30.0})
+    with path.open("r+b") as file:
+        file.truncate(path.stat().st_size // 10)
+    for k in range(3000):
+        before = driven.outputs()
+        status = driven.step(k * H, H)
+        if status != OK:
+            break
+    assert status == 2  # fmi2Discard
+    assert "Of the road its part from x =" in driven.messages[-1]
+    assert "cannot be read" in driven.messages[-1]
+    assert driven.outputs() == before
+
+
+def test_starts_on_a_slope_and_parameters_without_effect_are_told(car: Path, host: Any, roads: Path) -> None:
+    driven = host(car)
+    text(driven, str(roads / "slope.road"))
+    driven.start({"road.friction": 0.5})
+    said = "\n".join(driven.messages)
+    assert "The road is not level where this starts: the start is raised by 2 m" in said
+    assert "'road.friction' is 0.5, without effect" in said
+    driven.messages.clear()
+    assert driven.set("road.kerb_height", 0.1) == OK
+    assert "'road.kerb_height' was set to 0.1 m, without effect" in driven.messages[-1]
+    level = host(car).start({"road.friction": 0.5})
+    assert level.messages == []
+
+
+def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path: Path, host: Any) -> None:
+    write_road(KerbRoad(1.0, 0.05, -0.05, "before", FRICTION), tmp_path / "step.road")
+    system = mbs.compile(prototype_car.build(RoadFile(tmp_path / "step.road")))
+    fmu = build_fmu(system, "prototype_car", tmp_path / "out", [fmpy.platform])
+    (tmp_path / "step.road").unlink()
+    driven = host(fmu).start({"initial.speed": 5.0})
+    assert get(driven) == "step.road"
+    found = heights(driven, 500)
+    assert found[0] - found[-1] > 0.04
+    assert driven.call("reset") == OK
+    driven.start({"initial.speed": 5.0})
+    assert heights(driven, 500) == found
+
+
+@pytest.mark.parametrize("kind_3", ["fmi3", "fmi3_scalar"])
+def test_fmi_3_gives_the_same(
+    built: Callable[[str], Path], host: Any, roads: Path, kind_3: str, tmp_path: Path
+) -> None:
+    path = built(kind_3)
+    description = fmpy.read_model_description(str(path))
+    references = {v.name: v.valueReference for v in description.modelVariables}
+    assert len(set(references.values())) == len(references)
+    folder = fmpy.extract(str(path), unzipdir=str(tmp_path / "unpacked"))
+    said: list[str] = []
+    slave = FMU3Slave(
+        guid=description.guid,
+        unzipDirectory=folder,
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="test",
+    )
+    slave.instantiate(logMessage=lambda e, s, c, m: said.append(m.decode() if isinstance(m, bytes) else m))
+    road = references["road.file"]
+    with pytest.raises(Exception, match="fmi3SetString"):
+        slave.setString([road], ["nothing.road"])
+    assert any("there is no such file" in m for m in said)
+    slave.setString([road], [str(roads / "rough.road")])
+    slave.setFloat64([references["initial.speed"]], [12.0])
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    with pytest.raises(Exception, match="fmi3SetString"):
+        slave.setString([road], [""])
+    driven = host(built("native"))
+    text(driven, str(roads / "rough.road"))
+    driven.start({"initial.speed": 12.0})
+    speeds = [v for v in ("speed", "chassis.vx") if v in references and v in driven.references]
+    assert speeds
+    for k in range(50):
+        slave.doStep(k * H, H)
+        driven.step(k * H, H)
+    for name in speeds:
+        assert slave.getFloat64([references[name]])[0] == driven.get(name)
+    slave.terminate()
+    slave.freeInstance()
