@@ -197,7 +197,7 @@ class Car(Section):
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
         return m
 
-    def _builder(self, road: Road | None) -> CarBuilder:
+    def _builder(self, road: Road | RoadFile | None) -> CarBuilder:
         """An empty model with road and inputs."""
         m = Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
         m.floating = True

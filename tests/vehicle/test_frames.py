@@ -57,7 +57,7 @@ def test_a_frame_of_the_user_carries_the_car_in_every_fidelity(small: Car) -> No
         assert rest[3][name] == pytest.approx(rest[1][name], rel=2e-3)
     assert "bending_moment.G" not in rest[1]
     runs = [mbs.Simulation(mbs.compile(small.model(fidelity=f))).march(1.0, 0.005, DRIVING) for f in (0, 3)]
-    for name, gap in (("chassis.x", 1e-3), ("chassis.y", 5e-3), ("chassis.yaw", 5e-3)):
+    for name, gap in (("chassis.x", 0.02), ("chassis.y", 2e-3), ("chassis.yaw", 1e-3)):
         np.testing.assert_allclose(runs[1][name], runs[0][name], rtol=0, atol=gap)
 
 
@@ -177,7 +177,7 @@ def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
     moments = [type(r)(r.quantity, r.gauge, r.unit, "", row) for r, row in zip(readings, rows, strict=True)]
     names = [str(i + 1) for i in range(n)]
     recovery_table(moments, names, np.arange(3 * n).reshape(n, 3), tmp_path / "recovery.csv")
-    reference = [names[model.names.index(joint)] for joint in ("oc", "kL", "lR")]
+    reference = [names[model.names.index(joint)] for joint in ("oc", "kL", "nL")]
     pair = [names[model.names.index(node)] for node in ("kL-pL 1", "pL")]
     frame = {
         "kind": "calculix",
@@ -196,7 +196,7 @@ def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
     for fidelity in (1, 3):
         one, two = (at_rest(c, fidelity).sensors for c in (small, car))
         for name in ("bending_moment.F", "stress.G", "axial_force.H", "stress.H"):
-            assert two[name] == pytest.approx(one[name], rel=5e-3, abs=0.02)
+            assert two[name] == pytest.approx(one[name], rel=0.02, abs=0.05)  # masses at nodes
         # the strain between two nodes of a tube is its axial stress
         assert two["stress.N"] == pytest.approx(two["stress.H"], rel=1e-6)
     runs = [mbs.Simulation(mbs.compile(c.model(fidelity=3))).march(0.5, 0.005, DRIVING) for c in (small, car)]
@@ -213,9 +213,9 @@ def test_the_smallest_table_of_a_frame(small: Car) -> None:
 @pytest.mark.parametrize(
     ("file", "old", "new", "sentence"),
     [
-        ("joints.csv", "AFL,-2.12,", "AFL,-2.15,", r"front\.suspension|rear\.suspension\.points\.lower_pivot_front is at"),
+        ("joints.csv", "AFL,-2.12,", "AFL,-2.15,", r"rear\.suspension\.points\.lower_pivot_front is at"),
         ("joints.csv", "S1c,-1.1,0,", "S1c,-1.1,0.1,", r"joint S1c has y = 0\.1 m; y must be 0 on the centre plane"),
-        ("joints.csv", "F1L,0.45,0.28", "F1L,0.45,-0.28", r"joint F1L has y = -0\.28 m; y must be positive on the left"),
+        ("joints.csv", "F1L,0.45,0.28", "F1L,0.45,-0.28", r"F1L has y = -0\.28 m; y must be positive on the left"),
         ("joints.csv", "F2L,0.45", "F1L,0.45", "joint F1L is there twice"),
         ("joints.csv", "F1L,0.45,0.28,0.19,", "F1L,450,0.28,0.19,", r"line 5: x is '450'; .* between -9 and 9 m"),
         ("joints.csv", "F1L,0.45,0.28,0.19,", "F1L,0.45,0.28,", r"line 5: 4 cells; there are 5 titles"),
@@ -228,16 +228,16 @@ def test_the_smallest_table_of_a_frame(small: Car) -> None:
         ("tubes.csv", "F1L,LFL,M,2", "F1L,F1L,M,2", "from F1L to F1L has one joint at both ends"),
         ("masses.csv", "battery,F1L,7.5", "battery,F1L,-7.5", r"mass is '-7\.5'; it must be a number between 0"),
         ("masses.csv", "battery,F1L,7.5", "battery,FFL,7.5", r"joint 'FFL' is not in chassis\.frame\.joints"),
-        ("car.toml", '"masses.csv"', '"weights.csv"', r"chassis\.frame\.masses is 'weights\.csv', but there is no file"),
+        ("car.toml", '"masses.csv"', '"weights.csv"', r"frame\.masses is 'weights\.csv', but there is no file"),
         ("car.toml", '"masses.csv"', '"../masses.csv"', "must be the name of a file in the car's folder"),
-        ("car.toml", "wall = 0.0020", "wall = 0.025", r"sections\.M\.wall is 0\.025 m; a tube of 0\.04 m has at most half"),
+        ("car.toml", "wall = 0.0020", "wall = 0.025", r"M\.wall is 0\.025 m; a tube of 0\.04 m has at most half"),
         ("car.toml", 'kind = "tubes"', 'kind = "ansys"', r"chassis\.frame\.kind is 'ansys'; it must be 'tubes', "),
         ("car.toml", 'kind = "tubes"\n', "", r"chassis\.frame\.kind is missing"),
-        ("masses.csv", "powertrain,RUL,58", "powertrain,RUL,68", r"chassis\.mass is 476 kg, but .* has 496(\.0\d*)? kg"),
-        ("masses.csv", "powertrain,RUL,58", "powertrain,C1L,58", r"chassis\.com is \[.*\] m, but .* is \[-1\.\d+, 0\.0, "),
+        ("masses.csv", "powertrain,RUL,58", "powertrain,RUL,68", r"chassis\.mass is 476 kg, but .* has 496"),
+        ("masses.csv", "powertrain,RUL,58", "powertrain,C1L,58", r"chassis\.com is \[.*\] m, but .* is \[-1\."),
         ("masses.csv", "seats,S1L,4\nseats,B1L,4", "seats,B1L,4\nseats,S1L,4", None),
-        ("car.toml", "inertia = [77.9, 420.9, 457.7]", "inertia = [97.9, 420.9, 457.7]", r"chassis\.inertia is \[97\.9"),
-        ("car.toml", "FL = [0.45, 0.28, 0.19]", "FL = [0.45, 0.28, 0.29]", r"accelerometers\.FL is at .* F1L|F2L, 0\.1"),
+        ("car.toml", "inertia = [77.9,", "inertia = [97.9,", r"chassis\.inertia is \[97\.9"),
+        ("car.toml", "FL = [0.45, 0.28, 0.19]", "FL = [0.45, 0.28, 0.29]", r"accelerometers\.FL is at .* F1L, 0\.1"),
         ("car.toml", "reference = [-1.100, 0.0, 0.160]", "reference = [-1.1, 0.0, 0.2]", r"chassis\.reference is at"),
         ("loads.csv", "LFL,x,", "XFL,x,", "XFL x is no axis of a joint of the suspension; these are LFL, LFR"),
         ("loads.csv", "LFL,x,478.8843", "LFL,x,none", r"load_1 is 'none'; it must be a number"),
@@ -265,7 +265,7 @@ def test_a_frame_that_cannot_be_is_refused_in_one_sentence(
         ({"kind": "node_pair", "nodes": ["LFL", "LFL"], "E": 2.1e11}, "", "the two nodes are at one place"),
         ({"kind": "node_pair", "nodes": ["LFL", "LRL"], "E": 210.0}, "", r"gauges\.G\.E is 210\.0; .* Pa"),
         ({"kind": "recovery", "table": "g.csv"}, "H,stress,LFL,x,1.0", "has no line of gauge G"),
-        ({"kind": "recovery", "table": "g.csv"}, "G,strain,LFL,x,1.0", "quantity is 'strain'; it must be one of bending"),
+        ({"kind": "recovery", "table": "g.csv"}, "G,strain,LFL,x,1.0", "quantity is 'strain'; it must be one of"),
         ({"kind": "recovery", "table": "g.csv"}, "G,stress,XX,x,1.0", "the frame has no node 'XX'"),
         ({"kind": "recovery", "table": "g.csv"}, "G,stress,LFL,w,1.0", "axis is 'w'; it must be one of x, y"),
         ({"kind": "recovery", "table": "g.csv"}, "G,stress,LFL,x,1.0", "read a rigid motion of the frame"),
