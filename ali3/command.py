@@ -32,9 +32,10 @@ class Command(NamedTuple):
 
 
 COMMANDS = (
-    Command("build", "fmu_src.build_command", "build the FMUs of a scene"),
+    Command("build", "fmu_src.build_command", "build the FMUs of a car or a scene"),
     Command("drive", "hosts.drive", "drive the FMU of a car through a manoeuvre"),
     Command("run", "hosts.run", "run any FMU with constant inputs and plot its outputs"),
+    Command("parameters", "hosts.parameters", "show the parameters of an FMU, or write them as a parameter set"),
     Command("check", "hosts.check", "check an FMU and print a verdict"),
     Command("kerb", "hosts.kerb", "run the paper's kerb test and draw the moments of the frame"),
     Command("road", "mbs.roads.command", "make, check and show road files"),

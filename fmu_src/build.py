@@ -7,7 +7,7 @@ import importlib.metadata
 import re
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from enum import Enum
@@ -15,9 +15,13 @@ from os import PathLike
 from pathlib import Path
 
 from ali3.files import check_writable
+from ali3.parameter_set import ParameterSet
 from fmu_src.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
+from fmu_src.native.ahead import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
+from fmu_src.native.reference import ReferenceRun, reference_run
+from fmu_src.parameter_file import parameter_set
 from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
 from fmu_src.probe import probe, with_nominal
 from fmu_src.texts import check_texts
@@ -46,6 +50,11 @@ def fmu_name(scene: str, kind: str = "native") -> str:
     if not name or not name[0].isalpha() or not name.isascii():
         raise ValueError(f"'{scene}' gives no name for an FMU; a scene's name begins with a letter from a to z.")
     return name + _NAME_SUFFIX[kind]
+
+
+def face_name(kind: str) -> str:
+    """Name of the face of a kind of FMU, as `fmu_src.native.compile.compile_library` takes it."""
+    return _FACES[kind].name if kind in _FACES else kind
 
 
 def build_fmu(
@@ -100,8 +109,10 @@ def build_fmu(
     chosen = known_platforms(platforms, able, kind)
     file = folder(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
     check_writable(file)
-    builder = FmuBuilder(system, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
-    return builder.build(kind, chosen, file)
+    # one library is there soon enough
+    with compiled_ahead([(face_name(kind), platform) for platform in chosen] if len(chosen) > 1 else []):
+        builder = FmuBuilder(system, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
+        return builder.build(kind, chosen, file)
 
 
 class FmuBuilder:
@@ -119,9 +130,22 @@ class FmuBuilder:
         Author, copyright and licence of the model; empty: the solver's.
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
+    description : str
+        Of the model; empty: that of the System.
+    origin : mapping of str to bytes, optional
+        Files that the model was made from, by their paths in the FMU.
     """
 
-    def __init__(self, system: Systems, name: str, fidelity: int, rights: tuple[str, str, str], told: Telling) -> None:
+    def __init__(
+        self,
+        system: Systems,
+        name: str,
+        fidelity: int,
+        rights: tuple[str, str, str],
+        told: Telling,
+        description: str = "",
+        origin: Mapping[str, bytes] | None = None,
+    ) -> None:
         offered = systems_by_number(system)
         systems, fidelity = tuple(offered.values()), default_fidelity(fidelity, len(offered))
         check_fidelities([s.meta for s in systems])
@@ -133,24 +157,34 @@ class FmuBuilder:
             fidelities=[_label(k) for k in offered],
             fidelity=fidelity,
         )
-        description = meta.get("description") or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
+        description = description or meta.get("description") or ""
+        description = description or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
         check_texts(description, rights, table)
         self._name, self._told = name, told
         with told("finding what depends on what"):
             reach = probe(systems, table)
         version = importlib.metadata.version("ali3")
         self._contents = NativeContents(
-            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights
+            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights, origin or {}
         )
         self._libraries: dict[tuple[str, str], bytes] = {}
+        self._run: ReferenceRun | None = None
 
-    def pieces(self, kind: str, platforms: Sequence[str]) -> int:
-        """How many pieces of work `told` is going to be asked for by `build`."""
+    @property
+    def parameters(self) -> ParameterSet:
+        """All parameters with their defaults."""
+        return parameter_set(fmu_name(self._name), self._contents.table)
+
+    def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
+        """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""
+        run = self._run is None and any(kind in _FACES for kind in work)
+        return run + sum(1 + self._libraries_to_make(kind, platforms) for kind, platforms in work.items())
+
+    def _libraries_to_make(self, kind: str, platforms: Sequence[str]) -> int:
         made = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
-        if kind == "python":
-            return 1 + len([platform for platform in platforms if platform not in made])
-        folders = [folder for platform in platforms for folder in _FACES[kind].binaries[platform]]
-        return 2 + len([folder for folder in folders if folder not in made])
+        face = _FACES.get(kind)
+        folders = [f for platform in platforms for f in (face.binaries[platform] if face is not None else [platform])]
+        return len([folder for folder in folders if folder not in made])
 
     def build(self, kind: str, platforms: Sequence[str], file: Path) -> Path:
         """Build the FMU of a kind.
@@ -175,7 +209,10 @@ class FmuBuilder:
 
             pack_python(contents, platforms, file, self._told, self._libraries)
         else:
-            pack_native(contents, _FACES[kind], platforms, file, self._told, self._libraries)
+            if self._run is None:
+                with self._told("running the default experiment"):
+                    self._run = reference_run(contents.system)
+            pack_native(contents, _FACES[kind], self._run, platforms, file, self._told, self._libraries)
         return file
 
 

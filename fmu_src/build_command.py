@@ -1,22 +1,34 @@
-"""Builds the FMUs of a scene: ``ali3 build [--scene NAME or path/to/file.py:function] [--kind LIST]``."""
+"""Builds the FMUs of a car or a scene: ``ali3 build [--car CAR | --scene SCENE] [--kind LIST]``."""
 
 from __future__ import annotations
 
 import argparse
 import importlib.util
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
 from ali3.running import missing_package, run_command
+
+if TYPE_CHECKING:
+    from ali3.parameter_set import ParameterSet
+    from fmu_src.progress_line import ProgressLine
+    from mbs import System
 
 _KINDS = "native,fmi3,python"
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
     """Run the command; `prog` is how the user typed it."""
-    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a scene.")
-    parser.add_argument(
+    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a car or a scene.")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument(
+        "--car",
+        metavar="CAR",
+        help="a car of the package by its name, a folder with a file car.toml, or such a file",
+    )
+    what.add_argument(
         "--scene",
         default="prototype_car",
         metavar="NAME",
@@ -46,11 +58,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
 
 
 def _build(options: argparse.Namespace) -> int:
-    from ali3.files import check_writable
-    from fmu_src.build import KINDS, FmuBuilder, fmu_name
-    from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, this_platform
-    from fmu_src.progress_line import ProgressLine
-    from fmu_src.scene_registry import load_fidelities
+    from fmu_src.build import KINDS, face_name
+    from fmu_src.native.ahead import compiled_ahead
+    from fmu_src.platforms import PLATFORMS, this_platform
 
     kinds = list(dict.fromkeys(options.kind.split(",")))
     if set(kinds) - set(KINDS):
@@ -61,26 +71,38 @@ def _build(options: argparse.Namespace) -> int:
         _need("pythonfmu")
     _need("ziglang")
 
+    first, rest = [p for p in platforms if p == here], [p for p in PLATFORMS if p in platforms and p != here]
+    with compiled_ahead([(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]):
+        return _build_kinds(options, kinds, first, rest)
+
+
+def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Sequence[str], rest: Sequence[str]) -> int:
+    """Build what this machine runs, then the same for the others."""
+    from ali3.files import check_writable
+    from fmu_src.build import FmuBuilder, fmu_name
+    from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
+    from fmu_src.progress_line import ProgressLine
+
     line = ProgressLine()
-    print(f"scene {options.scene} ...", flush=True)
-    with line.told("compiling the scene"):
-        name, systems, fidelity = load_fidelities(options.scene)
+    name, systems, fidelity, description, origin = _compiled(options, line)
     files = {kind: options.out / f"{fmu_name(name, kind)}.fmu" for kind in kinds}
-    for file in files.values():
+    beside = options.out / f"{fmu_name(name)}.ssv"
+    for file in (*files.values(), beside):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
-    builder = FmuBuilder(systems, name, fidelity, rights, line.told)
-    able = {kind: [p for p in platforms if kind != "python" or p in PYTHON_PLATFORMS] for kind in kinds}
+    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin)
+    wanted = [p for p in PLATFORMS if p in first or p in rest]
+    able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not able[k]]:
         print(f"{kind}: left out, it runs on {', '.join(PYTHON_PLATFORMS)} only", flush=True)
         del able[kind]
     # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
-    first = {kind: [here] for kind in able if here is not None and here in able[kind]}
-    rest = [p for p in PLATFORMS if p in platforms and p != here]
-    then = {kind: places for kind, places in able.items() if first.get(kind) != places}
+    here = {kind: list(first) for kind in able if first and set(first) <= set(able[kind])}
+    everywhere = {kind: places for kind, places in able.items() if here.get(kind) != places}
     meta = systems[fidelity].meta
-    for chosen in (first, then):
-        line.expect(sum(builder.pieces(kind, places) for kind, places in chosen.items()))
+    told = False
+    for chosen in (here, everywhere):
+        line.expect(builder.pieces(chosen))
         for kind, places in chosen.items():
             file = builder.build(kind, places, files[kind])
             print(
@@ -88,9 +110,46 @@ def _build(options: argparse.Namespace) -> int:
                 f"{len(meta['sensors'])} sensors; for {', '.join(places)}",
                 flush=True,
             )
-        if chosen is first and first and then:
+        if chosen and not told:
+            told = _write_parameters(builder.parameters, beside)
+        if chosen is here and here and everywhere:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
+
+
+def _compiled(
+    options: argparse.Namespace, line: ProgressLine
+) -> tuple[str, Mapping[int, System], int, str, Mapping[str, bytes]]:
+    """Name, Systems by fidelity, default fidelity, description and files of the car or the scene."""
+    if options.car is not None:
+        from fmu_src.car_registry import build_car, car_words
+
+        print(f"car {car_words(options.car)} ...", flush=True)
+        with line.told("compiling the car"):
+            car = build_car(options.car)
+        return car.name, car.systems, min(car.systems), car.description, car.files
+    from fmu_src.scene_registry import load_fidelities
+
+    print(f"scene {options.scene} ...", flush=True)
+    with line.told("compiling the scene"):
+        return (*load_fidelities(options.scene), "", {})
+
+
+def _write_parameters(parameters: ParameterSet, file: Path) -> bool:
+    """Write the set of all parameters, unless there is one that a person has edited; True."""
+    from fmu_src.parameter_file import write_beside
+
+    if write_beside(parameters, file):
+        print(f"{file}: {len(parameters.entries)} parameters, to be edited and set by --parameters", flush=True)
+    else:
+        print(f"{file}: has other values than a build writes, and is kept", flush=True)
+    return True
+
+
+def _able(kind: str, platform: str) -> bool:
+    from fmu_src.platforms import PYTHON_PLATFORMS
+
+    return kind != "python" or platform in PYTHON_PLATFORMS
 
 
 def _platforms(text: str | None, here: str | None) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -124,6 +124,53 @@ def _check_drivable(fmu: Fmu) -> None:
         raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
 
 
+def check_columns(fmu: Fmu, manoeuvre: Manoeuvre) -> None:
+    """Refuse a table with a column that is no input and no tunable parameter of the FMU, or not of its kind.
+
+    Raises
+    ------
+    HostError
+        With the column, and what it would have to be.
+    """
+    inputs, tunable = fmu.names("input"), fmu.tunable
+    for name, values in manoeuvre.inputs.items():
+        what, variable = f"The manoeuvre '{manoeuvre.name}' has a column '{name}'", fmu.variables.get(name)
+        if variable is not None and variable.causality == "parameter" and name not in tunable:
+            raise HostError(
+                f"{what}, a {variable.variability} parameter of {fmu.path.name}: it can be set before the start only, "
+                "by --set, --parameters or in [start]."
+            )
+        if name not in inputs and name not in tunable:
+            raise HostError(
+                f"{what}, which is no input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
+                f"{f'; a tunable parameter, such as {tunable[0]}, can be a column too' if tunable else ''}."
+            )
+        if fmu.variables[name].type == "Integer" and (values != np.round(values)).any():
+            odd = float(values[values != np.round(values)][0])
+            raise HostError(f"{what} with the value {odd:g}; '{name}' is a whole number.")
+        if name in tunable:
+            for value in values.tolist():
+                fmu.table[name].check(value, f"The manoeuvre '{manoeuvre.name}'")
+
+
+def _setter(fmu: Fmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+    """Sets inputs, and those of the parameters that have changed: a parameter may be dear."""
+    tunable = set(fmu.tunable)
+    inputs = [k for k, n in enumerate(names) if n not in tunable]
+    set_inputs = fmu.setter([names[k] for k in inputs])
+    parameters = {k: fmu.setter([names[k]]) for k in range(len(names)) if k not in inputs}
+    last: dict[int, float] = {}
+
+    def set_values(values: Sequence[float]) -> None:
+        set_inputs([values[k] for k in inputs] if parameters else values)
+        for k, set_parameter in parameters.items():
+            if last.get(k) != values[k]:
+                set_parameter([values[k]])
+                last[k] = values[k]
+
+    return set_values
+
+
 def run(
     fmu: Fmu,
     manoeuvre: Manoeuvre,
@@ -150,27 +197,24 @@ def run(
     Result
         Up to the first refused step.
     """
-    inputs, outputs = fmu.names("input"), fmu.names("output")
-    for name in manoeuvre.inputs:
-        if name not in inputs:
-            raise HostError(
-                f"The manoeuvre '{manoeuvre.name}' has a column '{name}', which is no input of {fmu.path.name}; "
-                f"its inputs are: {', '.join(inputs) or 'none'}."
-            )
+    outputs = fmu.names("output")
+    check_columns(fmu, manoeuvre)
+    inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
     if driver is not None:
         _check_drivable(fmu)
+    whole = {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
     used = list(dict.fromkeys([*manoeuvre.inputs, *(ACTS if driver is not None else ())]))
-    set_inputs, get_outputs = fmu.setter(used), fmu.getter(outputs)
+    set_inputs, get_outputs = _setter(fmu, used), fmu.getter(outputs)
     senses = [outputs.index(n) for n in SENSES] if driver is not None else []
 
-    first = manoeuvre.at(0.0)
-    fmu.initialise(manoeuvre.start | first)
+    first = manoeuvre.at(0.0, whole)
+    fmu.initialise({**manoeuvre.start, **first})
     steps = max(1, round(manoeuvre.stop_time / step))
     values = np.empty((steps + 1, len(inputs) + len(outputs)))
     columns = [inputs.index(n) for n in used]
     held = fmu.start_values(inputs)
     for name, value in {**manoeuvre.start, **first}.items():
-        if name in inputs:
+        if name in inputs and not isinstance(value, str):
             held[inputs.index(name)] = value
     row = get_outputs()
     values[0] = [*held, *row]
@@ -178,7 +222,7 @@ def run(
     begin = clock.perf_counter()
     for k in range(steps):
         t = k * step
-        wanted = manoeuvre.at(t)
+        wanted = manoeuvre.at(t, whole)
         if driver is not None:
             wanted |= driver.act(t, {n: row[j] for n, j in zip(SENSES, senses, strict=True)})
         now = [wanted[n] for n in used]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from ali3.running import run_command
 from hosts.errors import HostError
 from hosts.manoeuvres import manoeuvre_names
 from hosts.numbers import assignment, number
+from hosts.options import add_setting_options, wishes
 
 DEFAULT_FMU = Path("dist", "PrototypeCar.fmu")
 
@@ -38,40 +39,39 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.dr
         metavar="NAME=VALUE",
         help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not tell it; repeatable",
     )
+    add_setting_options(parser)
     options = parser.parse_args(arguments)
-    known = dict(options.driver)
-    return run_command(
-        lambda: _drive(options.fmu, options.manoeuvre, options.step, options.out, options.fidelity, known)
-    )
+    return run_command(lambda: _drive(options))
 
 
-def _drive(
-    path: Path, name: str, step: float | None, out: Path, fidelity: float | None, known: Mapping[str, float]
-) -> int:
-    from hosts.co_simulation import communication_step, driver_of, run_with_bar
+def _drive(options: argparse.Namespace) -> int:
+    from hosts.co_simulation import check_columns, communication_step, driver_of, run_with_bar
     from hosts.fmu import Fmu
     from hosts.manoeuvre import load_manoeuvre
-    from hosts.result_files import print_result, result_paths, write_csv
+    from hosts.result_files import print_result, result_paths, write_csv, write_record
     from hosts.result_plots import plot_page
     from hosts.run_summary import energy_balance, summary
+    from hosts.settings import set_in
 
-    manoeuvre = load_manoeuvre(name)
-    if fidelity is not None:
-        manoeuvre = replace(manoeuvre, start=manoeuvre.start | {"fidelity": fidelity})
+    path, known = options.fmu, dict(options.driver)
+    manoeuvre = load_manoeuvre(options.manoeuvre)
     if known and not manoeuvre.driver:
         raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
     manoeuvre = replace(manoeuvre, driver=dict(manoeuvre.driver) | {k: repr(v) for k, v in known.items()})
     with Fmu(path) as fmu:
+        check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
-        table, picture = result_paths(out, f"{_words(path.stem)}_{manoeuvre.name}")
-        step = communication_step(fmu, manoeuvre, step)
+        manoeuvre, settings = set_in(fmu, manoeuvre, wishes(options), options.fidelity)
+        table, picture, record = result_paths(options.out, f"{_words(path.stem)}_{manoeuvre.name}")
+        step = communication_step(fmu, manoeuvre, options.step)
         result = run_with_bar(fmu, manoeuvre, step, driver)
     course = driver.course if driver is not None else None
     outline = (driver.settings.vehicle_length, driver.settings.vehicle_width) if driver is not None else (0.0, 0.0)
     rows = summary(result, step, course, outline)
     write_csv(result, table)
+    write_record(fmu, manoeuvre.name, step, settings, result, record)
     plot_page(result, picture, f"{path.stem}: {manoeuvre.name.replace('_', ' ')}", rows, course)
-    return print_result((rows, energy_balance(result)), result, (table, picture))
+    return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
 
 
 def _words(name: str) -> str:

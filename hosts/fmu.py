@@ -25,16 +25,43 @@ from fmpy.fmi2 import (
     fmi2Status,
     fmi2ValueReference,
 )
-from fmpy.model_description import ScalarVariable
+from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from ali3.files import reason
 from ali3.running import command_name
 from hosts.errors import HostError
+from hosts.numbers import Value
+from hosts.variables import Variables
 
 
 class StepRefusedError(Exception):
     """The FMU refused a communication step."""
+
+
+def described(path: Path) -> ModelDescription:
+    """The description of an FMU of any version that FMPy reads.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    HostError
+        It is no FMU that can be read.
+    """
+    if not path.is_file():
+        if path.is_dir():
+            raise HostError(f"{path} is a folder; an FMU is a file.")
+        hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
+        raise HostError(f"There is no file {path}.{hint}")
+    if not zipfile.is_zipfile(path):
+        raise HostError(f"{path} is not an FMU (not a zip archive).")
+    try:
+        return read_model_description(str(path))
+    except Exception as error:
+        raise HostError(f"{path} is not an FMU that can be read: {error}") from None
 
 
 class Fmu:
@@ -49,22 +76,14 @@ class Fmu:
     ----------
     variables : dict of str to ScalarVariable
         By name, in the order of the model description.
+    table : Variables
+        The same as a person sets them.
     messages : list of str
         What the FMU logged at warning or above.
     """
 
     def __init__(self, path: Path) -> None:
-        if not path.is_file():
-            if path.is_dir():
-                raise HostError(f"{path} is a folder; an FMU is a file.")
-            hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
-            raise HostError(f"There is no file {path}.{hint}")
-        if not zipfile.is_zipfile(path):
-            raise HostError(f"{path} is not an FMU (not a zip archive).")
-        try:
-            description = read_model_description(str(path))
-        except Exception as error:
-            raise HostError(f"{path} is not an FMU that can be read: {error}") from None
+        description = described(path)
         if description.fmiVersion != "2.0" or description.coSimulation is None:
             raise HostError(
                 f"{path} is an FMU of FMI {description.fmiVersion}; this host drives FMI 2.0 co-simulation."
@@ -72,6 +91,7 @@ class Fmu:
         self.path = path
         self.description = description
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
+        self.table = Variables(description)
         self.messages: list[str] = []
         self._folder = Path(tempfile.mkdtemp(prefix="fmu_"))
         self._callbacks = fmi2CallbackFunctions()
@@ -109,11 +129,16 @@ class Fmu:
         """Names of the real and whole variables of a causality."""
         return [n for n, v in self.variables.items() if v.causality == causality and v.type in ("Real", "Integer")]
 
+    @property
+    def tunable(self) -> list[str]:
+        """Names of the real and whole parameters that may be set between steps."""
+        return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
+
     def references(self, names: Iterable[str]) -> list[int]:
         """Value references of variables."""
         return [self.variables[n].valueReference for n in names]
 
-    def initialise(self, start: Mapping[str, float], start_time: float = 0.0) -> None:
+    def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """Set start values and leave initialisation mode."""
         settable = {n for n, v in self.variables.items() if v.causality in ("parameter", "input")}
         for name in start:
@@ -128,26 +153,34 @@ class Fmu:
         except FMICallException as error:
             raise HostError(f"The FMU could not be initialised: {self._last_message() or error}") from None
 
-    def _set(self, values: Mapping[str, float]) -> None:
-        real = {n: float(x) for n, x in values.items() if self.variables[n].type != "Integer"}
-        whole = {n: x for n, x in values.items() if n not in real}
-        for name, value in whole.items():
-            if not math.isfinite(value) or value != int(value):
-                raise HostError(f"'{name}' was set to {value:g}; it must be a whole number.")
-        if real:
-            self._slave.setReal(self.references(real), list(real.values()))
-        if whole:
-            self._slave.setInteger(self.references(whole), [int(x) for x in whole.values()])
+    def _set(self, values: Mapping[str, Value]) -> None:
+        for kinds, call, kind in (
+            (("Real",), self._slave.setReal, float),
+            (("Integer", "Enumeration"), self._slave.setInteger, int),
+            (("Boolean",), self._slave.setBoolean, bool),
+            (("String",), self._slave.setString, str),
+        ):
+            found = {n: x for n, x in values.items() if self.variables[n].type in kinds}
+            for name, value in found.items():
+                if kind is int and not isinstance(value, str) and not (math.isfinite(value) and value == int(value)):
+                    raise HostError(f"'{name}' was set to {value:g}; it must be a whole number.")
+            if found:
+                call(self.references(found), [kind(x) for x in found.values()])
 
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        """A function that sets real variables; their references are prepared once."""
-        count = len(names)
-        references, buffer = (fmi2ValueReference * count)(*self.references(names)), (fmi2Real * count)()
+        """A function that sets variables; the references of real ones are prepared once."""
+        real = [k for k, n in enumerate(names) if self.variables[n].type == "Real"]
+        count, others = len(real), [k for k in range(len(names)) if k not in real]
+        references = (fmi2ValueReference * count)(*self.references(names[k] for k in real))
+        buffer = (fmi2Real * count)()
 
         def set_values(values: Sequence[float]) -> None:
-            buffer[:] = values
             try:
-                self._slave.fmi2SetReal(self._slave.component, references, count, buffer)
+                if count:
+                    buffer[:] = [values[k] for k in real] if others else values
+                    self._slave.fmi2SetReal(self._slave.component, references, count, buffer)
+                if others:
+                    self._set({names[k]: values[k] for k in others})
             except FMICallException as error:
                 raise HostError(f"An input was refused: {self._last_message() or error}") from None
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from ali3.running import command_name, run_command
 from hosts.errors import HostError
 from hosts.numbers import number
+from hosts.options import Wishes, add_setting_options, wishes
 
 if TYPE_CHECKING:
     from hosts.co_simulation import Result
@@ -36,33 +37,37 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ke
     parser.add_argument("--fidelity", type=number, metavar="N", help="1 to 3; default: that of the FMU")
     parser.add_argument("--step", type=number, default=0.01, metavar="H", help="communication step, s; default: 0.01")
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
+    add_setting_options(parser)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _kerb(options.fmu, options.fidelity, options.step, options.out))
+    return run_command(lambda: _kerb(options.fmu, options.fidelity, options.step, options.out, wishes(options)))
 
 
-def _kerb(path: Path, fidelity: float | None, step: float, out: Path) -> int:
+def _kerb(path: Path, fidelity: float | None, step: float, out: Path, given: Wishes) -> int:
     import numpy as np
 
     from hosts.co_simulation import communication_step, run_with_bar
     from hosts.fmu import Fmu
     from hosts.manoeuvre import Manoeuvre
-    from hosts.result_files import print_result, result_paths, write_csv
+    from hosts.result_files import print_result, result_paths, write_csv, write_record
+    from hosts.settings import set_in
 
     if not 0.0 < step < 0.5 / FREQUENCY:
         raise HostError(f"The step is {step:g} s; it must be positive and below {0.5 / FREQUENCY:g} s for the filter.")
     build = f"{command_name('build')} --scene kerb_test"
     if not path.is_file() and path == DEFAULT_FMU:
         raise HostError(f"There is no file {path}. Build it with: {build}")
-    manoeuvre = Manoeuvre("kerb_test", np.zeros(0), {}, DURATION, {} if fidelity is None else {"fidelity": fidelity})
+    manoeuvre = Manoeuvre("kerb_test", np.zeros(0), {}, DURATION)
     with Fmu(path) as fmu:
         missing = [f"bending_moment.{g}" for g in GAUGES if f"bending_moment.{g}" not in fmu.variables]
         if missing:
             raise HostError(f"{path} has no {missing[0]}; build the scene of this test: {build}")
-        table, picture = result_paths(out, "kerb_test")
+        table, picture, record = result_paths(out, "kerb_test")
+        manoeuvre, settings = set_in(fmu, manoeuvre, given, fidelity)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, step))
     if result["stress.computed"][0] != 1.0:
         raise HostError("At this fidelity the moments are not computed (stress.computed is 0); take 1, 2 or 3.")
     write_csv(result, table)
+    write_record(fmu, manoeuvre.name, step, settings, result, record)
     rows = moments(result, step)
     draw(result, step, picture)
     print(f"{'gauge':<6}{'rest':>9}{'range':>18}{'filtered range':>18}{'end - rest':>12}   N m")
@@ -75,7 +80,7 @@ def _kerb(path: Path, fidelity: float | None, step: float, out: Path) -> int:
     print(
         f"Newton iterations {n.mean():.2f} a step, {n.max():.0f} at most; real-time factor {DURATION / result.wall:.1f}"
     )
-    return print_result((), result, (table, picture))
+    return print_result((settings.rows(),), result, (table, picture, record))
 
 
 def moments(result: Result, step: float) -> list[dict[str, float | str]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import configparser
 import csv
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ali3.files import reason
 from hosts.errors import HostError
 from hosts.manoeuvres import FOLDER, manoeuvre_names
-from hosts.numbers import parse_number
+from hosts.numbers import Value, parse_number, parse_value
 
 _LONGEST_CELL = 1000
 
@@ -31,7 +31,7 @@ class Manoeuvre:
         s, not decreasing; a time that stands twice is a step.
     inputs : dict of str to ndarray of shape (n,)
         Values at `time`, linear in between, by variable name.
-    start : dict of str to float
+    start : dict of str to float, int, bool or str
         Start values of parameters (or inputs).
     driver : dict of str to str
         Settings of the path-following driver; empty: open loop.
@@ -43,11 +43,19 @@ class Manoeuvre:
     time: NDArray[np.float64]
     inputs: dict[str, NDArray[np.float64]]
     stop_time: float
-    start: dict[str, float] = field(default_factory=dict)
+    start: dict[str, Value] = field(default_factory=dict)
     driver: dict[str, str] = field(default_factory=dict)
 
-    def at(self, t: float) -> dict[str, float]:
-        """Inputs at time `t`; at a step the later value, outside the table its ends."""
+    def at(self, t: float, held: Collection[str] = ()) -> dict[str, float]:
+        """Inputs at time `t`; at a step the later value, outside the table its ends.
+
+        Parameters
+        ----------
+        t : float
+            s.
+        held : collection of str
+            Names of inputs that keep the value of a row up to the next one.
+        """
         if not len(self.time):
             return {}
         # Times add up with rounding errors; a step must not be missed for them.
@@ -57,7 +65,10 @@ class Manoeuvre:
             return {name: float(values[row]) for name, values in self.inputs.items()}
         t0, t1 = self.time[k - 1], self.time[k]
         s = max(t - t0, 0.0) / (t1 - t0)
-        return {name: float(v[k - 1] + s * (v[k] - v[k - 1])) for name, v in self.inputs.items()}
+        return {
+            name: float(v[k - 1]) if name in held else float(v[k - 1] + s * (v[k] - v[k - 1]))
+            for name, v in self.inputs.items()
+        }
 
 
 def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
@@ -92,7 +103,7 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     stop_time = float(time[-1]) if len(time) else math.nan
     if settings.is_file():
         sections = _read_settings(settings)
-        start |= {k: _number(v, f"{settings}: {k}") for k, v in sections.get("start", {}).items()}
+        start |= {k: _value(v, f"{settings}: {k}") for k, v in sections.get("start", {}).items()}
         driver = sections.get("driver", {})
         run = sections.get("run", {})
         unknown = sorted(set(run) - {"stop_time"})
@@ -107,8 +118,8 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     return Manoeuvre(path.stem, time, inputs, stop_time, start, driver)
 
 
-def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], dict[str, float]]:
-    start: dict[str, float] = {}
+def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], dict[str, Value]]:
+    start: dict[str, Value] = {}
     names: list[str] = []
     rows: list[list[float]] = []
     lines = _read_text(path).splitlines()
@@ -173,18 +184,25 @@ def _read_settings(path: Path) -> dict[str, dict[str, str]]:
     return {name: dict(parser[name]) for name in parser.sections()}
 
 
-def _assignments(parts: Iterable[str], where: str) -> dict[str, float]:
-    result = {}
+def _assignments(parts: Iterable[str], where: str) -> dict[str, Value]:
+    result: dict[str, Value] = {}
     for part in parts:
         name, equals, value = part.partition("=")
         if not equals:
             raise HostError(f"{where}: {part.strip()!r} is not of the form name=value.")
-        result[name.strip()] = _number(value, f"{where}, start value '{name.strip()}'")
+        result[name.strip()] = _value(value, f"{where}, start value '{name.strip()}'")
     return result
 
 
 def _number(text: str, where: str) -> float:
     try:
         return parse_number(text)
+    except ValueError as error:
+        raise HostError(f"{where}: {error}.") from None
+
+
+def _value(text: str, where: str) -> Value:
+    try:
+        return parse_value(text)
     except ValueError as error:
         raise HostError(f"{where}: {error}.") from None

@@ -1,10 +1,13 @@
-"""Numbers that a user writes, on the command line or in a file."""
+"""Numbers and other values that a user writes, on the command line or in a file."""
 
 from __future__ import annotations
 
 import argparse
 import math
 import re
+from typing import TypeAlias
+
+Value: TypeAlias = "float | int | bool | str"
 
 # What float() takes besides, such as 1_0 or digits of other scripts, is more often a slip than a number.
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -30,6 +33,14 @@ def parse_number(text: str) -> float:
     return value
 
 
+def parse_value(text: str) -> Value:
+    """A number, ``true`` or ``false``, or a text in quotation marks; `ValueError` as for `parse_number`."""
+    word = text.strip()
+    if len(word) >= 2 and word[0] == word[-1] and word[0] in "\"'":
+        return word[1:-1]
+    return word == "true" if word in ("true", "false") else parse_number(word)
+
+
 def number(text: str) -> float:
     """A number of the command line; whether it may be infinite or none at all depends on its use."""
     try:
@@ -40,10 +51,16 @@ def number(text: str) -> float:
 
 def assignment(text: str) -> tuple[str, float]:
     """``NAME=VALUE`` of the command line."""
+    name, value = name_and_text(text)
+    return name, number(value)
+
+
+def name_and_text(text: str) -> tuple[str, str]:
+    """``NAME=VALUE`` of the command line, whose value the FMU's variable reads."""
     name, equals, value = text.partition("=")
     if not equals or not name.strip():
         raise argparse.ArgumentTypeError(f"{_short(text)} is not of the form NAME=VALUE")
-    return name.strip(), number(value)
+    return name.strip(), value
 
 
 def _short(text: str) -> str:

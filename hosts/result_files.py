@@ -1,17 +1,20 @@
-"""The files of a run: a table and a picture in a folder."""
+"""The files of a run: a table, a picture, and a record of what was run, in a folder."""
 
 from __future__ import annotations
 
 import csv
+import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from ali3.files import check_writable, whole_file
+from ali3.files import check_writable, whole_file, write_text
 from hosts.co_simulation import Result
+from hosts.fmu import Fmu
+from hosts.settings import Settings
 
 
-def result_paths(out: Path, stem: str) -> tuple[Path, Path]:
-    """Table and picture of a run; `FileError` at once, before the run, if they cannot be written.
+def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
+    """Table, picture and record of a run; `FileError` at once, before the run, if they cannot be written.
 
     Parameters
     ----------
@@ -20,10 +23,10 @@ def result_paths(out: Path, stem: str) -> tuple[Path, Path]:
     stem : str
         Name of the files without suffix.
     """
-    table, picture = out / f"{stem}.csv", out / f"{stem}.png"
-    for file in (table, picture):
+    table, picture, record = (out / f"{stem}{suffix}" for suffix in (".csv", ".png", ".json"))
+    for file in (table, picture, record):
         check_writable(file)
-    return table, picture
+    return table, picture, record
 
 
 def write_csv(result: Result, file: Path) -> None:
@@ -40,6 +43,34 @@ def write_csv(result: Result, file: Path) -> None:
         writer.writerow(["time", *result.names])
         for t, row in zip(result.time.tolist(), result.values.tolist(), strict=True):
             writer.writerow([t, *row])
+
+
+def write_record(fmu: Fmu, manoeuvre: str, step: float, settings: Settings, result: Result, file: Path) -> None:
+    """What was run, and what was set in the FMU, as JSON.
+
+    Parameters
+    ----------
+    fmu : Fmu
+    manoeuvre : str
+        Its name.
+    step : float
+        Communication step, s.
+    settings : Settings
+    result : Result
+    file : Path
+        Its folder is made if it is not there.
+    """
+    record = {
+        "fmu": str(fmu.path),
+        "model": fmu.description.modelName,
+        "token": fmu.description.guid,
+        "manoeuvre": manoeuvre,
+        "step_s": step,
+        "simulated_s": result.simulated,
+        "failed_steps": result.failed_steps,
+        "set": settings.records(),
+    }
+    write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")
 
 
 def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, files: Sequence[Path]) -> int:

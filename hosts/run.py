@@ -1,14 +1,22 @@
-"""Runs an FMU with the values that are set: ``ali3 run FMU [--set NAME=VALUE ...] [--stop-time T]``."""
+"""Runs an FMU with the values that are set: ``ali3 run FMU [--parameters SSV] [--set NAME=VALUE] [--input CSV]``."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ali3.running import run_command
-from hosts.numbers import assignment, number
+from hosts.errors import HostError
+from hosts.numbers import number
+from hosts.options import add_setting_options, wishes
+
+if TYPE_CHECKING:
+    from hosts.fmu import Fmu
+    from hosts.manoeuvre import Manoeuvre
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run") -> int:
@@ -17,43 +25,63 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
         prog=prog, description="Run any FMU of FMI 2.0 co-simulation, write its outputs as a table and plot them."
     )
     parser.add_argument("fmu", type=Path, metavar="FMU")
+    add_setting_options(parser)
     parser.add_argument(
-        "--set",
-        type=assignment,
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="start value of a parameter or input, which keeps it; may be given several times",
+        "--input",
+        type=Path,
+        metavar="CSV",
+        help="table of inputs and tunable parameters over time, as for the command drive; without it they keep their "
+        "start values",
     )
-    parser.add_argument("--stop-time", type=number, metavar="T", help="how long, s; default: that of the FMU")
+    parser.add_argument(
+        "--stop-time", type=number, metavar="T", help="how long, s; default: that of the table, else that of the FMU"
+    )
     parser.add_argument("--step", type=number, metavar="H", help="communication step in s; default: that of the FMU")
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
     options = parser.parse_args(arguments)
-    return run_command(lambda: _run(options.fmu, dict(options.set), options.stop_time, options.step, options.out))
+    return run_command(lambda: _run(options))
 
 
-def _run(path: Path, start: dict[str, float], stop_time: float | None, step: float | None, out: Path) -> int:
-    import numpy as np
-
-    from hosts.co_simulation import communication_step, run_with_bar
+def _run(options: argparse.Namespace) -> int:
+    from hosts.co_simulation import check_columns, communication_step, run_with_bar
     from hosts.fmu import Fmu
-    from hosts.manoeuvre import Manoeuvre
-    from hosts.result_files import print_result, result_paths, write_csv
+    from hosts.result_files import print_result, result_paths, write_csv, write_record
     from hosts.result_plots import plot_page
     from hosts.run_summary import summary
+    from hosts.settings import set_in
 
+    path = options.fmu
     with Fmu(path) as fmu:
-        table, picture = result_paths(out, path.stem)
-        experiment = fmu.description.defaultExperiment
-        if stop_time is None:
-            stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0
-        manoeuvre = Manoeuvre("run", np.zeros(0), {}, stop_time, start)
-        step = communication_step(fmu, manoeuvre, step)
+        table, picture, record = result_paths(options.out, path.stem)
+        manoeuvre = _manoeuvre(fmu, options.input, options.stop_time)
+        check_columns(fmu, manoeuvre)
+        manoeuvre, settings = set_in(fmu, manoeuvre, wishes(options))
+        step = communication_step(fmu, manoeuvre, options.step)
         result = run_with_bar(fmu, manoeuvre, step)
     rows = summary(result, step)
     write_csv(result, table)
+    write_record(fmu, manoeuvre.name, step, settings, result, record)
     plot_page(result, picture, path.stem, rows)
-    return print_result((rows,), result, (table, picture))
+    return print_result((settings.rows(), rows), result, (table, picture, record))
+
+
+def _manoeuvre(fmu: Fmu, table: Path | None, stop_time: float | None) -> Manoeuvre:
+    """The table, or none for the time of the FMU's experiment."""
+    import numpy as np
+
+    from hosts.manoeuvre import Manoeuvre, load_manoeuvre
+
+    if table is not None:
+        if table.suffix not in (".csv", ".ini"):
+            raise HostError(f"{table} is no table of inputs; its name ends in .csv.")
+        manoeuvre = load_manoeuvre(str(table))
+        if manoeuvre.driver:
+            raise HostError(f"{table} has a driver, who drives a car; use the command drive.")
+        return manoeuvre if stop_time is None else replace(manoeuvre, stop_time=stop_time)
+    if stop_time is None:
+        experiment = fmu.description.defaultExperiment
+        stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0
+    return Manoeuvre("run", np.zeros(0), {}, stop_time)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,10 @@ from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
 from fmu_src.native.universal import universal
 from mbs.kernel import build
 
+_INCLUDE = (KERNEL_INCLUDE, HERE, DETOUR)
+# The kernel's own functions are not for hosts: only those of FMI are exported.
+_DEFINES = ("ALI3_INSIDE",)
+
 
 def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path, name: str) -> bytes:
     """Compile for one platform; several targets make one universal file.
@@ -31,11 +35,18 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
     bytes
         The library.
     """
-    # The kernel's own functions are not for hosts: only those of FMI are exported.
-    files = [*build.sources(), *shell_files(face), table]
-    made = []
+    files, made = _files(face, table), []
     for target in targets:
-        library, include = folder / target / name, (KERNEL_INCLUDE, HERE, DETOUR)
-        build.compile_c(files, target, library, include=include, what="the FMU", defines=("ALI3_INSIDE",))
+        library = folder / target / name
+        build.compile_c(files, target, library, include=_INCLUDE, what="the FMU", defines=_DEFINES)
         made.append(library.read_bytes())
     return made[0] if len(made) == 1 else universal(made)
+
+
+def library_command(face: str, target: str, table: Path, library: Path) -> list[str]:
+    """Command line of the compiler by which `compile_library` makes the library for a target."""
+    return build.compiler_command(_files(face, table), target, library, include=_INCLUDE, defines=_DEFINES)
+
+
+def _files(face: str, table: Path) -> list[Path]:
+    return [*build.sources(), *shell_files(face), table]

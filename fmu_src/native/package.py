@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from fmu_src.archive import identity_of, licence, write_zip
 from fmu_src.description import Description
 from fmu_src.documentation import documentation
 from fmu_src.native.compile import compile_library
-from fmu_src.native.reference import ReferenceRun, reference_files, reference_run
+from fmu_src.native.reference import ReferenceRun, reference_files
 from fmu_src.native.sources import packed_sources
 from fmu_src.native.table import c_table
 from fmu_src.picture import curves_png
@@ -44,6 +44,8 @@ class NativeContents:
         The default one.
     author, copyright, licence : str
         Of the model, for its description; empty: the solver's.
+    origin : mapping of str to bytes
+        Files that the model was made from, by their paths in the FMU.
     """
 
     model_name: str
@@ -56,6 +58,7 @@ class NativeContents:
     author: str = ""
     copyright: str = ""
     licence: str = ""
+    origin: Mapping[str, bytes] = field(default_factory=dict)
 
     def description_head(self, guid: str, **more: Any) -> Description:
         """Attributes of modelDescription.xml; what is not given of the rights is the solver's."""
@@ -96,9 +99,16 @@ class NativeContents:
 
     @property
     def resources(self) -> dict[str, bytes]:
-        """Systems and roads as they lie in the FMU."""
+        """Systems and roads as they lie in the FMU, and what they were made from."""
         systems = {f"resources/system_{k}.ali3": system.to_bytes() for k, system in enumerate(self.systems)}
-        return systems | road_resources(self.system.meta)
+        return systems | road_resources(self.system.meta) | dict(self.origin)
+
+    @property
+    def origin_words(self) -> list[str]:
+        """A paragraph of the documentation about `origin`; none where there is nothing."""
+        if not self.origin:
+            return []
+        return [f"Made from the files that lie in it as {', '.join(sorted(self.origin))}."]
 
     @property
     def stop_time(self) -> float:
@@ -152,6 +162,7 @@ class Face:
 def pack_native(
     contents: NativeContents,
     face: Face,
+    run: ReferenceRun,
     platforms: Sequence[str],
     file: Path,
     told: Telling,
@@ -163,6 +174,8 @@ def pack_native(
     ----------
     contents : NativeContents
     face : Face
+    run : ReferenceRun
+        The default experiment.
     platforms : sequence of str
         Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``.
     file : Path
@@ -181,13 +194,11 @@ def pack_native(
     identity, guid = contents.identity(face.name)
     table_c = face.tables(contents, identity, guid)
     sources = packed_sources(face.name, table_c)
-    with told(f"{face.name}: running the default experiment"):
-        run = reference_run(contents.system)
     files = {
         **{f"sources/{path}": data for path, data in sources.items()},
         **contents.resources,
         "documentation/licenses/license.txt": licence("ali3"),
-        "documentation/index.html": _page(contents, face.words),
+        "documentation/index.html": _page(contents, [*contents.origin_words, *face.words]),
         face.picture: _picture(run),
     } | reference_files(name, run, contents.stop_time, contents.step_size)
     with tempfile.TemporaryDirectory() as temporary:

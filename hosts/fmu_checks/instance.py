@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.files import reason
 from hosts.errors import HostError
+from hosts.numbers import Value
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,8 @@ class Subject:
         Communication steps per run.
     step : float
         Communication step, s.
+    start : mapping of str to float, int, bool or str
+        What is set in each instance before it starts.
     """
 
     path: Path
@@ -56,6 +59,7 @@ class Subject:
     description: ModelDescription
     steps: int
     step: float
+    start: Mapping[str, Value] = field(default_factory=dict)
 
     @property
     def three(self) -> bool:
@@ -80,6 +84,14 @@ class Subject:
 
 _REAL = ("Real", "Float64")
 _WHOLE = ("Integer", "Int32")
+# Calls of FMI 2.0 and 3.0 that set a variable of a type.
+_SETTERS = {
+    **dict.fromkeys(_REAL, ("setReal", "setFloat64")),
+    **dict.fromkeys(_WHOLE, ("setInteger", "setInt32")),
+    "Enumeration": ("setInteger", "setInt64"),
+    "Boolean": ("setBoolean", "setBoolean"),
+    "String": ("setString", "setString"),
+}
 
 
 def _count(variable: ScalarVariable) -> int:
@@ -117,7 +129,11 @@ class Instance:
             self.slave.instantiate(callbacks=self._callbacks)
 
     def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
-        """Leave initialisation."""
+        """Set what is to be set and leave initialisation."""
+        for variable in self.subject.description.modelVariables:
+            if variable.name in self.subject.start:
+                call = _SETTERS[variable.type][self.three]
+                getattr(self.slave, call)([variable.valueReference], [self.subject.start[variable.name]])
         if self.three:
             self.slave.enterInitializationMode(startTime=start_time, stopTime=stop_time)
         else:
@@ -173,7 +189,7 @@ class Instance:
             self.slave.fmi2FreeInstance(self.slave.component)
 
 
-def open_subject(path: Path, folder: Path, steps: int) -> Subject:
+def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value]) -> Subject:
     """Read and unpack an FMU."""
     try:
         description = read_model_description(str(path), validate=False)
@@ -186,4 +202,4 @@ def open_subject(path: Path, folder: Path, steps: int) -> Subject:
         raise HostError(f"{path} is no co-simulation FMU of FMI 2.0 or 3.0.")
     experiment = description.defaultExperiment
     step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
-    return Subject(path, folder, description, steps, step)
+    return Subject(path, folder, description, steps, step, start)

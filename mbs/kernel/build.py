@@ -157,19 +157,10 @@ def compile_c(
         With the compiler's words.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    cache = str(cache_directory())
-    environment = os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache}
+    environment = compiler_environment()
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         made = Path(folder) / path.name
-        command = [compiler(), "cc", "-target", target, *FLAGS]
-        if not shared:
-            command = [part for part in command if part not in ("-shared", "-fPIC")]
-        elif "macos" in target:
-            command.append(f"-Wl,-install_name,@rpath/{path.name}")
-        command += [f"-I{place}" for place in include] + [f"-D{name}" for name in defines]
-        command += ["-o", str(made), *map(str, files)]
-        if "linux" in target:
-            command += ["-lm", "-ldl"]
+        command = compiler_command(files, target, made, include=include, defines=defines, shared=shared)
         result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         if result.returncode != 0:
             words = result.stderr.strip()
@@ -177,6 +168,40 @@ def compile_c(
                 words = f"the compiler ended with {result.returncode} and no message; is there room in {path.parent}?"
             raise RuntimeError(f"{what} did not compile for {target}:\n{words}")
         made.replace(path)  # at once, so that a program that has the old library loaded keeps it whole
+
+
+def compiler_environment() -> dict[str, str]:
+    """Environment of the compiler: that of this process with the place of the compiler's cache.
+
+    Raises
+    ------
+    RuntimeError
+        As for `cache_directory`.
+    """
+    cache = str(cache_directory())
+    return os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache}
+
+
+def compiler_command(
+    files: Sequence[Path],
+    target: str,
+    path: Path,
+    *,
+    include: Sequence[Path] = (),
+    defines: Sequence[str] = (),
+    shared: bool = True,
+) -> list[str]:
+    """Command line that compiles C files into `path`; the arguments are those of `compile_c`."""
+    command = [compiler(), "cc", "-target", target, *FLAGS]
+    if not shared:
+        command = [part for part in command if part not in ("-shared", "-fPIC")]
+    elif "macos" in target:
+        command.append(f"-Wl,-install_name,@rpath/{path.name}")
+    command += [f"-I{place}" for place in include] + [f"-D{name}" for name in defines]
+    command += ["-o", str(path), *map(str, files)]
+    if "linux" in target:
+        command += ["-lm", "-ldl"]
+    return command
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.kernel.build") -> int:

@@ -67,7 +67,7 @@ def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: py
     assert build_fmu.main(["--scene", f"{file}:swing", "--out", str(out), "--platforms", PLATFORM]) == 0
     printed = capsys.readouterr().out
     names = ["Swing", "SwingFMI3", "SwingPython"]
-    assert sorted(p.stem for p in out.iterdir()) == names
+    assert sorted(p.name for p in out.iterdir()) == sorted(["Swing.ssv", *(f"{name}.fmu" for name in names)])
     assert all(f"{name}.fmu" in printed for name in names)
     assert [fmpy.read_model_description(str(out / f"{name}.fmu")).modelName for name in names] == names
 
@@ -75,7 +75,7 @@ def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: py
 def test_one_kind_only(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     command = ["--scene", f"{file}:swing", "--out", str(tmp_path / "out"), "--platforms", PLATFORM]
     assert build_fmu.main([*command, "--only", "native"]) == 0
-    assert [p.name for p in (tmp_path / "out").iterdir()] == ["Swing.fmu"]
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["Swing.fmu", "Swing.ssv"]
     assert build_fmu.main([*command, "--kind", "wooden"]) == 2
     assert "no kind of FMU 'wooden'" in capsys.readouterr().err
 

@@ -26,3 +26,25 @@ def sledge() -> mbs.Model:
         m.sense_input(f"wheel_{wheel}.Fz", brake, unit="N")
     m.sense_solver("solver.iterations", "iterations")
     return m
+
+
+def tuned() -> mbs.Model:
+    """A mass on a spring; stiffness and damping are tunable, the free length is fixed."""
+    m = mbs.Model("tuned", dimension=2)
+    bob = m.point_mass("bob", mass=2.0, position=(0.0, -1.0))
+    pull = m.input("pull", min=-50.0, max=50.0, unit="N", description="Force to the right")
+    m.force("pull", bob, inputs=(pull, None))
+    spring = m.spring_damper("spring", (m.ground, (0.0, 0.0)), bob, stiffness=100.0, damping=1.0, free_length=0.8)
+    for name, value, low, high, unit, fixed in (
+        ("stiffness", 100.0, 10.0, 900.0, "N/m", False),
+        ("damping", 1.0, 0.0, 20.0, "N.s/m", False),
+        ("free_length", 0.8, 0.1, 2.0, "m", True),
+    ):
+        target = (spring, name, 1.0)
+        m.parameter(
+            f"spring.{name}", value, low, high, unit, f"Of the spring: {name}", targets=[target], tunable=not fixed
+        )
+    m.sense_position("bob.x", bob, component="x")
+    m.sense_position("bob.y", bob, component="y")
+    m.constant("spring.mass", 0.1, "kg", "Of the spring itself")
+    return m

@@ -12,6 +12,8 @@ import pytest
 
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
+from hosts.check import main
+from hosts.fmu_checks.instance import Instance, open_subject
 
 ROOT = Path(__file__).parents[2]
 CHECKS = 26
@@ -84,3 +86,21 @@ def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> No
     done = check(copy)
     assert done.returncode == 1
     assert "BAD" in done.stdout
+
+
+@pytest.mark.parametrize("kind", ["native", "fmi3"])
+def test_it_checks_with_what_is_set(tmp_path: Path, capfd: pytest.CaptureFixture[str], kind: str) -> None:
+    name, system = load_scene(f"{Path(__file__).with_name('scenes.py')}:tuned")
+    fmu = build_fmu(system, name, tmp_path, [fmpy.platform], kind=kind)
+    command = [str(fmu), "--steps", "5", "--set", "spring.free_length=1.5", "--set", "pull=4"]
+    assert main(command) == 0
+    said = capfd.readouterr().out
+    assert "set  spring.free_length      0.8 -> 1.5 m (--set)" in said
+    assert "5 steps of" in said
+    seen = []
+    for start in ({}, {"spring.free_length": 1.5, "pull": 4.0}):
+        subject = open_subject(fmu, tmp_path / f"at{len(seen)}", 5, start)
+        seen.append(Instance(subject).start().run(5))
+    assert seen[0] != seen[1]
+    assert main([*command, "--set", "spring.damping=90"]) == 2
+    assert "--set: 'spring.damping' is 90 N.s/m; its range is 0 to 20 N.s/m." in capfd.readouterr().err

@@ -40,6 +40,9 @@ def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.Cap
         (["--fidelity", "0.5"], "whole number"),
         (["--step", "0.1"], "below 0.05 s"),
         (["--step", "nan"], "must be positive"),
+        (["--set", "road.friction=9"], "--set: 'road.friction' is 9; its range is 0 to 2"),
+        (["--fidelity", "1", "--set", "fidelity=1"], "give it once"),
+        (["--parameters", "no.ssv"], "no parameter set no.ssv"),
     ],
 )
 def test_what_it_refuses(

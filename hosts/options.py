@@ -1,0 +1,60 @@
+"""Options of the command line that every host has: what is set in the FMU before it starts."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+
+from hosts.numbers import name_and_text
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What the user sets.
+
+    Parameters
+    ----------
+    sets : list of Path
+        SSV files; a later one replaces values of those before it.
+    values : list of (str, str)
+        Names and values as written on the command line, which replace those of the files.
+    """
+
+    sets: list[Path]
+    values: list[tuple[str, str]]
+
+    def __bool__(self) -> bool:
+        return bool(self.sets or self.values)
+
+    @property
+    def arguments(self) -> list[str]:
+        """The same as arguments of the command line."""
+        sets = [part for file in self.sets for part in ("--parameters", str(file))]
+        return sets + [part for name, text in self.values for part in ("--set", f"{name}={text}")]
+
+
+def add_setting_options(parser: argparse.ArgumentParser) -> None:
+    """Add ``--parameters`` and ``--set``."""
+    parser.add_argument(
+        "--parameters",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="SSV",
+        help="parameter set (SSV file of the SSP standard) that is set before the start; may be given several times",
+    )
+    parser.add_argument(
+        "--set",
+        type=name_and_text,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="start value of a parameter or input in the unit of the FMU; wins over --parameters; may be given "
+        "several times",
+    )
+
+
+def wishes(options: argparse.Namespace) -> Wishes:
+    """What was given by the options of `add_setting_options`."""
+    return Wishes(options.parameters, options.set)

@@ -1,0 +1,145 @@
+"""A car file becomes an FMU: by its name or path, with the file in it, and every fault as sentences."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import fmpy
+import pytest
+
+import build_fmu
+from ali3.parameter_set import read_parameter_set
+from fmu_src.car_registry import build_car, car_files, car_words
+from hosts.fmu import Fmu
+from mbs.vehicle import load
+from mbs.vehicle.car_file import CARS
+
+PLATFORM = fmpy.platform
+
+
+def rigid(text: str) -> str:
+    """A car file without a flexible frame, which is soon built."""
+    return re.sub(r"\n\[chassis\.frame\b.*?(?=\n\[(?!chassis\.frame))", "\n", text, flags=re.DOTALL)
+
+
+@pytest.fixture
+def car(tmp_path: Path) -> Path:
+    """A copied car of another name."""
+    folder = tmp_path / "own"
+    shutil.copytree(CARS / "prototype", folder)
+    change(folder, lambda text: rigid(text).replace('name = "prototype"', 'name = "my_car"'))
+    (folder / "notes.txt").write_text("not part of the car")
+    return folder
+
+
+def change(folder: Path, edit: Callable[[str], str]) -> None:
+    file = folder / "car.toml"
+    before = file.read_text(encoding="utf-8")
+    file.write_text(edit(before), encoding="utf-8")
+    assert file.read_text(encoding="utf-8") != before
+
+
+def command(car: object, out: Path) -> list[str]:
+    return ["--car", str(car), "--out", str(out), "--kind", "native", "--platforms", PLATFORM]
+
+
+@pytest.mark.parametrize("given", ["{}", "{}/car.toml"])
+def test_a_folder_or_a_file_becomes_an_fmu(
+    car: Path, tmp_path: Path, given: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    assert build_fmu.main(command(given.format(car), out)) == 0
+    assert sorted(f.name for f in out.iterdir()) == ["MyCar.fmu", "MyCar.ssv"]
+    description = fmpy.read_model_description(str(out / "MyCar.fmu"))
+    assert description.modelName == "MyCar"
+    assert description.description.startswith("Prototype car of Cuadrado")
+    with zipfile.ZipFile(out / "MyCar.fmu") as archive:
+        names = [n for n in archive.namelist() if n.startswith("resources/car/")]
+        assert names == ["resources/car/car.toml"]  # a rigid car has no tables
+        assert archive.read(names[0]) == (car / "car.toml").read_bytes()
+        assert "resources/car/car.toml" in archive.read("documentation/index.html").decode()
+    tied = {e.name: float(e.value) for e in read_parameter_set(out / "MyCar.ssv").entries}
+    assert tied["front.spring.stiffness"] == load(car).front.spring.stiffness
+    with Fmu(out / "MyCar.fmu") as fmu:
+        fmu.initialise({})
+        fmu.step(0.0, 0.01)
+
+
+def test_the_file_of_the_fmu_is_the_car_again(tmp_path: Path) -> None:
+    made = load("prototype")
+    files = car_files(made)
+    assert sorted(f.rpartition("/")[2] for f in files) == [
+        "car.toml",
+        "joints.csv",
+        "loads.csv",
+        "masses.csv",
+        "tubes.csv",
+    ]
+    for name, data in files.items():
+        file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(data)
+    assert load(tmp_path / "resources" / "car").model_dump() == made.model_dump()
+
+
+def test_another_file_gives_another_token(car: Path, tmp_path: Path) -> None:
+    tokens = set()
+    for k in range(2):
+        assert build_fmu.main(command(car, tmp_path / str(k))) == 0
+        tokens.add(fmpy.read_model_description(str(tmp_path / str(k) / "MyCar.fmu")).guid)
+        change(car, lambda text: "# a comment\n" + text)
+    assert len(tokens) == 2
+
+
+@pytest.mark.parametrize(
+    ("edit", "words"),
+    [
+        (lambda t: t.replace("width = 1.5", "with = 1.5"), ["vehicle.width is missing", "did you mean 'width'"]),
+        (lambda t: t.replace("schema = 1", "schema = 0"), ["schema is 0; this release reads 1"]),
+        (lambda t: t.replace('name = "my_car"', 'name = "../x"'), ["name is '../x'"]),
+        (lambda t: t + "[front\n", ["is no TOML file"]),
+    ],
+)
+def test_faults_are_sentences_and_nothing_is_built(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], edit: Callable[[str], str], words: list[str]
+) -> None:
+    change(car, edit)
+    assert build_fmu.main(command(car, tmp_path / "out")) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("error: ")
+    assert "Traceback" not in said
+    assert all(word in said for word in words)
+    assert all(str(car) in line for line in said.splitlines())
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_is_no_car(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for given in (tmp_path / "nowhere", "protottype", tmp_path):
+        assert build_fmu.main(command(given, tmp_path / "out")) == 2
+        assert "the cars of the package are" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        build_fmu.main(["--car", "prototype", "--scene", "pendulum"])
+    assert "not allowed with" in capsys.readouterr().err
+
+
+def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for error in (ValueError("too heavy."), ZeroDivisionError("division by zero")):
+
+        def model(*arguments: object, error: Exception = error) -> None:
+            raise error
+
+        monkeypatch.setattr("mbs.vehicle.Car.model", model)
+        with pytest.raises(ValueError, match=f"own/car.toml: the car 'my_car' cannot be built: .*{error}"):
+            build_car(str(car))
+
+
+def test_a_folder_of_the_name_of_a_car_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert car_words("prototype") == "prototype of the package"
+    shutil.copytree(CARS / "prototype", "prototype")
+    assert car_words("prototype") == "prototype of the package (the folder prototype here would be ./prototype)"
+    assert car_words("./prototype") == "./prototype"

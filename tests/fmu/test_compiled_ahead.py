@@ -1,0 +1,98 @@
+"""The compilers begin before the model is compiled; what they make is shared and never part of an FMU."""
+
+from __future__ import annotations
+
+import subprocess
+import time
+from pathlib import Path
+
+import fmpy
+import pytest
+
+import mbs
+from fmu_src.build import build_fmu
+from fmu_src.native import ahead
+from fmu_src.native.ahead import compiled_ahead
+from mbs.kernel import build
+from tests.fmu import scenes
+
+PLATFORM = fmpy.platform
+
+
+@pytest.fixture
+def commands(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
+    """What would be compiled, in its order."""
+    begun: list[list[str]] = []
+
+    class Compilers:
+        def __init__(self, commands: list[list[str]], environment: dict[str, str]) -> None:
+            begun.extend(commands)
+
+        def end(self) -> None:
+            pass
+
+    monkeypatch.setattr(ahead, "_Compilers", Compilers)
+    return begun
+
+
+def test_the_first_library_is_begun_at_both_ends(commands: list[list[str]]) -> None:
+    with compiled_ahead([("fmi2", "linux64"), ("fmi3", "darwin64")]):
+        pass
+    assert len(commands) == 4  # darwin64 has two processors
+    first, second = ([part for part in c if part.endswith(".c")] for c in commands[:2])
+    assert second == first[::-1]
+    assert len(set(first)) == len(first) > 50
+    assert len({c[c.index("-o") + 1] for c in commands}) == 4
+    assert [c[c.index("-target") + 1] for c in commands[2:]] == ["x86_64-macos.10.13", "aarch64-macos.11.0"]
+
+
+def test_nothing_is_begun_for_nothing(commands: list[list[str]]) -> None:
+    with compiled_ahead([]):
+        pass
+    assert commands == []
+
+
+def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    started: list[subprocess.Popen[bytes]] = []
+    popen = subprocess.Popen
+
+    def start(*arguments: object, **options: object) -> subprocess.Popen[bytes]:
+        started.append(popen(["sleep", "60"], **options))  # type: ignore[call-overload]
+        return started[-1]
+
+    monkeypatch.setattr(ahead.subprocess, "Popen", start)
+    monkeypatch.setattr(ahead.tempfile, "tempdir", str(tmp_path))
+
+    def interrupted() -> None:
+        with compiled_ahead([("fmi2", "linux64")]):
+            while not started:
+                time.sleep(0.01)
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        interrupted()
+    assert started
+    assert all(process.poll() not in (None, 0) for process in started)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow
+def test_a_second_model_compiles_its_table_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    usual = build_fmu(mbs.compile(scenes.crane()), "crane", tmp_path / "usual", [PLATFORM]).read_bytes()
+    monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path / "cache"))
+    build.cache_directory.cache_clear()
+
+    def objects() -> int:
+        return len(list((tmp_path / "cache" / "o").rglob("*.o")))
+
+    try:
+        with compiled_ahead([("fmi2", PLATFORM)]):
+            cold = build_fmu(mbs.compile(scenes.crane()), "crane", tmp_path / "cold", [PLATFORM]).read_bytes()
+        assert cold == usual
+        before = objects()
+        assert before > 90
+        build_fmu(mbs.compile(scenes.sled()), "sled", tmp_path, [PLATFORM])
+        assert objects() == before + 1
+    finally:
+        monkeypatch.undo()
+        build.cache_directory.cache_clear()

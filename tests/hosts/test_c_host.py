@@ -1,0 +1,107 @@
+"""The host in C: what it sets by name, and what it refuses."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import fmpy
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts.fmu import Fmu
+from tests.fmu.native import compile_host, unpack
+
+HERE = Path(__file__).parent
+PLATFORM = fmpy.platform
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, system = load_scene(f"{HERE / 'scenes.py'}:tuned")
+    return build_fmu(system, name, tmp_path_factory.mktemp("tuned"), [PLATFORM])
+
+
+@pytest.fixture(scope="module")
+def host(fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """Its command line up to the number of steps."""
+    folder = tmp_path_factory.mktemp("c_host")
+    unpack(fmu, folder / "fmu")
+    library = next((folder / "fmu" / "binaries" / PLATFORM).iterdir())
+    guid = fmpy.read_model_description(str(fmu)).guid
+    return [str(compile_host(folder)), str(library), (folder / "fmu" / "resources").as_uri(), guid]
+
+
+def run(host: list[str], *arguments: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([*host, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def reference(fmu: Path, name: str) -> int:
+    return next(int(v.valueReference) for v in fmpy.read_model_description(str(fmu)).modelVariables if v.name == name)
+
+
+def test_names_and_references_set_the_same(fmu: Path, host: list[str]) -> None:
+    place = reference(fmu, "bob.y")
+    tail = (20, 0.01, place, place)
+    values = {"spring.stiffness": "250", "spring.free_length": "0.7", "pull": "-3.5"}
+    by_name = run(host, *tail, *(part for n, x in values.items() for part in ("--set", f"{n}={x}")))
+    assert by_name.returncode == 0, by_name.stderr
+    by_reference = run(host, *tail, *(f"{reference(fmu, n)}={x}" for n, x in values.items()))
+    assert by_name.stdout == by_reference.stdout != run(host, *tail).stdout
+    with Fmu(fmu) as driven:
+        driven.initialise({n: float(x) for n, x in values.items()})
+        for k in range(20):
+            driven.step(0.01 * k, 0.01)
+        assert float.fromhex(by_name.stdout.split()[-1]) == driven.getter(["bob.y"])()[0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("abc", 0.01, 0, 0), "STEPS is 'abc'; it must be a whole number from 0 on."),
+        (("-1", 0.01, 0, 0), "STEPS is '-1'"),
+        (("10x", 0.01, 0, 0), "STEPS is '10x'"),
+        ((10, "0.01s", 0, 0), "STEP is '0.01s'; it must be a number."),
+        ((10, 0, 0, 0), "STEP is '0'; it must be positive."),
+        ((10, "nan", 0, 0), "STEP is 'nan'"),
+        ((10, 0.01, 3, 2), "LAST is '2'; it must be a whole number from 3 on."),
+        ((10, 0.01, 0, 9999), "more than 4096 variables"),
+        ((10, 0.01, 0, 0, "--set", "spring.stifness=1"), "the FMU has no variable 'spring.stifness'."),
+        ((10, 0.01, 0, 0, "--set", "bob.y=1"), "'bob.y' is of the causality output"),
+        ((10, 0.01, 0, 0, "--set", "spring.mass=1"), "'spring.mass' is a constant"),
+        ((10, 0.01, 0, 0, "--set", "pull=1,5"), "pull is '1,5'; it must be a number."),
+        ((10, 0.01, 0, 0, "--set", "pull"), "'pull' is not of the form NAME=VALUE."),
+        ((10, 0.01, 0, 0, "--set"), "--set needs NAME=VALUE."),
+        ((10, 0.01, 0, 0, "x=3"), "'x=3' is not of the form REFERENCE=VALUE."),
+        ((10, 0.01, 0, 0, "0=abc"), "it must be a number."),
+        ((10, 0.01, 0, 0, "--set", "spring.damping=1e9"), "spring.damping=1e9: status 3"),
+    ],
+)
+def test_what_it_refuses(host: list[str], arguments: tuple[object, ...], words: str) -> None:
+    done = run(host, *arguments)
+    assert done.returncode in (1, 4)
+    assert words in done.stderr
+    assert done.stdout == ""
+
+
+def test_names_are_found_whatever_stands_around_them(host: list[str], tmp_path: Path) -> None:
+    """Comments, other quotation marks, entities, an attribute that holds the text of another."""
+    folder = tmp_path / "fmu"
+    (folder / "binaries" / "here").mkdir(parents=True)
+    library = folder / "binaries" / "here" / Path(host[1]).name
+    library.write_bytes(Path(host[1]).read_bytes())
+    (folder / "modelDescription.xml").write_text(
+        '<!-- <ScalarVariable name="a" valueReference="1" causality="output"><Real/></ScalarVariable> -->'
+        "<ScalarVariable description=\"says name='a' > b\"  valueReference='2'\n name='b' causality='output'><Real/>"
+        '<ScalarVariable name="a&lt;&amp;&quot;b" valueReference="3" causality="local"><Real/>'
+        '<ScalarVariable name="a" valueReference="4" causality="output" variability="constant"><Real/>'
+    )
+    for name, words in (
+        ("b", "'b' is of the causality output"),
+        ('a<&"b', "is of the causality local"),
+        ("a", "'a' is a constant"),
+        ("c", "no variable 'c'"),
+    ):
+        done = run([host[0], str(library), *host[2:]], 1, 0.01, 0, 0, "--set", f"{name}=1")
+        assert words in done.stderr

@@ -1,0 +1,411 @@
+"""Parameter sets: SSV files between an FMU, its hosts and other readers, with units, refusals and round trips."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Iterator
+from contextlib import nullcontext
+from pathlib import Path
+
+import fmpy
+import pytest
+import xmlschema
+from fmpy.model_description import Item, ModelDescription, ScalarVariable, SimpleType
+from fmpy.ssp.ssd import read_ssv
+from fmpy.util import read_csv
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pyssp_standard.ssv import SSV
+from pyssp_standard.standard import ModelicaStandard
+
+from ali3.errors import UserError
+from ali3.parameter_set import UnitDefinition, is_as_built, read_parameter_set, write_parameter_set
+from fmu_src.build import FmuBuilder, build_fmu
+from fmu_src.parameter_file import write_beside
+from fmu_src.scene_registry import load_scene
+from hosts import drive, parameters, run
+from hosts.errors import HostError
+from hosts.fmu import Fmu
+from hosts.settings import Settings
+from hosts.variables import Variables
+
+HERE = Path(__file__).parent
+PLATFORM = fmpy.platform
+NAMES = ["spring.stiffness", "spring.damping", "spring.free_length", "step_size"]
+HEAD = (
+    '<ssv:ParameterSet xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" '
+    'xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon" version="{}" name="test"><ssv:Parameters>'
+)
+UNITS = (
+    '<ssv:Units><ssc:Unit name="kN/m"><ssc:BaseUnit kg="1" s="-2" factor="1000"/></ssc:Unit>'
+    '<ssc:Unit name="mm"><ssc:BaseUnit m="1" factor="0.001"/></ssc:Unit>'
+    '<ssc:Unit name="inch"><ssc:BaseUnit m="1" factor="0.0254"/></ssc:Unit>'
+    '<ssc:Unit name="m"><ssc:BaseUnit m="1" factor="10"/></ssc:Unit>'
+    '<ssc:Unit name="Nm/deg"><ssc:BaseUnit kg="1" m="2" s="-2" rad="-1" factor="57.29577951308232"/></ssc:Unit>'
+    '<ssc:Unit name="1/s2"><ssc:BaseUnit s="-2"/></ssc:Unit></ssv:Units>'
+)
+
+
+def ssv(*entries: str, units: str = UNITS, version: str = "1.0") -> str:
+    """A document of ``name=value[unit]`` entries, or of XML elements."""
+    body = ""
+    for entry in entries:
+        if entry.startswith("<"):
+            body += entry
+            continue
+        name, _, rest = entry.partition("=")
+        value, bracket, unit = rest.partition("[")
+        attribute = f' unit="{unit[:-1]}"' if bracket else ""
+        body += f'<ssv:Parameter name="{name}"><ssv:Real value="{value}"{attribute}/></ssv:Parameter>'
+    return f"{HEAD.format(version)}{body}</ssv:Parameters>{units}</ssv:ParameterSet>"
+
+
+def entry(name: str, element: str) -> str:
+    return f'<ssv:Parameter name="{name}"><ssv:{element}/></ssv:Parameter>'
+
+
+@pytest.fixture(scope="module")
+def tuned(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, system = load_scene(f"{HERE / 'scenes.py'}:tuned")
+    return build_fmu(system, name, tmp_path_factory.mktemp("tuned"), [PLATFORM])
+
+
+@pytest.fixture
+def variables(tuned: Path) -> Variables:
+    return Variables(fmpy.read_model_description(str(tuned)))
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    return tmp_path / "set.ssv"
+
+
+def taken(variables: Variables, file: Path, text: str) -> Settings:
+    file.write_text(text)
+    made = Settings(variables)
+    made.add_set(file)
+    return made
+
+
+def bits(value: float) -> bytes:
+    return struct.pack("<d", value)
+
+
+def test_what_a_build_writes_every_reader_reads(tuned: Path, file: Path) -> None:
+    name, system = load_scene(f"{HERE / 'scenes.py'}:tuned")
+    builder = FmuBuilder(system, name, 0, ("", "", ""), lambda *_: nullcontext())
+    assert write_beside(builder.parameters, file)
+    assert parameters.main([str(tuned), "--out", str(file.with_name("shown.ssv"))]) == 0
+    assert file.read_bytes() == file.with_name("shown.ssv").read_bytes()
+    for schema in ("ssv", "ssv2"):  # what is right in 1.0 is right in 2.0
+        xmlschema.validate(str(file), str(ModelicaStandard.schemas[schema]))
+    description = {v.name: v for v in fmpy.read_model_description(str(tuned)).modelVariables}
+    assert [p.name for p in read_ssv(str(file)).parameters] == NAMES
+    with SSV(str(file)) as other:
+        second = {p["name"]: p["type_value"].parameter for p in other.parameters}
+        units = {unit.name: unit.base_unit.to_dict() for unit in other.units}
+    for p in read_ssv(str(file)).parameters:
+        assert bits(float(p.value)) == bits(float(description[p.name].start)) == bits(float(second[p.name]["value"]))
+        assert p.unit == description[p.name].unit == second[p.name]["unit"]
+    assert units["N.s/m"] == {"kg": "1", "s": "-1", "factor": "1.0"}
+    text = file.read_text()
+    assert "Of the spring: stiffness; 10 to 900 N/m; tunable" in text
+    assert "Of the spring: free_length; 0.1 to 2 m; fixed" in text
+
+
+def test_values_come_back_to_the_last_bit(tuned: Path, file: Path, tmp_path: Path) -> None:
+    odd = {
+        "spring.stiffness": 100.0 / 3.0,
+        "spring.damping": 0.1 + 0.2,
+        "spring.free_length": 1.1e-1,
+        "step_size": 1e-3,
+    }
+    given = [text for n, x in odd.items() for text in ("--set", f"{n}={x!r}")]
+    assert parameters.main([str(tuned), *given, "--out", str(file)]) == 0
+    assert not is_as_built(file)
+    with Fmu(tuned) as fmu:
+        made = Settings(fmu.table)
+        made.add_set(file)
+        fmu.initialise(made.start)
+        back = fmu.getter(NAMES)()
+    assert [bits(x) for x in back] == [bits(x) for x in odd.values()]
+    other = {p.name: float(p.value) for p in read_ssv(str(file)).parameters}
+    with Fmu(tuned) as fmu:
+        fmu.initialise(other)
+        assert [bits(x) for x in fmu.getter(NAMES)()] == [bits(x) for x in odd.values()]
+
+
+@pytest.mark.parametrize(
+    ("entry", "value", "words"),
+    [
+        ("spring.stiffness=0.25[kN/m]", 250.0, "100 -> 250 N/m (0.25 kN/m in set.ssv)"),
+        ("spring.free_length=500[mm]", 0.5, "0.8 -> 0.5 m (500 mm in set.ssv)"),
+        ("spring.free_length=0.05[m]", 0.5, "0.05 m in set.ssv"),  # the file's m is ten of ours
+        ("spring.stiffness=250[N/m]", 250.0, "100 -> 250 N/m (set.ssv)"),
+        ("spring.stiffness=250", 250.0, "100 -> 250 N/m (set.ssv)"),
+        ('<ssv:Parameter name="spring.stiffness"><ssv:Integer value="250"/></ssv:Parameter>', 250.0, "(set.ssv)"),
+    ],
+)
+def test_units_are_converted_by_their_definitions(
+    variables: Variables, file: Path, entry: str, value: float, words: str
+) -> None:
+    made = taken(variables, file, ssv(entry))
+    (found,) = made.start.values()
+    assert found == pytest.approx(value, rel=1e-15)
+    assert any(words in text for _, text in made.rows())
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (ssv("spring.stiffness=2[kN/mm]"), "given in 'kN/mm', which the file does not define among its Units"),
+        (ssv("spring.stiffness=2[1/s2]"), r"given in 1/s2 \(s-2\); its unit is N/m \(kg.s-2\)"),
+        (ssv("spring.stiffness=2[Nm/deg]"), r"given in Nm/deg \(57.2958 kg.m2.s-2.rad-1\)"),
+        (
+            ssv("spring.stiffness=2[kN/m]"),
+            "set.ssv, 2 kN/m: 'spring.stiffness' is 2000 N/m; its range is 10 to 900 N/m",
+        ),
+        (ssv("spring.stiffness=2e7"), "'spring.stiffness' is 20000000 N/m; its range is 10 to 900 N/m"),
+        (ssv("spring.stiffness=NaN"), "'spring.stiffness' is nan; only finite numbers"),
+        (ssv("spring.stiffness=INF"), "'spring.stiffness' is inf; only finite numbers"),
+        (ssv("spring.stifness=20"), "no parameter or input 'spring.stifness'; did you mean spring.stiffness"),
+        (ssv("Spring.Damping=2"), "no parameter or input 'Spring.Damping'; did you mean spring.damping"),
+        (ssv("car.damping=2"), "did you mean spring.damping"),
+        (ssv(f"a&#10;{'b' * 200}=2"), "no parameter or input 'a bbbbb.*[.]{3}'; it has: "),
+        (ssv("xyzzy=2"), "no parameter or input 'xyzzy'; it has: "),
+        (ssv("bob.x=2"), "'bob.x' is an output of the FMU"),
+        (ssv("spring.mass=2"), "'spring.mass' is a constant, 0.1 kg; it cannot be set"),
+        (ssv("spring.damping=2", "spring.damping=3"), "the parameter 'spring.damping' occurs twice"),
+        (ssv(entry("spring.damping", 'String value="2"')), "is given as String; in the FMU it is a Real"),
+        (ssv(entry("spring.damping", 'Boolean value="true"')), "is given as Boolean; in the FMU it is a Real"),
+        (ssv("spring.damping=2,5"), "line 1: Element 'Real', attribute 'value': '2,5' is not a valid value"),
+        (ssv(entry("spring.damping", 'Number value="2"')), "line 1: Element 'Number': This element is not expected"),
+        (ssv("spring.damping=1").replace('version="1.0"', 'version="3.0"'), "is of SSP '3.0'; 1.0 and 2.0"),
+        (ssv("spring.damping=1", units=UNITS.replace('"0.001"', '"-1"')), "unit 'mm' has the factor -1"),
+        (ssv("spring.damping=1", units=UNITS.replace('"0.001"', '"NaN"')), "unit 'mm' has the factor nan"),
+        (ssv("spring.damping=1", units=UNITS.replace('"mm"', '"inch"')), "the unit 'inch' occurs twice"),
+        (ssv(entry("spring.damping", 'Float64 value="1 2"'), version="2.0"), "'spring.damping' has 2 values"),
+        ("<a/>", "is no SSV file: its root is 'a'"),
+        ("spring.damping = 3", "is no XML document"),
+        ("", "is no XML document"),
+        ('<!DOCTYPE a [<!ENTITY b "c">]>' + ssv("spring.damping=1"), "document type declaration"),
+    ],
+)
+def test_what_cannot_be_taken_is_one_sentence(variables: Variables, file: Path, text: str, words: str) -> None:
+    file.write_text(text)
+    made = Settings(variables)
+    with pytest.raises(UserError, match=words) as raised:
+        made.add_set(file)
+    assert "\n" not in str(raised.value)
+    assert str(raised.value).endswith(".")
+    assert "set.ssv" in str(raised.value)
+    assert made.start == {}  # nothing of the file
+
+
+def test_version_2_is_read(variables: Variables, file: Path) -> None:
+    text = ssv(
+        entry("spring.damping", 'Float64 value="2.5"'),
+        entry("spring.stiffness", 'Int32 value="40"'),
+        entry("spring.free_length", 'Float32 value="500" unit="mm"'),
+        version="2.0",
+    )
+    assert taken(variables, file, text).start == {
+        "spring.damping": 2.5,
+        "spring.stiffness": 40.0,
+        "spring.free_length": 0.5,
+    }
+
+
+def test_files_that_are_none_are_named(variables: Variables, tmp_path: Path) -> None:
+    for path, words in ((tmp_path / "no.ssv", "There is no parameter set"), (tmp_path, "is no file")):
+        with pytest.raises(UserError, match=words):
+            Settings(variables).add_set(path)
+    (tmp_path / "large.ssv").write_bytes(b" " * 10_000_001)
+    with pytest.raises(UserError, match="has 10000001 bytes; a parameter set has at most 10000000"):
+        Settings(variables).add_set(tmp_path / "large.ssv")
+
+
+@settings(max_examples=150, deadline=None)
+@given(places=st.lists(st.tuples(st.integers(0, 2000), st.integers(0, 255)), min_size=1, max_size=6))
+def test_altered_files_are_refused_or_read(
+    tmp_path_factory: pytest.TempPathFactory, places: list[tuple[int, int]]
+) -> None:
+    data = bytearray(ssv("spring.damping=2[kN/m]", entry("n", 'Integer value="3"')).encode())
+    for place, byte in places:
+        data[place % len(data)] = byte
+    file = tmp_path_factory.getbasetemp() / "altered.ssv"
+    file.write_bytes(bytes(data))
+    said = ""
+    try:
+        read_parameter_set(file)
+    except UserError as error:
+        said = str(error)
+    assert "\n" not in said
+
+
+def kinds() -> Variables:
+    """An FMU of all kinds."""
+    gear = SimpleType(name="Gear", type="Enumeration", items=[Item("low", "1"), Item("high", "2")])
+    made = [
+        ScalarVariable(name="count", type="Integer", causality="parameter", variability="fixed", start="3", min="0"),
+        ScalarVariable(name="on", type="Boolean", causality="parameter", variability="tunable", start="false"),
+        ScalarVariable(name="road", type="String", causality="parameter", variability="fixed", start="flat"),
+        ScalarVariable(
+            name="gear", type="Enumeration", causality="parameter", variability="fixed", start="1", declaredType=gear
+        ),
+        ScalarVariable(name="depth", type="Real", causality="parameter", variability="fixed", start="1", max="4"),
+    ]
+    return Variables(ModelDescription(modelVariables=made))
+
+
+def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
+    values = {"count": 7, "on": True, "road": "a b.npz", "gear": 2, "depth": -1.5}
+    write_parameter_set(kinds().parameter_set("all", values), file, as_built=False)
+    xmlschema.validate(str(file), str(ModelicaStandard.schemas["ssv"]))
+    made = Settings(kinds())
+    made.add_set(file)
+    assert made.start == values
+    assert [type(x) for x in made.start.values()] == [int, bool, str, int, float]
+    assert {p.name: p.value for p in read_ssv(str(file)).parameters}["gear"] == "high"
+    by_hand = Settings(kinds())
+    by_hand.add_texts(
+        [("count", "7"), ("on", "true"), ("road", "a b.npz"), ("gear", "high"), ("depth", "-1.5")], "--set"
+    )
+    assert by_hand.start == values
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("count", "2.5", "'count' is 2.5; it must be a whole number"),
+        ("count", "-1", "'count' is -1; its range is from 0"),
+        ("count", "three", "'count': 'three' is not a number"),
+        ("on", "yes", "'on' is 'yes'; it must be true or false"),
+        ("gear", "3", "'gear' is 3; its range is 1 low, 2 high"),
+        ("depth", "5", "'depth' is 5; its range is up to 4"),
+    ],
+)
+def test_values_of_the_command_line_are_of_their_kind(name: str, text: str, words: str) -> None:
+    with pytest.raises(HostError, match=words):
+        Settings(kinds()).add_texts([(name, text)], "--set")
+
+
+def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
+    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file.write_text(ssv("spring.stiffness=200", "spring.damping=3", "spring.free_length=0.8"))
+    table = tmp_path / "pull.csv"
+    table.write_text('# start: spring.damping=5,spring.stiffness=50\n"time","pull"\n0,0\n1,10\n')
+    command = [str(tuned), "--parameters", str(file), "--set", "spring.stiffness=300", "--set", "pull=4"]
+    assert run.main([*command, "--input", str(table), "--out", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert "set.ssv           3 values, 2 of them other than in the FMU" in printed
+    assert "--set replaces 200 N/m of set.ssv" in printed
+    assert "set.ssv replaces 5 N.s/m of start of pull" in printed
+    assert "4 N of --set has no effect: it is a column of the manoeuvre pull" in printed
+    assert "100 -> 300 N/m (--set)" in printed
+    record = json.loads((tmp_path / "Tuned.json").read_text())
+    assert record["set"] == [
+        {"name": "spring.stiffness", "old": 100.0, "new": 300.0, "unit": "N/m", "from": "--set"},
+        {"name": "spring.damping", "old": 1.0, "new": 3.0, "unit": "N.s/m", "from": "set.ssv"},
+    ]
+
+
+def test_what_does_nothing_is_told(tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for text, words in (
+        (ssv(), "empty: it sets nothing"),
+        (ssv("spring.damping=1"), "all 1 values are those of the FMU: it changes nothing"),
+    ):
+        file.write_text(text)
+        assert run.main([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
+        assert words in capsys.readouterr().out
+    assert run.main([str(tuned), "--set", "spring.damping=1", "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
+    assert "1 N.s/m as in the FMU (--set)" in capsys.readouterr().out
+    twice = ["--set", "spring.damping=1", "--set", "spring.damping=2"]
+    assert run.main([str(tuned), *twice, "--out", str(tmp_path)]) == 2
+    assert "--set: 'spring.damping' is given as 1 and as 2; give it once" in capsys.readouterr().err
+
+
+def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
+    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = tmp_path / "softer.csv"
+    table.write_text('"time","pull","spring.stiffness"\n0,0,100\n1,0,100\n1,0,50\n2,0,50\n')
+    assert run.main([str(tuned), "--input", str(table), "--out", str(tmp_path), "--step", "0.01"]) == 0
+    found = read_csv(tmp_path / "Tuned.csv")
+    assert (found["spring.stiffness"][100], found["spring.stiffness"][101]) == (100.0, 50.0)
+    with Fmu(tuned) as fmu:  # the same by hand
+        fmu.initialise({})
+        for k in range(200):
+            if k == 100:
+                fmu.setter(["spring.stiffness"])([50.0])
+            fmu.step(0.01 * k, 0.01)
+        assert fmu.getter(["bob.y"])()[0] == found["bob.y"][-1]
+    assert found["bob.y"][-1] < found["bob.y"][100] - 0.05
+    table.write_text('"time","spring.free_length"\n0,0.8\n1,0.7\n')
+    assert run.main([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
+    said = capsys.readouterr().err
+    assert "a column 'spring.free_length', a fixed parameter of Tuned.fmu: it can be set before the start only" in said
+    table.write_text('"time","spring.stiffness"\n0,100\n1,1e5\n')
+    assert run.main([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
+    assert "'spring.stiffness' is 100000 N/m; its range is 10 to 900 N/m" in capsys.readouterr().err
+    table.write_text('"time","bob.x"\n0,1\n1,1\n')
+    assert drive.main([str(tuned), "-m", str(table), "--out", str(tmp_path)]) == 2
+    said = capsys.readouterr().err
+    assert "'bob.x', which is no input of Tuned.fmu; its inputs are: pull; a tunable parameter, such as" in said
+
+
+def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file.write_text(ssv("spring.stiffness=0.2[kN/m]", "spring.damping=1"))
+    assert parameters.main([str(tuned), "--diff", str(file)]) == 0
+    assert capsys.readouterr().out == "spring.stiffness  100 -> 200 N/m\n"
+    assert parameters.main([str(tuned), "--set", "spring.stiffness=200", "--diff", str(file)]) == 0
+    assert "sets nothing to another value" in capsys.readouterr().out
+    assert parameters.main([str(tuned)]) == 0
+    printed = capsys.readouterr().out
+    assert "spring.free_length  0.8    m      0.1 to 2       fixed    Of the spring: free_length" in printed
+
+
+@pytest.mark.parametrize("command", [drive, run, parameters])
+def test_every_host_says_the_same_of_a_wrong_set(
+    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], command: object
+) -> None:
+    file.write_text(ssv("spring.damping=200"))
+    table = tmp_path / "pull.csv"
+    table.write_text('"time","pull"\n0,0\n1,10\n')
+    more = ["-m", str(table)] if command is drive else []
+    assert command.main([str(tuned), *more, "--parameters", str(file)]) == 2  # type: ignore[attr-defined]
+    said = capsys.readouterr().err
+    assert said == "error: set.ssv: 'spring.damping' is 200 N.s/m; its range is 0 to 20 N.s/m.\n"
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "value", "converted"),
+    [
+        (UnitDefinition({"K": 1}, 1.0, 273.15), UnitDefinition({"K": 1}), 20.0, 293.15),
+        (UnitDefinition({"K": 1}), UnitDefinition({"K": 1}, 1.0, 273.15), 293.15, 20.0),
+        (UnitDefinition({"K": 1}, 5 / 9, 459.67 * 5 / 9), UnitDefinition({"K": 1}, 1.0, 273.15), 212.0, 100.0),
+        (UnitDefinition({"kg": 1, "m": -1, "s": -2}, 1e5), UnitDefinition({"kg": 1, "m": -1, "s": -2}), 2.3, 2.3e5),
+    ],
+)
+def test_units_with_an_offset(one: UnitDefinition, other: UnitDefinition, value: float, converted: float) -> None:
+    assert one.convert(value, other) == pytest.approx(converted, rel=1e-12)
+
+
+def edits() -> Iterator[tuple[str, str]]:
+    yield 'value="1.0" unit="N.s/m"', 'value="2.0" unit="N.s/m"'
+    yield "</ssv:Parameters>", ""  # damaged
+    yield 'fileversion="', 'fileversion="x'
+
+
+@pytest.mark.parametrize(("old", "new"), list(edits()))
+def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path, old: str, new: str) -> None:
+    assert write_beside(variables.parameter_set("Tuned", {}), file)
+    assert is_as_built(file)
+    built = file.read_text()
+    assert write_beside(variables.parameter_set("Tuned", {}), file)
+    assert old in built
+    file.write_text(built.replace(old, new))
+    assert not write_beside(variables.parameter_set("Tuned", {}), file)
+    assert file.read_text() == built.replace(old, new)
