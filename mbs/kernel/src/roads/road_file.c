@@ -8,9 +8,11 @@
 
 #include "../files/crc32.h"
 #include "../files/regular_file.h"
+#include "road_table.h"
 
 enum { PLANE, KERB, GRID }; /* elements/road.h */
 enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, HINTS = 256, TEXT = 200, TRAILER = 16, MOST_SIDE = 1 << 30 };
+static const double TABLE_FRICTION = 0.9; /* of a text without frictions */
 
 typedef struct { /* from byte 16 on */
   int64_t size;
@@ -33,6 +35,7 @@ struct ali3_road_file {
   uint64_t clock, when[ALI3_TILES_NEAR];
   unsigned char hint[HINTS];
   unsigned char *slot; /* n_slots x tile_bytes */
+  double *values; /* of a text: all of its grid, in place of tiles */
   char lost[TEXT];
 };
 
@@ -180,12 +183,14 @@ static const double *tile_at(ali3_road_file *file, int32_t i, int32_t j) {
 }
 
 double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j) {
+  if (file->values != NULL) return file->values[(int64_t)i * file->head.ny + j];
   const double *tile = tile_at(file, i, j);
   return tile != NULL ? tile[i % ALI3_ROAD_TILE * ALI3_ROAD_TILE + j % ALI3_ROAD_TILE] : 0.0;
 }
 
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j) {
   if (file->head.maps < 2) return file->head.real[4];
+  if (file->values != NULL) return file->values[(file->head.nx + i) * file->head.ny + j];
   const double *tile = tile_at(file, i, j);
   return tile != NULL ? tile[POINTS + i % ALI3_ROAD_TILE * ALI3_ROAD_TILE + j % ALI3_ROAD_TILE] : 0.0;
 }
@@ -212,7 +217,79 @@ static int place_tiles(ali3_road_file *file, char *message, size_t size) {
 void ali3_road_file_close(ali3_road_file *file) {
   if (file == NULL) return;
   if (file->stream != NULL) fclose(file->stream);
+  if (file->values != NULL) file->release(file->values);
   file->release(file);
+}
+
+/* Values of a text that no road has; 0 and a sentence. */
+static int table_values(const ali3_road_table *t, char *message, size_t size) {
+  const int64_t points = t->nx * t->ny;
+  for (int64_t k = 0; k < t->maps * points; k++) {
+    const double v = t->values[k];
+    const int good = k < points ? fabs(v) <= ALI3_ROAD_HIGHEST : v >= 0.0 && v <= ALI3_ROAD_FRICTION;
+    if (good) continue;
+    if (message != NULL && size > 0)
+      snprintf(message, size, "its %s at row %lld, column %lld of the points is %g", k < points ? "height" : "friction",
+               (long long)(k % points / t->ny + 1), (long long)(k % t->ny + 1), v);
+    return 0;
+  }
+  return 1;
+}
+
+/* All of a text is read and its stream closed. */
+static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*allocate)(size_t count, size_t size),
+                                  char *message, size_t message_size) {
+  ali3_road_table t = {0};
+  header *h = &start->head;
+  char *text = size <= ALI3_MOST_TABLE ? allocate(1, (size_t)size + 1) : NULL;
+  int good = text != NULL ? ali3_file_read(start->stream, 0, text, (size_t)size)
+                          : refuse(message, message_size,
+                                   "it is longer than 64 MB; make a road file of it by: ali3 "
+                                   "road INPUT OUTPUT.road");
+  fclose(start->stream);
+  start->stream = NULL;
+  if (good) {
+    start->identity = ali3_crc32(text, (size_t)size);
+    good = ali3_road_table_read(text, (size_t)size, &t, allocate, start->release, message, message_size);
+  } else if (text != NULL) {
+    refuse(message, message_size, "it cannot be read");
+  }
+  if (text != NULL) start->release(text);
+  if (!good) return NULL;
+  const header given = {.kind = GRID,
+                        .nx = t.nx,
+                        .ny = t.ny,
+                        .tile = ALI3_ROAD_TILE,
+                        .maps = t.maps,
+                        .real = {t.first[0], t.first[1], t.spacing[0], t.spacing[1], TABLE_FRICTION}};
+  *h = given;
+  const char *why = grid_problem(h);
+  ali3_road_file *file = NULL;
+  if (why != NULL)
+    refuse(message, message_size, why);
+  else if (table_values(&t, message, message_size))
+    file = allocate(1, sizeof *file);
+  if (file == NULL) {
+    start->release(t.values);
+    return NULL;
+  }
+  *file = *start;
+  file->values = t.values;
+  return file;
+}
+
+static int is_text(const char *path) {
+  static const char *const suffix[] = {".csv", ".txt"};
+  const size_t n = strlen(path);
+  for (int k = 0; k < 2; k++) {
+    int same = n > 4;
+    for (size_t i = 0; same && i < 4; i++) {
+      const char c = path[n - 4 + i];
+      same = (c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c) == suffix[k][i];
+    }
+    if (same) return 1;
+  }
+  return 0;
 }
 
 ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t count, size_t size),
@@ -222,6 +299,7 @@ ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t c
   int64_t size = 0;
   ali3_road_file start = {.release = release};
   start.stream = ali3_file_open(path, &size, &why);
+  if (why == NULL && is_text(path)) return open_table(&start, size, allocate, message, message_size);
   if (why == NULL && !ali3_file_read(start.stream, 0, bytes, size < ALI3_ROAD_HEADER ? (size_t)size : sizeof bytes))
     why = "it cannot be read";
   if (why == NULL) why = header_problem(bytes, size, &start.head, &start.identity);

@@ -24,7 +24,7 @@ enum { ALI3_TILES_NEAR = 64 }; /* kept in memory: 16 kB each, 8 kB without frict
 
 typedef struct ali3_road_file ali3_road_file;
 
-/* Opens and checks a file. NULL if it is refused, with one sentence, without its full stop, in `message`. What fits into
+/* Opens and checks a file; one that ends in .csv or .txt as a text (road_table.h), which is read as a whole. NULL if it is refused, with one sentence, without its full stop, in `message`. What fits into
  * memory is read at once and the file is closed; nothing is allocated later. */
 ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t count, size_t size),
                                     void (*release)(void *block), char *message, size_t message_size);
