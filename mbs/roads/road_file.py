@@ -31,6 +31,8 @@ HEADER = struct.Struct("<8sIIqiIqqii8dd")
 REALS = 8
 CHECKED_FROM = 16
 TRAILER = struct.Struct("<qII")
+TEXTS = (".csv", ".txt")
+"""Suffixes of tables that the kernel reads by itself."""
 MOST_IN_MEMORY = 10**8
 """Points of a grid that is read as a whole."""
 
@@ -42,6 +44,8 @@ class RoadFileError(ValueError):
 @dataclass(frozen=True)
 class RoadFile:
     """A road of a file that ``ali3 road`` or `write_road` made, of which the kernel keeps in memory what is near.
+
+    A table with coordinates (``.csv``, ``.txt``) is taken too; it is kept as a whole.
 
     Parameters
     ----------
@@ -70,6 +74,21 @@ class RoadFile:
         """
         with _opened(self.path) as file:
             return read_header(file, self.path)
+
+    def check(self) -> None:
+        """Refuse what is not there or no road: the beginning of a road file is looked at, a table as a whole.
+
+        Raises
+        ------
+        RoadFileError
+            With the file and what is wrong with it.
+        """
+        if Path(self.path).suffix.lower() in TEXTS:
+            from mbs.roads.grid_files import read_grid
+
+            read_grid(self.path, None, "heights")
+        else:
+            _ = self.header
 
     def read(self) -> PlaneRoad | KerbRoad | GridRoad:
         """The whole road in memory, every part checked.

@@ -161,3 +161,13 @@ def test_altered_texts_end_in_a_sentence(tmp_path, loaded):
         except KernelError as error:
             refused += error.status == Status.BAD_ROAD and len(str(error)) > 30
     assert 1000 < refused < 2000
+
+
+def test_a_model_on_a_table(tmp_path):
+    (tmp_path / "a.csv").write_text(table(rough()))
+    system = mbs.compile(prototype_car.build(mbs.RoadFile(tmp_path / "a.csv")))
+    run = mbs.simulate(system, 0.5, H, pose=mbs.Pose(speed=10.0), progress=False)
+    assert np.ptp(run["wheel_FL.Fz"]) > 50.0
+    (tmp_path / "a.csv").write_text("x,1\n")
+    with pytest.raises(ValueError, match="a.csv has 1 rows"):
+        prototype_car.build(mbs.RoadFile(tmp_path / "a.csv"))
