@@ -12,6 +12,7 @@ from mbs.affine import Affine
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import substitute
 from mbs.errors import ModelError
+from mbs.kernel.header import SensorType
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.reactions import MOST_FACTORS
@@ -118,7 +119,9 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
         return found
 
     for sensor in model.sensors:
-        reals.append(sensor.reals)
+        # the bodies are all known only now
+        of_bodies = sensor.type == SensorType.MASS
+        reals.append([float(sum(body.mass for body in model.bodies))] if of_bodies else sensor.reals)
         if sensor.terms:
             ints.append([len(sensor.terms)])
             reals[-1] = [t.weight for t in sensor.terms]
@@ -144,7 +147,7 @@ def channel_arrays(model: Model) -> Arrays:
     element_start = pointer([len(e.real) for e in model.elements])
     guide_start = pointer([len(g.reals) for g in model.guides])
     road_start = pointer([len(r.real) for r in model.roads])
-    starts = (element_start, guide_start, road_start)
+    starts = (element_start, guide_start, road_start, pointer([1] * len(model.payloads)))
     targets = [[(t, int(starts[t][k]) + i, s, o) for t, k, i, s, o in p.targets] for p in model.parameters]
     flat = [t for group in targets for t in group]
     return {

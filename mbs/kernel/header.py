@@ -70,7 +70,11 @@ FLOAT_ARRAYS = (
     "tree_angle_sign",
     "tree_angle_inertia",
     "static_value",
+    "static_q",
     "par_offset",
+    "payload_mass",
+    "payload_gravity",
+    "tree_payload_place",
 )
 """Arrays of a System of type double."""
 
@@ -157,6 +161,8 @@ INTEGER_ARRAYS = (
     "static_par",
     "pose_partner",
     "par_fixed",
+    "payload_signal",
+    "tree_payload_body",
     "guide_second",
 )
 """Arrays of a System of type int32_t."""
@@ -171,9 +177,15 @@ OPTIONAL_ARRAYS = (
     "static_start",
     "static_par",
     "static_value",
+    "static_q",
     "pose_partner",
     "par_offset",
     "par_fixed",
+    "payload_mass",
+    "payload_signal",
+    "payload_gravity",
+    "tree_payload_body",
+    "tree_payload_place",
     "guide_second",
 )
 """Those that a System need not have."""
@@ -246,6 +258,7 @@ class ParameterTarget(IntEnum):
     ELEMENT = 0
     GUIDE = 1
     ROAD = 2
+    PAYLOAD = 3
 
 
 class GuideType(IntEnum):
@@ -331,7 +344,8 @@ class SensorType(IntEnum):
     QUASI_STATIC = 17
     REACTION_PRODUCTS = 18
     WORK = 19
-    GUIDE_EXCESS = 20
+    MASS = 20
+    GUIDE_EXCESS = 21
 
 
 SENSOR_READS = {
@@ -355,6 +369,7 @@ SENSOR_READS = {
     SensorType.QUASI_STATIC: SensorReads.ROWS,
     SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
     SensorType.WORK: SensorReads.FORCES,
+    SensorType.MASS: SensorReads.MOTION,
     SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
 }
 

@@ -455,7 +455,7 @@ class Model(
         targets: Sequence[Target],
         tunable: bool = True,
     ) -> Parameter:
-        """A number that is set without compiling again: it is written to data of elements, guides and roads.
+        """A number that is set without compiling again: it is written to elements, guides, roads and payloads.
 
         Parameters
         ----------
@@ -471,10 +471,10 @@ class Model(
             One sentence for hosts.
         targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
             ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
-            name, and one of its `real_names`; or ("road", number) and the name or number of a real of the road. A real
-            belongs to one parameter.
+            name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; or a
+            payload and "mass". A real belongs to one parameter.
         tunable : bool
-            Whether it may be set while the model moves; False: before the start only.
+            Whether it may be set while the model moves; False: before the start only, as masses of payloads must be.
 
         Returns
         -------

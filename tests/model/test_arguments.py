@@ -74,6 +74,7 @@ def seen(bench: Bench, /, **more: Any) -> dict[str, Any]:
 CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "body": lambda b: {"name": "new", "mass": 1.0, "com": X, "inertia": (1.0, 1.0, 1.0)},
     "point_mass": lambda b: {"name": "new", "mass": 1.0, "position": X},
+    "payload": lambda b: {"name": "new", "body": b.arm, "position": X, "mass": 1.0, "point": b.arm.point(X)},
     "flexible_body": lambda b: {"name": "new", "reduced": BAR, "origin": X, "axes": np.eye(3)},
     "ported": lambda b: {"body": b.arm, "ports": {"left": X}},
     "initial_velocity": lambda b: {"body": b.arm, "linear": X, "angular": Y},
@@ -222,6 +223,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "sense_element": lambda b: seen(b, element=b.spring, output="force", scale=2.0),
     "sense_work": lambda b: seen(b, elements=[b.spring], kind="work"),
     "sense_energy": lambda b: seen(b, kind="total"),
+    "sense_mass": lambda b: seen(b),
     "sense_recovery": lambda b: seen(b, body=b.beam, weights=np.ones(BAR.n_modes)),
     "sense_quasi_static": lambda b: seen(b, body=b.ported, relief=RELIEF, output=1, origin=X),
     "sense_joint_force": lambda b: seen(b, joint=b.hinge, component="x"),

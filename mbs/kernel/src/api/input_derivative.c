@@ -129,7 +129,7 @@ static ali3_status factorise(ali3_instance *in, const linear_step *step) {
   ali3_roads_forgive(in);
   ali3_forces(in, &call);
   if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J_tangent, step->c * step->alpha, in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, v->lam, step->c, in->F);
   ali3_forces_tangent(in, in->F);

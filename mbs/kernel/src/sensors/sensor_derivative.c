@@ -130,11 +130,16 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
   ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
     kinetic += in->x[i] * in->direction.qd[i];
-    gravity -= S->gravity_force[i] * in->direction.q[i];
+    gravity -= in->gravity_force[i] * in->direction.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->direction.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
+}
+
+static double change_mass(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)in, (void)v, (void)real;
+  return 0.0;
 }
 
 static double change_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {

@@ -116,17 +116,24 @@ static double value_element_output(const ali3_instance *in, const int32_t *v, co
 static double value_energy(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   const ali3_system *S = in->system;
-  double kinetic = 0.0, gravity = S->gravity_const[0], elastic = 0.0;
+  double kinetic = 0.0, gravity = in->gravity_const, elastic = 0.0;
   ali3_flexible_prepare(in, in->now.q);
   ali3_flexible_energy(in, in->now.q, &gravity, &elastic);
   ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
     kinetic += 0.5 * in->x[i] * in->now.qd[i];
-    gravity -= S->gravity_force[i] * in->now.q[i];
+    gravity -= in->gravity_force[i] * in->now.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->now.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
+}
+
+static double value_mass(const ali3_instance *in, const int32_t *v, const double *real) {
+  double sum = real[0];
+  (void)v;
+  for (int64_t k = 0; k < in->system->n_payload_mass; k++) sum += in->payload_mass[k];
+  return sum;
 }
 
 static double value_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
