@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mbs.vehicle.car import Car
     from mbs.vehicle.chassis.mount import Mount
 
-Target: TypeAlias = "tuple[Owner, str | int, float]"
+Target: TypeAlias = "tuple[Owner, str | int, float, float]"
 
 
 @dataclass
@@ -74,6 +74,7 @@ class CarBuilder:
         scale: float = 1.0,
         *,
         value: float | None = None,
+        offset: float = 0.0,
     ) -> None:
         """Let a number of the file be a parameter of the model that writes a real of an element, guide or road.
 
@@ -92,13 +93,15 @@ class CarBuilder:
             The value times it is written.
         value : float, optional
             In the model, where it is not that of the file.
+        offset : float
+            What is added to it then.
         """
         quantity = section.quantity(name)
         assert quantity is not None, f"{section.key(name)} is no quantity"
         assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
         start = getattr(section, name) if value is None else value
         tied = self._tied.setdefault(section.key(name), _Tied(section, name, quantity, start))
-        tied.targets.append((owner, real, scale))
+        tied.targets.append((owner, real, scale, offset))
 
     def parameters(self) -> None:
         """Write what was tied into the model, in the order of the file's type."""

@@ -66,7 +66,7 @@ def _dimensions(car: Car) -> Iterator[str]:
 
 def _masses(car: Car) -> Iterator[str]:
     total = car.chassis.mass + sum(2.0 * part.mass for part in parts_of(car))
-    total += 2.0 * (car.front.wheel.mass + car.rear.wheel.mass)
+    total += 2.0 * (car.front.wheel.mass + car.rear.wheel.mass) + car.steering.moving_mass
     if abs(total - car.vehicle.mass) > MASS_TOLERANCE * car.vehicle.mass:
         given = car.vehicle.mass
         yield f"{car.vehicle.key('mass')} is {given:g} kg, but the masses of all parts add up to {total:g} kg."
