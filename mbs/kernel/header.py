@@ -391,8 +391,10 @@ class ElementType(IntEnum):
     CONTACT_POINTS = 11
     SPIN_TORQUE = 12
     ELECTRIC_DRIVE = 13
-    COORDINATE_FRICTION = 17
-    TORSION_BAR = 18
+    SPRING_DAMPER_TABLE = 14
+    LIFT = 15
+    COORDINATE_FRICTION = 16
+    TORSION_BAR = 17
 
 
 class SettingsFields(Structure):
