@@ -72,9 +72,9 @@ class CarBuilder:
         owner: Owner,
         real: str | int,
         scale: float = 1.0,
+        offset: float = 0.0,
         *,
         value: float | None = None,
-        offset: float = 0.0,
     ) -> None:
         """Let a number of the file be a parameter of the model that writes a real of an element, guide or road.
 
@@ -89,12 +89,10 @@ class CarBuilder:
             Its field, whose type says that it may change.
         owner, real : Owner, str or int
             As in `Model.parameter`.
-        scale : float
-            The value times it is written.
+        scale, offset : float
+            The value times `scale` plus `offset` is written.
         value : float, optional
             In the model, where it is not that of the file.
-        offset : float
-            What is added to it then.
         """
         quantity = section.quantity(name)
         assert quantity is not None, f"{section.key(name)} is no quantity"

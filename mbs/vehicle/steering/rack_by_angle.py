@@ -8,7 +8,7 @@ from typing import Literal
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.ends import End
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import SteeringFriction
+from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
 from mbs.vehicle.steering.rack_section import RackSection
@@ -22,7 +22,7 @@ class RackByAngle(RackSection):
 
     kind: Literal["rack_by_angle"]
     """Names this template."""
-    friction: SteeringFriction = 0.0
+    friction: PrescribedFriction = 0.0
     """Friction of rack and column, at the steering wheel."""
 
     def build(self, b: CarBuilder, way: float) -> Steered:
@@ -55,7 +55,6 @@ class RackByAngle(RackSection):
             m.drive("steering column", wheel.affine * per_radian, rack)
             friction = CoordinateFriction(self.friction, STICK_STIFFNESS, STICK_DAMPING)
             m.add(friction.record("steering friction", wheel.affine))
-            b.tie(self, "friction", "steering friction", "largest")
 
         def end(side: Side, point: Point) -> End:
             return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=(0.0, 1.0, 0.0), guide=rack)
