@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, partial
 from pathlib import Path
@@ -21,6 +20,7 @@ from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.changes import changed_content
 from mbs.vehicle.chassis.attachments import attachments
 from mbs.vehicle.chassis.build import build_chassis, stress_outputs
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
@@ -36,7 +36,9 @@ from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.fidelity import OFFERED, Fidelity
+from mbs.vehicle.names import CarName, Text
 from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, work_outputs
+from mbs.vehicle.payload import Payload
 from mbs.vehicle.quantities import Length, Mass, Point
 from mbs.vehicle.road import RoadSection, level_within
 from mbs.vehicle.section import Section, sections_of
@@ -45,9 +47,6 @@ from mbs.vehicle.side import Side
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.steering.steered import Steered
 from mbs.vehicle.suspensions.twist_beam import TwistBeam
-
-SCHEMA = 1
-"""Version of the car file that this release reads and writes."""
 
 
 class Vehicle(Section):
@@ -72,14 +71,16 @@ class Car(Section):
 
     schema_version: Annotated[Literal[1], Field(alias="schema")]
     """Version of the form of this file."""
-    name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=40)]
+    name: CarName
     """Name of the car, for files: lower-case letters, digits and underscores."""
-    description: Annotated[str, Field(min_length=1, max_length=500)]
+    description: Text
     """What car it is."""
     vehicle: Vehicle
     """The car as a whole."""
     chassis: Chassis
     """Chassis with all that is fixed to it."""
+    payload: dict[str, Payload] = Field(default_factory=dict)
+    """Persons and luggage by name."""
     front: Axle
     """Front axle."""
     rear: Axle
@@ -186,6 +187,8 @@ class Car(Section):
         b = self._builder(road)
         m = b.m
         b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
+        for name, payload in self.payload.items():
+            payload.build(b, name, fidelity)
         (steered, front), (_, rear) = self.mechanism(b)
         spins = front | rear
         self.drive.build(b, spins, neutral=guide is not None)
@@ -207,6 +210,7 @@ class Car(Section):
             "steering": m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left"),
             "throttle": m.input("throttle", min=0.0, max=1.0, description="throttle pedal"),
             "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
+            "hand_brake": m.input("hand_brake", min=0.0, max=1.0, description="hand brake on the rear wheels"),
             "selector": m.input(
                 "selector", start=1.0, min=-1.0, max=1.0, description="selector: -1 reverse, 0 neutral, 1 drive"
             ),
@@ -230,6 +234,12 @@ class Car(Section):
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
+    def faults(self) -> Iterator[str]:
+        """The front axle steers."""
+        if isinstance(self.front.suspension, TwistBeam):
+            kind = self.front.suspension.kind
+            yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
+
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
         """The models an FMU offers by its parameter `fidelity`.
 
@@ -247,23 +257,28 @@ class Car(Section):
         Parameters
         ----------
         values : mapping of str to object
-            By key path, as "front.spring.stiffness".
+            By key path, as "front.spring.stiffness"; "front.wheel.centre.2" is an element of a list.
 
         Raises
         ------
         CarFileError
-            A key path does not exist or its value is not plausible.
+            A key path does not exist, or with the values it is no car; the car that there was is unchanged.
         """
         from mbs.vehicle.car_file import car_from
 
-        data = copy.deepcopy(self._data)
-        for path, value in values.items():
-            *tables, last = path.split(".")
-            table = data
-            for key in tables:
-                table = table.setdefault(key, {})
-            table[last] = value
-        return car_from(data, self._folder, f"car '{self.name}'")
+        what = f"car '{self.name}'"
+        data = changed_content(self._data, values, what)
+        return car_from(data, self._folder, what)
+
+    def values(self) -> dict[str, float]:
+        """Numbers that a finished FMU of the car has as parameters, by key path."""
+        found = {}
+        for section in sections_of(self):
+            for field in type(section).model_fields:
+                quantity, value = section.quantity(field), getattr(section, field)
+                if quantity is not None and quantity.change is not None and value is not None:
+                    found[section.key(field)] = float(value)
+        return found
 
     def order(self, path: str) -> int:
         """Place of a key path in the file's type.
@@ -314,3 +329,4 @@ class Car(Section):
             ground_contact(b, self.chassis.ground_contact)
         work_outputs(m)
         vehicle_constants(b)
+        steered.torque_outputs()

@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import Discriminator, Field, Tag
 
 from mbs.vehicle.chassis.frames import Frame
+from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import (
     Coefficient,
     HysteresisLoss,
@@ -53,7 +54,7 @@ class Chassis(Section):
     """Entries xy, xz and yz of the inertia tensor, which are minus the integrals of x y, x z and y z over the mass."""
     reference: Point
     """Point that carries a floating frame."""
-    accelerometers: dict[str, Point] = Field(default_factory=dict)
+    accelerometers: dict[Name, Point] = Field(default_factory=dict)
     """Accelerometers by name."""
     frame: Frame | None = None
     """Flexible frame; without it the chassis is rigid and has no stresses."""
