@@ -12,6 +12,7 @@ import scipy.sparse as sp
 
 from mbs.vehicle import Car, load
 from mbs.vehicle.car_file import CARS, car_from
+from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.gauges.reading import Reading
 from mbs.vehicle.chassis.gauges.recovery_rows import AXES
 from mbs.vehicle.chassis.tubular_frame import TubularFrame
@@ -61,7 +62,8 @@ def small_frame(folder: Path, gauges: dict[str, Any]) -> Car:
         "damping": {"ratio": 0.02, "frequencies": [15.0, 60.0]},
         "gauges": gauges,
     }
-    return prototype_with(frame, folder, chassis_of(prototype_with(frame, folder).tubular_frame))
+    section = TubesFrame.model_validate(frame)
+    return prototype_with(frame, folder, chassis_of(TubularFrame(section, folder)))
 
 
 def chassis_of(tubular: TubularFrame) -> dict[str, Any]:

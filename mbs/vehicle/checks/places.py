@@ -38,10 +38,11 @@ def place_faults(car: Car) -> Iterator[str]:
     for key, point in _points_of_the_body(car).items():
         yield from _within_the_outline(car, key, point)
     contact = car.chassis.ground_contact
-    for k, point in enumerate(contact.points if contact else ()):
+    for k, place in enumerate(contact.points if contact else ()):
         key = f"{contact.key('points')}.{k}" if contact else ""
-        if isinstance(point, str):  # a joint of the frame, whose place is looked at with it
+        if isinstance(place, str):  # a joint of the frame
             continue
+        point = place
         if point[1] < 0.0 or 0.0 < point[1] < ASIDE:
             yield (
                 f"{key} has y = {point[1]:g} m; points are given for the left side and are mirrored: y must be 0, in "
