@@ -12,6 +12,7 @@ import scipy.sparse as sp
 
 from mbs.vehicle import Car, load
 from mbs.vehicle.car_file import CARS, car_from
+from mbs.vehicle.changes import changed_content
 from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.gauges.reading import Reading
 from mbs.vehicle.chassis.gauges.recovery_rows import AXES
@@ -33,9 +34,11 @@ SMALL_TUBES = [
 SMALL_MASSES = {"pL": 82.6845, "lL": 45.0, "nL": 20.0, "gL": 25.0, "kL": 10.0, "aL": 10.0}
 
 
-def prototype_with(frame: dict[str, Any], folder: Path, chassis: dict[str, Any] | None = None) -> Car:
-    """The prototype with another table chassis.frame and other numbers of the chassis."""
-    data = dict(PROTOTYPE._data)
+def prototype_with(
+    frame: dict[str, Any], folder: Path, chassis: dict[str, Any] | None = None, changes: dict[str, Any] | None = None
+) -> Car:
+    """The prototype with another table chassis.frame, other numbers of the chassis and elsewhere."""
+    data = changed_content(PROTOTYPE._data, changes or {}, "car")
     data["chassis"] = {**data["chassis"], **(chassis or {}), "frame": frame}
     return car_from(data, folder, "car 'prototype'")
 
