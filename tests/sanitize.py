@@ -24,6 +24,7 @@ TESTS = [
     "tests/flexible_engine/test_loader.py",
     "tests/model/test_payloads.py",
     "tests/roads/test_road_file.py",
+    "tests/roads/test_road_table.py",
     "tests/scenes/test_prototype_car_rest.py",
     "tests/simulation/test_assembly_modes.py",
 ]
