@@ -144,8 +144,7 @@ class Car(Section):
         b.chassis = build_chassis(b.m, self.chassis, None, Fidelity.RIGID)
         driven = ("front", "rear").index(self.drive.wheels)
         joints = JointFinder(frame, structure, attachments(b), points).joints(self.chassis, driven)
-        payloads = [payload.point for payload in self.payload.values()]
-        return FlexibleFrame(frame, self._folder, structure, joints, payloads)
+        return FlexibleFrame(frame, self._folder, structure, joints)
 
     def _frame(self) -> FrameSection:
         if self.chassis.frame is None:

@@ -65,13 +65,21 @@ def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, Affi
 
 
 def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list[AffineVector], np.ndarray]:
-    """Origin and axes as combinations of suspension joints."""
+    """Origin and axes as the shortest combinations of suspension joints that are right for every rigid motion.
+
+    What acts on them loads the frame as forces at these joints. At the floating frame itself, one node, it would bend
+    the floor; a quasi-static chassis would miss it.
+    """
+    named = [flexible.place(joint) for pair in flexible.joints.ground for joint in pair]
+    origin = np.mean(named, axis=0)
+    rigid = np.vstack([np.array(named).T, np.ones(len(named))])
 
     def combination(sums: np.ndarray) -> AffineVector:
-        terms = [body.point(flexible.place(joint)) * share for joint, share in flexible.mean(sums).items()]
+        weights = np.linalg.lstsq(rigid, sums, rcond=None)[0]
+        terms = [body.point(p) * float(w) for p, w in zip(named, weights, strict=True)]
         return sum(terms[1:], terms[0])
 
-    origin, axes = flexible.middle, [combination(np.append(e, 0.0)) for e in np.eye(3)]
+    axes = [combination(np.append(e, 0.0)) for e in np.eye(3)]
     return combination(np.append(origin, 1.0)), axes, origin
 
 

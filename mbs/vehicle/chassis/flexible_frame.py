@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -23,14 +22,11 @@ from mbs.flexible.load_path_modes import load_path_deformations
 from mbs.vehicle.chassis.frame_joints import FrameJoints
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.fidelity import Fidelity
-from mbs.vehicle.side import Point
 from mbs.vehicle.table import read_table
 
 MANY_MODES = 40
 LOAD_PATH_TOLERANCE = 5e-3
 """Load paths whose deformation has less than this part of the largest, in the energy norm, are left out."""
-LOADED_TOLERANCE = 1e-3
-"""The same of a car with payloads, which shift the loads of the suspension between its corners."""
 MOST_FORCE = 1e6  # N
 
 
@@ -47,8 +43,6 @@ class FlexibleFrame:
         Its finite elements and gauges.
     joints : FrameJoints
         What the car is fixed to.
-    payloads : sequence of tuple of float
-        Places of payloads, m.
 
     Attributes
     ----------
@@ -60,16 +54,8 @@ class FlexibleFrame:
         Its interfaces at the hard points.
     """
 
-    def __init__(
-        self,
-        section: FrameSection,
-        folder: Path,
-        structure: Structure,
-        joints: FrameJoints,
-        payloads: Sequence[Point] = (),
-    ) -> None:
+    def __init__(self, section: FrameSection, folder: Path, structure: Structure, joints: FrameJoints) -> None:
         self.section, self.folder, self.structure, self.joints = section, folder, structure, joints
-        self._payloads = tuple(payloads)
         self.interfaces, self.stiff_pairs, self.reference = tuple(joints.interfaces), joints.held, joints.reference
         self.damping = RayleighDamping.fitted(section.damping.ratio, *section.damping.frequencies)
         self.model = _at_hard_points(structure.model, joints)
@@ -115,48 +101,14 @@ class FlexibleFrame:
         # without the stretch between the pivots of a wishbone the frame could not follow its fixed length, and without
         # all directions at the origin a guide, which pushes a pitched car upwards too, would bend it wrongly
         loads, pairs = self.recorded_loads(), self._relief_with_stretch[1]
-        every = np.hstack([loads, pairs, *map(self._payload_loads, self._payloads), np.zeros((len(loads), 3))])
+        every = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
         guided = np.zeros((6, every.shape[1]))
         guided[:3, -3:] = np.eye(3)
         deformation = load_path_deformations(body, every, guided)
         size = np.sqrt(np.einsum("ik,ij,jk->k", deformation, body.K, deformation))
         scale = np.ones(every.shape[1])
         scale[loads.shape[1] :] = size[: loads.shape[1]].max() / size[loads.shape[1] :]
-        tolerance = LOADED_TOLERANCE if self._payloads else LOAD_PATH_TOLERANCE
-        return load_path_modes(body, every * scale, tolerance, guided * scale)
-
-    def mean(self, sums: np.ndarray) -> dict[str, float]:
-        """The shortest combination of joints that is right for every rigid motion.
-
-        What acts on such a combination loads the frame as forces at these joints. At the floating frame itself, one
-        node, it would bend the floor; a quasi-static chassis would miss it.
-
-        Parameters
-        ----------
-        sums : ndarray, shape (4,)
-            A point and 1, or a vector and 0.
-
-        Returns
-        -------
-        dict of str to float
-            Share of each joint.
-        """
-        named = [joint for pair in self.joints.ground for joint in pair]
-        rigid = np.vstack([np.array([self.place(joint) for joint in named]).T, np.ones(len(named))])
-        weights = np.linalg.lstsq(rigid, sums, rcond=None)[0]
-        return {joint: float(w) for joint, w in zip(named, weights, strict=True)}
-
-    @property
-    def middle(self) -> np.ndarray:
-        """Mean of the joints of `mean`, m."""
-        return np.asarray(np.mean([self.place(joint) for pair in self.joints.ground for joint in pair], axis=0))
-
-    def _payload_loads(self, place: Point) -> np.ndarray:
-        """Interface forces of a unit force on a payload along each axis, shape (3 n_interfaces, 3)."""
-        loads = np.zeros((len(self.interfaces), 3, 3))
-        for joint, share in self.mean(np.append(place, 1.0)).items():
-            loads[self.interfaces.index(joint)] += share * np.eye(3)
-        return loads.reshape(-1, 3)
+        return load_path_modes(body, every * scale, LOAD_PATH_TOLERANCE, guided * scale)
 
     def recorded_loads(self) -> np.ndarray:
         """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.

@@ -101,18 +101,8 @@ class JointFinder:
                 held.append((self._at(_image(a), a), self._at(_image(b), b)))
         drive = self._drive(driven)
         ground = self._named("ground_mounts") or (self._pair(self._axles[1 - driven][0]), *drive)
-        self._check_mounts({"drive_mounts": drive, "ground_mounts": ground}, interfaces)
         accelerometers = {self._at(point): point for point in chassis.accelerometers.values()}
         return FrameJoints(interfaces, tuple(held), drive, ground, self._reference(chassis.reference), accelerometers)
-
-    def _check_mounts(self, mounts: Mapping[str, tuple[Pair, ...]], interfaces: Mapping[str, Point]) -> None:
-        """What acts on another joint would not reach the gauges of a quasi-static frame."""
-        for field, pairs in mounts.items():
-            for name in (joint for pair in pairs for joint in pair if joint not in interfaces):
-                raise ModelError(
-                    f"{self._section.key(field)} names {name!r}, which is no joint of the suspension; these are "
-                    f"{', '.join(interfaces)}."
-                )
 
     def _drive(self, driven: int) -> tuple[Pair, ...]:
         named = self._named("drive_mounts")
