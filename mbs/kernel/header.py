@@ -271,6 +271,7 @@ class ParameterTarget(IntEnum):
     GUIDE = 1
     ROAD = 2
     PAYLOAD = 3
+    SWITCH = 4
 
 
 class GuideType(IntEnum):
