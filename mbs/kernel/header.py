@@ -385,6 +385,8 @@ class ElementType(IntEnum):
     CONTACT_POINTS = 11
     SPIN_TORQUE = 12
     ELECTRIC_DRIVE = 13
+    SPRING_DAMPER_TABLE = 14
+    LIFT = 15
 
 
 class SettingsFields(Structure):

@@ -207,6 +207,7 @@ class Model(
         *,
         stiffness: float,
         damping: float = 0.0,
+        stiffness_factor: float = 1.0,
         carrier: Body | None = None,
         axis: ArrayLike | None = None,
         free_twist: float | None = None,
@@ -225,6 +226,8 @@ class Model(
             Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
         stiffness, damping : float
             N m/rad and N m s/rad of the twist.
+        stiffness_factor : float
+            Factor on the stiffness, for a parameter.
         carrier : Body, optional
             With arms given as bodies: what they turn on.
         axis : array_like, shape (3,), optional
@@ -246,7 +249,7 @@ class Model(
             positive or the damping negative.
         """
         angles, joints = arm_angles(self, name, (left, right), carrier, axis)
-        bar = anti_roll_bar(self, name, angles, stiffness, damping, free_twist, mirrored)
+        bar = anti_roll_bar(self, name, angles, stiffness, damping, stiffness_factor, free_twist, mirrored)
         for joint in joints:
             self._join(joint)
         return bar

@@ -130,6 +130,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "left": b.arm,
         "right": b.box,
         "stiffness": 1.0,
+        "stiffness_factor": 1.0,
         "damping": 1.0,
         "carrier": b.m.ground,
         "axis": Y,
@@ -177,6 +178,15 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "force": lambda b: {"name": "new", "body": b.arm, "point": X, "inputs": [b.pedal, None, None], "axes": "body"},
     "torque": lambda b: {"name": "new", "body": b.arm, "inputs": [b.pedal, None, None], "axes": "body"},
     "torque_on": lambda b: {"name": "new", "angle": b.angle, "input": b.pedal, "gain": 2.0},
+    "lift": lambda b: {
+        "name": "new",
+        "body": b.arm,
+        "point": X,
+        "forward": X,
+        "up": Y,
+        "lift_area": 1.0,
+        "air_density": 1.0,
+    },
     "drag": lambda b: {"name": "new", "body": b.arm, "point": X, "drag_area": 1.0, "air_density": 1.0},
     "road": lambda b: {"road": PlaneRoad(), "file": "road.file"},
     "contact_points": lambda b: {

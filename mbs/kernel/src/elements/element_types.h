@@ -18,6 +18,8 @@
   X(10, automatic_drive) \
   X(11, contact_points) \
   X(12, spin_torque) \
-  X(13, electric_drive)
+  X(13, electric_drive) \
+  X(14, spring_damper_table) \
+  X(15, lift)
 /* clang-format on */
 #endif
