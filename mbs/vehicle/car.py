@@ -171,6 +171,7 @@ class Car(Section):
             "steering": m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left"),
             "throttle": m.input("throttle", min=0.0, max=1.0, description="throttle pedal"),
             "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
+            "hand_brake": m.input("hand_brake", min=0.0, max=1.0, description="hand brake on the rear wheels"),
             "selector": m.input(
                 "selector", start=1.0, min=-1.0, max=1.0, description="selector: -1 reverse, 0 neutral, 1 drive"
             ),

@@ -30,7 +30,7 @@ class AntiRollBar(Section):
     stiffness: TorsionalStiffness
     """Torque of the bar per angle between both levers."""
     factor: Factor = 1.0
-    """Factor on the stiffness; 0: no bar."""
+    """Factor on the torque of the bar."""
     part: str
     """Part of the suspension that the drop link ends on, as the suspension's bodies are called."""
     points: AntiRollBarPoints
