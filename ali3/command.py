@@ -33,6 +33,7 @@ class Command(NamedTuple):
 
 COMMANDS = (
     Command("build", "fmu_src.build_command", "build the FMUs of a car or a scene"),
+    Command("car", "mbs.vehicle.command", "copy a car of the package to a folder, or check a car file"),
     Command("drive", "hosts.drive", "drive the FMU of a car through a manoeuvre"),
     Command("run", "hosts.run", "run any FMU with constant inputs and plot its outputs"),
     Command("parameters", "hosts.parameters", "show the parameters of an FMU, or write them as a parameter set"),

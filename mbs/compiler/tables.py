@@ -108,7 +108,8 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
     ints = []
     reals: list[Sequence[float]] = []
 
-    def row(sensor: Sensor, joint: Joint, equation: int) -> int:
+    def row(sensor: Sensor, joint: Joint | None, equation: int) -> int:
+        assert joint is not None
         found = row_of.get((joints[id(joint)], equation))
         if found is None:
             raise ModelError(
@@ -121,13 +122,13 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
         # the bodies are all known only now
         of_bodies = sensor.type == SensorType.MASS
         reals.append([float(sum(body.mass for body in model.bodies))] if of_bodies else sensor.reals)
-        if sensor.joint is not None and not sensor.integers:
+        if sensor.terms:
             ints.append([len(sensor.terms)])
             reals[-1] = [t.weight for t in sensor.terms]
             for t in sensor.terms:
                 factors = [signals.number(f) for f in t.factors]
                 none = [-1] * (MOST_FACTORS - len(factors))
-                ints[-1] += [row(sensor, sensor.joint, t.equation), *factors, *none, t.guide]
+                ints[-1] += [row(sensor, t.joint or sensor.joint, t.equation), *factors, *none, t.guide]
         elif sensor.joint is not None:
             rows = [row(sensor, sensor.joint, k) for k in sensor.integers]
             ints.append([len(rows), *rows])
@@ -155,6 +156,7 @@ def channel_arrays(model: Model) -> Arrays:
         "input_max": np.array([i.max for i in model.inputs], dtype=float),
         "guide_type": np.array([g.type for g in model.guides], dtype=np.int64),
         "guide_input": np.array([g.input for g in model.guides], dtype=np.int64),
+        "guide_second": np.array([g.second for g in model.guides], dtype=np.int64),
         **ragged("guide_real", [g.reals for g in model.guides], float),
         "road_type": np.array([int(r.type) for r in model.roads], dtype=np.int64),
         **ragged("road_real", [r.real for r in model.roads], float),

@@ -163,6 +163,7 @@ INTEGER_ARRAYS = (
     "par_fixed",
     "payload_signal",
     "tree_payload_body",
+    "guide_second",
 )
 """Arrays of a System of type int32_t."""
 
@@ -185,6 +186,7 @@ OPTIONAL_ARRAYS = (
     "payload_gravity",
     "tree_payload_body",
     "tree_payload_place",
+    "guide_second",
 )
 """Those that a System need not have."""
 
@@ -264,6 +266,7 @@ class GuideType(IntEnum):
 
     OF_TIME = 0
     OF_INPUT = 1
+    OF_TWO_INPUTS = 2
 
 
 class RoadType(IntEnum):
@@ -342,6 +345,7 @@ class SensorType(IntEnum):
     REACTION_PRODUCTS = 18
     WORK = 19
     MASS = 20
+    GUIDE_EXCESS = 21
 
 
 SENSOR_READS = {
@@ -366,6 +370,7 @@ SENSOR_READS = {
     SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
     SensorType.WORK: SensorReads.FORCES,
     SensorType.MASS: SensorReads.MOTION,
+    SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
 }
 
 
@@ -387,6 +392,8 @@ class ElementType(IntEnum):
     ELECTRIC_DRIVE = 13
     SPRING_DAMPER_TABLE = 14
     LIFT = 15
+    COORDINATE_FRICTION = 16
+    TORSION_BAR = 17
 
 
 class SettingsFields(Structure):

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 from scipy.interpolate import PPoly
 
-from mbs.checks import not_negative, number
+from mbs.checks import not_negative, number, shown
 from mbs.elements.record import ElementRecord
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
@@ -19,7 +19,7 @@ from mbs.model.core import Coordinate
 from mbs.model.flexible import FlexibleBody
 from mbs.model.force_sensors import ForceSensorVocabulary
 from mbs.model.forces import ForceVocabulary
-from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
+from mbs.model.guides import Guide, guide_input, guide_inputs, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
@@ -155,6 +155,34 @@ class Model(
         value = not_negative(inertia, f"The inertia of armature '{name}'")
         self.unique("armature", name)
         self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + value
+
+    def shaft(self, name: str, *, inertia: float = 0.0) -> Coordinate:
+        """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.
+
+        What carries it takes no reaction of its inertia and does not turn it: the angle and the inertia are small, or
+        the carrier turns slowly.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the shafts.
+        inertia : float
+            kg m2; without one something must hold or weigh it, such as a rack or a drive.
+
+        Returns
+        -------
+        Coordinate
+            For torques, gears, racks, drives and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, or the inertia is negative.
+        """
+        value = not_negative(inertia, f"The inertia of shaft {shown(name)}")
+        index = self.new_coordinate(self.unique("shaft", name), "angle", 0.0)
+        self.inertias[index] = value
+        return Coordinate(name, index, "rad")
 
     def spin(
         self,
@@ -319,6 +347,47 @@ class Model(
             The name is taken, the input is not of this model, or the frequency is not positive.
         """
         return guide_input(self, name, input, gain, frequency, unit)
+
+    def guide_inputs(
+        self,
+        name: str,
+        *,
+        inputs: tuple[Input, Input],
+        gains: tuple[float, float],
+        limits: tuple[float, float],
+        frequency: float,
+        unit: str = "1",
+    ) -> Guide:
+        """A prescribed motion that follows the sum of two inputs, held between two limits, through the filter of
+        `guide_input`.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the guides.
+        inputs : tuple of Input
+            Two inputs of this model.
+        gains : tuple of float
+            Of each input, in units of the guide per unit of the input.
+        limits : tuple of float
+            Between which the sum is held, in units of the guide; `sense_guide_excess` reads what they take away.
+        frequency : float
+            Of the filter, Hz.
+        unit : str
+            Of the guide, rad or m.
+
+        Returns
+        -------
+        Guide
+            For drives, slides and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, an input is not of this model, the limits are the wrong way round, or the frequency is
+            not positive.
+        """
+        return guide_inputs(self, name, inputs, gains, limits, frequency, unit)
 
     def guide_time(self, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], *, unit: str = "1") -> Guide:
         """A prescribed motion in time.

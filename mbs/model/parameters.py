@@ -15,7 +15,11 @@ from mbs.model.guides import Guide
 from mbs.model.payload import REALS as PAYLOAD_REALS
 from mbs.model.payload import Payload
 
-GUIDE_REALS = {"frequency": positive, "gain": number, "start": number}
+_OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
+GUIDE_REALS = {
+    GuideType.OF_INPUT: _OF_INPUT,
+    GuideType.OF_TWO_INPUTS: _OF_INPUT | {"gain_2": number, "low": number, "high": number},
+}
 Owner: TypeAlias = "ElementRecord | Guide | Payload | str | tuple[str, int]"
 """An element, a guide, a payload or the name of one; or ("road", number)."""
 Target: TypeAlias = "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float]"
@@ -174,8 +178,9 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
             check = element.real_checks[k] if element.real_checks else number
             return _Target((ParameterTarget.ELEMENT, index, k, *line), f"the {real} of element '{owner_name}'", check)
     for guide in model.guides:
-        if guide.name == owner_name and guide.type == GuideType.OF_INPUT and real in GUIDE_REALS:
-            k, check = list(GUIDE_REALS).index(str(real)), GUIDE_REALS[str(real)]
+        if guide.name == owner_name and real in GUIDE_REALS.get(guide.type, {}):
+            reals = GUIDE_REALS[guide.type]
+            k, check = list(reals).index(str(real)), reals[str(real)]
             return _Target((ParameterTarget.GUIDE, guide.index, k, *line), f"the {real} of guide '{owner_name}'", check)
     for k, payload in enumerate(model.payloads):
         if payload.name == owner_name and real in PAYLOAD_REALS:

@@ -1,7 +1,8 @@
 """Cars as files: ``load("prototype")``, or the path of your own car.toml, gives a `Car`; its `model` the `Model`."""
 
 from mbs.vehicle.car import Car
-from mbs.vehicle.car_file import CarFileError, car_names, load
+from mbs.vehicle.car_file import car_names, load
+from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import Fidelity
 
-__all__ = ["Car", "CarFileError", "Fidelity", "car_names", "load"]
+__all__ = ["Car", "CarFileError", "CarWarning", "Fidelity", "car_names", "load"]

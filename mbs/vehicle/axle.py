@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from pydantic import Field
 
 from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
-from mbs.vehicle.quantities import PartInertia, PartMass, Point
+from mbs.vehicle.quantities import PartMass, Point, WheelInertia
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
@@ -24,9 +24,9 @@ class Wheel(Section):
     """Centre of the left wheel."""
     mass: PartMass
     """Mass."""
-    spin_inertia: PartInertia
+    spin_inertia: WheelInertia
     """Moment of inertia about its axis."""
-    diametral_inertia: PartInertia
+    diametral_inertia: WheelInertia
     """Moment of inertia about its diameters."""
 
 
@@ -57,6 +57,13 @@ class Axle(Section):
     def rolling_radius(self) -> float:
         """Way of a free wheel per radian, m: (2 R + loaded radius)/3; at rest the wheel's centre is that high."""
         return (2.0 * self.tyre.radius + self.wheel.centre[2]) / 3.0
+
+    def faults(self) -> Iterator[str]:
+        """The anti-roll bar hangs on a part that is there."""
+        parts = list(type(self.suspension.bodies).model_fields)
+        bar = self.anti_roll_bar
+        if bar is not None and bar.part not in parts:
+            yield f"{bar.key('part')} is '{bar.part}'; the suspension has {', '.join(parts)}."
 
     def build(
         self, b: CarBuilder, axle: str, tie_rod: TieRodEnd, brake: Callable[[CarBuilder, Corner, Spin], None]

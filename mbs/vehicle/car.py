@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import copy
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -21,6 +20,7 @@ from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.changes import changed_content
 from mbs.vehicle.chassis.build import build_chassis, stress_outputs
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.ground_contact import ground_contact
@@ -31,6 +31,7 @@ from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.fidelity import OFFERED, Fidelity
+from mbs.vehicle.names import CarName, Text
 from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, work_outputs
 from mbs.vehicle.payload import Payload
 from mbs.vehicle.quantities import Length, Mass, Point
@@ -41,9 +42,6 @@ from mbs.vehicle.side import Side
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.steering.steered import Steered
 from mbs.vehicle.suspensions.twist_beam import TwistBeam
-
-SCHEMA = 1
-"""Version of the car file that this release reads and writes."""
 
 
 class Vehicle(Section):
@@ -68,9 +66,9 @@ class Car(Section):
 
     schema_version: Annotated[Literal[1], Field(alias="schema")]
     """Version of the form of this file."""
-    name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=40)]
+    name: CarName
     """Name of the car, for files: lower-case letters, digits and underscores."""
-    description: Annotated[str, Field(min_length=1, max_length=500)]
+    description: Text
     """What car it is."""
     vehicle: Vehicle
     """The car as a whole."""
@@ -193,6 +191,12 @@ class Car(Section):
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
         return m
 
+    def faults(self) -> Iterator[str]:
+        """The front axle steers."""
+        if isinstance(self.front.suspension, TwistBeam):
+            kind = self.front.suspension.kind
+            yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
+
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
         """The models an FMU offers by its parameter `fidelity`: the rigid one alone where the car has no frame."""
         offered = OFFERED if self.chassis.frame is not None else OFFERED[:1]
@@ -204,23 +208,28 @@ class Car(Section):
         Parameters
         ----------
         values : mapping of str to object
-            By key path, as "front.spring.stiffness".
+            By key path, as "front.spring.stiffness"; "front.wheel.centre.2" is an element of a list.
 
         Raises
         ------
         CarFileError
-            A key path does not exist or its value is not plausible.
+            A key path does not exist, or with the values it is no car; the car that there was is unchanged.
         """
         from mbs.vehicle.car_file import car_from
 
-        data = copy.deepcopy(self._data)
-        for path, value in values.items():
-            *tables, last = path.split(".")
-            table = data
-            for key in tables:
-                table = table.setdefault(key, {})
-            table[last] = value
-        return car_from(data, self._folder, f"car '{self.name}'")
+        what = f"car '{self.name}'"
+        data = changed_content(self._data, values, what)
+        return car_from(data, self._folder, what)
+
+    def values(self) -> dict[str, float]:
+        """Numbers that a finished FMU of the car has as parameters, by key path."""
+        found = {}
+        for section in sections_of(self):
+            for field in type(section).model_fields:
+                quantity, value = section.quantity(field), getattr(section, field)
+                if quantity is not None and quantity.change is not None and value is not None:
+                    found[section.key(field)] = float(value)
+        return found
 
     def order(self, path: str) -> int:
         """Place of a key path in the file's type.
@@ -271,3 +280,4 @@ class Car(Section):
             ground_contact(b, self.chassis.ground_contact)
         work_outputs(m)
         vehicle_constants(b)
+        steered.torque_outputs()

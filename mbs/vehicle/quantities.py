@@ -25,7 +25,7 @@ class Quantity:
         Least and largest plausible value. Where `low` is positive they are less than a factor of 1000 apart, so that
         a value in a unit 1000 times too large or too small is always outside.
     zero : bool
-        Whether 0 is allowed besides.
+        Whether 0 is allowed besides; a parameter may then be anywhere between 0 and `high`.
     change : {"tunable", "fixed"} or None
         Whether the FMU has it as a parameter that may change while driving, or before the start only.
     """
@@ -68,7 +68,10 @@ class Quantity:
         return core_schema.no_info_after_validator_function(self.check, core_schema.float_schema(strict=True))
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        return {"type": "number", "minimum": self.least, "maximum": self.high, "unit": self.unit}
+        limits = {"type": "number", "minimum": self.low, "maximum": self.high}
+        if self.zero and self.low > 0.0:
+            return {"anyOf": [{"const": 0}, limits], "unit": self.unit}
+        return limits | {"unit": self.unit}
 
 
 def _fixed(quantity: Quantity) -> Quantity:
@@ -97,7 +100,8 @@ Mass = Annotated[float, Quantity("kg", 4.0, 3900.0)]
 PartMass = Annotated[float, Quantity("kg", 0.2, 150.0)]
 Payload = Annotated[float, Quantity("kg", 1.0, 900.0, zero=True, change="fixed")]
 Inertia = Annotated[float, Quantity("kg.m2", 10.0, 9000.0)]
-PartInertia = Annotated[float, Quantity("kg.m2", 0.001, 49.0)]
+PartInertia = Annotated[float, Quantity("kg.m2", 0.002, 1.9)]
+WheelInertia = Annotated[float, Quantity("kg.m2", 0.01, 9.0)]
 ProductOfInertia = Annotated[float, Quantity("kg.m2", -2000.0, 2000.0)]
 
 Stiffness = Annotated[float, _tunable(_STIFFNESS)]
@@ -126,19 +130,20 @@ AirDensity = Annotated[float, Quantity("kg/m3", 0.3, 9.0, change="tunable")]
 MaterialDensity = Annotated[float, Quantity("kg/m3", 300.0, 2.5e4)]
 YoungsModulus = Annotated[float, Quantity("Pa", 1e9, 9e11)]
 Ratio = Annotated[float, Quantity("1", 0.3, 60.0)]
-Fraction = Annotated[float, Quantity("1", 0.0, 1.0)]
+Fraction = Annotated[float, Quantity("1", 0.002, 1.0, zero=True)]
 Slip = Annotated[float, Quantity("1", 0.01, 9.0)]
-Coefficient = Annotated[float, Quantity("1", 0.0, 3.0)]
-Factor = Annotated[float, Quantity("1", 0.0, 10.0, change="tunable")]
+Coefficient = Annotated[float, Quantity("1", 0.003, 2.9, zero=True)]
+Factor = Annotated[float, Quantity("1", 0.02, 10.0, zero=True, change="tunable")]
 """Multiplies what the file gives; 1 leaves it."""
 Time = Annotated[float, Quantity("s", 0.01, 9.0)]
-CreepTorque = Annotated[float, Quantity("N.m", 0.0, 200.0, change="tunable")]
+CreepTorque = Annotated[float, Quantity("N.m", 0.5, 200.0, zero=True, change="tunable")]
 TorsionalStiffness = Annotated[float, Quantity("N.m/rad", 20.0, 1.9e4, change="tunable")]
 StickStiffness = Annotated[float, Quantity("N.m/rad", 1e4, 5e6)]
+SteeringFriction = Annotated[float, Quantity("N.m", 0.02, 9.0, zero=True, change="tunable")]
 RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
 RoadWheelAngle = Annotated[float, Quantity("rad", 0.1, 1.2)]
-PoissonsRatio = Annotated[float, Quantity("1", 0.0, 0.49)]
-RoadFriction = Annotated[float, Quantity("1", 0.0, 2.0, change="tunable")]
+PoissonsRatio = Annotated[float, Quantity("1", 0.01, 0.49, zero=True)]
+RoadFriction = Annotated[float, Quantity("1", 0.01, 2.0, zero=True, change="tunable")]
 WheelSpeed = Annotated[float, Quantity("rad/s", 0.5, 400.0)]
 RatioFactor = Annotated[float, Quantity("1", 0.5, 2.0, change="fixed")]
 Compression = Annotated[float, Quantity("m", -0.5, 0.9)]

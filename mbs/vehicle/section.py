@@ -35,6 +35,10 @@ class Section(BaseModel):
         """
         return f"{self._path}.{field}" if self._path else field
 
+    def faults(self) -> Iterator[str]:
+        """Sentences on what cannot be between the numbers of this table; a template overrides it."""
+        yield from ()
+
     @classmethod
     def quantity(cls, field: str) -> Quantity | None:
         """Unit and range of a field, None where it is no single number.

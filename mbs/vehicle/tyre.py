@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Literal
 
 from mbs.elements.tyre import Tyre, TyreCurve
@@ -35,6 +36,26 @@ class Curve(Section):
     """Force of full sliding."""
     slide_slip: tuple[Slip, Slip]
     """Slip from which on it slides."""
+
+    def faults(self) -> Iterator[str]:
+        """Force rises to its maximum and falls to sliding, at both loads."""
+        for k in range(2):
+            if self.slide_slip[k] <= self.max_slip[k]:
+                yield (
+                    f"{self.key('slide_slip')}.{k} is {self.slide_slip[k]:g}; it must be larger than "
+                    f"{self.key('max_slip')}.{k}, {self.max_slip[k]:g}."
+                )
+            if self.slide_force[k] > self.max_force[k]:
+                yield (
+                    f"{self.key('slide_force')}.{k} is {self.slide_force[k]:g} N; it must not be larger than "
+                    f"{self.key('max_force')}.{k}, {self.max_force[k]:g} N."
+                )
+            steepest = self.max_force[k] / self.max_slip[k]
+            if self.slope[k] < steepest:
+                yield (
+                    f"{self.key('slope')}.{k} is {self.slope[k]:g} N; to reach {self.key('max_force')}.{k} at "
+                    f"{self.key('max_slip')}.{k} it must be {steepest:.5g} N or more."
+                )
 
 
 class TMeasy(Section):
@@ -74,6 +95,15 @@ class TMeasy(Section):
     """Coefficient of rolling resistance."""
     grip: Factor = 1.0
     """Factor on the friction of the road under the tyres of this axle."""
+
+    def faults(self) -> Iterator[str]:
+        """The trail vanishes before it ends."""
+        for k in range(2):
+            if self.trail_end[k] <= self.trail_zero[k]:
+                yield (
+                    f"{self.key('trail_end')}.{k} is {self.trail_end[k]:g}; it must be larger than "
+                    f"{self.key('trail_zero')}.{k}, {self.trail_zero[k]:g}."
+                )
 
     def tyre(self) -> Tyre:
         """The tyre of the engine."""

@@ -74,7 +74,7 @@ def test_a_command_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["biuld"]) == 2
     assert "no command 'biuld'. Did you mean 'build'?" in capsys.readouterr().err
     assert main(["zzz"]) == 2
-    assert "The commands are build, drive" in capsys.readouterr().err
+    assert "The commands are build, car, drive" in capsys.readouterr().err
     assert main([]) == 2
 
 

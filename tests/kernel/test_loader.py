@@ -71,7 +71,16 @@ LIMITS = {"s": "nsig", "S": "nsig", "e": "ne", "u": "nu", "g": "ng", "G": "ng", 
 ORDERS = {"d": 3, "b": 2, "k": 4, "q": 4, "P": 4, "h": len(SolverValue)}
 LEAST = {"S": -1, "G": -1, "N": 1, "P": 2}
 REALS_OF = {"REACTION": 2, "REACTION_PRODUCTS": 2, "QUASI_STATIC": 21}
-SCALED = ("SIGNAL", "SIGNAL_RATE", "SIGNAL_SECOND_RATE", "ANGULAR_RATE", "ELEMENT_OUTPUT", "GUIDE", "MASS")
+SCALED = (
+    "SIGNAL",
+    "SIGNAL_RATE",
+    "SIGNAL_SECOND_RATE",
+    "ANGULAR_RATE",
+    "ELEMENT_OUTPUT",
+    "GUIDE",
+    "MASS",
+    "GUIDE_EXCESS",
+)
 
 
 def letters_of(entry: SensorEntry) -> str:

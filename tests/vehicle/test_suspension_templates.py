@@ -167,7 +167,7 @@ def test_two_freedoms_an_axle_and_the_spins():
         ({"rear.anti_roll_bar.points.pivot": [-2.25, -0.35, 0.36]}, "points.pivot has y = -0.35 m"),
         ({"rear.suspension.points.cross_beam": [-2.3, 0.0, 0.3]}, "cross_beam has y = 0 m"),
         ({"rear.suspension.torsional_stiffness": 1.3}, "torsional_stiffness is 1.3; it must be between"),
-        ({"front.suspension.points.strut_top": [-0.04, 0.545, 830.0]}, "strut_top.2 is 830"),
+        ({"front.suspension.points.strut_top": [-0.04, 0.545, 830.0]}, r"strut_top.2 \(z\) is 830"),
     ],
 )
 def test_a_file_that_cannot_be_is_refused_with_a_sentence(changes, sentence):

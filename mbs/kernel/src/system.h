@@ -6,8 +6,8 @@
 #include "../include/ali3.h"
 
 /* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
- * is known of assembly modes or of a start in equilibrium, all parameters are tunable and without offset, and there
- * are no payloads. */
+ * is known of assembly modes or of a start in equilibrium, no guide has two inputs, all parameters are tunable and
+ * without offset, and there are no payloads. */
 /* clang-format off */
 #define ALI3_OPTIONAL_ARRAYS(X) \
   X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
@@ -16,7 +16,8 @@
   X(int32_t, 1, pose_partner) \
   X(double, 2, par_offset) X(int32_t, 1, par_fixed) \
   X(double, 2, payload_mass) X(int32_t, 1, payload_signal) X(double, 2, payload_gravity) \
-  X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place)
+  X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place) \
+  X(int32_t, 1, guide_second)
 
 #define ALI3_SYSTEM_ARRAYS(X) \
   X(unsigned char, 3, meta) \

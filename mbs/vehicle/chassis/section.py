@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from mbs.vehicle.chassis.frame_section import FrameSection
+from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import (
     Coefficient,
     HysteresisLoss,
@@ -46,7 +47,7 @@ class Chassis(Section):
     """Entries xy, xz and yz of the inertia tensor, which are minus the integrals of x y, x z and y z over the mass."""
     reference: Point
     """Point that carries a floating frame."""
-    accelerometers: dict[str, Point] = Field(default_factory=dict)
+    accelerometers: dict[Name, Point] = Field(default_factory=dict)
     """Accelerometers by name."""
     frame: FrameSection | None = None
     """Flexible frame; without it the chassis is rigid and has no stresses."""

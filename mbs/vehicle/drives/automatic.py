@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Literal
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import Field
 
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.model.spin import Spin
@@ -40,7 +43,7 @@ class Automatic(Section):
     """Torque ratio of the converter at stall."""
     creep_torque: CreepTorque
     """Torque per driven wheel at rest with closed throttle, the selector in drive; 0: neutral."""
-    ratios: tuple[Ratio, ...]
+    ratios: Annotated[tuple[Ratio, ...], Field(min_length=1, max_length=12)]
     """Total ratio of each gear, first gear first."""
     ratio_factor: RatioFactor = 1.0
     """Factor on all ratios, reverse among them, as a final drive has it."""
@@ -74,6 +77,28 @@ class Automatic(Section):
     """Least time between shifts."""
     ramp: Time = 0.2
     """Duration of a shift."""
+
+    def faults(self) -> Iterator[str]:
+        """Gears and speeds are in order."""
+        ratios = list(self.ratios)
+        if any(b >= a for a, b in pairwise(ratios)):
+            yield f"{self.key('ratios')} is {ratios}; they must fall from first gear on."
+            return
+        if not self.idle_speed <= self.stall_speed < self.limit_speed:
+            yield (
+                f"{self.key('idle_speed')}, stall_speed and limit_speed are {self.idle_speed:g}, {self.stall_speed:g} "
+                f"and {self.limit_speed:g} rad/s; they must rise."
+            )
+        if self.dwell < self.ramp:
+            yield f"{self.key('dwell')} is {self.dwell:g} s; it must not be less than ramp, {self.ramp:g} s."
+        for throttle in ("closed", "open"):
+            up, down = getattr(self, f"up_{throttle}"), getattr(self, f"down_{throttle}")
+            least = max((low / high for low, high in pairwise(ratios)), default=0.0) * down
+            if up <= least and len(ratios) > 1:
+                yield (
+                    f"{self.key(f'up_{throttle}')} is {up:g} rad/s; it must be more than {least:.4g} rad/s, or the "
+                    f"drive shifts down again at once, below down_{throttle} of {down:g} rad/s."
+                )
 
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
         """Add the drive; its reaction is on the chassis.

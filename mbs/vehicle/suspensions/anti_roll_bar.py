@@ -5,12 +5,16 @@ Levers and links have no mass of their own; that of the bar is in the chassis, t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
+from mbs.vehicle.geometry import LEAST
 from mbs.vehicle.quantities import Factor, Point, TorsionalStiffness
 from mbs.vehicle.section import Section
+
+DEAD_POINT = 0.2  # sine between lever and link, seen along the bar
 
 
 class AntiRollBarPoints(Section):
@@ -22,6 +26,22 @@ class AntiRollBarPoints(Section):
     """End of the lever, where the drop link begins."""
     link_end: Point
     """End of the drop link on the suspension."""
+
+    def faults(self) -> Iterator[str]:
+        """The link must turn its lever."""
+        lever = self.lever_end[0] - self.pivot[0], self.lever_end[2] - self.pivot[2]  # seen along the bar
+        link = self.link_end[0] - self.lever_end[0], self.link_end[2] - self.lever_end[2]
+        length, rod = math.hypot(*lever), math.dist(self.link_end, self.lever_end)
+        if length < LEAST:
+            yield (
+                f"{self.key('lever_end')} lies {length:.3g} m from the axis of the bar; "
+                f"a lever is {LEAST:g} m long or more."
+            )
+        elif rod < LEAST or abs(lever[0] * link[1] - lever[1] * link[0]) < DEAD_POINT * length * rod:
+            yield (
+                f"{self.key('link_end')} is where the drop link cannot turn its lever; "
+                f"the link must be {LEAST:g} m long or more and stand across the lever."
+            )
 
 
 class AntiRollBar(Section):

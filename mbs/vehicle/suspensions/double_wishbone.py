@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
 from mbs.elements.spring_damper import EndStops
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.geometry import apart, farther, off_line, steering_axis
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import HysteresisLoss, Length, Point, SmallLength, StopStiffness
 from mbs.vehicle.section import Section
@@ -38,6 +40,26 @@ class DoubleWishbonePoints(Section):
     """Lower end of the spring on the lower wishbone."""
     spring_upper: Point
     """Upper end of the spring on the chassis."""
+
+    def faults(self) -> Iterator[str]:
+        """Arms, links, axes and the spring must have a length, and be where their names say."""
+        for part in ("lower", "upper"):
+            pivots, ball = (f"{part}_pivot_front", f"{part}_pivot_rear"), f"{part}_ball_joint"
+            yield from apart(self, *pivots, f"the axis of the {part} wishbone")
+            yield from farther(self, "x", pivots[0], pivots[1], "ahead of", "so they are called")
+            yield from off_line(self, ball, pivots, f"the {part} wishbone", "the axis of its pivots", 0.05)
+            for pivot in pivots:
+                yield from farther(self, "y", ball, pivot, "outside of", "the wishbone carries the wheel")
+        axis = ("lower_ball_joint", "upper_ball_joint")
+        yield from farther(self, "z", axis[1], axis[0], "above", "the steering axis goes through both", 0.05)
+        yield from steering_axis(self, *axis)
+        yield from off_line(self, "tie_rod_outer", axis, "the steering arm", "the steering axis")
+        yield from apart(self, "tie_rod_inner", "tie_rod_outer", "the tie rod", 0.05)
+        yield from farther(self, "y", "tie_rod_outer", "tie_rod_inner", "outside of", "so they are called")
+        yield from apart(self, "spring_lower", "spring_upper", "the spring", 0.05)
+        yield from farther(self, "z", "spring_upper", "spring_lower", "above", "the spring carries the car")
+        pivots = ("lower_pivot_front", "lower_pivot_rear")
+        yield from off_line(self, "spring_lower", pivots, "the lever of the spring", "the axis of the lower wishbone")
 
 
 class DoubleWishboneBodies(Section):
@@ -79,6 +101,20 @@ class DoubleWishbone(Section):
     """Masses and inertias."""
     steering_stop: SteeringStop | None = None
     """Stop that keeps a knuckle pulled out at full lock from turning over."""
+
+    near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "upper_ball_joint", "tie_rod_outer")
+    """Points on what carries the wheel."""
+
+    def faults(self) -> Iterator[str]:
+        """The steering stop must not act in the drawing."""
+        if self.steering_stop is None:
+            return
+        drawn = math.dist(self.points.tie_rod_outer, self.points.lower_pivot_front)
+        if not 0.3 * drawn <= self.steering_stop.length < drawn:
+            yield (
+                f"{self.steering_stop.key('length')} is {self.steering_stop.length:g} m; it must be less than the "
+                f"{drawn:.4g} m between its points as drawn, and no less than {0.3 * drawn:.2g} m."
+            )
 
     @property
     def steering_arm(self) -> Point:

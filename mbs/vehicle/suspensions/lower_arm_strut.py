@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.geometry import apart, farther, off_line, steering_axis
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point
 from mbs.vehicle.section import Section
@@ -32,6 +33,21 @@ class LowerArmStrutPoints(Section):
     strut_top: Point
     """Top of the strut on the chassis, upper end of the spring; the strut's axis goes through the ball joint."""
 
+    def faults(self) -> Iterator[str]:
+        """Arm, link, axes and strut must have a length, and be where their names say."""
+        pivots = ("lower_pivot_front", "lower_pivot_rear")
+        yield from apart(self, *pivots, "the axis of the lower arm")
+        yield from farther(self, "x", pivots[0], pivots[1], "ahead of", "so they are called")
+        yield from off_line(self, "lower_ball_joint", pivots, "the lower arm", "the axis of its pivots", 0.05)
+        for pivot in pivots:
+            yield from farther(self, "y", "lower_ball_joint", pivot, "outside of", "the arm carries the wheel")
+        axis = ("lower_ball_joint", "strut_top")
+        yield from farther(self, "z", axis[1], axis[0], "above", "the strut stands between both", 0.05)
+        yield from steering_axis(self, *axis)
+        yield from off_line(self, "toe_link_outer", axis, "the steering arm", "the axis of the strut")
+        yield from apart(self, "toe_link_inner", "toe_link_outer", "the toe link", 0.05)
+        yield from farther(self, "y", "toe_link_outer", "toe_link_inner", "outside of", "so they are called")
+
 
 class LowerArmStrutBodies(Section):
     """Parts of the left side."""
@@ -51,6 +67,9 @@ class LowerArmStrut(Section):
     """Hard points."""
     bodies: LowerArmStrutBodies
     """Masses and inertias."""
+
+    near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "toe_link_outer")
+    """Points on what carries the wheel."""
 
     @property
     def steering_arm(self) -> Point:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.geometry import apart, farther, off_line, steering_axis
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point
 from mbs.vehicle.section import Section
@@ -34,6 +35,22 @@ class MacPhersonPoints(Section):
     tie_rod_outer: Point
     """Outer end of the tie rod on the upright."""
 
+    def faults(self) -> Iterator[str]:
+        """Arm, rod, axes and strut must have a length, and be where their names say."""
+        pivots = ("lower_pivot_front", "lower_pivot_rear")
+        yield from apart(self, *pivots, "the axis of the lower arm")
+        yield from farther(self, "x", pivots[0], pivots[1], "ahead of", "so they are called")
+        yield from off_line(self, "lower_ball_joint", pivots, "the lower arm", "the axis of its pivots", 0.05)
+        for pivot in pivots:
+            yield from farther(self, "y", "lower_ball_joint", pivot, "outside of", "the arm carries the wheel")
+        yield from farther(self, "z", "strut_top", "strut_lower", "above", "the spring stands between both", 0.05)
+        axis = ("lower_ball_joint", "strut_top")
+        yield from farther(self, "z", axis[1], axis[0], "above", "the steering axis goes through both", 0.05)
+        yield from steering_axis(self, *axis)
+        yield from off_line(self, "tie_rod_outer", axis, "the steering arm", "the steering axis")
+        yield from apart(self, "tie_rod_inner", "tie_rod_outer", "the tie rod", 0.05)
+        yield from farther(self, "y", "tie_rod_outer", "tie_rod_inner", "outside of", "so they are called")
+
 
 class MacPhersonBodies(Section):
     """Parts of the left side."""
@@ -53,6 +70,9 @@ class MacPherson(Section):
     """Hard points."""
     bodies: MacPhersonBodies
     """Masses and inertias."""
+
+    near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "tie_rod_outer")
+    """Points on what carries the wheel."""
 
     @property
     def steering_arm(self) -> Point:

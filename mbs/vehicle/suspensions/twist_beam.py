@@ -12,11 +12,13 @@ and roll, and mirrored motions are mirrored; each bush takes the side force of i
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.geometry import LEAST, apart, farther
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point, TorsionalStiffness
 from mbs.vehicle.section import Section
@@ -42,6 +44,20 @@ class TwistBeamPoints(Section):
     damper_upper: Point
     """Upper end of the damper on the chassis."""
 
+    def faults(self) -> Iterator[str]:
+        """Arm, spring and damper must have a length, and stand upright."""
+        yield from apart(self, "pivot", "cross_beam", "the arm to the cross-beam")
+        for part in ("spring", "damper"):
+            lower, upper = f"{part}_lower", f"{part}_upper"
+            yield from apart(self, lower, upper, f"the {part}", 0.05)
+            yield from farther(self, "z", upper, lower, "above", f"the {part} stands on the axle")
+            arm = math.hypot(*(getattr(self, lower)[k] - self.pivot[k] for k in (0, 2)))
+            if arm < LEAST:
+                yield (
+                    f"{self.key(lower)} is {arm:.3g} m from the axis of {self.key('pivot')}; the lever of the {part} "
+                    f"is {LEAST:g} m long or more."
+                )
+
 
 class TwistBeamBodies(Section):
     """Parts of the left side."""
@@ -61,6 +77,9 @@ class TwistBeam(Section):
     """Hard points."""
     bodies: TwistBeamBodies
     """Masses and inertias."""
+
+    near_wheel: ClassVar[tuple[str, ...]] = ()
+    """Points on what carries the wheel and near to it."""
 
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left half, then the right one, then what joins them.

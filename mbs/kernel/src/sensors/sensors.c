@@ -5,6 +5,7 @@
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../rows/guides.h"
 #include "../state/work.h"
 #include "../system/sensor_types.h"
 #include "sensors.h"
@@ -210,6 +211,12 @@ static double value_input(const ali3_instance *in, const int32_t *v, const doubl
 static double value_guide(const ali3_instance *in, const int32_t *v, const double *real) {
   const double *of_order[3] = {in->now.s, in->now.sd, in->now.sdd};
   return real[0] * of_order[v[1]][v[0]];
+}
+
+static double value_guide_excess(const ali3_instance *in, const int32_t *v, const double *real) {
+  if (!ali3_guide_filters(in->system->guide_type[v[0]])) return 0.0;
+  const double demand = ali3_guide_demand(in, v[0], in->now.used);
+  return real[0] * (demand - ali3_guide_held(in, v[0], demand));
 }
 
 static double value_solver(const ali3_instance *in, const int32_t *v, const double *real) {

@@ -137,7 +137,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->road_real, S->road_real, S->n_road_real);
   copy(in->payload_mass, S->payload_mass, S->n_payload_mass);
   for (int32_t g = 0; g < S->size.ng; g++)
-    if (S->guide_type[g] == ALI3_GUIDE_OF_INPUT) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
+    if (ali3_guide_filters(S->guide_type[g])) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {
     const ali3_road road = {.type = S->road_type[r],
                             .nreal = S->road_real_ptr[r + 1] - S->road_real_ptr[r],

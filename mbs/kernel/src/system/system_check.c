@@ -119,9 +119,14 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
   CHECK(ali3_check_length(m, "guide_input", s->n_guide_input, ng));
   CHECK(ali3_check_pointers(m, "guide_real_ptr", s->guide_real_ptr, s->n_guide_real_ptr, ng, s->n_guide_real));
   CHECK(ali3_check_indices(m, "guide_type", s->guide_type, ng, 0, ALI3_GUIDE_TYPE_COUNT));
-  for (int32_t g = 0; g < ng; g++)
-    if (s->guide_type[g] == ALI3_GUIDE_OF_INPUT)
-      CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
+  if (s->n_guide_second != 0) CHECK(ali3_check_length(m, "guide_second", s->n_guide_second, ng));
+  for (int32_t g = 0; g < ng; g++) {
+    if (!ali3_guide_filters(s->guide_type[g])) continue;
+    CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
+    if (s->guide_type[g] != ALI3_GUIDE_OF_TWO_INPUTS) continue;
+    if (s->n_guide_second == 0) return ali3_bad(m, "guide %d has two inputs and guide_second is missing", (int)g);
+    CHECK(ali3_check_indices(m, "guide_second", s->guide_second + g, 1, 0, s->size.nu));
+  }
   return ali3_check_pointers(m, "road_real_ptr", s->road_real_ptr, s->n_road_real_ptr, s->nr, s->n_road_real);
 }
 

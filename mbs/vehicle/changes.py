@@ -1,0 +1,74 @@
+"""The content of a car file with other values, by key path."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from mbs.checks import shown
+from mbs.vehicle.errors import CarFileError
+
+
+def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: str) -> dict[str, Any]:
+    """A copy with other values.
+
+    Parameters
+    ----------
+    data : mapping
+        Tables of the file.
+    values : mapping of str to object
+        By key path; keys that are not there yet are added.
+    what : str
+        How messages call the car.
+
+    Raises
+    ------
+    CarFileError
+        A key path is none, or leads through a value.
+    """
+    if not isinstance(values, Mapping):
+        raise CarFileError(f"{what}: the changes are {shown(values)}; they must be a mapping from key paths to values.")
+    new = copy.deepcopy(dict(data))
+    for path, value in values.items():
+        if not isinstance(path, str) or not all(path.split(".")):
+            raise CarFileError(f'{what}: {shown(path)} is no key path; one is "front.spring.stiffness".')
+        *tables, last = path.split(".")
+        table: Any = new
+        for k, key in enumerate(tables):
+            if isinstance(table, dict):
+                table = table.setdefault(key, {})
+            else:
+                table = table[_place(table, key, tables[:k], what)]
+            if not isinstance(table, (dict, list)):
+                raise CarFileError(
+                    f"{what}: {path} is not known; {'.'.join(tables[: k + 1])} is {shown(table)}, which has no keys."
+                )
+        if isinstance(table, list):
+            table[_place(table, last, tables, what)] = _plain(value)
+        else:
+            table[last] = _plain(value)
+    return new
+
+
+def _place(table: list[Any], key: str, tables: list[str], what: str) -> int:
+    """Index of an element of a list."""
+    if not key.isdigit() or int(key) >= len(table):
+        where = ".".join(tables)
+        raise CarFileError(f"{what}: {where}.{key} is not known; {where} is a list of {len(table)}, counted from 0.")
+    return int(key)
+
+
+def _plain(value: Any) -> Any:
+    """As a file would have it: numbers of Python, lists and tables."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, Mapping):
+        return {key: _plain(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    return value

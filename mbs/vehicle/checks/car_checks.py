@@ -1,0 +1,60 @@
+"""All checks of a car."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from mbs.vehicle.checks.dimensions import dimension_faults
+from mbs.vehicle.checks.frame_tables import frame_faults
+from mbs.vehicle.checks.masses import mass_faults, mass_oddities
+from mbs.vehicle.checks.places import place_faults, place_oddities
+from mbs.vehicle.checks.rates import rate_oddities
+from mbs.vehicle.checks.steered_angle import steering_oddities
+from mbs.vehicle.checks.tyres import tyre_faults, tyre_oddities
+from mbs.vehicle.section import sections_of
+
+if TYPE_CHECKING:
+    from mbs.vehicle.car import Car
+    from mbs.vehicle.checks.equilibrium import Rest
+
+
+def car_faults(car: Car) -> list[str]:
+    """A sentence for each fault, without the equilibrium, which `settled` looks for.
+
+    Parameters
+    ----------
+    car : Car
+        Each number of it is in its range.
+    """
+    return list(_faults(car))
+
+
+def _faults(car: Car) -> Iterator[str]:
+    for section in sections_of(car):
+        yield from section.faults()
+    yield from dimension_faults(car)
+    yield from place_faults(car)
+    yield from mass_faults(car)
+    yield from tyre_faults(car)
+    yield from frame_faults(car)
+
+
+def car_oddities(car: Car, rest: Rest) -> list[str]:
+    """A sentence for each thing that is odd.
+
+    Parameters
+    ----------
+    car : Car
+        Without faults.
+    rest : Rest
+        The car at rest.
+    """
+    return [
+        *rest.oddities(car),
+        *place_oddities(car),
+        *mass_oddities(car),
+        *tyre_oddities(car, rest),
+        *rate_oddities(car, rest),
+        *steering_oddities(car),
+    ]

@@ -1,0 +1,137 @@
+"""Where the car comes to rest, against where it is drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from mbs.compiler import compile
+from mbs.simulation import Simulation
+
+if TYPE_CHECKING:
+    from mbs.vehicle.axle import Axle
+    from mbs.vehicle.car import Car
+
+ODD, TOO_FAR = 0.02, 0.15  # m: a wheel's travel between drawing and rest
+LEAST_LENGTH = 0.4  # of the free length: a coil spring that is shorter is a block
+ODD_DEFLECTION = 0.005  # m: the same of a tyre's deflection
+ODD_LEAN = math.radians(0.5)
+
+
+@dataclass(frozen=True)
+class Rest:
+    """The car at rest.
+
+    Attributes
+    ----------
+    travel : mapping of str to float
+        From the drawing, by axle, mean of both wheels, m, positive in bump.
+    load, spring_force, deflection : mapping of str to float
+        Of a wheel, N, of its spring, N, and of its tyre, m; means of both sides.
+    spring_length : mapping of str to float
+        By axle, m.
+    lean : float
+        Roll angle, rad, positive with the left side up.
+    """
+
+    travel: dict[str, float]
+    load: dict[str, float]
+    spring_force: dict[str, float]
+    deflection: dict[str, float]
+    spring_length: dict[str, float]
+    lean: float
+
+    def faults(self, car: Car) -> Iterator[str]:
+        """A sentence for each axle far from where it is drawn.
+
+        Parameters
+        ----------
+        car : Car
+            At rest.
+        """
+        yield from self._moved(car, TOO_FAR, math.inf)
+        for name, axle in _axles(car):
+            free, length = getattr(axle.spring, "free_length", None), self.spring_length[name]
+            if free is not None and not LEAST_LENGTH * free <= length:
+                yield (
+                    f"{axle.spring.key('free_length')} is {free:g} m, but at rest the spring has {length:.3g} m "
+                    f"between its points; it must be {length / LEAST_LENGTH:.3g} m or less."
+                )
+
+    def oddities(self, car: Car) -> Iterator[str]:
+        """A sentence for each difference from the drawing.
+
+        Parameters
+        ----------
+        car : Car
+            At rest.
+        """
+        yield from self._moved(car, ODD, TOO_FAR)
+        for name, axle in _axles(car):
+            drawn, found = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
+            if abs(found - drawn) > ODD_DEFLECTION:
+                yield (
+                    f"{axle.tyre.key('stiffness')} is {axle.tyre.stiffness:g} N/m: at rest the load of "
+                    f"{self.load[name]:.0f} N presses the tyre in by {found:.3g} m, but {axle.tyre.key('radius')} less "
+                    f"the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
+                )
+        if abs(self.lean) > ODD_LEAN:
+            yield (
+                f"at rest the car leans by {math.degrees(abs(self.lean)):.2g} deg to the "
+                f"{'right' if self.lean > 0.0 else 'left'}: its masses are not balanced sideways, or "
+                "a spring is soft."
+            )
+
+    def _moved(self, car: Car, low: float, high: float) -> Iterator[str]:
+        for name, axle in _axles(car):
+            travel = self.travel[name]
+            if low < abs(travel) <= high:
+                spring = axle.spring
+                values = [
+                    f"{spring.key(key)} {value:g} {unit}"
+                    for key, unit in (("free_length", "m"), ("stiffness", "N/m"))
+                    if (value := getattr(spring, key, None)) is not None
+                ]
+                yield (
+                    f"at rest the {name} wheels stand {abs(travel):.3g} m {'higher' if travel > 0.0 else 'lower'} "
+                    f"in the chassis than {axle.wheel.key('centre')} is drawn, at a load of {self.load[name]:.0f} N "
+                    f"each and {abs(self.spring_force[name]):.0f} N in each spring ({', '.join(values)}); a car is "
+                    "drawn in its equilibrium."
+                )
+
+
+def settled(car: Car) -> Rest:
+    """Compile the car and let the kernel find its equilibrium.
+
+    Parameters
+    ----------
+    car : Car
+        Without faults.
+
+    Raises
+    ------
+    ModelError, SimulationError
+        Its parts refuse a number, or it has no equilibrium.
+    """
+    at_rest = Simulation(compile(car.model())).sensors
+
+    def mean(name: str, axle: str) -> float:
+        return 0.5 * sum(at_rest[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
+
+    def means(name: str) -> dict[str, float]:
+        return {axle: mean(name, axle) for axle, _ in _axles(car)}
+
+    return Rest(
+        means("wheel_{}.travel"),
+        means("wheel_{}.Fz"),
+        means("spring_{}.force"),
+        means("wheel_{}.deflection"),
+        means("spring_{}.length"),
+        at_rest["chassis.roll"],
+    )
+
+
+def _axles(car: Car) -> tuple[tuple[str, Axle], tuple[str, Axle]]:
+    return ("front", car.front), ("rear", car.rear)

@@ -1,0 +1,155 @@
+"""Masses, centres of mass and inertias."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mbs.vehicle.checks.places import parts_of
+
+if TYPE_CHECKING:
+    from mbs.vehicle.axle import Wheel
+    from mbs.vehicle.car import Car
+
+MASS_TOLERANCE = 0.005  # of the car's mass
+REFERENCE_TOLERANCE = 0.1  # m, between the reference point and the centre of mass that it is
+SHARE = 0.15  # least share of the weight on an axle
+ASIDE = 0.1  # of the track: most that the centre of mass is off the middle
+PART_RADII = 0.01, 0.6  # m: radii of gyration of parts of a suspension
+SMALL_PRODUCT = 1e-4  # of the largest moment
+BODY_RADII = 0.1, 0.5  # of the car's width about x, of its length about y and z; all mass at the ends: 0.5
+
+
+def mass_faults(car: Car) -> Iterator[str]:
+    """A sentence for each fault.
+
+    Parameters
+    ----------
+    car : Car
+        Each number of it is in its range.
+    """
+    yield from _sum(car)
+    for part in parts_of(car):
+        yield from _tensor(part.key("inertia"), part.inertia)
+        for axis, moment in zip("xyz", part.inertia, strict=True):
+            radius = math.sqrt(moment / part.mass)
+            if not PART_RADII[0] <= radius <= PART_RADII[1]:
+                yield (
+                    f"{part.key('inertia')} has {moment:g} kg.m2 about {axis}: with the mass of {part.mass:g} kg a "
+                    f"radius of gyration of {radius:.3g} m; it must be between {PART_RADII[0]:g} and "
+                    f"{PART_RADII[1]:g} m."
+                )
+    yield from _chassis(car)
+    for axle in (car.front, car.rear):
+        yield from _wheel(axle.wheel, axle.tyre.radius)
+
+
+def mass_oddities(car: Car) -> Iterator[str]:
+    """A sentence for each thing that is odd.
+
+    Parameters
+    ----------
+    car : Car
+        Without faults.
+    """
+    least = SMALL_PRODUCT * max(car.chassis.inertia)
+    for k, (axes, product) in enumerate(zip(("xy", "xz", "yz"), car.chassis.products, strict=True)):
+        if 0.0 < abs(product) < least:
+            yield (
+                f"{car.chassis.key('products')}.{k} ({axes}) is {product:g} kg.m2, less than {least:.2g} kg.m2 beside "
+                f"{car.chassis.key('inertia')} but not 0: is the unit kg.m2?"
+            )
+
+
+def weighed_points(car: Car) -> list[tuple[float, tuple[float, float, float]]]:
+    """Masses with their places as drawn, of both sides, with the payloads.
+
+    Parameters
+    ----------
+    car : Car
+        Each number of it is in its range.
+    """
+    found = [(car.chassis.mass, car.chassis.com)]
+    found += [(load.mass, load.point) for load in getattr(car, "payload", {}).values()]
+    left = [(part.mass, part.com) for part in parts_of(car)]
+    left += [(axle.wheel.mass, axle.wheel.centre) for axle in (car.front, car.rear)]
+    return found + [(mass, (x, side * y, z)) for mass, (x, y, z) in left for side in (1.0, -1.0)]
+
+
+def _sum(car: Car) -> Iterator[str]:
+    weighed = weighed_points(car)
+    loads = sum(load.mass for load in getattr(car, "payload", {}).values())
+    total = sum(mass for mass, _ in weighed)
+    given = car.vehicle.mass
+    if abs(total - loads - given) > MASS_TOLERANCE * given:
+        yield f"{car.vehicle.key('mass')} is {given:g} kg, but the masses of all parts add up to {total - loads:g} kg."
+        return
+    centre = [sum(mass * place[k] for mass, place in weighed) / total for k in range(3)]
+    off = math.dist(centre, car.vehicle.reference_point)
+    if off > REFERENCE_TOLERANCE:
+        yield (
+            f"{car.vehicle.key('reference_point')} is {list(car.vehicle.reference_point)} m, {off:.3g} m from the "
+            f"centre of mass of all parts, {[round(c, 4) for c in centre]} m, which it is."
+        )
+    share = 1.0 + centre[0] / max(car.wheelbase, 1e-3)
+    if not SHARE <= share <= 1.0 - SHARE:
+        yield (
+            f"{car.chassis.key('com')} leaves {share:.0%} of the weight to the front axle; it must be between "
+            f"{SHARE:.0%} and {1.0 - SHARE:.0%}."
+        )
+    track = min(car.front.track, car.rear.track)
+    if abs(centre[1]) > ASIDE * track:
+        yield (
+            f"{car.chassis.key('com')} puts the centre of mass of the car {abs(centre[1]):.3g} m aside; it must be "
+            f"less than {ASIDE * track:.3g} m."
+        )
+    if not 0.1 * track <= centre[2] <= track:
+        yield (
+            f"{car.chassis.key('com')} puts the centre of mass of the car at a height of {centre[2]:.3g} m; with a "
+            f"track of {track:g} m it must be between {0.1 * track:.3g} and {track:g} m."
+        )
+
+
+def _tensor(key: str, inertia: tuple[float, float, float]) -> Iterator[str]:
+    if 2.0 * max(inertia) > sum(inertia) * (1.0 + 1e-9):
+        yield f"{key} is {list(inertia)} kg.m2; no moment of inertia is larger than the sum of the two others."
+
+
+def _chassis(car: Car) -> Iterator[str]:
+    chassis = car.chassis
+    size = car.vehicle.width, car.vehicle.length, car.vehicle.length
+    for axis, moment, extent in zip("xyz", chassis.inertia, size, strict=True):
+        radius = math.sqrt(moment / chassis.mass)
+        low, high = BODY_RADII[0] * extent, BODY_RADII[1] * extent
+        if not low <= radius <= high:
+            yield (
+                f"{chassis.key('inertia')} has {moment:g} kg.m2 about {axis}: a radius of gyration of {radius:.3g} m; "
+                f"in a car of {car.vehicle.length:g} by {car.vehicle.width:g} m it must be between {low:.3g} and "
+                f"{high:.3g} m."
+            )
+    moments = np.linalg.eigvalsh(np.array(chassis.tensor))
+    if moments[0] <= 0.0 or moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9):
+        yield (
+            f"{chassis.key('inertia')} {list(chassis.inertia)} and {chassis.key('products')} {list(chassis.products)} "
+            f"have the principal moments {[round(float(v), 4) for v in moments]} kg.m2; each must be positive and none "
+            "larger than the sum of the two others."
+        )
+
+
+def _wheel(wheel: Wheel, radius: float) -> Iterator[str]:
+    gyration = math.sqrt(wheel.spin_inertia / wheel.mass)
+    if not 0.35 * radius <= gyration <= radius:
+        yield (
+            f"{wheel.key('spin_inertia')} is {wheel.spin_inertia:g} kg.m2: with the mass of {wheel.mass:g} kg a radius "
+            f"of gyration of {gyration:.3g} m; in a tyre of {radius:g} m it must be between {0.35 * radius:.3g} and "
+            f"{radius:g} m."
+        )
+    if not 0.5 <= wheel.diametral_inertia / wheel.spin_inertia <= 1.5:
+        yield (
+            f"{wheel.key('diametral_inertia')} is {wheel.diametral_inertia:g} kg.m2; it must be between half of "
+            f"{wheel.key('spin_inertia')} and 1.5 times it, {0.5 * wheel.spin_inertia:g} and "
+            f"{1.5 * wheel.spin_inertia:g} kg.m2."
+        )

@@ -1,0 +1,64 @@
+"""Ride frequency, damping ratio and braking, which say whether springs, dampers and brakes fit the car."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.environment import GRAVITY
+
+if TYPE_CHECKING:
+    from mbs.vehicle.car import Car
+    from mbs.vehicle.checks.equilibrium import Rest
+
+RIDE = 0.7, 6.0  # Hz, from soft to racing
+DAMPING = 0.05, 1.5  # of the critical damping
+BRAKING = 0.3, 4.0  # of the weight, at full pedal
+
+
+def rate_oddities(car: Car, rest: Rest) -> Iterator[str]:
+    """A sentence for each thing that is odd.
+
+    The motion ratio of a spring is the load that it carries, wheel load less unsprung weight, over its force: virtual
+    work at rest.
+
+    Parameters
+    ----------
+    car : Car
+        Without faults.
+    rest : Rest
+        The car at rest.
+    """
+    for name, axle in (("front", car.front), ("rear", car.rear)):
+        unsprung = axle.wheel.mass + sum(part.mass for part in parts_of(axle))
+        carried = rest.load[name] - GRAVITY * unsprung
+        force = abs(rest.spring_force[name])
+        stiffness, damping = getattr(axle.spring, "stiffness", None), getattr(axle.damper, "damping", None)
+        if stiffness is None or force < 1.0 or carried <= 0.0:
+            continue
+        ratio = carried / force
+        rate, mass = stiffness * ratio**2, carried / GRAVITY
+        ride = math.sqrt(rate / mass) / (2.0 * math.pi)
+        if not RIDE[0] <= ride <= RIDE[1]:
+            yield (
+                f"{axle.spring.key('stiffness')} is {stiffness:g} N/m: with the motion ratio of {ratio:.2g} and "
+                f"{mass:.0f} kg on each {name} wheel a ride frequency of {ride:.2g} Hz; usual is {RIDE[0]:g} to "
+                f"{RIDE[1]:g} Hz."
+            )
+        share = damping * ratio**2 / (2.0 * math.sqrt(rate * mass)) if damping is not None else DAMPING[0]
+        if not DAMPING[0] <= share <= DAMPING[1]:
+            yield (
+                f"{axle.damper.key('damping')} is {damping:g} N.s/m: {share:.2g} of the critical damping of the "
+                f"{name} end on its springs; usual is {DAMPING[0]:g} to {DAMPING[1]:g}."
+            )
+    weight = 2.0 * (rest.load["front"] + rest.load["rear"])
+    pairs = [(getattr(car.brakes, name, None), getattr(car, name).wheel.centre[2]) for name in ("front", "rear")]
+    torques = [(getattr(brake, "torque", None), radius) for brake, radius in pairs]
+    braking = sum(2.0 * torque / radius for torque, radius in torques if torque is not None) / weight
+    if all(torque is not None for torque, _ in torques) and not BRAKING[0] <= braking <= BRAKING[1]:
+        yield (
+            f"brakes.front.torque and brakes.rear.torque hold {braking:.2g} of the weight at full pedal; usual is "
+            f"{BRAKING[0]:g} to {BRAKING[1]:g}."
+        )

@@ -1,0 +1,76 @@
+"""Tyres: their radius against the drawing, their curves, their load."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mbs.vehicle.axle import Axle
+    from mbs.vehicle.car import Car
+    from mbs.vehicle.checks.equilibrium import Rest
+
+LARGEST_DEFLECTION = 0.25  # of the free radius of a tyre at rest
+FRICTION = 0.2, 3.0  # largest force over the load
+LOADS = 0.2, 5.0  # load at rest over the nominal load
+
+
+def tyre_faults(car: Car) -> Iterator[str]:
+    """A sentence for each fault.
+
+    Parameters
+    ----------
+    car : Car
+        Each number of it is in its range.
+    """
+    for axle in (car.front, car.rear):
+        yield from _radii(axle)
+        yield from _friction(axle)
+
+
+def tyre_oddities(car: Car, rest: Rest) -> Iterator[str]:
+    """A sentence for each thing that is odd.
+
+    Parameters
+    ----------
+    car : Car
+        Without faults.
+    rest : Rest
+        The car at rest.
+    """
+    for axle, wheels in ((car.front, "front"), (car.rear, "rear")):
+        load, nominal = rest.load[wheels], axle.tyre.nominal_load
+        if not LOADS[0] <= load / nominal <= LOADS[1]:
+            yield (
+                f"{axle.tyre.key('nominal_load')} is {nominal:g} N, but at rest the wheel carries {load:.0f} N; the "
+                f"curves hold from about {LOADS[0]:g} to {LOADS[1]:g} times the nominal load."
+            )
+
+
+def _radii(axle: Axle) -> Iterator[str]:
+    radius, height = axle.tyre.radius, axle.wheel.centre[2]
+    if not (1.0 - LARGEST_DEFLECTION) * radius < height <= radius:
+        yield (
+            f"{axle.tyre.key('radius')} is {radius:g} m, but {axle.wheel.key('centre')} is {height:g} m above the "
+            f"ground: a car in equilibrium stands on its tyres, {radius:g} m high or less by at most "
+            f"{LARGEST_DEFLECTION:.0%}."
+        )
+        return
+    if not 0.4 * radius <= axle.tyre.bottoming_radius < height:
+        yield (
+            f"{axle.tyre.key('bottoming_radius')} is {axle.tyre.bottoming_radius:g} m; it must be between "
+            f"{0.4 * radius:.3g} m and the height of the wheel's centre, {height:g} m."
+        )
+
+
+def _friction(axle: Axle) -> Iterator[str]:
+    tyre = axle.tyre
+    for curve in (tyre.longitudinal, tyre.lateral):
+        for k, load in enumerate((tyre.nominal_load, 2.0 * tyre.nominal_load)):
+            friction = curve.max_force[k] / load
+            if not FRICTION[0] <= friction <= FRICTION[1]:
+                yield (
+                    f"{curve.key('max_force')}.{k} is {curve.max_force[k]:g} N at a load of {load:g} N "
+                    f"({tyre.key('nominal_load')}{', twice' if k else ''}): a friction of {friction:.3g}; it must be "
+                    f"between {FRICTION[0]:g} and {FRICTION[1]:g}."
+                )

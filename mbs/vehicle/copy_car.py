@@ -1,0 +1,54 @@
+"""Copies a car of the package, so that its file can be changed."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from pathlib import Path
+
+from ali3.errors import FileError
+from ali3.files import reason
+from mbs.checks import shown
+from mbs.vehicle.car_file import CARS, car_names
+from mbs.vehicle.errors import CarFileError
+
+
+def copy_car(name: str, folder: Path) -> list[Path]:
+    """Copy the folder of a car; it is there whole or not at all.
+
+    Parameters
+    ----------
+    name : str
+        Of a car of the package.
+    folder : Path
+        That is made.
+
+    Returns
+    -------
+    list of Path
+        The files in it.
+
+    Raises
+    ------
+    CarFileError
+        There is no such car, or the folder exists.
+    FileError
+        It cannot be written.
+    """
+    if name not in car_names():
+        known = ", ".join(car_names())
+        raise CarFileError(f"There is no car {shown(name)} to copy; the cars of the package are {known}.")
+    if folder.exists() or folder.is_symlink():
+        raise CarFileError(f"{folder} exists; the copy of a car needs a folder that does not.")
+    made = ""
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        made = tempfile.mkdtemp(prefix=".writing-", dir=folder.parent)
+        part = shutil.copytree(CARS / name, Path(made, folder.name), ignore=shutil.ignore_patterns("__pycache__"))
+        part.replace(folder)
+    except OSError as error:
+        raise FileError(f"{folder} cannot be written: {reason(error)}.") from error
+    finally:
+        if made:
+            shutil.rmtree(made, ignore_errors=True)
+    return sorted(path for path in folder.rglob("*") if path.is_file())

@@ -1,0 +1,112 @@
+"""Conditions on the hard points of a template; each gives a sentence where the points do not meet it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from mbs.vehicle.section import Section
+
+LEAST = 0.02  # m: shorter links, arms and levers are none
+
+
+def apart(points: Section, first: str, second: str, what: str, least: float = LEAST) -> Iterator[str]:
+    """Two points must not be at one place.
+
+    Parameters
+    ----------
+    points : Section
+        Table of the points.
+    first, second : str
+        Their names.
+    what : str
+        Stands between them, as in "the tie rod".
+    least : float
+        Distance, m.
+    """
+    far = math.dist(getattr(points, first), getattr(points, second))
+    if far < least:
+        yield f"{points.key(first)} is {far:.3g} m from {points.key(second)}; {what} is {least:g} m long or more."
+
+
+def off_line(
+    points: Section, name: str, ends: tuple[str, str], what: str, line: str, least: float = LEAST
+) -> Iterator[str]:
+    """A point must not lie on the line through two others.
+
+    Parameters
+    ----------
+    points : Section
+        Table of the points.
+    name : str
+        The point.
+    ends : (str, str)
+        The two others.
+    what : str
+        What is between point and line, as in "the steering arm".
+    line : str
+        What the line is, as in "the steering axis".
+    least : float
+        Distance, m.
+    """
+    point, a, b = (np.array(getattr(points, n)) for n in (name, *ends))
+    length = float(np.linalg.norm(b - a))
+    if length < 1e-6:
+        return  # `apart` says so
+    far = float(np.linalg.norm(np.cross(point - a, (b - a) / length)))
+    if far < least:
+        yield f"{points.key(name)} is {far:.3g} m from {line}; {what} is {least:g} m long or more."
+
+
+def farther(
+    points: Section, axis: str, first: str, second: str, way: str, what: str, least: float = 0.0
+) -> Iterator[str]:
+    """A point must lie farther along an axis than another.
+
+    Parameters
+    ----------
+    points : Section
+        Table of the points.
+    axis : {"x", "y", "z"}
+        Of the drawing.
+    first, second : str
+        The point that is farther, and the other.
+    way : str
+        Where the first must be, as in "above".
+    what : str
+        Why, as in "the spring carries the car".
+    least : float
+        By at least, m.
+    """
+    k = "xyz".index(axis)
+    a, b = getattr(points, first)[k], getattr(points, second)[k]
+    if a - b <= least:
+        by = f" by more than {least:g} m" if least else ""
+        yield (
+            f"{points.key(first)} has {axis} = {a:g} m and {points.key(second)} {b:g} m; "
+            f"the first must be {way} the second{by}: {what}."
+        )
+
+
+def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
+    """The steering axis of a wheel stands nearly upright.
+
+    Parameters
+    ----------
+    points : Section
+        Table of the points.
+    lower, upper : str
+        Two points of the axis.
+    """
+    x, y, z = np.subtract(getattr(points, upper), getattr(points, lower))
+    if z <= 0.0:
+        return  # `farther` says so
+    for name, run, low, high in (("caster", -x, -20.0, 30.0), ("inclination", -y, -10.0, 35.0)):
+        angle = math.degrees(math.atan2(run, z))
+        if not low <= angle <= high:
+            yield (
+                f"{points.key(upper)} and {points.key(lower)} give the steering axis a {name} of {angle:.3g} deg; "
+                f"it must be between {low:g} and {high:g} deg."
+            )

@@ -1,0 +1,70 @@
+"""What a car is, as tables of text."""
+
+from __future__ import annotations
+
+from mbs.vehicle.car import Car
+from mbs.vehicle.checks.equilibrium import settled
+from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.section import sections_of
+
+
+def summary(car: Car) -> str:
+    """Masses, loads and dimensions.
+
+    Parameters
+    ----------
+    car : Car
+        Its equilibrium is found.
+    """
+    rest = settled(car)
+    load = {axle: 2.0 * rest.load[axle] for axle in ("front", "rear")}
+    total = load["front"] + load["rear"]
+    rows = [
+        ("car", f"{car.name}: {car.description}"),
+        ("file", str(car.folder)),
+        ("mass at rest", f"{total / GRAVITY:.1f} kg, {load['front'] / total:.1%} on the front axle"),
+        ("wheelbase", f"{car.wheelbase:.3f} m"),
+        ("length, width", f"{car.vehicle.length:g} m, {car.vehicle.width:g} m"),
+    ]
+    for name, axle in (("front", car.front), ("rear", car.rear)):
+        rows += [
+            (f"{name} axle", f"{axle.suspension.kind}, track {axle.track:.3f} m, {load[name]:.0f} N"),
+            (
+                f"{name} springs",
+                f"{abs(rest.spring_force[name]):.0f} N at rest over {rest.spring_length[name]:.4f} m; wheels "
+                f"{1e3 * rest.travel[name]:+.1f} mm from the drawing",
+            ),
+            (
+                f"{name} tyres",
+                f"{axle.tyre.kind}, free radius {axle.tyre.radius:g} m, pressed in by "
+                f"{1e3 * rest.deflection[name]:.1f} mm",
+            ),
+        ]
+    rows += [
+        ("steering", f"{car.steering.kind}, {car.steering.wheel_angle_max:.2f} rad of steering wheel to each side"),
+        ("drive", f"{car.drive.kind}, {car.drive.wheels} wheels"),
+        ("chassis", "rigid" if car.chassis.frame is None else "rigid, or flexible by its frame"),
+        ("parameters", f"{len(car.values())} of the file in the FMU"),
+    ]
+    width = max(len(name) for name, _ in rows)
+    return "\n".join(f"{name:<{width}}  {text}" for name, text in rows)
+
+
+def parameter_table(car: Car) -> str:
+    """Key path, value, unit and range of each number that the FMU has as a parameter.
+
+    Parameters
+    ----------
+    car : Car
+        Any.
+    """
+    rows = [("parameter", "value", "unit", "least", "most", "may change")]
+    values = car.values()
+    for section in sections_of(car):
+        for field in type(section).model_fields:
+            q, path = section.quantity(field), section.key(field)
+            if q is not None and path in values:
+                when = "while driving" if q.change == "tunable" else "before the start"
+                rows.append((path, f"{values[path]:g}", q.unit, f"{q.least:g}", f"{q.high:g}", when))
+    widths = [max(len(row[k]) for row in rows) for k in range(5)]
+    return "\n".join("  ".join([*(row[k].ljust(widths[k]) for k in range(5)), row[5]]) for row in rows)

@@ -1,0 +1,21 @@
+"""Folders with copies of the cars of the package."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+
+from mbs.vehicle.car_file import CARS
+
+
+@pytest.fixture
+def copied(tmp_path):
+    """A function that copies a car of the package and gives its file."""
+
+    def copy(name="prototype"):
+        folder = tmp_path / name
+        shutil.copytree(CARS / name, folder)
+        return folder / "car.toml"
+
+    return copy

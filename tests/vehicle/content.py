@@ -1,0 +1,47 @@
+"""The content of car files for tests that change it."""
+
+from __future__ import annotations
+
+import re
+
+from mbs.vehicle import load
+
+FORBIDDEN = re.compile(r"Input should|validation error|Traceback|pydantic|Field required|Extra inputs|NoneType|\{|\}")
+
+
+def leaves(data, path=()):
+    """Every value of a file that is no table or list, with its key path."""
+    if isinstance(data, dict):
+        for key, value in data.items():
+            yield from leaves(value, (*path, str(key)))
+    elif isinstance(data, (list, tuple)):
+        for k, value in enumerate(data):
+            yield from leaves(value, (*path, str(k)))
+    else:
+        yield ".".join(path), data
+
+
+def tables(data, path=()):
+    """Key path of every table."""
+    for key, value in data.items():
+        if isinstance(value, dict):
+            yield ".".join((*path, key))
+            yield from tables(value, (*path, key))
+
+
+def numbers(name):
+    """Key path and value of every number in a car's file."""
+    found = leaves(load(name)._data)
+    return {path: float(v) for path, v in found if isinstance(v, (int, float)) and path != "schema"}
+
+
+def sentences(message, what):
+    """The lines of an error, each a sentence for people."""
+    lines = str(message).split("\n")
+    assert 1 <= len(lines) <= 9
+    for line in lines:
+        assert line.startswith(what), line
+        assert line[-1] in ".?", line
+        assert not FORBIDDEN.search(line), line
+        assert len(line) < 500, line
+    return lines

@@ -1,0 +1,342 @@
+"""A car file that is wrong is refused with a sentence for each fault, the same through every door."""
+
+from __future__ import annotations
+
+import os
+import warnings
+
+import pytest
+
+from ali3.command import main
+from mbs.vehicle import CarFileError, CarWarning, car_names, load
+from mbs.vehicle.car_file import car_from
+from mbs.vehicle.changes import changed_content
+from tests.vehicle.content import numbers, sentences, tables
+
+FIRST, *_ = CAR_NAMES = sorted(car_names(), reverse=True)  # prototype
+OPTIONAL = ("stops", "steering_stop", "anti_roll_bar", "frame", "gauges", "ground_contact", "accelerometers", "payload")
+
+
+def refused(changes, name=FIRST, lines=1):
+    """The sentences for a car with other values."""
+    before = load(name).model_dump()
+    with pytest.raises(CarFileError) as told:
+        load(name).changed(changes)
+    found = sentences(told.value, f"car '{name}': ")
+    assert len(found) == lines or lines is None, found
+    assert load(name).model_dump() == before
+    return [line.removeprefix(f"car '{name}': ") for line in found]
+
+
+def told(changes, name=FIRST):
+    """Sentences of the error or of the warnings for a file with other values; none: it is accepted in silence."""
+    car = load(name)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        try:
+            car_from(changed_content(car._data, changes, "x"), car.folder, "x", warn=True)
+        except CarFileError as error:
+            return sentences(error, "x: ")
+    return [line for warning in caught for line in sentences(warning.message, "x: ")]
+
+
+@pytest.mark.parametrize("name", CAR_NAMES)
+def test_cars_of_the_package_have_nothing_odd(name):
+    assert told({}, name) == []
+
+
+@pytest.mark.parametrize("name", CAR_NAMES)
+@pytest.mark.parametrize("factor", [1000.0, 0.001])
+def test_each_number_in_a_unit_wrong_by_1000_is_told(name, factor):
+    silent = set()
+    for path, value in numbers(name).items():
+        lines = told({path: factor * value}, name) if value else ["0 has no unit"]
+        if not lines:
+            silent.add(path)
+    assert silent == set()
+
+
+@pytest.mark.parametrize("name", CAR_NAMES)
+def test_lengths_in_mm_and_masses_in_t(name):
+    for unit in ("mm", "t"):
+        factor, key = {"mm": (1000.0, ("points", "centre", "com", "reference")), "t": (0.001, ("mass",))}[unit]
+        changes = {p: factor * v for p, v in numbers(name).items() if set(key) & set(p.split("."))}
+        assert len(changes) > 5
+        assert len(told(changes, name)) > 1
+
+
+@pytest.mark.parametrize("name", CAR_NAMES)
+@pytest.mark.parametrize("factor", [1000.0, 0.001, -1.0])
+def test_each_table_in_a_wrong_unit_or_negative(name, factor):
+    for table in tables(load(name)._data):
+        changes = {p: factor * v for p, v in numbers(name).items() if p.startswith(f"{table}.")}
+        if changes:
+            assert told(changes, name), table
+
+
+@pytest.mark.parametrize("name", CAR_NAMES)
+def test_each_table_and_key_that_is_missing(name):
+    for path in [*tables(load(name)._data), *(p for p in numbers(name) if not p.split(".")[-1].isdigit())]:
+        data = changed_content(load(name)._data, {}, "x")
+        *outer, last = path.split(".")
+        if outer[-1:] == ["sections"]:
+            continue  # names that the user chooses
+        table = data
+        for key in outer:
+            table = table[key]
+        del table[last]
+        try:
+            car_from(data, load(name).folder, "x", at_rest=False)
+        except CarFileError as error:
+            (line,) = sentences(error, "x: ")
+            assert line.startswith(f"x: {path}")
+            assert "is missing" in line
+        else:
+            defaults = any(part in OPTIONAL for part in path.split("."))
+            assert defaults or path.startswith("drive."), path
+
+
+@pytest.mark.parametrize("name", CAR_NAMES)
+def test_each_key_that_is_misspelt(name):
+    for path in [*tables(load(name)._data), *(p for p in numbers(name) if not p.split(".")[-1].isdigit())]:
+        data = changed_content(load(name)._data, {}, "x")
+        *outer, last = path.split(".")
+        if set(outer[-1:]) & {"accelerometers", "sections", "gauges", "payload"}:
+            continue  # names that the user chooses
+        table = data
+        for key in outer:
+            table = table[key]
+        wrong = last[:-1] + last[-1] * 2 if len(last) > 2 else f"{last}x"
+        table[wrong] = table.pop(last)
+        with pytest.raises(CarFileError) as error:
+            car_from(data, load(name).folder, "x", at_rest=False)
+        (line,) = sentences(error.value, "x: ")
+        assert line == f"x: {'.'.join([*outer, wrong])} is not known; did you mean '{last}'?" or len(last) < 3
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf"), 10**400, True, "1", [], {}, [[1.0]]])
+def test_what_is_no_number(value):
+    for path in ("front.spring.stiffness", "front.wheel.centre.1", "drive.ratios.0", "vehicle.mass"):
+        (line,) = refused({path: value})
+        assert line.startswith(path)
+        assert "it must be" in line
+
+
+MIRRORED = {
+    "negative y": {"front.suspension.points.lower_ball_joint": [0.005, -0.6, 0.15]},
+    "right wheel": {"rear.wheel.centre": [-2.3, -0.66, 0.2623]},
+    "both halves of the body": {"chassis.ground_contact.points": [[0.45, 0.28, 0.19], [0.45, -0.28, 0.19]]},
+    "right part": {"front.suspension.bodies.upright.com": [-0.005, -0.605, 0.255]},
+}
+
+
+@pytest.mark.parametrize("case", MIRRORED)
+def test_points_of_the_right_side(case):
+    assert any("left" in line or "y = -" in line for line in refused(MIRRORED[case], lines=None))
+
+
+def test_all_points_of_the_right_side():
+    changes = {p: -v for p, v in numbers("prototype").items() if p.endswith(".1") and ".points." in p}
+    assert len(refused(changes, lines=None)) > 5
+    right = dict(load("prototype")._data["front"]["suspension"]["points"])
+    given = {f"front.suspension.points_right.{k}": [x, -y, z] for k, (x, y, z) in right.items()}
+    (line,) = refused(given)
+    assert line == "front.suspension.points_right is not known; did you mean 'points'?"
+
+
+P = "front.suspension.points"
+GEOMETRY = {  # what cannot move or has no direction, and what the sentence says
+    "lower pivots at one place": ({f"{P}.lower_pivot_rear": [0.15, 0.3, 0.165]}, "the axis of the lower wishbone"),
+    "a wishbone of no length": ({f"{P}.upper_ball_joint": [0.0, 0.35, 0.372]}, "the upper wishbone is 0.05 m long"),
+    "a knuckle in one line": ({f"{P}.tie_rod_outer": [-0.005, 0.5875, 0.2675]}, "the steering arm is 0.02 m long"),
+    "a tie rod of no length": ({f"{P}.tie_rod_inner": [-0.125, 0.572, 0.2032]}, "the tie rod is 0.05 m long"),
+    "a spring of no length": ({f"{P}.spring_upper": [0.0, 0.5, 0.175]}, "the spring is 0.05 m long"),
+    "a spring on the axis": ({f"{P}.spring_lower": [0.0, 0.3, 0.165]}, "the lever of the spring"),
+    "a steering axis that lies": ({f"{P}.upper_ball_joint": [-0.4, 0.575, 0.26]}, "caster"),
+    "a strut of no length": ({"rear.suspension.points.strut_top": [-2.3, 0.59, 0.17]}, "the strut stands"),
+    "an arm of no length": ({"rear.suspension.points.lower_ball_joint": [-2.3, 0.31, 0.19]}, "the lower arm is"),
+    "two axles at one place": ({"rear.wheel.centre": [0.0, 0.66, 0.2623]}, "0 m behind front.wheel.centre"),
+    "wheels through each other": ({"rear.wheel.centre": [-0.5, 0.66, 0.2623]}, "pass each other"),
+    "another tyre": ({"front.tyre.radius": 0.34}, "a car in equilibrium stands on its tyres"),
+    "a smaller tyre": ({"rear.tyre.radius": 0.25}, "a car in equilibrium stands on its tyres"),
+    "a narrow body": ({"vehicle.width": 1.0}, "the centres of the wheels are 1.34 m apart"),
+    "a short body": ({"vehicle.length": 2.4}, "with the wheelbase of 2.3 m"),
+    "the body in a wheel": ({"chassis.ground_contact.points.0": [0.1, 0.65, 0.3]}, "lies in the tyre"),
+    "a stop that acts as drawn": ({"front.suspension.steering_stop.length": 0.45}, "must be less than the"),
+    "another mass": ({"vehicle.mass": 620.0}, "the masses of all parts add up to 597 kg"),
+    "another centre of mass": ({"vehicle.reference_point": [-1.6, 0.0, 0.353]}, "which it is"),
+    "mass behind the axle": ({"chassis.com": [-2.9, 0.0, 0.3769]}, "of the weight to the front axle"),
+    "a rod of inertia": ({"chassis.inertia": [10.0, 420.9, 420.9]}, "radius of gyration"),
+    "products too large": ({"chassis.products": [0.0, 0.0, 600.0]}, "principal moments"),
+    "a ring of a wheel": ({"front.wheel.spin_inertia": 1.5}, "radius of gyration"),
+    "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "a friction of"),
+    "sliding before the peak": ({"rear.tyre.lateral.slide_slip": [0.1, 0.1]}, "must be larger than"),
+    "gears in the wrong order": ({"drive.ratios": [4.0, 5.9, 10.5]}, "they must fall"),
+    "no gears": ({"drive.ratios": []}, "it must be a list of numbers, between 0.3 and 60, not empty"),
+    "no such template": ({"front.suspension.kind": "five_link"}, "it must be one of 'double_wishbone'"),
+    "springs far too long": ({"front.spring.free_length": 1.9}, "at rest the spring has 0.7"),
+}
+
+
+@pytest.mark.parametrize("case", GEOMETRY)
+def test_what_cannot_be_a_car(case):
+    changes, words = GEOMETRY[case]
+    assert any(words in line for line in refused(changes, lines=None)), refused(changes, lines=None)
+
+
+ODD = {
+    "soft springs": ({"front.spring.stiffness": 9000.0}, "higher in the chassis than front.wheel.centre"),
+    "a soft tyre": ({"rear.tyre.stiffness": 40000.0}, "presses the tyre in"),
+    "weak dampers": ({"front.damper.damping": 60.0}, "of the critical damping"),
+    "weak brakes": ({"brakes.front.torque": 50.0, "brakes.rear.torque": 20.0}, "of the weight at full pedal"),
+    "a small tyre": ({"rear.tyre.nominal_load": 6000.0} | {
+        f"rear.tyre.{c}.{k}": [4.0 * v for v in getattr(getattr(load("prototype").rear.tyre, c), k)]
+        for c in ("longitudinal", "lateral") for k in ("slope", "max_force", "slide_force")
+    }, None),
+    "a rack that turns less": ({"steering.rack_travel": 0.02}, "on a steering arm"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", ODD)
+def test_what_is_odd_is_told_and_made(case):
+    changes, words = ODD[case]
+    lines = told(changes, "prototype")
+    assert (lines == []) if words is None else any(words in line for line in lines)
+    assert load("prototype").changed(changes).name == "prototype"
+
+
+def test_a_user_is_warned_of_what_is_odd(copied):
+    file = copied()
+    file.write_text(file.read_text(encoding="utf-8").replace("stiffness = 12360.0", "stiffness = 9000.0"), "utf-8")
+    with pytest.warns(CarWarning, match=r"car\.toml: at rest the front wheels stand 0\.\d+ m higher") as caught:
+        load(file)
+    assert caught[0].filename == __file__
+
+
+TEXTS = {
+    "empty": (b"", "schema is missing"),
+    "no TOML": (b"schema = = 1\n", "is no TOML file: Invalid value (at line 1, column 10)"),
+    "twice": (b"schema = 1\nschema = 1\n", "is no TOML file"),
+    "UTF-16": ("schema = 1\n".encode("utf-16"), "is no text in UTF-8"),
+    "Latin-1": ('description = "Käfer"'.encode("latin-1"), "is no text in UTF-8: byte 16 is not"),
+    "zero bytes": (b"schema = 1\n\0", "is no TOML file"),
+    "deep lists": (b"a = " + b"[" * 20000 + b"]" * 20000, "nested too deep"),
+    "deep tables": (b"schema = 1\na = " + b"{a=" * 20000 + b"1" + b"}" * 20000, "nested too deep"),
+    "a deep key": (b"schema = 1\n" + b"a." * 3000 + b"a = 1\n", "a is not known"),
+    "huge": (b"#" * 1_000_001, "has 1000001 bytes; it must have at most 1000000"),
+    "a huge number": (b"schema = " + b"9" * 5000, "is no TOML file"),
+    "a picture": (b"\x89PNG\r\n\x1a\n", "is no text in UTF-8"),
+    "schema missing": (b"name = 'x'", "schema is missing; a car file says schema = 1"),
+    "schema text": (b"schema = '1'", "schema is '1'; it must be the whole number 1"),
+    "schema of decimals": (b"schema = 1.0", "schema is 1.0; it must be the whole number 1"),
+    "schema a table": (b"[schema]", "schema is a table or list"),
+    "schema a date": (b"schema = 2020-01-01", "it must be the whole number 1"),
+    "older": (b"schema = 0", "an older form; this release reads 1. Change what docs/your_own_car.md lists"),
+    "newer": (b"schema = 2", "a newer form; this release reads 1. Update ALi3"),
+    "a list for a table": (b"schema = 1\nfront = [1, 2]\nchassis = 3", "front is [1, 2]; it must be a table."),
+}
+
+
+@pytest.mark.parametrize("case", TEXTS)
+def test_files_that_are_no_car_file(case, tmp_path):
+    content, words = TEXTS[case]
+    file = tmp_path / "car.toml"
+    file.write_bytes(content)
+    for door in (file, str(file), tmp_path):
+        with pytest.raises(CarFileError) as error:
+            load(door)
+        assert any(words in line for line in sentences(error.value, str(file))), str(error.value)
+
+
+def test_a_file_with_a_byte_order_mark_is_read(copied):
+    file = copied()
+    file.write_bytes(b"\xef\xbb\xbf" + file.read_bytes())
+    assert load(file).name == "prototype"
+
+
+@pytest.mark.parametrize("name", ["", "protoype", "/nowhere/car.toml", "a\0b", "x" * 5000, "..."])
+def test_names_of_no_car(name):
+    with pytest.raises(CarFileError, match=r"^There is no car '.*the cars of the package are .*prototype\.$"):
+        load(name)
+
+
+@pytest.mark.parametrize("thing", [None, 1, ["prototype"], b"prototype", {}])
+def test_things_that_are_no_name(thing):
+    with pytest.raises(CarFileError, match=r"^A car is the name of one, a folder or a file, not "):
+        load(thing)
+
+
+def test_a_folder_without_a_file_and_a_folder_for_a_file(tmp_path):
+    with pytest.raises(CarFileError, match="There is no car"):
+        load(tmp_path)
+    (tmp_path / "car.toml").mkdir()
+    with pytest.raises(CarFileError, match=r"car\.toml is a folder; it must be a file\.$"):
+        load(tmp_path)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_named_pipe_does_not_block(tmp_path, copied):
+    os.mkfifo(tmp_path / "car.toml")
+    with pytest.raises(CarFileError, match=r"is a pipe or device; it must be a file\.$"):
+        load(tmp_path)
+    file = copied()
+    (file.parent / "joints.csv").unlink()
+    os.mkfifo(file.parent / "joints.csv")
+    with pytest.raises(CarFileError, match=r"joints\.csv is a pipe or device; it must be a file\.$"):
+        load(file)
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="the administrator may read all")
+def test_a_file_that_may_not_be_read(copied):
+    file = copied()
+    file.chmod(0)
+    with pytest.raises(CarFileError, match=r"cannot be read: Permission denied\.$"):
+        load(file)
+
+
+PATHS = {
+    "front.spring.stifness": "front.spring.stifness is not known; did you mean 'stiffness'?",
+    "Front.spring.stiffness": "Front is not known; did you mean 'front'?",
+    "front.stiffness": "front.stiffness is not known; 'stiffness' stands at ",
+    "front.spring.stiffness.x": "front.spring.stiffness.x is not known; front.spring.stiffness is 12360.0, which has",
+    "front.wheel.centre.3": "front.wheel.centre.3 is not known; front.wheel.centre is a list of 3, counted from 0.",
+    "front.wheel.centre.x": "front.wheel.centre.x is not known; front.wheel.centre is a list of 3",
+    "front..stiffness": "'front..stiffness' is no key path",
+    "": "'' is no key path",
+    7: "7 is no key path",
+    "quite.different": "quite is not known; the keys of the file are schema, name, ",
+}
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_key_paths_that_are_wrong(path):
+    (line,) = refused({path: 1.0})
+    assert line.startswith(PATHS[path])
+
+
+def test_changes_that_are_no_mapping():
+    with pytest.raises(CarFileError, match="the changes are 3; they must be a mapping"):
+        load("prototype").changed(3)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"front.spring.stifness": 1.0}, {"front.tyre.radius": 0.34}, {"drive.ratios": []}, {"vehicle.mass": 0.597}],
+)
+def test_the_same_through_every_door(changes, copied, capsys):
+    """By a file, by `changed` and by the command line."""
+    file = copied()
+    (path, value), *_ = changes.items()
+    (line,) = refused(changes)
+    table, _, key = path.rpartition(".")
+    before, head, after = file.read_text(encoding="utf-8").partition(f"[{table}]\n")
+    rest = [text for text in after.split("\n") if text.partition("#")[0].partition("=")[0].strip() != key]
+    if key in after:  # the first of that name stands in this table
+        found = next(k for k, text in enumerate(after.split("\n")) if text.startswith(f"{key} ="))
+        rest = [text for k, text in enumerate(after.split("\n")) if k != found]
+    file.write_text(f"{before}{head}{key} = {value}\n" + "\n".join(rest), encoding="utf-8")
+    with pytest.raises(CarFileError) as error:
+        load(file)
+    assert str(error.value) == f"{file}: {line}"
+    assert main(["car", str(file)]) == 2
+    assert capsys.readouterr().err == f"error: {file}: {line}\n"
