@@ -246,6 +246,7 @@ def _ranged(
         _bound(entry["max"]),
         _display(entry["name"], unit),
         road=entry.get("road", -1),
+        whole=bool(entry.get("whole", False)),
     )
 
 

@@ -475,9 +475,10 @@ class Model(
         targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
             ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
             name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; or a
-            payload and "mass". A real belongs to one parameter.
+            payload and "mass"; or the name of a switch and "on", which takes 0 or 1. A real belongs to one parameter.
         tunable : bool
-            Whether it may be set while the model moves; False: before the start only, as masses of payloads must be.
+            Whether it may be set while the model moves; False: before the start only, as masses of payloads and
+            switches must be.
 
         Returns
         -------
