@@ -27,14 +27,11 @@ TIED = (
     "max_torque",
     "max_power",
     "ratio",
-    "limit_speed",
     "efficiency",
     "gear_efficiency",
     "regeneration_torque",
     "regeneration_power",
     "regeneration_speed",
-    "reverse_torque",
-    "reverse_speed",
 )
 
 
