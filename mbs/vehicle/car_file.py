@@ -144,6 +144,11 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
         raise CarFileError(_told(what, faults))
     if not at_rest:
         return car
+    if car.chassis.frame is not None:
+        try:
+            car.flexible_frame  # noqa: B018
+        except ModelError as error:
+            raise CarFileError(_told(what, [str(error)])) from error
     try:
         rest = settled(car)
     except (ValueError, SimulationError) as error:
@@ -151,11 +156,6 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     faults = list(rest.faults(car))
     if faults:
         raise CarFileError(_told(what, faults))
-    if car.chassis.frame is not None:
-        try:
-            car.flexible_frame  # noqa: B018
-        except ModelError as error:
-            raise CarFileError(_told(what, [str(error)])) from error
     if warn:
         for sentence in car_oddities(car, rest):
             warnings.warn(f"{what}: {sentence}", CarWarning, stacklevel=3)

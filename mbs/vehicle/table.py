@@ -8,9 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mbs.errors import ModelError
-
-LARGEST = 10_000_000  # bytes
+from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.files import LARGEST_TABLE, beside, text_of
 
 
 @dataclass(frozen=True)
@@ -45,15 +44,15 @@ class Row:
 
         Raises
         ------
-        ModelError
+        CarFileError
             It is no number or not in the range.
         """
         try:
-            value = float(self[column])
+            value = math.nan if "_" in self[column] else float(self[column])
         except ValueError:
             value = math.nan
         if not low <= value <= high:
-            raise ModelError(
+            raise CarFileError(
                 f"{self.where}: {column} is {self[column]!r}; it must be a number between {low:g} and {high:g} {unit}."
             )
         return value
@@ -70,38 +69,13 @@ class Row:
 
         Raises
         ------
-        ModelError
+        CarFileError
             It is none.
         """
         text = self[column]
         if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= most):
-            raise ModelError(f"{self.where}: {column} is {text!r}; it must be a whole number between 1 and {most}.")
+            raise CarFileError(f"{self.where}: {column} is {text!r}; it must be a whole number between 1 and {most}.")
         return int(text)
-
-
-def file_beside(folder: Path, name: str, key: str) -> Path:
-    """A file beside the car's file.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the car's file.
-    name : str
-        As the file names it.
-    key : str
-        Key path, for the message.
-
-    Raises
-    ------
-    ModelError
-        There is no such file, or it lies outside of the folder.
-    """
-    path = folder / name
-    if Path(name).is_absolute() or ".." in Path(name).parts:
-        raise ModelError(f"{key} is {name!r}; it must be the name of a file in the car's folder.")
-    if not path.is_file():
-        raise ModelError(f"{key} is {name!r}, but there is no file {path}.")
-    return path
 
 
 def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> list[Row]:
@@ -120,34 +94,34 @@ def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> lis
 
     Raises
     ------
-    ModelError
+    CarFileError
         There is no such file, it is no text, or a column or a cell is missing.
     """
-    path = file_beside(folder, name, key)
+    path = beside(folder, name, key)
     what = f"{key} ({name})"
-    if path.stat().st_size > LARGEST:
-        raise ModelError(f"{what} has {path.stat().st_size} bytes; a table has at most {LARGEST}.")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ModelError(f"{what} is no text in UTF-8: byte {error.start} is not.") from error
+    text = text_of(path, LARGEST_TABLE)
     lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
-    reader = csv.reader([line for _, line in lines])
+    try:
+        table = list(csv.reader([line for _, line in lines], strict=True))
+    except csv.Error as error:
+        raise CarFileError(f"{what} is no table in CSV: {error}.") from error
+    if len(table) != len(lines):
+        raise CarFileError(f"{what} is no table in CSV: a cell goes over several lines.")
     titles: list[str] | None = None
     rows = []
-    for (number, _), cells in zip(lines, reader, strict=True):
+    for (number, _), cells in zip(lines, table, strict=True):
         stripped = [cell.strip() for cell in cells]
         if titles is None:
             titles = stripped
             missing = [c for c in columns if c not in titles]
             if missing:
-                raise ModelError(f"{what} has no column {missing[0]}; its titles are {', '.join(titles)}.")
+                raise CarFileError(f"{what} has no column {missing[0]}; its titles are {', '.join(titles)}.")
             if len(set(titles)) != len(titles):
-                raise ModelError(f"{what} has two columns of one title: {', '.join(titles)}.")
+                raise CarFileError(f"{what} has two columns of one title: {', '.join(titles)}.")
         elif len(stripped) != len(titles):
-            raise ModelError(f"{what}, line {number}: {len(stripped)} cells; there are {len(titles)} titles.")
+            raise CarFileError(f"{what}, line {number}: {len(stripped)} cells; there are {len(titles)} titles.")
         else:
             rows.append(Row(f"{what}, line {number}", dict(zip(titles, stripped, strict=True))))
     if not rows:
-        raise ModelError(f"{what} has no lines under its titles.")
+        raise CarFileError(f"{what} has no lines under its titles.")
     return rows

@@ -12,6 +12,8 @@ import scipy.sparse as sp
 
 from mbs.vehicle import Car, load
 from mbs.vehicle.car_file import CARS, car_from
+from mbs.vehicle.changes import changed_content
+from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.gauges.reading import Reading
 from mbs.vehicle.chassis.gauges.recovery_rows import AXES
 from mbs.vehicle.chassis.tubular_frame import TubularFrame
@@ -32,9 +34,11 @@ SMALL_TUBES = [
 SMALL_MASSES = {"pL": 82.6845, "lL": 45.0, "nL": 20.0, "gL": 25.0, "kL": 10.0, "aL": 10.0}
 
 
-def prototype_with(frame: dict[str, Any], folder: Path, chassis: dict[str, Any] | None = None) -> Car:
-    """The prototype with another table chassis.frame and other numbers of the chassis."""
-    data = dict(PROTOTYPE._data)
+def prototype_with(
+    frame: dict[str, Any], folder: Path, chassis: dict[str, Any] | None = None, changes: dict[str, Any] | None = None
+) -> Car:
+    """The prototype with another table chassis.frame, other numbers of the chassis and elsewhere."""
+    data = changed_content(PROTOTYPE._data, changes or {}, "car")
     data["chassis"] = {**data["chassis"], **(chassis or {}), "frame": frame}
     return car_from(data, folder, "car 'prototype'")
 
@@ -61,7 +65,8 @@ def small_frame(folder: Path, gauges: dict[str, Any]) -> Car:
         "damping": {"ratio": 0.02, "frequencies": [15.0, 60.0]},
         "gauges": gauges,
     }
-    return prototype_with(frame, folder, chassis_of(prototype_with(frame, folder).tubular_frame))
+    section = TubesFrame.model_validate(frame)
+    return prototype_with(frame, folder, chassis_of(TubularFrame(section, folder)))
 
 
 def chassis_of(tubular: TubularFrame) -> dict[str, Any]:

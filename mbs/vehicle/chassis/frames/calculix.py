@@ -7,7 +7,7 @@ from typing import Literal
 
 from mbs.flexible import FiniteElementModel, read_calculix
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
-from mbs.vehicle.table import file_beside
+from mbs.vehicle.files import beside
 
 
 class CalculixFrame(MatrixFrame):
@@ -31,7 +31,7 @@ class CalculixFrame(MatrixFrame):
         ModelError
             One is not.
         """
-        return (file_beside(folder, self.deck, self.key("deck")),)
+        return (beside(folder, self.deck, self.key("deck")),)
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the deck and its matrices.

@@ -9,7 +9,8 @@ from mbs.errors import ModelError
 from mbs.flexible import FiniteElementModel, external_model, read_matrix
 from mbs.flexible.sparse import Sparse
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
-from mbs.vehicle.table import file_beside, read_table
+from mbs.vehicle.files import beside
+from mbs.vehicle.table import read_table
 
 FAR = 1e3  # m
 
@@ -39,7 +40,7 @@ class MatricesFrame(MatrixFrame):
         ModelError
             One is not.
         """
-        return tuple(file_beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
+        return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the files.

@@ -10,13 +10,14 @@ from pydantic import Field
 from mbs.flexible import FiniteElementModel
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.chassis.gauges import MatrixGauge
-from mbs.vehicle.chassis.gauges.reading import GaugeName, in_order
+from mbs.vehicle.chassis.gauges.reading import in_order
+from mbs.vehicle.names import Name
 
 
 class MatrixFrame(FrameSection):
     """Frame from matrices in SI units, free of supports, in the axes of the drawing; joints are its nodes by name."""
 
-    gauges: dict[GaugeName, MatrixGauge] = Field(default_factory=dict)
+    gauges: dict[Name, MatrixGauge] = Field(default_factory=dict)
     """Strain gauges by name."""
 
     @abstractmethod

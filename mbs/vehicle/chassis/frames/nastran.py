@@ -7,7 +7,7 @@ from typing import Literal
 
 from mbs.flexible import FiniteElementModel, read_nastran
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
-from mbs.vehicle.table import file_beside
+from mbs.vehicle.files import beside
 
 
 class NastranFrame(MatrixFrame):
@@ -37,7 +37,7 @@ class NastranFrame(MatrixFrame):
         ModelError
             One is not.
         """
-        return tuple(file_beside(folder, getattr(self, f), self.key(f)) for f in ("bulk_data", "matrices"))
+        return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("bulk_data", "matrices"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read grid points and matrices.

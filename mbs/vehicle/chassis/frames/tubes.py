@@ -8,9 +8,10 @@ from typing import Literal
 from pydantic import Field
 
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
-from mbs.vehicle.chassis.gauges.reading import GaugeName, in_order
+from mbs.vehicle.chassis.gauges.reading import in_order
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
 from mbs.vehicle.chassis.tubular_frame import TubularFrame
+from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import Length, MaterialDensity, PoissonsRatio, Thickness, YoungsModulus
 from mbs.vehicle.section import Section
 
@@ -53,7 +54,7 @@ class TubesFrame(FrameSection):
     """Material of all tubes."""
     sections: dict[str, TubeSection]
     """Tubes by the names of the table."""
-    gauges: dict[GaugeName, TubeGauge] = Field(default_factory=dict)
+    gauges: dict[Name, TubeGauge] = Field(default_factory=dict)
     """Strain gauges by name."""
 
     def structure(self, folder: Path) -> Structure:

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Discriminator, Tag, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import Discriminator, Tag
 
 from mbs.errors import ModelError
 from mbs.flexible import Frame, StrainGauge
@@ -49,11 +48,10 @@ class TubeGauge(Section):
     angle in degrees from the highest fibre (of a tube steeper than 18 degrees from upright: the foremost),
     right-handed about the tube from its first to its last joint."""
 
-    @model_validator(mode="after")
-    def _has_a_use_for_its_fibre(self) -> TubeGauge:
+    def faults(self) -> Iterator[str]:
+        """A bridge all round the tube has no fibre."""
         if self.bridge in ("axial", "torsion") and "fibre" in self.model_fields_set:
-            raise PydanticCustomError("gauge", "A bridge all round the tube has no fibre; leave fibre out")
-        return self
+            yield f"{self.key('fibre')} is {self.fibre!r}; a bridge of kind '{self.bridge}' has no fibre, leave it out."
 
     def strain_gauge(
         self, name: str, ends: tuple[np.ndarray, np.ndarray], radius: float, elements: range
