@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
@@ -117,3 +118,18 @@ def exported(folder: Path) -> Car:
         "gauges": {name: {"kind": "recovery", "table": "recovery.csv"} for name in given["gauges"]},
     }
     return prototype_with(frame, folder)
+
+
+def written(car: Car) -> Path:
+    """The content of a car as a file in its folder."""
+    lines = [f"{key} = {_toml(value)}" for key, value in car._data.items()]
+    (car.folder / "car.toml").write_text("\n".join(lines) + "\n")
+    return car.folder
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    return json.dumps(value)

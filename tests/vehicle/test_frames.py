@@ -13,7 +13,7 @@ from mbs.errors import ModelError
 from mbs.flexible import natural_modes
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.car_file import CarFileError
-from tests.vehicle.frame_cars import PROTOTYPE, copied, exported, prototype_with, recovery_table, small_frame
+from tests.vehicle.frame_cars import PROTOTYPE, copied, exported, prototype_with, recovery_table, small_frame, written
 
 REST = {"drive.creep_torque": 0.0}
 DRIVING = {"steering": ([0.0, 0.1, 0.3], [0.0, 0.0, 0.3]), "throttle": 0.5}
@@ -73,6 +73,21 @@ def test_the_weight_of_the_chassis_enters_the_ports_of_a_frame_of_the_user(small
 def test_without_loads_the_load_paths_say_what_is_missing(small: Car) -> None:
     with pytest.raises(ModelError, match=r"chassis\.frame\.loads is missing: fidelity 2 needs a table"):
         small.model(fidelity="load_paths")
+
+
+def test_loads_of_the_own_manoeuvres_give_the_load_paths(small: Car) -> None:
+    """The command writes the table that the car then names; few modes bend the frame like all of them."""
+    from benchmarks.load_paths import main
+
+    folder = written(small)
+    assert main(["--car", str(folder), "--manoeuvres", "launch_and_brake", "step_steer"]) == 0
+    car = load(folder).changed({"chassis.frame.loads": "loads.csv"})
+    assert Fidelity.LOAD_PATHS in car.fidelities()
+    few, all_modes = (car.flexible_frame.reduced(fidelity).n_modes for fidelity in (2, 3))
+    assert 10 <= few < all_modes / 2
+    paths, modes = (at_rest(car, fidelity).sensors for fidelity in (2, 3))
+    for name, error in (("axial_force.H", 0.01), ("stress.G", 0.01), ("bending_moment.F", 0.04)):
+        assert paths[name] == pytest.approx(modes[name], rel=error)
 
 
 def test_mounts_may_be_named(small: Car) -> None:
