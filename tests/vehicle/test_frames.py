@@ -13,22 +13,25 @@ from mbs.errors import ModelError
 from mbs.flexible import natural_modes
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.car_file import CarFileError
-from tests.vehicle.frame_cars import PROTOTYPE, copied, exported, prototype_with, recovery_table, small_frame, written
+from tests.vehicle.frame_cars import (
+    PROTOTYPE,
+    SMALL_GAUGES,
+    copied,
+    exported,
+    prototype_with,
+    recovery_table,
+    small_frame,
+)
 
 REST = {"drive.creep_torque": 0.0}
 DRIVING = {"steering": ([0.0, 0.1, 0.3], [0.0, 0.0, 0.3]), "throttle": 0.5}
-GAUGES = {
-    "F": {"tube": ["bL", "kL"], "place": 0.25},
-    "G": {"tube": ["lL", "gL"], "place": 0.5, "bridge": "quarter", "fibre": "left"},
-    "H": {"tube": ["kL", "pL"], "place": 0.5, "bridge": "axial"},
-}
 LUMPED = 4e-3
 """Between consistent masses and those of a matrix, lumped at the nodes: frequencies, moments over their largest."""
 
 
 @pytest.fixture
 def small(tmp_path: Path) -> Car:
-    return small_frame(tmp_path, GAUGES)
+    return small_frame(tmp_path)
 
 
 def at_rest(car: Car, fidelity: int) -> mbs.Simulation:
@@ -73,21 +76,6 @@ def test_the_weight_of_the_chassis_enters_the_ports_of_a_frame_of_the_user(small
 def test_without_loads_the_load_paths_say_what_is_missing(small: Car) -> None:
     with pytest.raises(ModelError, match=r"chassis\.frame\.loads is missing: fidelity 2 needs a table"):
         small.model(fidelity="load_paths")
-
-
-def test_loads_of_the_own_manoeuvres_give_the_load_paths(small: Car) -> None:
-    """The command writes the table that the car then names; few modes bend the frame like all of them."""
-    from benchmarks.load_paths import main
-
-    folder = written(small)
-    assert main(["--car", str(folder), "--manoeuvres", "launch_and_brake", "step_steer"]) == 0
-    car = load(folder).changed({"chassis.frame.loads": "loads.csv"})
-    assert Fidelity.LOAD_PATHS in car.fidelities()
-    few, all_modes = (car.flexible_frame.reduced(fidelity).n_modes for fidelity in (2, 3))
-    assert 10 <= few < all_modes / 2
-    paths, modes = (at_rest(car, fidelity).sensors for fidelity in (2, 3))
-    for name, error in (("axial_force.H", 0.01), ("stress.G", 0.01), ("bending_moment.F", 0.04)):
-        assert paths[name] == pytest.approx(modes[name], rel=error)
 
 
 def test_mounts_may_be_named(small: Car) -> None:
@@ -200,7 +188,7 @@ def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
         "reference": reference,
         "damping": small._data["chassis"]["frame"]["damping"],
         "gauges": {
-            **{name: {"kind": "recovery", "table": "recovery.csv"} for name in GAUGES},
+            **{name: {"kind": "recovery", "table": "recovery.csv"} for name in SMALL_GAUGES},
             "N": {"kind": "node_pair", "nodes": pair, "E": 2.1e11},
         },
     }
