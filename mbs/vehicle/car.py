@@ -212,7 +212,12 @@ class Car(Section):
             "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
             "hand_brake": m.input("hand_brake", min=0.0, max=1.0, description="hand brake on the rear wheels"),
             "selector": m.input(
-                "selector", start=1.0, min=-1.0, max=1.0, description="selector: -1 reverse, 0 neutral, 1 drive"
+                "selector",
+                start=1.0,
+                min=-1.0,
+                max=1.0,
+                description="selector: -1 reverse, 0 neutral, 1 drive",
+                whole=True,
             ),
         }
         return CarBuilder(self, m, m.road(road or self.road.default(), file="road.file"), inputs)

@@ -74,6 +74,9 @@ def weighed_points(car: Car) -> list[tuple[float, tuple[float, float, float]]]:
     """
     found = [(car.chassis.mass, car.chassis.com)]
     found += [(load.mass, load.point) for load in getattr(car, "payload", {}).values()]
+    points = car.front.suspension.points
+    x, _, z = getattr(points, "tie_rod_inner", car.front.wheel.centre)
+    found.append((car.steering.moving_mass, (x, 0.0, z)))
     left = [(part.mass, part.com) for part in parts_of(car)]
     left += [(axle.wheel.mass, axle.wheel.centre) for axle in (car.front, car.rear)]
     return found + [(mass, (x, side * y, z)) for mass, (x, y, z) in left for side in (1.0, -1.0)]
