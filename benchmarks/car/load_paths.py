@@ -1,4 +1,4 @@
-"""Forces at the interfaces of the car's frame in its manoeuvres."""
+"""Forces at the interfaces of a car's frame in its manoeuvres, and their principal combinations."""
 
 from __future__ import annotations
 
@@ -6,45 +6,68 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from benchmarks.car import fidelity_runs, manoeuvres
-from mbs import Simulation
+from benchmarks.car import manoeuvres
+from hosts.manoeuvre import Manoeuvre
+from mbs import Simulation, compile
 from mbs.input_signals import InputSignals
-from mbs.scenes import prototype_car
-from mbs.vehicle import Fidelity
-
-INTERFACES = prototype_car.car().flexible_frame.interfaces
+from mbs.scenes import kerb_test
+from mbs.vehicle import Car, Fidelity
+from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 
 GUIDED = "kerb_test"
 H, EVERY = 0.005, 4
+KEEP = 1e-4
+"""Combinations with less than this part of the largest deformation, in the energy norm, are left out."""
 
 
-def port_forces(name: str) -> NDArray[np.float64]:
-    """Forces on the chassis at the interfaces in its axes through a manoeuvre, shape (60, samples), N."""
-    manoeuvre = fidelity_runs.manoeuvre_of(name) if name == GUIDED else manoeuvres.load(name)
-    system = fidelity_runs.system_of(name, Fidelity.QUASI_STATIC)
+def port_forces(car: Car, name: str) -> NDArray[np.float64]:
+    """Forces on the chassis at the interfaces in its axes through a manoeuvre, shape (3 n_interfaces, samples), N."""
+    if name == GUIDED:
+        manoeuvre = Manoeuvre(name, np.zeros(0), {}, kerb_test.DURATION)
+        model = kerb_test.build(Fidelity.QUASI_STATIC, car)
+    else:
+        manoeuvre, model = manoeuvres.load(name, car.name), car.model(fidelity=Fidelity.QUASI_STATIC)
+    system = compile(model)
     parameters, pose = manoeuvres.start_of(manoeuvre, system)
     signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
-    car = Simulation(system, parameters=parameters, pose=pose)
+    driven = Simulation(system, parameters=parameters, pose=pose)
     names = [row["name"] for row in system.meta["rows"]]
-    rows = [[k for k, row in enumerate(names) if row == f"chassis.{node}"] for node in INTERFACES]
+    interfaces = car.flexible_frame.interfaces
+    rows = [[k for k, row in enumerate(names) if row == f"chassis.{node}"] for node in interfaces]
     scale = system.arrays["row_scale"]
     found = []
     inputs = list(signals.columns())
     for k in range(round(manoeuvre.stop_time / H)):
         values = signals.at(np.array([(k + 1) * H]), 1e-6 * H)[0]
         for column, value in zip(inputs, values, strict=True):
-            car.instance.set_input(column, float(value))
-        car.step(H)
+            driven.instance.set_input(column, float(value))
+        driven.step(H)
         if k % EVERY == 0:
-            s = car.sensors
+            s = driven.sensors
             A = Rotation.from_quat([s[f"chassis.q{c}"] for c in "xyzw"]).as_matrix()
-            lam = car.state.lam * scale
+            lam = driven.state.lam * scale
             found.append(np.concatenate([A.T @ lam[r] for r in rows]))
     return np.array(found).T
 
 
-def mirrored(forces: NDArray[np.float64]) -> NDArray[np.float64]:
+def mirrored(frame: FlexibleFrame, forces: NDArray[np.float64]) -> NDArray[np.float64]:
     """The same with left and right exchanged."""
-    other = [INTERFACES.index(name[:-1] + {"L": "R", "R": "L"}[name[-1]]) for name in INTERFACES]
-    parts = forces.reshape(len(INTERFACES), 3, -1)[other] * np.array([1.0, -1.0, 1.0])[:, None]
+    places = list(frame.joints.interfaces.values())
+    other = [places.index((x, -y, z)) for x, y, z in places]
+    parts = forces.reshape(len(places), 3, -1)[other] * np.array([1.0, -1.0, 1.0])[:, None]
     return parts.reshape(forces.shape)
+
+
+def principal_loads(
+    frame: FlexibleFrame, forces: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Combinations of forces and of their mirror images, most deforming first, N, rms; sizes of the deformations."""
+    driven = frame.settled_loads(forces)
+    snapshots = np.hstack([driven, mirrored(frame, driven)])
+    values, vectors = np.linalg.eigh(frame.deformation_energy(snapshots))
+    size = np.sqrt(np.maximum(values[::-1], 0.0))
+    keep = size > KEEP * size[0]
+    loads = (snapshots @ vectors[:, ::-1][:, keep]) / np.sqrt(snapshots.shape[1])
+    large = np.abs(loads) > (1.0 - 1e-6) * np.abs(loads).max(axis=0)  # left and right tie: the first of them decides
+    loads *= np.sign(loads[large.argmax(axis=0), np.arange(loads.shape[1])])
+    return loads, size[keep] / size[0]

@@ -17,6 +17,7 @@ from mbs.elements.road import KerbRoad
 from mbs.model import Model
 from mbs.model.guides import Guide
 from mbs.scenes import prototype_car
+from mbs.vehicle import Car
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 
 SPEED = 5.0  # m/s
@@ -27,13 +28,15 @@ HEIGHT = 0.08  # m
 PIECE = 0.1  # s, of the guide's polynomials
 
 
-def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC) -> Model:
+def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC, car: Car | None = None) -> Model:
     """The car before the kerb, in equilibrium.
 
     Parameters
     ----------
     fidelity : Fidelity, int or str
         How much of the chassis is modelled, as in `prototype_car.build`.
+    car : Car, optional
+        By default the prototype.
 
     Returns
     -------
@@ -45,8 +48,9 @@ def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC) -> Model:
     ModelError
         There is no such fidelity.
     """
-    road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", prototype_car.car().road.friction)
-    m = prototype_car.build(road, fidelity, guide)
+    driven = prototype_car.car() if car is None else car
+    road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", driven.road.friction)
+    m = driven.model(road, fidelity, lambda model: guide(model, driven.chassis.reference[0]))
     m.stop_time, m.step = DURATION, STEP
     return m
 
@@ -73,13 +77,13 @@ def way(t: float | np.ndarray) -> np.ndarray:
     return total
 
 
-def guide(m: Model) -> Guide:
-    """x of the floor's centre: pieces of fifth degree that share place, speed and acceleration with `way`."""
+def guide(m: Model, start: float) -> Guide:
+    """x of a point of the chassis: pieces of fifth degree that share place, speed and acceleration with `way`."""
     breaks = np.concatenate(
         [[0.0], *(np.arange(a, b + 0.5 * PIECE, PIECE) for a, b in (ACCELERATE, BRAKE)), [DURATION]]
     )
     v, rate = speed(breaks), _acceleration(breaks)
-    x = prototype_car.car().chassis.reference[0] + way(breaks)
+    x = start + way(breaks)
     coefficients = []
     for k, h in enumerate(np.diff(breaks)):
         low = [x[k], v[k], rate[k] / 2.0]

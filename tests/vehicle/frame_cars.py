@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
@@ -33,6 +34,12 @@ SMALL_TUBES = [
 ]  # fmt: skip
 SMALL_MASSES = {"pL": 82.6845, "lL": 45.0, "nL": 20.0, "gL": 25.0, "kL": 10.0, "aL": 10.0}
 
+SMALL_GAUGES = {
+    "F": {"tube": ["bL", "kL"], "place": 0.25},
+    "G": {"tube": ["lL", "gL"], "place": 0.5, "bridge": "quarter", "fibre": "left"},
+    "H": {"tube": ["kL", "pL"], "place": 0.5, "bridge": "axial"},
+}
+
 
 def prototype_with(
     frame: dict[str, Any], folder: Path, chassis: dict[str, Any] | None = None, changes: dict[str, Any] | None = None
@@ -48,7 +55,7 @@ def copied(folder: Path) -> Path:
     return Path(shutil.copytree(CARS / "prototype", folder / "car"))
 
 
-def small_frame(folder: Path, gauges: dict[str, Any]) -> Car:
+def small_frame(folder: Path) -> Car:
     """The prototype with a small frame of its own, whose mass, centre and inertia the chassis takes."""
     joints = ["joint,x,y,z", *(f"{name},{x},{y},{z}" for name, (x, y, z) in SMALL_JOINTS.items())]
     tubes = ["from,to,section,elements", *(f"{t.replace(' ', ',')},T,2" for t in SMALL_TUBES)]
@@ -63,7 +70,7 @@ def small_frame(folder: Path, gauges: dict[str, Any]) -> Car:
         "material": {"E": 2.1e11, "nu": 0.3, "rho": 7850.0},
         "sections": {"T": {"diameter": 0.042, "wall": 0.0022}},
         "damping": {"ratio": 0.02, "frequencies": [15.0, 60.0]},
-        "gauges": gauges,
+        "gauges": SMALL_GAUGES,
     }
     section = TubesFrame.model_validate(frame)
     return prototype_with(frame, folder, chassis_of(TubularFrame(section, folder)))
@@ -117,3 +124,18 @@ def exported(folder: Path) -> Car:
         "gauges": {name: {"kind": "recovery", "table": "recovery.csv"} for name in given["gauges"]},
     }
     return prototype_with(frame, folder)
+
+
+def written(car: Car) -> Path:
+    """The content of a car as a file in its folder."""
+    lines = [f"{key} = {_toml(value)}" for key, value in car._data.items()]
+    (car.folder / "car.toml").write_text("\n".join(lines) + "\n")
+    return car.folder
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    return json.dumps(value)

@@ -13,22 +13,25 @@ from mbs.errors import ModelError
 from mbs.flexible import natural_modes
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.car_file import CarFileError
-from tests.vehicle.frame_cars import PROTOTYPE, copied, exported, prototype_with, recovery_table, small_frame
+from tests.vehicle.frame_cars import (
+    PROTOTYPE,
+    SMALL_GAUGES,
+    copied,
+    exported,
+    prototype_with,
+    recovery_table,
+    small_frame,
+)
 
 REST = {"drive.creep_torque": 0.0}
 DRIVING = {"steering": ([0.0, 0.1, 0.3], [0.0, 0.0, 0.3]), "throttle": 0.5}
-GAUGES = {
-    "F": {"tube": ["bL", "kL"], "place": 0.25},
-    "G": {"tube": ["lL", "gL"], "place": 0.5, "bridge": "quarter", "fibre": "left"},
-    "H": {"tube": ["kL", "pL"], "place": 0.5, "bridge": "axial"},
-}
 LUMPED = 4e-3
 """Between consistent masses and those of a matrix, lumped at the nodes: frequencies, moments over their largest."""
 
 
 @pytest.fixture
 def small(tmp_path: Path) -> Car:
-    return small_frame(tmp_path, GAUGES)
+    return small_frame(tmp_path)
 
 
 def at_rest(car: Car, fidelity: int) -> mbs.Simulation:
@@ -185,7 +188,7 @@ def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
         "reference": reference,
         "damping": small._data["chassis"]["frame"]["damping"],
         "gauges": {
-            **{name: {"kind": "recovery", "table": "recovery.csv"} for name in GAUGES},
+            **{name: {"kind": "recovery", "table": "recovery.csv"} for name in SMALL_GAUGES},
             "N": {"kind": "node_pair", "nodes": pair, "E": 2.1e11},
         },
     }
