@@ -6,8 +6,10 @@ import json
 
 import pytest
 
+from benchmarks import handling
 from benchmarks.car import __main__ as car
 from benchmarks.car.accuracy import verdict
+from benchmarks.car.measures import MEASURES
 
 KEYS = {
     "manoeuvre", "h_s", "path_error_m", "path_error_rel", "wheel_load_error_rel", "iterations_mean", "iterations_max",
@@ -53,3 +55,19 @@ def test_verdict_takes_the_largest_step_within_both_bounds():
         "all: 2 ms, at least 60 times real time (aim 50: reached)",
     ]
     assert verdict(rows[:2]) == ["a: no step stays within the bounds"]
+
+
+def test_another_car_has_its_own_references(capsys):
+    arguments = ["--car", "hatchback", "--no-fmu", "--repeats", "1", "--manoeuvres", "step_steer"]
+    assert car.main(arguments) == 0
+    assert "step_steer: 10 ms" in capsys.readouterr().out
+
+
+def test_measures_of_a_car(tmp_path, capsys):
+    file, picture = tmp_path / "handling.json", tmp_path / "axles.png"
+    assert handling.main(["hatchback", "--json", str(file), "--chart", str(picture)]) == 0
+    rows = json.loads(file.read_text(encoding="utf-8"))["rows"]
+    assert [row["measure"] for row in rows] == [m.name for m in MEASURES]
+    assert all(set(row) == {"measure", "unit", "hatchback", "usual", "meaning"} for row in rows)
+    assert picture.stat().st_size > 10_000
+    assert "roll_gradient" in capsys.readouterr().out
