@@ -45,6 +45,7 @@ def metadata(
                 "min": i.min if math.isfinite(i.min) else None,
                 "max": i.max if math.isfinite(i.max) else None,
             }
+            | ({"whole": True} if i.whole else {})
             for i in model.inputs
         ],
         "sensors": [
