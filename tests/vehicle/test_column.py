@@ -196,3 +196,20 @@ def test_a_parameter_is_the_number_of_the_file(name):
     a, b = (s.run(2.0, H, inputs=LEFT) for s in (changed, rebuilt))
     for output in ("steering_wheel_torque", "chassis.y"):
         np.testing.assert_allclose(a[output], b[output], rtol=0, atol=1e-9)
+
+
+def test_a_saved_state_goes_on_with_the_same_bits():
+    def fresh() -> Simulation:
+        return Simulation(system(), pose=Pose(speed=15.0), parameters={"steering.by_torque": 1})
+
+    given = {"throttle": 0.2, "steering_torque": lambda t: 1.5 * math.sin(4.0 * t)}
+    first = fresh()
+    first.run(1.0, H, inputs=given)
+    state = first.save()
+    on = first.run(2.0, H, inputs=given)
+    again = fresh()
+    again.restore(state)
+    assert not again.switch("steering angle")
+    resumed = again.run(2.0, H, inputs=given)
+    np.testing.assert_array_equal(resumed["steering_wheel_angle"], on["steering_wheel_angle"])
+    np.testing.assert_array_equal(resumed["chassis.y"], on["chassis.y"])
