@@ -12,18 +12,16 @@ import pytest
 from fmu_src.build import build_fmu
 from hosts.fmu import Fmu
 from mbs import Pose, Simulation, System, compile
-from mbs.vehicle import load
+from tests.vehicle.column_car import column_car
 
 STEP, END = 0.01, 8.0
 START = {"initial.speed": 15.0, "steering.by_torque": 1}
 OUTPUTS = ["chassis.y", "steering_wheel_angle", "steering_wheel_speed", "steering_wheel_torque", "chassis.yaw"]
-COLUMN = {"kind": "column", "rack_mass": 2.5, "wheel_inertia": 0.035, "stiffness": 115.0, "damping": 0.4}
-COLUMN |= {"friction": 0.2, "rack_friction": 120.0, "assistance": 1.5, "assistance_limit": 60.0}
 
 
 @pytest.fixture(scope="module")
 def system() -> System:
-    return compile(load("prototype").changed({f"steering.{k}": v for k, v in COLUMN.items()}).model())
+    return compile(column_car(assistance=1.5, assistance_limit=60.0).model())
 
 
 @pytest.fixture(scope="module")
