@@ -8,27 +8,18 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mbs import ModelError, Pose, Simulation, System, compile
+from mbs import Pose, Simulation, System, compile
 from mbs.vehicle import Car, load
 from mbs.vehicle.car_file import CarFileError
+from tests.vehicle.column_car import COLUMN, column_car
 
-COLUMN = {
-    "kind": "column",
-    "rack_mass": 2.5,
-    "wheel_inertia": 0.035,
-    "stiffness": 115.0,
-    "damping": 0.4,
-    "friction": 0.2,
-    "rack_friction": 120.0,
-}
 SMOOTH = {"friction": 0.0, "rack_friction": 0.0}
 H = 0.005
 LEFT = {"throttle": 0.12, "steering": lambda t: 0.08 * min(1.0, max(0.0, t - 1.0)) ** 2}
 
 
 def car(**changes: object) -> Car:
-    given = COLUMN | changes
-    return load("prototype").changed({f"steering.{name}": value for name, value in given.items()})
+    return column_car(**changes)
 
 
 @cache
@@ -181,8 +172,8 @@ def test_bad_numbers_and_a_flexible_chassis_are_refused():
         car(by_torque=0.5)
     with pytest.raises(CarFileError, match=r"stiffness"):
         car(stiffness=115e3)
-    with pytest.raises(ModelError, match=r"steering\.kind is 'column', which needs a rigid chassis"):
-        car().model(fidelity="dynamic")
+    with pytest.raises(CarFileError, match=r"steering\.kind is 'column', which needs a rigid chassis"):
+        load("prototype").changed({f"steering.{name}": value for name, value in COLUMN.items()})
 
 
 @pytest.mark.parametrize(
@@ -196,3 +187,20 @@ def test_a_parameter_is_the_number_of_the_file(name):
     a, b = (s.run(2.0, H, inputs=LEFT) for s in (changed, rebuilt))
     for output in ("steering_wheel_torque", "chassis.y"):
         np.testing.assert_allclose(a[output], b[output], rtol=0, atol=1e-9)
+
+
+def test_a_saved_state_goes_on_with_the_same_bits():
+    def fresh() -> Simulation:
+        return Simulation(system(), pose=Pose(speed=15.0), parameters={"steering.by_torque": 1})
+
+    given = {"throttle": 0.2, "steering_torque": lambda t: 1.5 * math.sin(4.0 * t)}
+    first = fresh()
+    first.run(1.0, H, inputs=given)
+    state = first.save()
+    on = first.run(2.0, H, inputs=given)
+    again = fresh()
+    again.restore(state)
+    assert not again.switch("steering angle")
+    resumed = again.run(2.0, H, inputs=given)
+    np.testing.assert_array_equal(resumed["steering_wheel_angle"], on["steering_wheel_angle"])
+    np.testing.assert_array_equal(resumed["chassis.y"], on["chassis.y"])

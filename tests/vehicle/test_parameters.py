@@ -13,7 +13,7 @@ from mbs.vehicle.car_file import car_from
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.section import sections_of
 
-NOT_IN_THE_FILE = {"road.kerb_x", "road.kerb_height", "steering.by_torque"}
+NOT_IN_THE_FILE = {"road.kerb_x", "road.kerb_height"}
 T_END, H = 1.0, 0.005  # s
 SAME = 1e-9
 
@@ -41,6 +41,8 @@ def other(name, path):
     """A plausible value that is not that of the file."""
     q = quantity(name, path)
     value = load(name).values()[path]
+    if path == "steering.by_torque":
+        return 1.0 - value
     if value == 0.0:
         return q.low + 0.1 * (q.high - q.low)
     return 0.93 * value if 0.93 * value >= q.least else min(1.07 * value, q.high)

@@ -212,7 +212,7 @@ class Column(RackSection):
                 "energy.steering",
                 [e for e in m.elements if e.name in names],
                 "nonconservative",
-                "work of steering_torque, assistance, friction and stops of the steering since the start, "
+                description="work of steering_torque, assistance, friction and stops of the steering since the start, "
                 "without what is stored",
             )
 
