@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -72,6 +72,21 @@ class Quantity:
         if self.zero and self.low > 0.0:
             return {"anyOf": [{"const": 0}, limits], "unit": self.unit}
         return limits | {"unit": self.unit}
+
+
+def quantity_in(annotation: Any) -> Quantity | None:
+    """The quantity of a type, of a number or of the elements of a list; None where there is none.
+
+    Parameters
+    ----------
+    annotation : type
+        Of a field.
+    """
+    for item in (*getattr(annotation, "__metadata__", ()), *get_args(annotation)):
+        found = item if isinstance(item, Quantity) else quantity_in(item)
+        if found is not None:
+            return found
+    return None
 
 
 def _fixed(quantity: Quantity) -> Quantity:
