@@ -39,6 +39,7 @@ COMMANDS = (
     Command("parameters", "hosts.parameters", "show the parameters of an FMU, or write them as a parameter set"),
     Command("check", "hosts.check", "check an FMU and print a verdict"),
     Command("kerb", "hosts.kerb", "run the paper's kerb test and draw the moments of the frame"),
+    Command("road", "mbs.roads.command", "make, check and show road files"),
     Command("kernel", "mbs.kernel.build", "compile the C kernel for a platform"),
 )
 

@@ -19,6 +19,7 @@ _EXTRAS = {
     "imageio": "pictures",
     "lxml": "hosts",
     "matplotlib": "hosts",
+    "PIL": "roads",
     "meshio": "fem",
     "mujoco": "peers",
     "pyssp_standard": "hosts",

@@ -57,6 +57,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   ali3_workspace_place(s, in, &pool);
   in->system = s;
   in->release = s->memory.release;
+  in->n_roads = s->nr;
   in->n_vector = ali3_vector_count(s);
   in->force_input = in->input;
   if (s->tree != NULL) ali3_tree_start(s, in->tree);

@@ -59,5 +59,5 @@ uint32_t ali3_model_crc(const ali3_instance *in) {
 }
 
 void ali3_roads_close(ali3_instance *in) {
-  for (int32_t r = 0; r < in->system->nr; r++) ali3_road_file_close(in->road[r].file);
+  for (int32_t r = 0; r < in->n_roads; r++) ali3_road_file_close(in->road[r].file);
 }

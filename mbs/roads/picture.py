@@ -1,0 +1,71 @@
+"""A picture of a road."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+
+FRAMED = 20.0
+"""m: shown of a plane, and to both sides of a kerb."""
+MOST = 2000
+"""Points shown along a side of a grid."""
+
+
+def draw_road(road: PlaneRoad | KerbRoad | GridRoad, file: Path, name: str) -> None:
+    """Draw heights and frictions from above, x to the right and y up, and the heights along the middle.
+
+    Parameters
+    ----------
+    road : PlaneRoad, KerbRoad or GridRoad
+    file : Path
+        A PNG, or what Matplotlib writes by the suffix.
+    name : str
+        Title.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    x, y, heights, frictions = shown(road)
+    figure = Figure(figsize=(10.0, 7.5), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(3, 1, sharex=True)
+    for ax, values, label in ((axes[0], heights, "height, m"), (axes[1], frictions, "friction")):
+        image = ax.pcolormesh(x, y, values.T, shading="gouraud", cmap="viridis")
+        figure.colorbar(image, ax=ax, label=label)
+        ax.set_ylabel("y, m (left)")
+        ax.plot(0.0, 0.0, "r+", markersize=10, markeredgewidth=2)
+    for k, style in ((0, ":"), (len(y) // 2, "-"), (len(y) - 1, "--")):
+        axes[2].plot(x, heights[:, k], style, color="k", linewidth=1.0, label=f"y = {y[k]:.4g} m")
+    axes[2].set_xlabel("x, m (ahead); + is the origin, where a car starts unless initial.x or .y say otherwise")
+    axes[2].set_ylabel("height, m")
+    axes[2].legend(loc="upper right", fontsize="small")
+    axes[2].grid(True, alpha=0.3)
+    figure.suptitle(f"{name} (beyond its border the values there go on)" if isinstance(road, GridRoad) else name)
+    figure.savefig(file)
+
+
+def shown(
+    road: PlaneRoad | KerbRoad | GridRoad,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Coordinates x (nx,) and y (ny,), heights and frictions (nx, ny) to draw; of large grids every so many points."""
+    if isinstance(road, GridRoad):
+        heights = np.asarray(road.heights, float)
+        frictions = np.broadcast_to(np.asarray(road.frictions, float) * road.friction_factor, heights.shape)
+        every = tuple(slice(None, None, -(-n // MOST)) for n in heights.shape)
+        x, y = (
+            np.asarray(road.origin[k] + road.spacing[k] * np.arange(heights.shape[k]), np.float64) for k in range(2)
+        )
+        return x[every[0]], y[every[1]], np.asarray(heights[every]), frictions[every]
+    middle = road.position if isinstance(road, KerbRoad) else 0.0
+    x = middle + np.linspace(-FRAMED, FRAMED, 401)
+    y = np.linspace(-FRAMED / 4.0, FRAMED / 4.0, 51)
+    if isinstance(road, PlaneRoad):
+        heights = road.height + road.grade_x * x[:, None] + road.grade_y * y[None, :]
+    else:
+        upper = (x <= road.position) == (road.upper == "before")
+        heights = np.repeat((road.lower_height + road.step * upper)[:, None], len(y), axis=1)
+    return x, y, heights, np.full(heights.shape, road.friction * road.friction_factor)

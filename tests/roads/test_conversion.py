@@ -1,0 +1,267 @@
+"""Roads from tables, arrays, pictures and descriptions; the command; its pictures."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from ali3.command import main
+from mbs.elements import GridRoad, KerbRoad, PlaneRoad
+from mbs.roads import RoadFile, RoadFileError, read_road, write_road
+from mbs.roads.picture import shown
+from mbs.roads.rough_road import ISO_8608, rough_heights
+from mbs.roads.shipped import FOLDER
+
+HEIGHTS = np.array([[0.0, 0.1, 0.2], [1.0, 1.1, 1.2]])  # x number 0 and 1, y number 0 to 2
+LABELLED = "x\\y,-1,0,1\n5,0.0,0.1,0.2\n7,1.0,1.1,1.2\n"
+
+
+def arrays(road):
+    return np.asarray(road.heights), np.broadcast_to(np.asarray(road.frictions), np.shape(road.heights))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        LABELLED,
+        "# a comment\n\n" + LABELLED,
+        LABELLED.replace(",", "\t"),
+        LABELLED.replace(",", ";").replace(".", ","),
+        LABELLED.replace("\n", "\r\n"),
+        "\ufeff" + LABELLED,
+        LABELLED.replace("x\\y", ""),
+    ],
+)
+def test_a_table_with_coordinates(tmp_path, text):
+    (tmp_path / "a.csv").write_text(text, encoding="utf-8", newline="")
+    road = read_road(tmp_path / "a.csv", frictions=0.7)
+    assert np.array_equal(road.heights, HEIGHTS)
+    assert tuple(road.origin) == (5.0, -1.0)
+    assert tuple(road.spacing) == (2.0, 1.0)
+    assert road.frictions == 0.7
+
+
+def test_a_table_without_coordinates(tmp_path):
+    (tmp_path / "a.csv").write_text("0,0.1,0.2\n1,1.1,1.2\n")
+    road = read_road(tmp_path / "a.csv", origin=(3.0, 4.0), spacing=(0.5, 0.25))
+    assert np.array_equal(road.heights, HEIGHTS)
+    assert (*road.origin, *road.spacing) == (3.0, 4.0, 0.5, 0.25)
+    with pytest.raises(RoadFileError, match="give the spacing"):
+        read_road(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "0 rows"),
+        ("1,2\n", "1 rows"),
+        ("1,2\n3\n", "row 2 has 1 cells, the first one 2"),
+        ("1,2\n3,x\n", "'x' in row 2 is no number"),
+        ("1,2\n3,nan\n", "at row 1, column 1 is nan"),
+        ("x,0,1\n0,1,2\n0,1,2\n", "coordinates x do not ascend"),
+        ("x,0,1,5\n0,1,2,3\n1,1,2,3\n", "coordinates y are not regular: 1 should be 2.5"),
+        ("x,0\n0,1\n1,1\n", "at least 2 x 2"),
+        ("1\n2\n", "at least 2 x 2"),
+    ],
+)
+def test_a_bad_table_is_refused(tmp_path, text, sentence):
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(RoadFileError, match=sentence) as refused:
+        read_road(tmp_path / "a.csv", spacing=(1.0, 1.0))
+    assert "a.csv" in str(refused.value)
+
+
+def test_arrays(tmp_path):
+    np.save(tmp_path / "a.npy", HEIGHTS.astype(np.float32))
+    road = read_road(tmp_path / "a.npy", spacing=(1.0, 2.0), frictions=0.5)
+    assert np.array_equal(road.heights, HEIGHTS.astype(np.float32).astype(float))
+    frictions = HEIGHTS * 0.5
+    np.savez(tmp_path / "a.npz", heights=HEIGHTS, frictions=frictions, origin=[1.0, 2.0], spacing=0.25)
+    road = read_road(tmp_path / "a.npz")
+    assert np.array_equal(road.frictions, frictions)
+    assert (*road.origin, *road.spacing) == (1.0, 2.0, 0.25, 0.25)
+    np.save(tmp_path / "mu.npy", frictions)
+    road = read_road(tmp_path / "a.npy", spacing=(1.0, 2.0), frictions=tmp_path / "mu.npy")
+    assert np.array_equal(road.frictions, frictions)
+
+
+def test_bad_arrays_are_refused(tmp_path):
+    np.save(tmp_path / "o.npy", np.array([[object(), 1], [2, 3]]), allow_pickle=True)
+    np.save(tmp_path / "c.npy", HEIGHTS * 1j)
+    np.save(tmp_path / "flat.npy", np.zeros(5))
+    np.save(tmp_path / "other.npy", np.zeros((3, 3)))
+    np.save(tmp_path / "inf.npy", np.full((3, 3), np.inf))
+    np.savez(tmp_path / "a.npz", height=HEIGHTS)
+    np.savez(tmp_path / "b.npz", frictions=HEIGHTS)
+    (tmp_path / "text.npy").write_text("no array")
+    np.save(tmp_path / "good.npy", HEIGHTS)
+    for name, sentence in (
+        ("o.npy", "pickle"),
+        ("c.npy", "type complex128"),
+        ("flat.npy", r"shape \(5,\)"),
+        ("inf.npy", "row 0, column 0 is inf"),
+        ("a.npz", "array 'height'; known are frictions, heights, origin, spacing"),
+        ("b.npz", "no array 'heights'"),
+        ("text.npy", "cannot be read as a NumPy file"),
+        ("nothing.npy", "there is no such file"),
+        ("a.xlsx", "of a kind that is not read"),
+    ):
+        with pytest.raises(RoadFileError, match=sentence):
+            read_road(tmp_path / name, spacing=(1.0, 1.0))
+    with pytest.raises(RoadFileError, match=r"frictions in .* have shape \(3, 3\), the heights in .* \(2, 3\)"):
+        read_road(tmp_path / "good.npy", spacing=(1.0, 1.0), frictions=tmp_path / "other.npy")
+    with pytest.raises(RoadFileError, match="must lie between 0 and 10"):
+        read_road(tmp_path / "good.npy", spacing=(1.0, 1.0), frictions=-0.1)
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+def test_pictures_are_seen_from_above(tmp_path, bits):
+    image = pytest.importorskip("PIL.Image")
+    white = 2**bits - 1
+    pixels = np.zeros((3, 4), np.uint8 if bits == 8 else np.uint16)
+    pixels[0, 0] = white  # the upper left corner: least x, largest y
+    pixels[2, 3] = white // 3  # the lower right one: largest x, least y
+    image.fromarray(pixels).save(tmp_path / "a.png")
+    road = read_road(tmp_path / "a.png", spacing=(1.0, 1.0), height_range=(-1.0, 2.0), origin=(10.0, 20.0))
+    expected = np.full((4, 3), -1.0)
+    expected[0, 2] = 2.0
+    expected[3, 0] = 0.0
+    assert np.allclose(road.heights, expected, atol=1e-12)
+    with pytest.raises(RoadFileError, match="say which heights black and white mean"):
+        read_road(tmp_path / "a.png", spacing=(1.0, 1.0))
+
+
+def test_pictures_that_are_none_are_refused(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    image.new("RGB", (4, 4)).save(tmp_path / "rgb.png")
+    (tmp_path / "text.png").write_text("no picture")
+    good = tmp_path / "grey.png"
+    image.new("L", (64, 64)).save(good)
+    (tmp_path / "cut.png").write_bytes(good.read_bytes()[:60])
+    for name, sentence in (
+        ("rgb.png", "mode RGB; 8 or 16 bits of grey"),
+        ("text.png", "cannot be read"),
+        ("cut.png", "cannot be read"),
+    ):
+        with pytest.raises(RoadFileError, match=sentence):
+            read_road(tmp_path / name, spacing=(1.0, 1.0), height_range=(0.0, 1.0))
+
+
+def test_descriptions(tmp_path):
+    def described(text):
+        (tmp_path / "a.toml").write_text(text)
+        return read_road(tmp_path / "a.toml")
+
+    assert described('kind = "plane"\ngrade_x = 0.1\nfriction = 0.5') == PlaneRoad(0.0, 0.1, 0.0, 0.5)
+    assert described('kind = "kerb"\nposition = 3\nstep = 0.1\nupper = "after"') == KerbRoad(3.0, 0.1, 0.0, "after")
+    (tmp_path / "z.csv").write_text(LABELLED)
+    grid = described('kind = "grid"\nheights = "z.csv"\nfrictions = 0.4\norigin = [1, 2]')
+    assert np.array_equal(grid.heights, HEIGHTS)
+    assert (tuple(grid.origin), tuple(grid.spacing), grid.frictions) == ((1.0, 2.0), (2.0, 1.0), 0.4)
+    split = described('kind = "split"\nstart = 0\nlength = 10\nleft = 0.9\nright = 0.1')
+    assert np.array_equal(split.frictions[0], [0.1, 0.1, 0.9, 0.9])
+    assert split.origin[1] + 1.5 * split.spacing[1] == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("kind = ", "no TOML file"),
+        ("", "kind"),
+        ('kind = "hill"', "kind"),
+        ('kind = "plane"\ngrade = 0.1', "'grade' is 0.1: extra inputs are not permitted"),
+        ('kind = "plane"\nfriction = 9', "'friction' is 9: input should be less than or equal to 2"),
+        ('kind = "plane"\nheight = nan', "'height' is nan"),
+        ('kind = "kerb"\nstep = 0.1', "'position': field required"),
+        ('kind = "grid"\nheights = "nothing.csv"', "nothing.csv cannot be read: there is no such file"),
+        ('kind = "rough"\nstart=0\nlength=10\nwidth=2\nroughness="Z"', "'roughness' is 'Z'"),
+    ],
+)
+def test_a_bad_description_is_refused(tmp_path, text, sentence):
+    (tmp_path / "a.toml").write_text(text)
+    with pytest.raises(RoadFileError) as refused:
+        read_road(tmp_path / "a.toml")
+    assert sentence in str(refused.value)
+    assert "a.toml" in str(refused.value) or "nothing.csv" in str(refused.value)
+
+
+@pytest.mark.parametrize("name", [path.stem for path in FOLDER.glob("*.toml")])
+def test_the_roads_of_the_package_are_what_their_descriptions_say(tmp_path, name):
+    write_road(read_road(FOLDER / f"{name}.toml"), tmp_path / "a.road")
+    assert (tmp_path / "a.road").read_bytes() == (FOLDER / f"{name}.road").read_bytes()
+
+
+def test_a_rough_road_has_the_spectrum_of_its_class():
+    """Along x and y: the one-sided density of ISO 8608, Gd(n0) (n0/n)^2, mean over the other direction."""
+    spacing, side = 0.2, 512
+    heights = rough_heights(side, side, spacing, ISO_8608["C"], 7)
+    n = np.fft.rfftfreq(side, spacing)[5:100]  # 0.05 to 1 1/m: leakage is small there
+    for z in (heights, heights.T):
+        window = np.hanning(side)
+        amplitudes = np.abs(np.fft.rfft(z * window[:, None], axis=0)) ** 2
+        density = 2.0 * spacing / np.sum(window**2) * amplitudes.mean(axis=1)[5:100]
+        ratio = density / (ISO_8608["C"] * (0.1 / n) ** 2)
+        assert np.exp(np.mean(np.log(ratio))) == pytest.approx(1.0, abs=0.15)
+    assert not np.array_equal(heights, rough_heights(side, side, spacing, ISO_8608["C"], 8))
+
+
+def test_the_command(tmp_path, capsys):
+    (tmp_path / "a.csv").write_text(LABELLED)
+    road, picture = tmp_path / "a.road", tmp_path / "a.png"
+    given = ["road", str(tmp_path / "a.csv"), str(road), "--frictions", "0.6", "--picture", str(picture)]
+    assert main(given) == 0
+    said = capsys.readouterr().out
+    assert "grid of 2 x 3 points\nx: 5 to 7 m, every 2 m\ny: -1 to 1 m, every 1 m\n" in said
+    assert "heights: 0 to 1.2 m, steepest 50 %\nfrictions: 0.6 to 0.6\n" in said
+    assert np.array_equal(RoadFile(road).read().heights, HEIGHTS)
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert main(["road", str(road)]) == 0
+    assert "grid of 2 x 3 points" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["nothing.csv"], "there is no such file"),
+        (["a.csv", "b.txt"], "give it the suffix .road"),
+        (["plane.toml", "--origin", "1", "2"], "says by itself what the road is; --origin"),
+        (["plane.toml", "--range", "1", "2"], "--range is of tables"),
+        (["bad.road"], "no road file"),
+    ],
+)
+def test_the_command_says_what_is_wrong(tmp_path, capsys, monkeypatch, arguments, sentence):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.csv").write_text(LABELLED)
+    (tmp_path / "plane.toml").write_text('kind = "plane"')
+    (tmp_path / "bad.road").write_text("no road")
+    assert main(["road", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert error.startswith("error: ")
+    assert error.count("\n") == 1
+
+
+def test_a_refused_road_leaves_the_old_file(tmp_path):
+    (tmp_path / "a.csv").write_text("1,2\n3,400000\n")
+    (tmp_path / "a.road").write_text("older")
+    given = [str(tmp_path / "a.csv"), str(tmp_path / "a.road"), "--spacing", "1", "1"]
+    done = subprocess.run(
+        [sys.executable, "-m", "mbs.roads.command", *given], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert "it must lie between -100000 and 100000 m" in done.stderr
+    assert (tmp_path / "a.road").read_text() == "older"
+
+
+def test_what_is_drawn_is_the_road():
+    x, y, heights, frictions = shown(GridRoad((1.0, 2.0), (0.5, 0.25), HEIGHTS, 0.5, friction_factor=0.5))
+    assert (list(x), list(y)) == ([1.0, 1.5], [2.0, 2.25, 2.5])
+    assert np.array_equal(heights, HEIGHTS)
+    assert np.all(frictions == 0.25)
+    x, y, heights, _ = shown(KerbRoad(3.0, 0.2, -0.1, "before"))
+    assert heights[x < 3.0].min() == heights[x <= 3.0].max() == pytest.approx(0.1)
+    assert np.all(heights[x > 3.0] == -0.1)
+    assert shown(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((9000, 3))))[0].shape == (1800,)
