@@ -30,7 +30,8 @@ def json_schema() -> dict[str, Any]:
     made["definitions"] = dict(sorted(made.pop("$defs").items()))
     made["definitions"] = {name: _plain(table) for name, table in made["definitions"].items()}
     head: dict[str, Any] = {"$schema": DRAFT, "title": "Car file of ALi3"}
-    return head | _plain({key: value for key, value in made.items() if key != "title"})
+    head.update(_plain({key: value for key, value in made.items() if key != "title"}))
+    return head
 
 
 def schema_text() -> str:

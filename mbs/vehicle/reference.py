@@ -30,9 +30,9 @@ Every table and key of a `car.toml`, version {SCHEMA} of its form; [your own car
 This page and `mbs/vehicle/car.schema.json`, which editors read, are written from the types that read the file, by
 `python -m mbs.vehicle.reference`.
 
-A key without a default must be given, and no other keys are known. A number outside its range is refused: where 0 is not
-in it, the ends of a range are less than a factor of 1000 apart, so that millimetres or tonnes are noticed. *FMU* says
-whether the key is a parameter of the FMU, of the same name: *tunable* while driving, or *fixed* from the start on.
+A key without a default must be given, and no other keys are known. A number outside its range is refused: but for
+coordinates the ends of a range are less than a factor of 1000 apart, so that millimetres or tonnes are noticed. *FMU*
+says whether the key is a parameter of the FMU, of the same name: *tunable* while driving, or *fixed* from the start on.
 `{AXLE}` is `front` or `rear`, `{NAME}` a name of your choice: {NAME_WORDS}.
 """
 COLUMNS = ("key", "value", "unit", "range", "default", "FMU", "what it is")

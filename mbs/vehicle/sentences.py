@@ -15,6 +15,7 @@ from mbs.vehicle.names import FORMS, NAME_WORDS
 from mbs.vehicle.section import Section
 
 CLOSE = 0.6  # of difflib: spellings that may be meant
+LONGEST = 400  # characters of a sentence
 ELSEWHERE = 3  # places of a key that a sentence names
 UNKNOWN, MISSING = "extra_forbidden", "missing"
 Loc = Sequence["int | str"]
@@ -134,6 +135,18 @@ class Sentences:
             if whole is not None and words(whole).startswith("a list of 3 numbers, between -"):
                 return f"{_key(path)} ({'xyz'[int(path[-1])]})"
         return _key(path)
+
+
+def one_line(sentence: str) -> str:
+    """A sentence whose names and values, which may be any text, neither break the line nor make it endless.
+
+    Parameters
+    ----------
+    sentence : str
+        With texts of a file in it.
+    """
+    printable = "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
+    return printable if len(printable) <= LONGEST else f"{printable[: LONGEST // 2]} ... {printable[-LONGEST // 2 :]}"
 
 
 def _key(path: Sequence[str]) -> str:

@@ -57,7 +57,6 @@ def changed_files(draw):
         elif kind == "rename" and isinstance(where, dict):
             other_name = draw(st.sampled_from((key[:-1], key + "s", key.upper(), "front", "kind", "ä", key + ".x")))
             where[other_name] = where.pop(key)
-            )
         else:
             other, there = found[draw(st.integers(0, len(found) - 1))]
             if kind == "swap":
