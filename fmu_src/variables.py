@@ -214,7 +214,9 @@ def check_fidelities(metas: Sequence[Mapping[str, Any]]) -> None:
     """Systems to choose from must have the same inputs, parameters and sensors in the same order."""
     for k, meta in enumerate(metas[1:], start=1):
         for kind in ("inputs", "parameters", "sensors"):
-            mine, first = ([(e["name"], e["unit"], e.get("whole")) for e in m[kind]] for m in (meta, metas[0]))
+            mine, first = (
+                [(e["name"], e["unit"], e.get("whole"), e.get("fixed")) for e in m[kind]] for m in (meta, metas[0])
+            )
             if mine != first:
                 odd = next((a or b for a, b in zip_longest(mine, first) if a != b), ("", "", None))[0]
                 raise ValueError(

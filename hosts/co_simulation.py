@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hosts.driver import ACTS, SENSES, Driver, make_driver
 from hosts.errors import HostError
 from hosts.fmu import Fmu, StepRefusedError
-from hosts.manoeuvre import Manoeuvre
+from hosts.manoeuvre import Manoeuvre, with_names_of
 
 # Bytes a run may record: more would fill the memory before the disk.
 _LARGEST_RECORD = 4e9
@@ -198,6 +198,7 @@ def run(
         Up to the first refused step.
     """
     outputs = fmu.names("output")
+    manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
     if driver is not None:

@@ -47,7 +47,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.dr
 def _drive(options: argparse.Namespace) -> int:
     from hosts.co_simulation import check_columns, communication_step, driver_of, run_with_bar
     from hosts.fmu import Fmu
-    from hosts.manoeuvre import load_manoeuvre
+    from hosts.manoeuvre import load_manoeuvre, with_names_of
     from hosts.result_files import print_result, result_paths, write_csv, write_record
     from hosts.result_plots import plot_page
     from hosts.run_summary import energy_balance, summary
@@ -59,6 +59,7 @@ def _drive(options: argparse.Namespace) -> int:
         raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
     manoeuvre = replace(manoeuvre, driver=dict(manoeuvre.driver) | {k: repr(v) for k, v in known.items()})
     with Fmu(path) as fmu:
+        manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
         manoeuvre, settings = set_in(fmu, manoeuvre, wishes(options), options.fidelity)

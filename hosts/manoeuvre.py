@@ -6,7 +6,7 @@ import configparser
 import csv
 import math
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -69,6 +69,28 @@ class Manoeuvre:
             name: float(v[k - 1]) if name in held else float(v[k - 1] + s * (v[k] - v[k - 1]))
             for name, v in self.inputs.items()
         }
+
+
+def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:
+    """The manoeuvre with one name for each start value, where its file gives several.
+
+    Parameters
+    ----------
+    manoeuvre : Manoeuvre
+        A key of its start values may be ``a | b``: the first of these names that there is.
+    names : collection of str
+        Variables that there are.
+
+    Returns
+    -------
+    Manoeuvre
+        Where there is none of several, with the first of them.
+    """
+    start = {}
+    for key, value in manoeuvre.start.items():
+        choice = [name.strip() for name in key.split("|")]
+        start[next((name for name in choice if name in names), choice[0])] = value
+    return replace(manoeuvre, start=start)
 
 
 def load_manoeuvre(manoeuvre: str) -> Manoeuvre:

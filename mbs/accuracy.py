@@ -268,7 +268,7 @@ def _higher_orders(system: System, method: str) -> list[str]:
     if (
         METHOD_TABLE[method].order > 2
         or len(arrays["y0"])
-        or (np.asarray(arrays["guide_type"]) == GuideType.OF_INPUT).any()
+        or (np.asarray(arrays["guide_type"]) != GuideType.OF_TIME).any()
     ):
         return []
     open_tree = not system.report["no_tree"] and len(arrays["tree_cut_body"]) == 0

@@ -14,6 +14,7 @@ import numpy as np
 from benchmarks.car import manoeuvres, trajectories
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.timing import median_wall
+from hosts.manoeuvre import with_names_of
 from mbs import Trajectory
 
 PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
@@ -27,16 +28,14 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeu
 
     manoeuvre = manoeuvres.load(name, car)
     system = manoeuvres.system_of(name, car)
-    parameters = manoeuvres.start_of(manoeuvre, system)[0]
-    start = {k: v for k, v in manoeuvre.start.items() if k.startswith(manoeuvres.INITIAL)} | parameters
-    held = {k: float(v) for k, v in manoeuvres.inputs_of(manoeuvre, system).items() if isinstance(v, float)}
+    start = with_names_of(manoeuvre, [v["name"] for kind in ("parameters", "inputs") for v in system.meta[kind]]).start
     steps = round(manoeuvre.stop_time / h)
     rows = [list(manoeuvre.at(k * h).values()) for k in range(steps)]
 
     def once() -> float:
         with Fmu(file) as fmu:
             set_inputs, get_outputs = fmu.setter(list(manoeuvre.inputs)), fmu.getter(OUTPUTS)
-            fmu.initialise(start | held | manoeuvre.at(0.0) | {"step_size": h})
+            fmu.initialise(start | manoeuvre.at(0.0) | {"step_size": h})
             begin = time.perf_counter()
             for k, row in enumerate(rows):
                 set_inputs(row)

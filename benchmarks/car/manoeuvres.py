@@ -1,7 +1,6 @@
 """Manoeuvres of cars: the host's files and some more, run in the kernel without an FMU.
 
-They are the prototype's; where another car wants other pedals or steering there is a file in its folder. A manoeuvre in
-neutral has the parameter that stops a converter from creeping; a car without one gets the selector in neutral.
+They are the prototype's; where another car wants other pedals or steering there is a file in its folder.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 
 from benchmarks.shared.timing import step_time
 from hosts.driver import make_driver
-from hosts.manoeuvre import Manoeuvre, load_manoeuvre
+from hosts.manoeuvre import Manoeuvre, load_manoeuvre, with_names_of
 from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulate
 from mbs.elements.road import GridRoad
 from mbs.input_signals import Signal
@@ -31,7 +30,6 @@ OTHER_ROAD = ("brake_on_slope",)  # not the road of the FMU
 INITIAL = "initial."
 PROTOTYPE = "prototype"
 CARS = (PROTOTYPE, "hatchback")
-CREEP, SELECTOR = "drive.creep_torque", "selector"
 
 
 def load(name: str, car: str = PROTOTYPE) -> Manoeuvre:
@@ -66,23 +64,26 @@ def rise(car: str = PROTOTYPE, grade: float = GRADE) -> GridRoad:
 
 def start_of(manoeuvre: Manoeuvre, system: System) -> tuple[dict[str, float], Pose | None]:
     """Parameters and pose at the start."""
-    pose = {k[len(INITIAL) :]: v for k, v in manoeuvre.start.items() if k.startswith(INITIAL)}
-    parameters = {k: v for k, v in manoeuvre.start.items() if not k.startswith(INITIAL)}
-    if _without_creep(system):
-        parameters.pop(CREEP, None)
+    start = _start(manoeuvre, system)
+    pose = {k[len(INITIAL) :]: v for k, v in start.items() if k.startswith(INITIAL)}
+    inputs = _names(system, "inputs")
+    parameters = {k: v for k, v in start.items() if not k.startswith(INITIAL) and k not in inputs}
     return parameters, Pose(**pose) if pose else None
 
 
 def inputs_of(manoeuvre: Manoeuvre, system: System) -> dict[str, Signal]:
     """Inputs over time as `mbs.simulate` takes them."""
     inputs: dict[str, Signal] = {name: (manoeuvre.time, values) for name, values in manoeuvre.inputs.items()}
-    if CREEP in manoeuvre.start and _without_creep(system):
-        inputs[SELECTOR] = 0.0
-    return inputs
+    held = _names(system, "inputs")
+    return inputs | {k: v for k, v in _start(manoeuvre, system).items() if k in held and k not in inputs}
 
 
-def _without_creep(system: System) -> bool:
-    return CREEP not in {p["name"] for p in system.meta["parameters"]}
+def _start(manoeuvre: Manoeuvre, system: System) -> dict[str, float]:
+    return with_names_of(manoeuvre, _names(system, "parameters") | _names(system, "inputs")).start
+
+
+def _names(system: System, kind: str) -> set[str]:
+    return {entry["name"] for entry in system.meta[kind]}
 
 
 def run(

@@ -19,14 +19,17 @@ MAX_ITERATIONS = 400
 
 
 def start_arrays(system: System | None, parameters: Mapping[str, float]) -> dict[str, Any]:
-    """The `static_` arrays: whether the System starts in equilibrium, and parameters that hold while it is sought."""
+    """The `static_` arrays: whether a System starts in equilibrium, where that is sought from (the start of `system`),
+    and parameters that hold meanwhile.
+    """
     if system is None:
-        return {"static_start": [], "static_par": [], "static_value": []}
+        return {"static_start": [], "static_par": [], "static_value": [], "static_q": []}
     names = [entry["name"] for entry in system.meta["parameters"]]
     return {
         "static_start": [1],
         "static_par": [names.index(name) for name in parameters],
         "static_value": list(parameters.values()),
+        "static_q": system.arrays["q0"],
     }
 
 

@@ -30,6 +30,7 @@ from mbs.compiler.natural import natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
 from mbs.compiler.ordering import clique_pattern, fill_reducing_order
 from mbs.compiler.overconstrained import MOST_TOLERANCE, TOLERANCE, corrected_joints, redrawn
+from mbs.compiler.payloads import payload_arrays, payload_cliques, with_room
 from mbs.compiler.polynomial import RowTerms, row_terms
 from mbs.compiler.pose import pose_arrays, pose_partners
 from mbs.compiler.row_arrays import RowArrays
@@ -109,6 +110,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     order = fronts.order
     new = np.argsort(order)
     mass = mass[order][:, order].tocsr()
+    mass = with_room(mass, [new[c].tolist() for c in payload_cliques(model, full)])
     mass.sort_indices()
     arrays = RowArrays(rows, new)
 
@@ -153,6 +155,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         **element_arrays(model, signals, locate),
         **sensor_arrays(model, signals, row_of),
         **channel_arrays(model),
+        **payload_arrays(model, signals),
         **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, remaining, of_z, q[new], order),
         **tree,
@@ -206,6 +209,6 @@ def _symbolic(model: Model, rows: list[RowTerms], full: list[Affine], mass: spar
     entries = mass.tocoo()
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
     cliques += [row.columns() for row in rows]
-    cliques += element_cliques(model, full) + flexible_cliques(model, full)
+    cliques += element_cliques(model, full) + flexible_cliques(model, full) + payload_cliques(model, full)
     pattern = clique_pattern(mass.shape[0], cliques)
     return build_fronts(pattern, fill_reducing_order(pattern)), (pattern.nnz + mass.shape[0]) // 2

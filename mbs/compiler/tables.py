@@ -12,6 +12,7 @@ from mbs.affine import Affine
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import substitute
 from mbs.errors import ModelError
+from mbs.kernel.header import SensorType
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.reactions import MOST_FACTORS
@@ -107,7 +108,8 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
     ints = []
     reals: list[Sequence[float]] = []
 
-    def row(sensor: Sensor, joint: Joint, equation: int) -> int:
+    def row(sensor: Sensor, joint: Joint | None, equation: int) -> int:
+        assert joint is not None
         found = row_of.get((joints[id(joint)], equation))
         if found is None:
             raise ModelError(
@@ -117,14 +119,16 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
         return found
 
     for sensor in model.sensors:
-        reals.append(sensor.reals)
-        if sensor.joint is not None and not sensor.integers:
+        # the bodies are all known only now
+        of_bodies = sensor.type == SensorType.MASS
+        reals.append([float(sum(body.mass for body in model.bodies))] if of_bodies else sensor.reals)
+        if sensor.terms:
             ints.append([len(sensor.terms)])
             reals[-1] = [t.weight for t in sensor.terms]
             for t in sensor.terms:
                 factors = [signals.number(f) for f in t.factors]
                 none = [-1] * (MOST_FACTORS - len(factors))
-                ints[-1] += [row(sensor, sensor.joint, t.equation), *factors, *none, t.guide]
+                ints[-1] += [row(sensor, t.joint or sensor.joint, t.equation), *factors, *none, t.guide]
         elif sensor.joint is not None:
             rows = [row(sensor, sensor.joint, k) for k in sensor.integers]
             ints.append([len(rows), *rows])
@@ -143,7 +147,7 @@ def channel_arrays(model: Model) -> Arrays:
     element_start = pointer([len(e.real) for e in model.elements])
     guide_start = pointer([len(g.reals) for g in model.guides])
     road_start = pointer([len(r.real) for r in model.roads])
-    starts = (element_start, guide_start, road_start)
+    starts = (element_start, guide_start, road_start, pointer([1] * len(model.payloads)))
     targets = [[(t, int(starts[t][k]) + i, s, o) for t, k, i, s, o in p.targets] for p in model.parameters]
     flat = [t for group in targets for t in group]
     return {
@@ -152,6 +156,7 @@ def channel_arrays(model: Model) -> Arrays:
         "input_max": np.array([i.max for i in model.inputs], dtype=float),
         "guide_type": np.array([g.type for g in model.guides], dtype=np.int64),
         "guide_input": np.array([g.input for g in model.guides], dtype=np.int64),
+        "guide_second": np.array([g.second for g in model.guides], dtype=np.int64),
         **ragged("guide_real", [g.reals for g in model.guides], float),
         "road_type": np.array([int(r.type) for r in model.roads], dtype=np.int64),
         **ragged("road_real", [r.real for r in model.roads], float),

@@ -37,7 +37,7 @@ CARRIED = 5
 NAMES = (
     *("parent", "slides", "base", "mass", "centre", "inertia", "gravity", "frame"),
     *("out_body", "out_local", "out_col", "cut_body", "cut_rows", "cut_place"),
-    *("angle_col", "angle_ptr", "angle_joint", "angle_sign", "angle_inertia"),
+    *("angle_col", "angle_ptr", "angle_joint", "angle_sign", "angle_inertia", "payload_body", "payload_place"),
 )
 
 
@@ -72,6 +72,7 @@ def tree_arrays(
             "gravity": in_space(model.gravity),
             **_coordinates(model, groups, remaining, new),
             **_cut_arrays(model, cuts),
+            **_payloads(model, groups),
             **angles,
             "frame": [number for g in moving for number in _frame_signals(g, signals)],
         }
@@ -148,6 +149,19 @@ def _coordinates(
             locals_.append(np.array([o, *(group.local(drawn) if o else group.axes.T @ drawn)]))
             columns += mine + [-1] * (3 - d)
     return {"out_body": bodies, "out_local": _joined(locals_), "out_col": columns}
+
+
+def _payloads(model: Model, groups: Sequence[Group]) -> dict[str, Any]:
+    """Bodies of the payloads and places in their frames."""
+    owner = {body.start: group for group in groups for body in group.bodies if not body.is_ground}
+    on = [owner[p.body.start] for p in model.payloads]
+    for payload, group in zip(model.payloads, on, strict=True):
+        if group.number == 0:
+            raise NoTreeError(f"payload '{payload.name}' sits on a body that is welded to the ground")
+        if payload.shared:
+            raise NoTreeError(f"payload '{payload.name}' is carried by several points")
+    places = [g.local(in_space(p.position)) for p, g in zip(model.payloads, on, strict=True)]
+    return {"payload_body": [g.number for g in on], "payload_place": _joined(places)}
 
 
 def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:

@@ -5,15 +5,19 @@ from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.brake import Brake
 from mbs.elements.contact_points import ContactPoints
+from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.elements.drag import Drag
 from mbs.elements.electric_drive import ElectricDrive
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.elements.input_force import InputForce
+from mbs.elements.lift import Lift
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
+from mbs.elements.spring_damper_table import SpringDamperTable
+from mbs.elements.torsion_bar import TorsionBar
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.kernel.header import ElementType
 
@@ -23,6 +27,7 @@ __all__ = [
     "BodyTorque",
     "Brake",
     "ContactPoints",
+    "CoordinateFriction",
     "Drag",
     "ElectricDrive",
     "ElementRecord",
@@ -32,12 +37,15 @@ __all__ = [
     "GyroscopicSpin",
     "InputForce",
     "KerbRoad",
+    "Lift",
     "Output",
     "PlaneRoad",
     "Road",
     "ScalarSpringDamper",
     "SpinTorque",
     "SpringDamper",
+    "SpringDamperTable",
+    "TorsionBar",
     "Tyre",
     "TyreCurve",
 ]

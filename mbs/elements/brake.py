@@ -22,11 +22,17 @@ class Brake:
         Torque at full pedal, N m.
     stick_stiffness, stick_damping : float
         Of the sticking brake, N m/rad and N m s/rad.
+    share : float
+        Factor on max_torque, so that a total torque and a balance may be parameters.
+    hand_torque : float
+        Torque at full hand brake, N m; that of the pedal is added to it.
     """
 
     max_torque: float
     stick_stiffness: float
     stick_damping: float
+    share: float = 1.0
+    hand_torque: float = 0.0
 
     @staticmethod
     def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.9e-3) -> Brake:
@@ -61,7 +67,9 @@ class Brake:
         stiffness = torque * r / positive(travel, "The travel of a brake")
         return Brake(torque, stiffness, 2.0 * math.sqrt(stiffness * inertia))
 
-    def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine, input: int) -> ElementRecord:
+    def record(
+        self, name: str, f: AffineVector, g: AffineVector, spin: Affine, input: int, hand: int | None = None
+    ) -> ElementRecord:
         """The force element.
 
         Parameters
@@ -74,6 +82,8 @@ class Brake:
             Absolute spin of the wheel, rad.
         input : int
             Number of the input of the pedal, 0 to 1.
+        hand : int, optional
+            Number of the input of the hand brake, 0 to 1.
 
         Returns
         -------
@@ -96,14 +106,16 @@ class Brake:
                 not_negative(self.max_torque, f"The largest torque of {what}"),
                 positive(self.stick_stiffness, f"The stick stiffness of {what}"),
                 positive(self.stick_damping, f"The stick damping of {what}"),
+                not_negative(self.share, f"The share of {what}"),
+                not_negative(self.hand_torque, f"The hand torque of {what}"),
             ),
-            (index(input, f"The input of {what}"),),
+            (index(input, f"The input of {what}"), -1 if hand is None else index(hand, f"The hand brake of {what}")),
             (0.0, 0.0),
             (
                 Output("torque", "N m", "torque of the brake on the wheel about the axis"),
                 Output("sticking", "1", "1 while the brake sticks, else 0"),
                 Output("rate", "rad/s", "spin of the wheel relative to its carrier"),
             ),
-            ("max_torque", "stick_stiffness", "stick_damping"),
-            (not_negative, positive, positive),
+            ("max_torque", "stick_stiffness", "stick_damping", "share", "hand_torque"),
+            (not_negative, positive, positive, not_negative, not_negative),
         )

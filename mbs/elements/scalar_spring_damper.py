@@ -24,6 +24,8 @@ class ScalarSpringDamper:
         Constant generalised force, N m or N.
     unit : str
         Unit of the force, "N m" or "N".
+    stiffness_factor, damping_factor : float
+        Factors on both, for parameters.
     """
 
     stiffness: float
@@ -31,6 +33,8 @@ class ScalarSpringDamper:
     free_value: float = 0.0
     constant: float = 0.0
     unit: str = "N m"
+    stiffness_factor: float = 1.0
+    damping_factor: float = 1.0
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
         """The force element.
@@ -62,9 +66,11 @@ class ScalarSpringDamper:
                 not_negative(self.damping, f"The damping of {what}"),
                 number(self.free_value, f"The free value of {what}"),
                 number(self.constant, f"The constant force of {what}"),
+                not_negative(self.stiffness_factor, f"The stiffness factor of {what}"),
+                not_negative(self.damping_factor, f"The damping factor of {what}"),
             ),
             outputs=(Output("force", text(self.unit, f"The unit of {what}"), "generalised force on the coordinate"),),
-            real_names=("stiffness", "damping", "free_value", "constant"),
-            real_checks=(not_negative, not_negative, number, number),
+            real_names=("stiffness", "damping", "free_value", "constant", "stiffness_factor", "damping_factor"),
+            real_checks=(not_negative, not_negative, number, number, not_negative, not_negative),
             elastic=True,
         )

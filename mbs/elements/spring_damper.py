@@ -11,6 +11,12 @@ from mbs.elements.record_checks import size
 from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
+LINE_OUTPUTS = (
+    Output("length", "m", "distance of the two points"),
+    Output("force", "N", "force of spring, damper and stops, tension positive"),
+    Output("rate", "m/s", "rate of the length"),
+)
+
 
 @dataclass(frozen=True)
 class EndStops:
@@ -83,10 +89,46 @@ class EndStops:
             positive(self.metal_onset, f"The metal onset of {what}")
         return numbers
 
+    @staticmethod
+    def checked(stops: EndStops | None, what: str) -> tuple[EndStops, dict[str, float]]:
+        """Stops, none of them if there are none, and their checked lengths and stiffnesses in the order of the kernel.
+
+        Parameters
+        ----------
+        stops : EndStops, optional
+            Of a spring.
+        what : str
+            What has the stops, for the message.
+
+        Returns
+        -------
+        EndStops, dict of str to float
+
+        Raises
+        ------
+        ModelError
+            A number is not one or negative, or the bump length is not below the rebound length.
+        """
+        given = EndStops()
+        if stops is not None:
+            given = instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
+        numbers = {
+            name: not_negative(getattr(given, name), f"The {name.replace('_', ' ')} of {what}")
+            for name in ("bump_length", "bump_stiffness", "rebound_length", "rebound_stiffness")
+        }
+        bump, bump_stiffness, rebound, rebound_stiffness = numbers.values()
+        if bump_stiffness > 0.0 and rebound_stiffness > 0.0 and not bump < rebound:
+            raise ModelError(
+                f"The bump length {bump:g} m of {what} must be less than the rebound length {rebound:g} m."
+            )
+        return given, numbers
+
 
 @dataclass(frozen=True)
 class SpringDamper:
     """Linear spring and damper along the line between two points; force = k (L - L0) + c dL/dt, tension positive.
+
+    For a spring or a damper by points see `SpringDamperTable`.
 
     Parameters
     ----------
@@ -98,12 +140,16 @@ class SpringDamper:
         Length without spring force, m.
     stops : EndStops, optional
         Bump and rebound stops.
+    stiffness_factor, damping_factor : float
+        Factors on both, for parameters that scale what the numbers or tables say; not on the stops.
     """
 
     stiffness: float
     damping: float = 0.0
     free_length: float = 0.0
     stops: EndStops | None = None
+    stiffness_factor: float = 1.0
+    damping_factor: float = 1.0
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
         """The force element.
@@ -126,18 +172,8 @@ class SpringDamper:
             A number is not one or negative, or the bump length is not below the rebound length.
         """
         what = f"the spring-damper '{name}'"
-        stops = EndStops()
-        if self.stops is not None:
-            stops = instance_of(EndStops, self.stops, f"The stops of {what}", "EndStops")
         size(difference, (2, 3), f"The distance of {what}")
-        bump, bump_stiffness, rebound, rebound_stiffness = (
-            not_negative(getattr(stops, key), f"The {key.replace('_', ' ')} of {what}")
-            for key in ("bump_length", "bump_stiffness", "rebound_length", "rebound_stiffness")
-        )
-        if bump_stiffness > 0.0 and rebound_stiffness > 0.0 and not bump < rebound:
-            raise ModelError(
-                f"The bump length {bump:g} m of {what} must be less than the rebound length {rebound:g} m."
-            )
+        stops, lengths = EndStops.checked(self.stops, what)
         progressive = stops.progressive(what)
         return ElementRecord(
             name,
@@ -147,27 +183,21 @@ class SpringDamper:
                 not_negative(self.stiffness, f"The stiffness of {what}"),
                 not_negative(self.damping, f"The damping of {what}"),
                 not_negative(self.free_length, f"The free length of {what}"),
-                bump,
-                bump_stiffness,
-                rebound,
-                rebound_stiffness,
+                *lengths.values(),
                 *progressive.values(),
+                not_negative(self.stiffness_factor, f"The stiffness factor of {what}"),
+                not_negative(self.damping_factor, f"The damping factor of {what}"),
             ),
-            outputs=(
-                Output("length", "m", "distance of the two points"),
-                Output("force", "N", "force of spring, damper and stops, tension positive"),
-                Output("rate", "m/s", "rate of the length"),
-            ),
+            outputs=LINE_OUTPUTS,
             real_names=(
                 "stiffness",
                 "damping",
                 "free_length",
-                "bump_length",
-                "bump_stiffness",
-                "rebound_length",
-                "rebound_stiffness",
+                *lengths,
                 *progressive,
+                "stiffness_factor",
+                "damping_factor",
             ),
-            real_checks=(not_negative,) * (7 + len(progressive)),
+            real_checks=(not_negative,) * (9 + len(progressive)),
             elastic=True,
         )

@@ -70,7 +70,11 @@ FLOAT_ARRAYS = (
     "tree_angle_sign",
     "tree_angle_inertia",
     "static_value",
+    "static_q",
     "par_offset",
+    "payload_mass",
+    "payload_gravity",
+    "tree_payload_place",
 )
 """Arrays of a System of type double."""
 
@@ -157,6 +161,9 @@ INTEGER_ARRAYS = (
     "static_par",
     "pose_partner",
     "par_fixed",
+    "payload_signal",
+    "tree_payload_body",
+    "guide_second",
 )
 """Arrays of a System of type int32_t."""
 
@@ -170,9 +177,16 @@ OPTIONAL_ARRAYS = (
     "static_start",
     "static_par",
     "static_value",
+    "static_q",
     "pose_partner",
     "par_offset",
     "par_fixed",
+    "payload_mass",
+    "payload_signal",
+    "payload_gravity",
+    "tree_payload_body",
+    "tree_payload_place",
+    "guide_second",
 )
 """Those that a System need not have."""
 
@@ -244,6 +258,7 @@ class ParameterTarget(IntEnum):
     ELEMENT = 0
     GUIDE = 1
     ROAD = 2
+    PAYLOAD = 3
 
 
 class GuideType(IntEnum):
@@ -251,6 +266,7 @@ class GuideType(IntEnum):
 
     OF_TIME = 0
     OF_INPUT = 1
+    OF_TWO_INPUTS = 2
 
 
 class RoadType(IntEnum):
@@ -328,6 +344,8 @@ class SensorType(IntEnum):
     QUASI_STATIC = 17
     REACTION_PRODUCTS = 18
     WORK = 19
+    MASS = 20
+    GUIDE_EXCESS = 21
 
 
 SENSOR_READS = {
@@ -351,6 +369,8 @@ SENSOR_READS = {
     SensorType.QUASI_STATIC: SensorReads.ROWS,
     SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
     SensorType.WORK: SensorReads.FORCES,
+    SensorType.MASS: SensorReads.MOTION,
+    SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
 }
 
 
@@ -370,6 +390,10 @@ class ElementType(IntEnum):
     CONTACT_POINTS = 11
     SPIN_TORQUE = 12
     ELECTRIC_DRIVE = 13
+    SPRING_DAMPER_TABLE = 14
+    LIFT = 15
+    COORDINATE_FRICTION = 16
+    TORSION_BAR = 17
 
 
 class SettingsFields(Structure):

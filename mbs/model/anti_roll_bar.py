@@ -53,6 +53,7 @@ def anti_roll_bar(
     angles: list[Coordinate],
     stiffness: float,
     damping: float,
+    stiffness_factor: float,
     free_twist: float | None,
     mirrored: bool,
 ) -> ElementRecord:
@@ -65,4 +66,4 @@ def anti_roll_bar(
     if free_twist is None:
         free_twist = float(twist.value(model.drawn()))
     k = positive(stiffness, f"The stiffness of the anti-roll bar '{name}'")
-    return model.add(ScalarSpringDamper(k, damping, free_twist).record(name, twist))
+    return model.add(ScalarSpringDamper(k, damping, free_twist, stiffness_factor=stiffness_factor).record(name, twist))

@@ -15,6 +15,7 @@ from mbs.model.body import Body, Ground, PointMass
 from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.inertia import inertia_matrix
+from mbs.model.payload import Payload, new_payload
 from mbs.model.ports import PortedBody
 
 SIZES = (1e-12, 1e8)
@@ -104,6 +105,50 @@ class BodyVocabulary(ModelCore):
         new.add_mass(m, centre, np.zeros((3, 3)))
         self._register(new)
         return new
+
+    def payload(
+        self,
+        name: str,
+        body: Body,
+        position: ArrayLike,
+        *,
+        mass: float = 0.0,
+        point: AffineVector | None = None,
+    ) -> Payload:
+        """A point mass on a body, such as a driver, whose mass a parameter may write.
+
+        It moves as its point of the body does and brings no coordinates: its inertia and its weight act there, in every
+        method. ``m.parameter(..., targets=[(payload, "mass", 1.0)], tunable=False)`` makes its mass a fixed parameter.
+        The System does not depend on its mass otherwise: what the compiler scales by masses, and how it distributes a
+        start velocity that is given in part, is as without payloads.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the payloads.
+        body : Body
+            Of this model, not the ground. On a flexible body it sits at a node; with ports it must sit at one of them
+            where quasi-static outputs are to follow it.
+        position : array_like, shape (dimension,)
+            In earth axes in the reference configuration, m.
+        mass : float
+            kg; may be 0.
+        point : AffineVector, optional
+            What carries it in place of the body's own point there, such as a mean of several points of the body, which
+            then share its force.
+
+        Returns
+        -------
+        Payload
+            For parameters.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, the body is the ground or none of this model, it has no such point, `point` is drawn
+            elsewhere, or a number is not one or negative.
+        """
+        return new_payload(self, name, self.owned(body, f"The payload {shown(name)}"), position, mass, point)
 
     def flexible_body(
         self, name: str, reduced: ReducedBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None

@@ -8,7 +8,7 @@ from mbs.affine import Affine
 from mbs.checks import number, one_of, shown
 from mbs.checks import text as checked_text
 from mbs.errors import ModelError
-from mbs.kernel.header import SensorType, SolverValue
+from mbs.kernel.header import GuideType, SensorType, SolverValue
 from mbs.model.guides import Guide, owned_guide
 from mbs.model.inputs import Input, owned_input
 from mbs.model.sensors import Sensor, SensorBase, order_number
@@ -116,6 +116,39 @@ class ChannelSensorVocabulary(SensorBase):
             integers=[motion.index, k],
             reals=[factor],
         )
+
+    def sense_guide_excess(
+        self, name: str, guide: Guide, scale: float = 1.0, unit: str = "", description: str = ""
+    ) -> Sensor:
+        """What the limits of a guide of two inputs take away from the sum of its inputs.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        guide : Guide
+            From `guide_inputs`.
+        scale : float
+            Factor on it.
+        unit, description : str
+            For files, plots and hosts; by default the unit of the guide.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System; zero where the guide follows its inputs.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, or the guide is not of this model or has no limits.
+        """
+        what = f"sensor '{name}'"
+        motion, factor = owned_guide(self, guide, f"The {what}"), number(scale, f"The scale of {what}")
+        if motion.type != GuideType.OF_TWO_INPUTS:
+            raise ModelError(f"The guide '{motion.name}' of {what} has no limits; those of guide_inputs have.")
+        unit = self._unit(unit, motion.unit)
+        return self._sense(name, unit, description, SensorType.GUIDE_EXCESS, integers=[motion.index], reals=[factor])
 
     def sense_solver(self, name: str, kind: str, description: str = "") -> Sensor:
         """What the solver says about itself.

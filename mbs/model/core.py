@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from mbs.model.inputs import Input
     from mbs.model.joints.joint import Joint
     from mbs.model.parameters import Parameter, RoadFileParameter
+    from mbs.model.payload import Payload
     from mbs.model.sensors import Sensor
     from mbs.model.spin import Spin
     from mbs.model.switches import Switch
@@ -146,6 +147,7 @@ class ModelCore:
         self.roads: list[Road] = []
         self.road_files: list[RoadFileParameter] = []
         self.sensors: list[Sensor] = []
+        self.payloads: list[Payload] = []
         self.parameters: list[Parameter] = []
         self.constants: list[Constant] = []
         self._names: set[tuple[str, str]] = set()

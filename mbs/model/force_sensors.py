@@ -167,6 +167,28 @@ class ForceSensorVocabulary(SensorBase):
         one_of(kind, ENERGIES, f"The energy of sensor '{name}'")
         return self._sense(name, unit, description, SensorType.ENERGY, integers=[ENERGIES.index(kind)])
 
+    def sense_mass(self, name: str, unit: str = "kg", description: str = "") -> Sensor:
+        """Mass of all bodies and payloads, kg.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken.
+        """
+        return self._sense(name, unit, description, SensorType.MASS)
+
     def sense_recovery(
         self, name: str, body: FlexibleBody, weights: ArrayLike, unit: str = "", description: str = ""
     ) -> Sensor:

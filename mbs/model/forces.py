@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
-from mbs.checks import array, instance_of, number, one_of, shown, whole
+from mbs.checks import array, direction, instance_of, number, one_of, shown, whole
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.drag import Drag
 from mbs.elements.input_force import InputForce
+from mbs.elements.lift import Lift
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
@@ -258,6 +259,53 @@ class ForceVocabulary(BodyVocabulary):
         """
         self.owned(body, f"The drag '{name}'")
         return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'")))
+
+    def lift(
+        self,
+        name: str,
+        body: Body,
+        point: ArrayLike,
+        *,
+        forward: ArrayLike,
+        up: ArrayLike,
+        lift_area: float,
+        air_density: float = 1.225,
+    ) -> ElementRecord:
+        """Aerodynamic lift in still air at a point, along an axis of the body.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements.
+        body : Body
+            Of this model.
+        point : array_like, shape (dimension,)
+            Earth axes in the reference configuration, m.
+        forward, up : array_like, shape (dimension,)
+            Axes of the body, as drawn, of any length: lift goes with the square of the point's speed along the first
+            and acts along the second.
+        lift_area : float
+            Lift coefficient times frontal area, m2; negative: downforce.
+        air_density : float
+            kg/m3.
+
+        Returns
+        -------
+        ElementRecord
+            For sensors and parameters.
+
+        Raises
+        ------
+        ModelError
+            The body is not of this model, a number is not one, an axis has no direction, or the density is negative.
+        """
+        what = f"lift '{name}'"
+        owned = self.owned(body, f"The {what}")
+        axes = [
+            owned.vector(direction(axis, self.dimension, f"the {word} axis of {what}"))
+            for axis, word in ((forward, "forward"), (up, "upward"))
+        ]
+        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), *axes))
 
     def road(self, road: Road | RoadFile, *, file: str | None = None) -> int:
         """Add a road.

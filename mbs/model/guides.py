@@ -5,6 +5,7 @@ filter.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +20,7 @@ from mbs.model.inputs import Input, owned_input
 
 @dataclass(frozen=True)
 class Guide:
-    """A prescribed motion; `reals` as in the System file."""
+    """A prescribed motion; `reals` as in the System file, `second` the number of a second input or -1."""
 
     name: str
     index: int
@@ -28,6 +29,7 @@ class Guide:
     reals: tuple[float, ...]
     start: float
     unit: str
+    second: int = -1
 
 
 def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequency: float, unit: str) -> Guide:
@@ -38,6 +40,36 @@ def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequenc
     w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
     k = number(gain, f"The gain of guide '{name}'")
     return _register(model, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
+
+
+def guide_inputs(
+    model: ModelCore,
+    name: str,
+    inputs: tuple[Input, Input],
+    gains: tuple[float, float],
+    limits: tuple[float, float],
+    frequency: float,
+    unit: str,
+) -> Guide:
+    """As `guide_input`, with ``gain_1 u_1 + gain_2 u_2`` held between two limits in place of ``gain u``."""
+    what = f"guide '{name}'"
+    first, second = (owned_input(model, u, f"The {what}") for u in pair(inputs, f"The inputs of {what}"))
+    w = 2.0 * np.pi * positive(frequency, f"The frequency of {what}")
+    k_1, k_2 = (number(k, f"A gain of {what}") for k in pair(gains, f"The gains of {what}"))
+    low, high = (number(k, f"A limit of {what}") for k in pair(limits, f"The limits of {what}"))
+    if low > high:
+        raise ModelError(f"The {what} has the limits {low:g} and {high:g}; the first must not be above the second.")
+    asked = k_1 * first.start + k_2 * second.start
+    start = min(max(asked, low), high)
+    reals = [w, k_1, start, k_2, low, high]
+    return _register(model, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
+
+
+def pair(given: object, what: str) -> tuple[Any, Any]:
+    """The two items of a tuple or list."""
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        raise ModelError(f"{what} must be two, as (first, second), not {shown(given)}.")
+    return given[0], given[1]
 
 
 def guide_time(model: ModelCore, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], unit: str) -> Guide:
@@ -81,10 +113,17 @@ def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
 
 
 def _register(
-    model: ModelCore, name: str, type: GuideType, input: int, reals: list[float], start: float, unit: str
+    model: ModelCore,
+    name: str,
+    type: GuideType,
+    input: int,
+    reals: list[float],
+    start: float,
+    unit: str,
+    second: int = -1,
 ) -> Guide:
     text(unit, f"The unit of guide {shown(name)}")
     checked = tuple(number(r, f"A number of guide {shown(name)}") for r in reals)
-    guide = Guide(model.unique("guide", name), len(model.guides), type, input, checked, start, unit)
+    guide = Guide(model.unique("guide", name), len(model.guides), type, input, checked, start, unit, second)
     model.guides.append(guide)
     return guide

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
-from mbs.checks import shown
+from mbs.checks import number, shown
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
+from mbs.model.guides import Guide, owned_guide
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
-from mbs.model.reactions import Term, folded, force_on_first, moment_terms
+from mbs.model.reactions import Term, folded, force_on_first, guide_terms, moment_terms, rod_terms
 from mbs.model.sensors import Sensor, SensorBase, component_number
 
 
@@ -26,6 +28,11 @@ class JointSensorVocabulary(SensorBase):
             raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {shown(joint)}.")
         self.remember(found)
         return found
+
+    def _joints(self, name: str, argument: str, given: Sequence[Joint | str]) -> list[Joint]:
+        if not isinstance(given, (list, tuple)) or not given:
+            raise ModelError(f"The {argument} of sensor '{name}' must be a list of joints, not {shown(given)}.")
+        return [self._joint(name, joint) for joint in given]
 
     def _sense_terms(self, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
         joint.as_rows = joint.as_rows or any(term.equation in joint.force_equations for term in terms)
@@ -169,6 +176,98 @@ class JointSensorVocabulary(SensorBase):
             about = found.places.bodies[on == "second"].point(point)
         terms = moment_terms(found, found.hold_turning(), axis, about, on == "first")
         return self._sense_terms(name, unit, description, found, terms)
+
+    def sense_guide_force(
+        self,
+        name: str,
+        guide: Guide,
+        joints: Sequence[Joint] | None = None,
+        scale: float = 1.0,
+        unit: str = "",
+        description: str = "",
+    ) -> Sensor:
+        """Force with which a guide moves what it guides, in the direction of its motion: its power over its rate.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        guide : Guide
+            Of this model.
+        joints : sequence of Joint, optional
+            Drives, and distances whose end it slides; by default all that there are so far.
+        scale : float
+            Factor on it.
+        unit, description : str
+            For files, plots and hosts; by default N of a guide in m, N m of one in rad.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, guide or joints are not of this model, or none of them follows the guide.
+        """
+        what = f"The sensor '{name}'"
+        found, factor = owned_guide(self, guide, what), number(scale, f"The scale of sensor '{name}'")
+        asked = self.joints if joints is None else self._joints(name, "joints", joints)
+        terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, found.index)]
+        if not terms:
+            raise ModelError(f"{what} asks for the force of guide '{found.name}', which none of its joints follows.")
+        default = {"m": "N", "rad": "N.m"}.get(found.unit, "1")
+        return self._sense(name, self._unit(unit, default), description, SensorType.REACTION_PRODUCTS, terms=terms)
+
+    def sense_rod_force(
+        self,
+        name: str,
+        rods: Sequence[Joint],
+        body: Body,
+        axis: ArrayLike,
+        scale: float = 1.0,
+        unit: str = "N",
+        description: str = "",
+    ) -> Sensor:
+        """Sum of the forces of massless rods on a body, along an axis of the body, N.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        rods : sequence of Joint
+            Distances with one end on the body.
+        body : Body
+            A rigid body.
+        axis : array_like, shape (dimension,)
+            Fixed in the body, earth axes in the reference configuration, of any length.
+        scale : float
+            Factor on it.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, there are no rods, one of them is no rod or ends elsewhere, or the axis is zero.
+        """
+        what = f"The sensor '{name}'"
+        along = self.anchor_axis(self.owned(body, what), axis, f"sensor '{name}'")
+        factor = number(scale, f"The scale of sensor '{name}'")
+        terms = []
+        for joint in self._joints(name, "rods", rods):
+            if joint.ends is None or not joint.ends.rod or body not in joint.ends.bodies:
+                raise ModelError(
+                    f"{what} needs rods that end on '{body.name}'; '{joint.name}' ({joint.type}) does not."
+                )
+            terms += [replace(t, weight=factor * t.weight) for t in rod_terms(joint, body, along)]
+        return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, terms=terms)
 
     def _axis(self, name: str, component: str, axes: Body | str) -> AffineVector:
         """Three components of the axis of a moment; in the plane one."""

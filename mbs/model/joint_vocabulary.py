@@ -242,7 +242,9 @@ class JointVocabulary(BodyVocabulary):
         """
         return self._join(distance(self, name, end_1, end_2, length))
 
-    def drive(self, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide) -> Joint:
+    def drive(
+        self, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide, *, switch: bool | None = None
+    ) -> Joint:
         """Prescribed motion: a coordinate, a component of a point, or the distance of two points follows a guide.
 
         Parameters
@@ -253,18 +255,21 @@ class JointVocabulary(BodyVocabulary):
             A relative angle; an expression such as ``body.point(p)[0]``; or two ends as of `distance`.
         guide : Guide
             Of this model, rad or m.
+        switch : bool, optional
+            With a switch of the same name, on or off at the start: the drive can let go. One that is turned on later
+            keeps the distance to its guide that there is then.
 
         Returns
         -------
         Joint
-            For sensors: its force is that of the drive.
+            For sensors: its force is that of the drive, nought while it is off.
 
         Raises
         ------
         ModelError
             What is driven cannot move or is not of this model, an end slides, or a driven distance starts at zero.
         """
-        return self._join(drive(self, name, driven, guide))
+        return self._join(drive(self, name, driven, guide, switch))
 
     def pin(self, name: str, body: Body, point: ArrayLike | None = None, *, on: bool = False) -> Joint:
         """Hold a point of a body by a switch of the same name, which a running `Simulation` turns on and off.

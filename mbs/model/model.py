@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 from scipy.interpolate import PPoly
 
-from mbs.checks import not_negative, number
+from mbs.checks import not_negative, number, shown
 from mbs.elements.record import ElementRecord
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
@@ -19,7 +19,7 @@ from mbs.model.core import Coordinate
 from mbs.model.flexible import FlexibleBody
 from mbs.model.force_sensors import ForceSensorVocabulary
 from mbs.model.forces import ForceVocabulary
-from mbs.model.guides import Guide, guide_input, guide_time, owned_guide
+from mbs.model.guides import Guide, guide_input, guide_inputs, guide_time, owned_guide
 from mbs.model.inputs import Input, new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
@@ -156,6 +156,34 @@ class Model(
         self.unique("armature", name)
         self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + value
 
+    def shaft(self, name: str, *, inertia: float = 0.0) -> Coordinate:
+        """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.
+
+        What carries it takes no reaction of its inertia and does not turn it: the angle and the inertia are small, or
+        the carrier turns slowly.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the shafts.
+        inertia : float
+            kg m2; without one something must hold or weigh it, such as a rack or a drive.
+
+        Returns
+        -------
+        Coordinate
+            For torques, gears, racks, drives and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, or the inertia is negative.
+        """
+        value = not_negative(inertia, f"The inertia of shaft {shown(name)}")
+        index = self.new_coordinate(self.unique("shaft", name), "angle", 0.0)
+        self.inertias[index] = value
+        return Coordinate(name, index, "rad")
+
     def spin(
         self,
         name: str,
@@ -207,6 +235,7 @@ class Model(
         *,
         stiffness: float,
         damping: float = 0.0,
+        stiffness_factor: float = 1.0,
         carrier: Body | None = None,
         axis: ArrayLike | None = None,
         free_twist: float | None = None,
@@ -225,6 +254,8 @@ class Model(
             Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
         stiffness, damping : float
             N m/rad and N m s/rad of the twist.
+        stiffness_factor : float
+            Factor on the stiffness, for a parameter.
         carrier : Body, optional
             With arms given as bodies: what they turn on.
         axis : array_like, shape (3,), optional
@@ -246,7 +277,7 @@ class Model(
             positive or the damping negative.
         """
         angles, joints = arm_angles(self, name, (left, right), carrier, axis)
-        bar = anti_roll_bar(self, name, angles, stiffness, damping, free_twist, mirrored)
+        bar = anti_roll_bar(self, name, angles, stiffness, damping, stiffness_factor, free_twist, mirrored)
         for joint in joints:
             self._join(joint)
         return bar
@@ -317,6 +348,47 @@ class Model(
         """
         return guide_input(self, name, input, gain, frequency, unit)
 
+    def guide_inputs(
+        self,
+        name: str,
+        *,
+        inputs: tuple[Input, Input],
+        gains: tuple[float, float],
+        limits: tuple[float, float],
+        frequency: float,
+        unit: str = "1",
+    ) -> Guide:
+        """A prescribed motion that follows the sum of two inputs, held between two limits, through the filter of
+        `guide_input`.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the guides.
+        inputs : tuple of Input
+            Two inputs of this model.
+        gains : tuple of float
+            Of each input, in units of the guide per unit of the input.
+        limits : tuple of float
+            Between which the sum is held, in units of the guide; `sense_guide_excess` reads what they take away.
+        frequency : float
+            Of the filter, Hz.
+        unit : str
+            Of the guide, rad or m.
+
+        Returns
+        -------
+        Guide
+            For drives, slides and sensors.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, an input is not of this model, the limits are the wrong way round, or the frequency is
+            not positive.
+        """
+        return guide_inputs(self, name, inputs, gains, limits, frequency, unit)
+
     def guide_time(self, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], *, unit: str = "1") -> Guide:
         """A prescribed motion in time.
 
@@ -386,7 +458,7 @@ class Model(
         targets: Sequence[Target],
         tunable: bool = True,
     ) -> Parameter:
-        """A number that is set without compiling again: it is written to data of elements, guides and roads.
+        """A number that is set without compiling again: it is written to elements, guides, roads and payloads.
 
         Parameters
         ----------
@@ -402,10 +474,10 @@ class Model(
             One sentence for hosts.
         targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
             ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
-            name, and one of its `real_names`; or ("road", number) and the name or number of a real of the road. A real
-            belongs to one parameter.
+            name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; or a
+            payload and "mass". A real belongs to one parameter.
         tunable : bool
-            Whether it may be set while the model moves; False: before the start only.
+            Whether it may be set while the model moves; False: before the start only, as masses of payloads must be.
 
         Returns
         -------

@@ -6,23 +6,29 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from mbs.checks import flag, not_zero, number, positive, shown, text, whole
+from mbs.checks import flag, not_negative, not_zero, number, positive, shown, text, whole
 from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
 from mbs.kernel.header import GuideType, ParameterTarget
 from mbs.model.core import ModelCore
 from mbs.model.guides import Guide
+from mbs.model.payload import REALS as PAYLOAD_REALS
+from mbs.model.payload import Payload
 
-GUIDE_REALS = {"frequency": positive, "gain": number, "start": number}
-Owner: TypeAlias = "ElementRecord | Guide | str | tuple[str, int]"
-"""An element, a guide or the name of one; or ("road", number)."""
+_OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
+GUIDE_REALS = {
+    GuideType.OF_INPUT: _OF_INPUT,
+    GuideType.OF_TWO_INPUTS: _OF_INPUT | {"gain_2": number, "low": number, "high": number},
+}
+Owner: TypeAlias = "ElementRecord | Guide | Payload | str | tuple[str, int]"
+"""An element, a guide, a payload or the name of one; or ("road", number)."""
 Target: TypeAlias = "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float]"
 """Owner, its real, scale, and an offset if there is one."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that writes value * scale + offset to data of elements, guides or roads.
+    """A number that writes value * scale + offset to data of elements, guides, roads or payloads.
 
     Parameters
     ----------
@@ -119,12 +125,22 @@ def new_parameter(
             target.check(target.written(limit), f"At the {end} {limit:g} of {what}, {target.what}")
     text(unit, f"The unit of {what}")
     text(description, f"The description of {what}", lines=True)
-    flag(tunable, f"The tunable of {what}")
+    if flag(tunable, f"The tunable of {what}"):
+        _moving(what, found)
     model.unique("parameter", name)
     places = tuple(target.where for target in found)
     parameter = Parameter(name, start, low, high, unit, description, places, tunable)
     model.parameters.append(parameter)
     return parameter
+
+
+def _moving(what: str, found: Sequence[_Target]) -> None:
+    """A mass that changed while it moves would take momentum from nowhere."""
+    for target in found:
+        if target.where[0] == ParameterTarget.PAYLOAD:
+            raise ModelError(
+                f"The {what} writes {target.what}, which cannot change while it moves; it must be fixed, tunable=False."
+            )
 
 
 def _written_once(model: ModelCore, what: str, found: Sequence[_Target]) -> None:
@@ -162,11 +178,16 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
             check = element.real_checks[k] if element.real_checks else number
             return _Target((ParameterTarget.ELEMENT, index, k, *line), f"the {real} of element '{owner_name}'", check)
     for guide in model.guides:
-        if guide.name == owner_name and guide.type == GuideType.OF_INPUT and real in GUIDE_REALS:
-            k, check = list(GUIDE_REALS).index(str(real)), GUIDE_REALS[str(real)]
+        if guide.name == owner_name and real in GUIDE_REALS.get(guide.type, {}):
+            reals = GUIDE_REALS[guide.type]
+            k, check = list(reals).index(str(real)), reals[str(real)]
             return _Target((ParameterTarget.GUIDE, guide.index, k, *line), f"the {real} of guide '{owner_name}'", check)
+    for k, payload in enumerate(model.payloads):
+        if payload.name == owner_name and real in PAYLOAD_REALS:
+            name = f"the {real} of payload '{owner_name}'"
+            return _Target((ParameterTarget.PAYLOAD, k, 0, *line), name, not_negative)
     raise ModelError(
-        f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element or guide."
+        f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide or payload."
     )
 
 

@@ -16,6 +16,7 @@ from mbs.affine import Affine, AffineVector
 from mbs.model.equation import Equation, dot_products
 
 if TYPE_CHECKING:
+    from mbs.model.body import Body
     from mbs.model.joints.joint import Joint
 
 MOST_FACTORS = 3
@@ -24,13 +25,14 @@ MOST_FACTORS = 3
 @dataclass(frozen=True)
 class Term:
     """``weight * lam * factors[0] * factors[1] * ... * guide``: the multiplier of an equation of a joint times at most
-    three expressions and a guide (-1: none).
+    three expressions and a guide (-1: none). `joint` is that of the sensor unless it is given.
     """
 
     weight: float
     equation: int
     factors: tuple[Affine, ...] = ()
     guide: int = -1
+    joint: Joint | None = None
 
 
 @dataclass(frozen=True)
@@ -98,4 +100,31 @@ def folded(term: Term) -> list[Term]:
             factors.append(factor)
         else:
             weight *= factor.constant
-    return [Term(weight, term.equation, tuple(factors), term.guide)] if weight != 0.0 else []
+    return [Term(weight, term.equation, tuple(factors), term.guide, term.joint)] if weight != 0.0 else []
+
+
+def guide_terms(joint: Joint, guide: int) -> list[Term]:
+    """What holds a guide against the rows of a joint: lam times their derivatives with respect to the guide.
+
+    The rows do no work on coordinates and guide together, so with -Phi_q' lam on the coordinates the guide takes
+    lam dPhi/ds in the direction of its motion.
+    """
+    terms = []
+    for row, equation in enumerate(joint.equations):
+        for part in equation.guides:
+            if part.guide != guide:
+                continue
+            weight, square = (1.0, -1) if part.power == 1 else (2.0, guide)
+            for c, a, b in part.products:
+                terms += folded(Term(weight * c, row, (a, b), square, joint))
+            terms += folded(Term(weight, row, (part.linear,), square, joint))
+    return terms
+
+
+def rod_terms(rod: Joint, body: Body, along: AffineVector) -> list[Term]:
+    """Force of a massless rod on the body at one of its ends, along a vector: lam (p_1 - p_2) on the second end."""
+    assert rod.ends is not None
+    first, second = rod.ends.points
+    sign = 1.0 if rod.ends.bodies[1] is body else -1.0
+    gap = first - second
+    return [t for k in range(len(gap)) for t in folded(Term(sign, 0, (gap[k], along[k]), -1, rod))]

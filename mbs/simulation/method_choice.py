@@ -39,7 +39,7 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
     """Methods that may be the fastest for a System, and what of it leaves no others."""
     if len(system.arrays["y0"]) > 0:
         return ["ali3p"], "elements with states"
-    if np.any(system.arrays["guide_type"] == GuideType.OF_INPUT):
+    if np.any(system.arrays["guide_type"] != GuideType.OF_TIME):
         return ["ali3p"], "guides through a filter"
     coarse = ["ali3p"] if tolerance >= LOOSE else []
     if not prepared(system)[1]["report"]["no_tree"]:

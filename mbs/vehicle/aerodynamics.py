@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import Area, Density
+from mbs.vehicle.quantities import AirDensity, Area, LiftArea
 from mbs.vehicle.section import Section
+
+FORWARD, UP = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 
 
 class Aerodynamics(Section):
@@ -12,11 +14,15 @@ class Aerodynamics(Section):
 
     drag_area: Area
     """Drag coefficient times frontal area."""
-    air_density: Density
+    air_density: AirDensity
     """Density of the air."""
+    lift_area_front: LiftArea = 0.0
+    """Lift coefficient of the front axle times frontal area; negative: downforce."""
+    lift_area_rear: LiftArea = 0.0
+    """Lift coefficient of the rear axle times frontal area; negative: downforce."""
 
     def build(self, b: CarBuilder) -> None:
-        """Add the drag at the vehicle's reference point.
+        """Add the drag at the vehicle's reference point and the lift of both axles.
 
         Parameters
         ----------
@@ -31,3 +37,18 @@ class Aerodynamics(Section):
             air_density=self.air_density,
         )
         b.tie(self, "drag_area", drag, "drag_area")
+        frame = b.chassis.frame
+        for name, axle in (("front", b.car.front), ("rear", b.car.rear)):
+            x, _, z = axle.wheel.centre
+            lift = b.m.lift(
+                f"lift {name}",
+                frame,
+                (x, 0.0, z),
+                forward=FORWARD,
+                up=UP,
+                lift_area=getattr(self, f"lift_area_{name}"),
+                air_density=self.air_density,
+            )
+            b.tie(self, f"lift_area_{name}", lift, "lift_area")
+            b.tie(self, "air_density", lift, "air_density")
+        b.tie(self, "air_density", drag, "air_density")

@@ -107,4 +107,6 @@ class Axle(Section):
         )
         tyre = b.m.add(self.tyre.tyre().record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.road))
         b.tie(self.tyre, "grip", tyre, "friction_factor")
+        for name in ("stiffness", "rolling_resistance"):
+            b.tie(self.tyre, name, tyre, name)
         return spin

@@ -1,4 +1,4 @@
-"""Brakes of the four wheels."""
+"""Brakes of the four wheels: pedal with a balance between the axles, hand brake on the rear wheels."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ from mbs.elements.brake import Brake
 from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
-from mbs.vehicle.quantities import StickStiffness, Torque
+from mbs.vehicle.quantities import Balance, BrakeTorque, HandBrakeTorque, StickStiffness
 from mbs.vehicle.section import Section
 
 
 class AxleBrakes(Section):
     """Brakes of an axle."""
 
-    torque: Torque
-    """Torque on each wheel at full pedal."""
     stick_stiffness: StickStiffness
     """Stiffness of a standing brake about the wheel's axis; critically damped with the wheel."""
 
@@ -24,6 +22,12 @@ class AxleBrakes(Section):
 class Brakes(Section):
     """Brakes."""
 
+    torque: BrakeTorque
+    """Torque on one front and one rear wheel together at full pedal."""
+    balance: Balance
+    """Share of the front wheel in it."""
+    hand_torque: HandBrakeTorque = 0.0
+    """Torque on each rear wheel at full hand brake."""
     front: AxleBrakes
     """Brakes of the front wheels."""
     rear: AxleBrakes
@@ -42,10 +46,15 @@ class Brakes(Section):
             Of the wheel.
         """
         axle = corner.side.axle
-        data: AxleBrakes = getattr(self, axle)
-        inertia = getattr(b.car, axle).wheel.spin_inertia
-        damping = 2.0 * math.sqrt(data.stick_stiffness * inertia)
-        brake = Brake(data.torque, data.stick_stiffness, damping)
+        behind = axle == "rear"
+        stiffness = (self.rear if behind else self.front).stick_stiffness
+        damping = 2.0 * math.sqrt(stiffness * getattr(b.car, axle).wheel.spin_inertia)
+        share = 1.0 - self.balance if behind else self.balance
+        brake = Brake(self.torque, stiffness, damping, share, self.hand_torque if behind else 0.0)
+        hand = b.inputs["hand_brake"].index if behind else None
         name = f"brake {corner.side.wheel}"
-        element = b.m.add(brake.record(name, spin.f, spin.g, spin.coordinate, b.inputs["brake"].index))
-        b.tie(data, "torque", element, "max_torque")
+        element = b.m.add(brake.record(name, spin.f, spin.g, spin.coordinate, b.inputs["brake"].index, hand))
+        b.tie(self, "torque", element, "max_torque")
+        b.tie(self, "balance", element, "share", -1.0 if behind else 1.0, 1.0 if behind else 0.0)
+        if behind:
+            b.tie(self, "hand_torque", element, "hand_torque")

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mbs.vehicle.car import Car
     from mbs.vehicle.chassis.mount import Mount
 
-Target: TypeAlias = "tuple[Owner, str | int, float]"
+Target: TypeAlias = "tuple[Owner, str | int, float, float]"
 
 
 @dataclass
@@ -72,6 +72,7 @@ class CarBuilder:
         owner: Owner,
         real: str | int,
         scale: float = 1.0,
+        offset: float = 0.0,
         *,
         value: float | None = None,
     ) -> None:
@@ -88,8 +89,8 @@ class CarBuilder:
             Its field, whose type says that it may change.
         owner, real : Owner, str or int
             As in `Model.parameter`.
-        scale : float
-            The value times it is written.
+        scale, offset : float
+            The value times `scale` plus `offset` is written.
         value : float, optional
             In the model, where it is not that of the file.
         """
@@ -98,7 +99,7 @@ class CarBuilder:
         assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
         start = getattr(section, name) if value is None else value
         tied = self._tied.setdefault(section.key(name), _Tied(section, name, quantity, start))
-        tied.targets.append((owner, real, scale))
+        tied.targets.append((owner, real, scale, offset))
 
     def parameters(self) -> None:
         """Write what was tied into the model, in the order of the file's type."""

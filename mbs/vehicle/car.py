@@ -31,8 +31,9 @@ from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.fidelity import OFFERED, Fidelity
-from mbs.vehicle.names import CarName, Text
+from mbs.vehicle.names import CarName, Name, Text
 from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, work_outputs
+from mbs.vehicle.payload import Payload
 from mbs.vehicle.quantities import Length, Mass, Point
 from mbs.vehicle.road import RoadSection, level_within
 from mbs.vehicle.section import Section, sections_of
@@ -73,6 +74,8 @@ class Car(Section):
     """The car as a whole."""
     chassis: Chassis
     """Chassis with all that is fixed to it."""
+    payload: dict[Name, Payload] = Field(default_factory=dict)
+    """Persons and luggage by name."""
     front: Axle
     """Front axle."""
     rear: Axle
@@ -166,6 +169,7 @@ class Car(Section):
             "steering": m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left"),
             "throttle": m.input("throttle", min=0.0, max=1.0, description="throttle pedal"),
             "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
+            "hand_brake": m.input("hand_brake", min=0.0, max=1.0, description="hand brake on the rear wheels"),
             "selector": m.input(
                 "selector", start=1.0, min=-1.0, max=1.0, description="selector: -1 reverse, 0 neutral, 1 drive"
             ),
@@ -173,6 +177,8 @@ class Car(Section):
         ground = m.road(road or self.road.default(), file="road.file")
         b = CarBuilder(self, m, ground, inputs)
         b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
+        for name, payload in self.payload.items():
+            payload.build(b, name, fidelity)
         steered = self.steering.build(b, self._rack_way())
         spins = self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         spins |= self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
@@ -274,3 +280,4 @@ class Car(Section):
             ground_contact(b, self.chassis.ground_contact)
         work_outputs(m)
         vehicle_constants(b)
+        steered.torque_outputs()

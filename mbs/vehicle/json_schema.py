@@ -45,9 +45,8 @@ class _Generator(GenerateJsonSchema):
     def tuple_schema(self, schema: core_schema.TupleSchema) -> JsonSchemaValue:
         items = schema["items_schema"]
         inner = [self.generate_inner(item) for item in items]
-        if any(item != inner[0] for item in inner):
-            raise NotImplementedError("a list of different things")
-        found: JsonSchemaValue = {"type": "array", "items": inner[0]}
+        alike = all(item == inner[0] for item in inner)
+        found: JsonSchemaValue = {"type": "array", "items": inner[0] if alike else inner}
         if schema.get("variadic_item_index") is None:
             return found | {"minItems": len(items), "maxItems": len(items)}
         limits = {"minItems": schema.get("min_length"), "maxItems": schema.get("max_length")}
@@ -78,7 +77,8 @@ def _plain(schema: Any) -> Any:
 
 def _field(schema: Any) -> Any:
     """Its unit stands in the description, which editors show."""
-    unit = schema.get("unit") or schema.get("items", {}).get("unit")
+    items = schema.get("items", {})
+    unit = schema.get("unit") or (items.get("unit") if isinstance(items, dict) else None)
     text = " ".join(schema.get("description", "").split())
     if text:
         schema["description"] = text if unit in (None, "1") else f"{text.rstrip('.')}, {unit}."

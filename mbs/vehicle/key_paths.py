@@ -193,6 +193,8 @@ def words(annotation: Any) -> str:
 
 
 def _list_words(inner: tuple[Any, ...]) -> str:
+    if inner[-1] is not Ellipsis and any(item != inner[0] for item in inner):
+        return f"a list of {' and '.join(words(item) for item in inner)}"
     each = words(inner[0])
     first, _, rest = each.partition(" of ")
     plural = {"a list": "lists", "text": "texts", "a table": "tables"}.get(first, first.replace("a number", "numbers"))

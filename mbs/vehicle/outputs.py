@@ -149,7 +149,7 @@ WORKS = {  # what works on the car: first words of the names of its elements, de
     "brakes": (("brake ",), "the brakes"),
     "tyres": (("tyre ",), "the tyres, by rolling, slip and damping,"),
     "dampers": (("spring ", "damper ", "steering stop "), "dampers and stops of springs and steering"),
-    "drag": (("drag",), "the air"),
+    "drag": (("drag", "lift "), "the air"),
     "ground": ((GROUND_CONTACT,), "the ground on the chassis itself"),
 }
 

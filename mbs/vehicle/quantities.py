@@ -74,19 +74,18 @@ class Quantity:
         return limits | {"unit": self.unit}
 
 
-def quantity_in(annotation: Any) -> Quantity | None:
-    """The quantity of a type, of a number or of the elements of a list; None where there is none.
+def quantities_in(annotation: Any) -> list[Quantity]:
+    """Quantities of a type, each once: of a number, or of the elements of a list.
 
     Parameters
     ----------
     annotation : type
         Of a field.
     """
+    found: dict[Quantity, None] = {}
     for item in (*getattr(annotation, "__metadata__", ()), *get_args(annotation)):
-        found = item if isinstance(item, Quantity) else quantity_in(item)
-        if found is not None:
-            return found
-    return None
+        found |= dict.fromkeys([item] if isinstance(item, Quantity) else quantities_in(item))
+    return list(found)
 
 
 def _fixed(quantity: Quantity) -> Quantity:
@@ -138,7 +137,7 @@ MotorSpeed = Annotated[float, Quantity("rad/s", 20.0, 4000.0)]
 AngularSpeed = Annotated[float, Quantity("rad/s", 1.0, 999.0)]
 Frequency = Annotated[float, Quantity("Hz", 0.5, 400.0)]
 Area = Annotated[float, Quantity("m2", 0.05, 20.0, zero=True, change="tunable")]
-Density = Annotated[float, Quantity("kg/m3", 0.3, 9.0)]
+AirDensity = Annotated[float, Quantity("kg/m3", 0.3, 9.0, change="tunable")]
 MaterialDensity = Annotated[float, Quantity("kg/m3", 300.0, 2.5e4)]
 YoungsModulus = Annotated[float, Quantity("Pa", 1e9, 9e11)]
 Ratio = Annotated[float, Quantity("1", 0.3, 60.0)]
@@ -151,9 +150,20 @@ Time = Annotated[float, Quantity("s", 0.01, 9.0)]
 CreepTorque = Annotated[float, Quantity("N.m", 0.5, 200.0, zero=True, change="tunable")]
 TorsionalStiffness = Annotated[float, Quantity("N.m/rad", 20.0, 1.9e4, change="tunable")]
 StickStiffness = Annotated[float, Quantity("N.m/rad", 1e4, 5e6)]
+SteeringFriction = Annotated[float, Quantity("N.m", 0.02, 9.0, zero=True, change="tunable")]
 RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
 RoadWheelAngle = Annotated[float, Quantity("rad", 0.1, 1.2)]
 PoissonsRatio = Annotated[float, Quantity("1", 0.01, 0.49, zero=True)]
 RoadFriction = Annotated[float, Quantity("1", 0.01, 2.0, zero=True, change="tunable")]
 WheelSpeed = Annotated[float, Quantity("rad/s", 0.5, 400.0)]
 RatioFactor = Annotated[float, Quantity("1", 0.5, 2.0, change="fixed")]
+Compression = Annotated[float, Quantity("m", -0.5, 0.9)]
+SpringForce = Annotated[float, Quantity("N", -5e4, 9e4)]
+DamperSpeed = Annotated[float, Quantity("m/s", -9.0, 9.0)]
+DamperForce = Annotated[float, Quantity("N", -5e4, 5e4)]
+LiftArea = Annotated[float, Quantity("m2", -9.0, 9.0, change="tunable")]
+BrakeTorque = Annotated[float, Quantity("N.m", 30.0, 2.5e4, change="tunable")]
+HandBrakeTorque = Annotated[float, Quantity("N.m", 10.0, 9e3, zero=True, change="tunable")]
+Balance = Annotated[float, Quantity("1", 0.01, 1.0, zero=True, change="tunable")]
+TyreRate = Annotated[float, Quantity("N/m", 1e4, 2e6, change="tunable")]
+RollingResistance = Annotated[float, Quantity("1", 0.001, 0.3, zero=True, change="tunable")]

@@ -6,7 +6,7 @@ import inspect
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, get_args, get_origin
+from typing import Any
 
 from pydantic.fields import FieldInfo
 
@@ -15,7 +15,7 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.json_schema import SCHEMA_FILE, schema_text
 from mbs.vehicle.key_paths import annotation_of, by_name, keys_of, kinds_of, templates, words
 from mbs.vehicle.names import NAME_WORDS
-from mbs.vehicle.quantities import Quantity, quantity_in
+from mbs.vehicle.quantities import Quantity, quantities_in
 from mbs.vehicle.schema_version import SCHEMA
 from mbs.vehicle.section import Section
 
@@ -32,7 +32,7 @@ This page and `mbs/vehicle/car.schema.json`, which editors read, are written fro
 
 A key without a default must be given, and no other keys are known. A number outside its range is refused: but for
 coordinates the ends of a range are less than a factor of 1000 apart, so that millimetres or tonnes are noticed. *FMU*
-says whether the key is a parameter of the FMU, of the same name: *tunable* while driving, or *fixed* from the start on.
+says whether the key is a parameter of the FMU, of the same name: *tunable* while driving, or *fixed* from the start.
 `{AXLE}` is `front` or `rear`, `{NAME}` a name of your choice: {NAME_WORDS}.
 """
 COLUMNS = ("key", "value", "unit", "range", "default", "FMU", "what it is")
@@ -89,16 +89,20 @@ def _walk(table: type[Section], path: str, kind: str) -> Iterator[tuple[type[Sec
 
 def _row(key: str, field: FieldInfo) -> tuple[str, ...]:
     annotation = annotation_of(field)
-    quantity = quantity_in(annotation)
+    quantities = quantities_in(annotation)
     text = " ".join((field.description or "").split())
     default = "" if field.is_required() else "optional" if field.default_factory or field.default is None else ""
     if not field.is_required() and not default:
         default = _shown(field.default)
-    if quantity is None:
-        return f"`{key}`", _value(annotation), "", "", default, "", text
-    low = f"{quantity.low:g} to {quantity.high:g}"
-    limits = f"0 or {low}" if quantity.zero and quantity.low > 0.0 else low
-    return f"`{key}`", _value(annotation), quantity.unit, limits, default, quantity.change or "", text
+    units = "; ".join(quantity.unit for quantity in quantities)
+    limits = "; ".join(map(_range, quantities))
+    change = next((q.change for q in quantities if q.change is not None), "")
+    return f"`{key}`", _value(annotation), units, limits, default, change, text
+
+
+def _range(quantity: Quantity) -> str:
+    limits = f"{quantity.low:g} to {quantity.high:g}"
+    return f"0 or {limits}" if quantity.zero and quantity.low > 0.0 else limits
 
 
 def _value(annotation: Any) -> str:
@@ -109,12 +113,10 @@ def _value(annotation: Any) -> str:
     if tables:
         kinds = [kind for table in tables for kind in kinds_of(table)]
         return "table" + (f", kind {' or '.join(map(repr, kinds))}" if len(kinds) > 1 else "")
-    quantity = quantity_in(annotation)
-    return _without(words(annotation), quantity).removeprefix("a ").replace("|", "\\|")
-
-
-def _without(text: str, quantity: Quantity | None) -> str:
-    return text if quantity is None else text.replace(f", {quantity.range}", "")
+    text = words(annotation)
+    for quantity in quantities_in(annotation):  # their ranges have a column
+        text = text.replace(f", {quantity.range}", "")
+    return text.removeprefix("a ")
 
 
 def _shown(value: object) -> str:

@@ -3,31 +3,111 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import TypeAlias
 
 from mbs.elements.record import ElementRecord
-from mbs.elements.spring_damper import EndStops
+from mbs.elements.spring_damper import EndStops, SpringDamper
+from mbs.elements.spring_damper_table import SpringDamperTable
 from mbs.model.body import Body
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import Damping, FreeLength, HysteresisLoss, SmallLength, Stiffness, StopStiffness, Travel
+from mbs.vehicle.quantities import (
+    Compression,
+    DamperForce,
+    DamperSpeed,
+    Damping,
+    Factor,
+    FreeLength,
+    HysteresisLoss,
+    SmallLength,
+    SpringForce,
+    Stiffness,
+    StopStiffness,
+    Travel,
+)
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Point
+
+Rows: TypeAlias = "tuple[tuple[float, float], ...]"
+
+
+def law_faults(section: Section, name: str, number: float | None, table: Rows | None) -> Iterator[str]:
+    """A force is given by a number or by a table that rises.
+
+    Parameters
+    ----------
+    section : Section
+        Spring or damper.
+    name : str
+        Key of the number.
+    number : float or None
+        Its value.
+    table : rows of (float, float) or None
+        In its place.
+    """
+    if number is None and table is None:
+        yield f"{section.key(name)} is missing; there must be it or {section.key('table')}, rows of two numbers."
+    if number is not None and table is not None:
+        yield f"{section.key(name)} is {number:g}, and there is {section.key('table')} too; there must be one of both."
+    if table is not None and len(table) < 2:
+        yield f"{section.key('table')} has {len(table)} rows; it must have two or more."
+    for k, (first, second) in enumerate(pairwise(table or ())):
+        if second[0] <= first[0] or second[1] < first[1]:
+            yield (
+                f"{section.key('table')}.{k + 1} is {list(second)} after {list(first)}; both columns must rise "
+                "from row to row."
+            )
+            return
 
 
 class Spring(Section):
     """Spring of one wheel."""
 
-    stiffness: Stiffness
-    """Spring rate."""
+    stiffness: Stiffness | None = None
+    """Spring rate; or there is a table."""
+    table: tuple[tuple[Compression, SpringForce], ...] | None = None
+    """Rows of compression from the free length and force, both rising, a monotone cubic between them."""
     free_length: FreeLength
     """Length without force, between the points that the suspension names."""
+    factor: Factor = 1.0
+    """Factor on the force of the spring."""
+
+    def faults(self) -> Iterator[str]:
+        """By a number or a table."""
+        yield from law_faults(self, "stiffness", self.stiffness, self.table)
+
+    @property
+    def law(self) -> float | list[tuple[float, float]]:
+        """Stiffness, N/m, or rows of stretch, m, and tension, N."""
+        if self.table is None:
+            assert self.stiffness is not None
+            return self.stiffness
+        return [(-x, -force) for x, force in reversed(self.table)]
 
 
 class Damper(Section):
     """Damper of one wheel, along the spring where the suspension has no points of its own for it."""
 
-    damping: Damping
-    """Damping coefficient."""
+    damping: Damping | None = None
+    """Damping coefficient; or there is a table."""
+    table: tuple[tuple[DamperSpeed, DamperForce], ...] | None = None
+    """Rows of speed and force, both positive in rebound and rising, through (0, 0), a monotone cubic between them."""
+    factor: Factor = 1.0
+    """Factor on the force of the damper."""
+
+    def faults(self) -> Iterator[str]:
+        """By a number or a table."""
+        yield from law_faults(self, "damping", self.damping, self.table)
+
+    @property
+    def law(self) -> float | list[tuple[float, float]]:
+        """Damping, N s/m, or rows of the rate of the length, m/s, and tension, N."""
+        if self.table is None:
+            assert self.damping is not None
+            return self.damping
+        return list(self.table)
 
 
 class Stops(Section):
@@ -149,18 +229,24 @@ def _between(
     damper: Damper | None,
     stops: Stops | None,
 ) -> ElementRecord:
-    element = b.m.spring_damper(
-        name,
-        lower,
-        upper,
-        stiffness=0.0 if spring is None else spring.stiffness,
-        free_length=None if spring is None else spring.free_length,
-        damping=0.0 if damper is None else damper.damping,
-        stops=None if stops is None else stops.between(lower[1], upper[1]),
-    )
+    stiffness, damping = 0.0 if spring is None else spring.law, 0.0 if damper is None else damper.law
+    factors = 1.0 if spring is None else spring.factor, 1.0 if damper is None else damper.factor
+    ends = None if stops is None else stops.between(lower[1], upper[1])
+    length = math.dist(lower[1], upper[1]) if spring is None else spring.free_length
+    difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
+    law: SpringDamper | SpringDamperTable
+    if isinstance(stiffness, float) and isinstance(damping, float):
+        law = SpringDamper(stiffness, damping, length, ends, *factors)
+    else:
+        law = SpringDamperTable(stiffness, damping, length, ends, *factors)
+    element = b.m.add(law.record(name, difference))
     if spring is not None:
-        b.tie(spring, "stiffness", element, "stiffness")
         b.tie(spring, "free_length", element, "free_length")
+        b.tie(spring, "factor", element, "stiffness_factor")
+        if spring.stiffness is not None:
+            b.tie(spring, "stiffness", element, "stiffness")
     if damper is not None:
-        b.tie(damper, "damping", element, "damping")
+        b.tie(damper, "factor", element, "damping_factor")
+        if damper.damping is not None:
+            b.tie(damper, "damping", element, "damping")
     return element

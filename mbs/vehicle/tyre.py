@@ -13,9 +13,11 @@ from mbs.vehicle.quantities import (
     Force,
     Length,
     Ratio,
+    RollingResistance,
     Slip,
     SlopeForce,
     TyreDamping,
+    TyreRate,
     TyreStiffness,
 )
 from mbs.vehicle.section import Section
@@ -65,7 +67,7 @@ class TMeasy(Section):
     """Free radius."""
     bottoming_radius: Length
     """Loaded radius below which the rim bears."""
-    stiffness: TyreStiffness
+    stiffness: TyreRate
     """Radial stiffness."""
     damping: TyreDamping
     """Radial damping."""
@@ -89,7 +91,7 @@ class TMeasy(Section):
     """Load at which the first number of each pair holds."""
     max_load_factor: Ratio
     """Multiple of the nominal load at which the curves are clamped."""
-    rolling_resistance: Coefficient
+    rolling_resistance: RollingResistance
     """Coefficient of rolling resistance."""
     grip: Factor = 1.0
     """Factor on the friction of the road under the tyres of this axle."""

@@ -28,9 +28,9 @@ EXPORT const char *harness_check(int32_t type, const int32_t sizes[5], const dou
   return t->check ? t->check(sizes[0], real, sizes[1], integer, sizes[2], n_inputs, n_roads) : 0;
 }
 
-EXPORT int32_t harness_conservative(int32_t type, const double *real, int32_t nreal) {
+EXPORT int32_t harness_conservative(int32_t type, const double *real, int32_t nreal, const int32_t *integer) {
   const ali3_element_type *t = ali3_element_type_get(type);
-  return t->conservative && !(t->lossy && t->lossy(real, nreal));
+  return t->conservative && !(t->lossy && t->lossy(real, nreal, integer));
 }
 
 /* out: excess and rise; 0: the element has no verdict on starts */

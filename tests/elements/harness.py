@@ -110,7 +110,7 @@ class Element:
     def conservative(self) -> bool:
         """Whether the kernel says that forces of this element take no energy."""
         e = self.element
-        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real)))
+        return bool(library().harness_conservative(int(e.type), _doubles(e.real), len(e.real), _ints(e.integer)))
 
     @property
     def has_discrete(self) -> bool:

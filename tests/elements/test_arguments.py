@@ -16,6 +16,7 @@ from mbs.elements import (
     BodyTorque,
     Brake,
     ContactPoints,
+    CoordinateFriction,
     Drag,
     ElectricDrive,
     EndStops,
@@ -27,6 +28,7 @@ from mbs.elements import (
     ScalarSpringDamper,
     SpinTorque,
     SpringDamper,
+    TorsionBar,
     Tyre,
 )
 from mbs.vehicle import load
@@ -64,6 +66,7 @@ USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "BodyTorque": (BodyTorque([0, None, 1]), lambda e: e.record("e", FRAME)),
     "Brake": (Brake(100.0, 1e4, 10.0), lambda e: e.record("e", F, G, SPIN, 0)),
     "ContactPoints": (ContactPoints.for_mass(10.0), lambda e: e.record("e", POINT, FRAME, np.eye(3), 0)),
+    "CoordinateFriction": (CoordinateFriction(1.0, 100.0, 1.0), lambda e: e.record("e", SPIN)),
     "Drag": (Drag(0.5), lambda e: e.record("e", POINT)),
     "ElectricDrive": (ElectricDrive(200.0, 1e5, 9.0), lambda e: e.record("e", SPIN, SPIN, F, G, 0, 1)),
     "EndStops": (EndStops(), lambda e: SpringDamper(1.0, stops=e).record("e", POINT)),
@@ -72,6 +75,7 @@ USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "ScalarSpringDamper": (ScalarSpringDamper(1.0, 1.0, 1.0, 1.0), lambda e: e.record("e", SPIN)),
     "SpinTorque": (SpinTorque(0, 1.0), lambda e: e.record("e", F, G, SPIN)),
     "SpringDamper": (SpringDamper(1.0, 1.0, 1.0), lambda e: e.record("e", POINT)),
+    "TorsionBar": (TorsionBar(100.0, 1.0, 3.0, 50.0), lambda e: e.record("e", SPIN, SPIN)),
     "Tyre": (TYRE, lambda e: e.record("e", POINT, F, SPIN, 0)),
     "PlaneRoad": (PlaneRoad(), Model("roads").road),
     "KerbRoad": (KerbRoad(1.0, 0.1), Model("roads").road),

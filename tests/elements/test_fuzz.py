@@ -10,6 +10,7 @@ from mbs.elements import (
     BodyForce,
     BodyTorque,
     Brake,
+    CoordinateFriction,
     Drag,
     ElectricDrive,
     EndStops,
@@ -21,6 +22,7 @@ from mbs.elements import (
     ScalarSpringDamper,
     SpinTorque,
     SpringDamper,
+    TorsionBar,
 )
 from tests.elements.harness import Element, contacts, signals, vectors
 from tests.elements.tyre_data import tyre_element
@@ -48,6 +50,8 @@ def elements() -> dict[str, Element]:
         "spin torque": Element(SpinTorque(1, 2.0).record("t", f, g, chi[0])),
         "drag": Element(Drag(0.8).record("d", p)),
         "brake": Element(Brake(650.0, 2e5, 600.0).record("b", f, g, chi[0], 0)),
+        "coordinate friction": Element(CoordinateFriction(2.0, 400.0, 7.0).record("f", signals(1)[0])),
+        "torsion bar": Element(TorsionBar(100.0, 1.0, 8.0, 40.0).record("t", *signals(2))),
         "drive": Element(AutomaticDrive(110.0, 5e4).record("a", left[0], right[0], f2, g2, 0)),
         "drive with a selector": Element(
             AutomaticDrive(110.0, 5e4).record("a", left[0], right[0], f2, g2, 0, selector=1)

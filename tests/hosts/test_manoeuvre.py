@@ -9,7 +9,7 @@ import pytest
 from fmpy.util import read_csv
 
 from hosts.errors import HostError
-from hosts.manoeuvre import FOLDER, load_manoeuvre, manoeuvre_names
+from hosts.manoeuvre import FOLDER, load_manoeuvre, manoeuvre_names, with_names_of
 
 GOOD = '"time","steering","throttle"\n0,0,0\n1,0,0\n1,0.5,1\n2,0.5,0\n'
 
@@ -116,3 +116,11 @@ def test_fmpy_reads_the_same_tables(name: str) -> None:
     manoeuvre = load_manoeuvre(name)
     assert np.array_equal(table["time"], manoeuvre.time)
     assert all(np.array_equal(table[n], values) for n, values in manoeuvre.inputs.items())
+
+
+def test_of_several_names_the_first_that_there_is_counts(tmp_path):
+    manoeuvre = load_manoeuvre(written(tmp_path, GOOD, "[start]\na | b.c = 2\nd = 1\n"))
+    assert with_names_of(manoeuvre, ["b.c", "d"]).start == {"b.c": 2.0, "d": 1.0}
+    assert with_names_of(manoeuvre, ["a", "b.c"]).start == {"a": 2.0, "d": 1.0}
+    assert with_names_of(manoeuvre, []).start == {"a": 2.0, "d": 1.0}  # to be refused by its name
+    assert "drive.creep_torque | selector" in load_manoeuvre("kerb_drop").start

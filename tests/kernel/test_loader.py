@@ -71,7 +71,16 @@ LIMITS = {"s": "nsig", "S": "nsig", "e": "ne", "u": "nu", "g": "ng", "G": "ng", 
 ORDERS = {"d": 3, "b": 2, "k": 4, "q": 4, "P": 4, "h": len(SolverValue)}
 LEAST = {"S": -1, "G": -1, "N": 1, "P": 2}
 REALS_OF = {"REACTION": 2, "REACTION_PRODUCTS": 2, "QUASI_STATIC": 21}
-SCALED = ("SIGNAL", "SIGNAL_RATE", "SIGNAL_SECOND_RATE", "ANGULAR_RATE", "ELEMENT_OUTPUT", "GUIDE")
+SCALED = (
+    "SIGNAL",
+    "SIGNAL_RATE",
+    "SIGNAL_SECOND_RATE",
+    "ANGULAR_RATE",
+    "ELEMENT_OUTPUT",
+    "GUIDE",
+    "MASS",
+    "GUIDE_EXCESS",
+)
 
 
 def letters_of(entry: SensorEntry) -> str:
@@ -93,7 +102,7 @@ def test_integers_and_reals_of_each_sensor_type_are_checked(entry: SensorEntry) 
         return builder.to_bytes()
 
     Instance(LoadedSystem(with_sensor(good, reals)))
-    for wrong in ([*good, 0], good[:-1]):
+    for wrong in ([*good, 0], *([good[:-1]] if good else [])):
         assert "sen" in refused(with_sensor(wrong, reals))
     for n in {len(reals) + 1, max(len(reals) - 1, 0)} - {len(reals)}:
         assert f"sensor 6 of type {entry.number} has {n} reals" in refused(with_sensor(good, [1.0] * n))

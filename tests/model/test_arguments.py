@@ -48,6 +48,11 @@ class Bench:
         self.guide = m.guide_input("guide", input=self.pedal, frequency=5.0, unit="m")
         self.road = m.road(KerbRoad(1.0, 0.1))
         self.spring = m.spring_damper("spring", (self.arm, (1.0, 0.0, 0.0)), self.ball, stiffness=10.0)
+        self.drive = m.drive("motor", self.other, self.guide)
+        self.rod = m.distance("rod", (self.arm, (1.0, 0.0, 0.0)), (self.box, (2.0, 0.5, 0.0)))
+        self.limited = m.guide_inputs(
+            "limited", inputs=(self.pedal, self.pedal), gains=(1.0, 1.0), limits=(-1.0, 1.0), frequency=5.0, unit="m"
+        )
         self.sensor = m.sense_position("place", self.arm)
         self.ported = m.ported(self.box, {"left": (1.5, 1.0, 0.0)})
 
@@ -69,6 +74,7 @@ def seen(bench: Bench, /, **more: Any) -> dict[str, Any]:
 CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "body": lambda b: {"name": "new", "mass": 1.0, "com": X, "inertia": (1.0, 1.0, 1.0)},
     "point_mass": lambda b: {"name": "new", "mass": 1.0, "position": X},
+    "payload": lambda b: {"name": "new", "body": b.arm, "position": X, "mass": 1.0, "point": b.arm.point(X)},
     "flexible_body": lambda b: {"name": "new", "reduced": BAR, "origin": X, "axes": np.eye(3)},
     "ported": lambda b: {"body": b.arm, "ports": {"left": X}},
     "initial_velocity": lambda b: {"body": b.arm, "linear": X, "angular": Y},
@@ -81,7 +87,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "weld": lambda b: between(b),
     "point_on_line": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": (b.box, X), "axis": X},
     "distance": lambda b: {"name": "new", "end_1": (b.arm, X), "end_2": b.ball, "length": 2.0},
-    "drive": lambda b: {"name": "new", "driven": b.angle, "guide": b.guide},
+    "drive": lambda b: {"name": "new", "driven": b.angle, "guide": b.guide, "switch": True},
     "pin": lambda b: {"name": "new", "body": b.arm, "point": X, "on": False},
     "rolling": lambda b: {
         "name": "new",
@@ -114,6 +120,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     },
     "relative_angle": lambda b: between(b, axis=Y, zero=0.5),
     "armature": lambda b: {"name": "new", "coordinate": b.angle, "inertia": 1.0},
+    "shaft": lambda b: {"name": "new", "inertia": 1.0},
     "spin": lambda b: {
         "name": "new",
         "carrier": b.arm,
@@ -129,6 +136,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "left": b.arm,
         "right": b.box,
         "stiffness": 1.0,
+        "stiffness_factor": 1.0,
         "damping": 1.0,
         "carrier": b.m.ground,
         "axis": Y,
@@ -144,6 +152,14 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "description": "a force",
     },
     "guide_input": lambda b: {"name": "new", "input": b.pedal, "gain": 1.0, "frequency": 5.0, "unit": "m"},
+    "guide_inputs": lambda b: {
+        "name": "new",
+        "inputs": (b.pedal, b.pedal),
+        "gains": (1.0, 2.0),
+        "limits": (-1.0, 1.0),
+        "frequency": 5.0,
+        "unit": "m",
+    },
     "guide_time": lambda b: {"name": "new", "motion": ([0.0, 1.0, 2.0], [0.0, 1.0, 1.0]), "unit": "m"},
     "constant": lambda b: {"name": "new", "value": 1.0, "unit": "m", "description": "a length"},
     "slide": lambda b: {"name": "new", "body": b.arm, "point": X, "direction": X, "guide": b.guide},
@@ -176,6 +192,15 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "force": lambda b: {"name": "new", "body": b.arm, "point": X, "inputs": [b.pedal, None, None], "axes": "body"},
     "torque": lambda b: {"name": "new", "body": b.arm, "inputs": [b.pedal, None, None], "axes": "body"},
     "torque_on": lambda b: {"name": "new", "angle": b.angle, "input": b.pedal, "gain": 2.0},
+    "lift": lambda b: {
+        "name": "new",
+        "body": b.arm,
+        "point": X,
+        "forward": X,
+        "up": Y,
+        "lift_area": 1.0,
+        "air_density": 1.0,
+    },
     "drag": lambda b: {"name": "new", "body": b.arm, "point": X, "drag_area": 1.0, "air_density": 1.0},
     "road": lambda b: {"road": PlaneRoad(), "file": "road.file"},
     "contact_points": lambda b: {
@@ -208,10 +233,14 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "sense_element": lambda b: seen(b, element=b.spring, output="force", scale=2.0),
     "sense_work": lambda b: seen(b, elements=[b.spring], kind="work"),
     "sense_energy": lambda b: seen(b, kind="total"),
+    "sense_mass": lambda b: seen(b),
     "sense_recovery": lambda b: seen(b, body=b.beam, weights=np.ones(BAR.n_modes)),
     "sense_quasi_static": lambda b: seen(b, body=b.ported, relief=RELIEF, output=1, origin=X),
     "sense_joint_force": lambda b: seen(b, joint=b.hinge, component="x"),
     "sense_joint_moment": lambda b: seen(b, joint=b.hinge, component="x", on="first", axes=b.arm, point=X),
+    "sense_guide_force": lambda b: seen(b, guide=b.guide, joints=[b.drive], scale=2.0),
+    "sense_rod_force": lambda b: seen(b, rods=[b.rod], body=b.arm, axis=X, scale=2.0),
+    "sense_guide_excess": lambda b: seen(b, guide=b.limited, scale=2.0),
     "sense_constant": lambda b: {**seen(b, value=1.0), "whole": True},
     "sense_input": lambda b: seen(b, input=b.pedal),
     "sense_guide": lambda b: seen(b, guide=b.guide, order=1, scale=2.0),

@@ -37,6 +37,7 @@ def car(stiffness: float, fidelity: int = 0) -> Model:
             real = list(element.real)
             real[list(element.real_names).index("stiffness")] = stiffness
             m.elements[k] = replace(element, real=tuple(real))
+    m.parameters = [p for p in m.parameters if p.name != "front.spring.stiffness"]  # a number has one parameter
     targets = [(name, "stiffness", 1.0) for name in FRONT]
     m.parameter("front.stiffness", stiffness, 5e3, 4e4, "N/m", "stiffness of the front springs", targets=targets)
     return m

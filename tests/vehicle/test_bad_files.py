@@ -188,7 +188,7 @@ ODD = {
     "soft springs": ({"front.spring.stiffness": 9000.0}, "higher in the chassis than front.wheel.centre"),
     "a soft tyre": ({"rear.tyre.stiffness": 40000.0}, "presses the tyre in"),
     "weak dampers": ({"front.damper.damping": 60.0}, "of the critical damping"),
-    "weak brakes": ({"brakes.front.torque": 50.0, "brakes.rear.torque": 20.0}, "of the weight at full pedal"),
+    "weak brakes": ({"brakes.torque": 60.0}, "of the weight at full pedal"),
     "a small tyre": ({"rear.tyre.nominal_load": 6000.0} | {
         f"rear.tyre.{c}.{k}": [4.0 * v for v in getattr(getattr(load("prototype").rear.tyre, c), k)]
         for c in ("longitudinal", "lateral") for k in ("slope", "max_force", "slide_force")

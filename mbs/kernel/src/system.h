@@ -6,13 +6,18 @@
 #include "../include/ali3.h"
 
 /* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
- * is known of assembly modes or of a start in equilibrium, and all parameters are tunable and without offset. */
+ * is known of assembly modes or of a start in equilibrium, no guide has two inputs, all parameters are tunable and
+ * without offset, and there are no payloads. */
 /* clang-format off */
 #define ALI3_OPTIONAL_ARRAYS(X) \
   X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
   X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
-  X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(int32_t, 1, pose_partner) \
-  X(double, 2, par_offset) X(int32_t, 1, par_fixed)
+  X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(double, 2, static_q) \
+  X(int32_t, 1, pose_partner) \
+  X(double, 2, par_offset) X(int32_t, 1, par_fixed) \
+  X(double, 2, payload_mass) X(int32_t, 1, payload_signal) X(double, 2, payload_gravity) \
+  X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place) \
+  X(int32_t, 1, guide_second)
 
 #define ALI3_SYSTEM_ARRAYS(X) \
   X(unsigned char, 3, meta) \
@@ -59,6 +64,7 @@ enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_ELEMENT = 0,
        ALI3_TARGET_GUIDE,
        ALI3_TARGET_ROAD,
+       ALI3_TARGET_PAYLOAD,
        ALI3_TARGET_COUNT
 };
 

@@ -12,10 +12,24 @@ from mbs.model.equation import Equation, GuideTerm
 from mbs.model.guides import Guide, owned_guide
 from mbs.model.joints.distance import distance
 from mbs.model.joints.joint import Joint
+from mbs.model.switches import new_switch
 
 
-def drive(model: BodyVocabulary, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide) -> Joint:
-    """``coordinate - s(t) = 0``, or for a pair of ends ``(|p1 - p2|^2 - s(t)^2)/2 = 0``."""
+def drive(
+    model: BodyVocabulary,
+    name: str,
+    driven: Coordinate | Affine | tuple[End, End],
+    guide: Guide,
+    switch: bool | None,
+) -> Joint:
+    """``coordinate - s(t) = 0``, or for a pair of ends ``(|p1 - p2|^2 - s(t)^2)/2 = 0``; with a switch or without."""
+    joint = _drive(model, name, driven, guide)
+    if switch is not None:
+        joint.switch = new_switch(model, name, switch)
+    return joint
+
+
+def _drive(model: BodyVocabulary, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide) -> Joint:
     what = f"drive '{name}'"
     g = owned_guide(model, guide, f"The {what}").index
     minus_one = Affine({}, -1.0)

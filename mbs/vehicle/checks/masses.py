@@ -73,7 +73,7 @@ def weighed_points(car: Car) -> list[tuple[float, tuple[float, float, float]]]:
         Each number of it is in its range.
     """
     found = [(car.chassis.mass, car.chassis.com)]
-    found += [(load.mass, load.point) for load in getattr(car, "payload", {}).values()]
+    found += [(load.mass, load.point) for load in car.payload.values()]
     left = [(part.mass, part.com) for part in parts_of(car)]
     left += [(axle.wheel.mass, axle.wheel.centre) for axle in (car.front, car.rear)]
     return found + [(mass, (x, side * y, z)) for mass, (x, y, z) in left for side in (1.0, -1.0)]
@@ -81,7 +81,7 @@ def weighed_points(car: Car) -> list[tuple[float, tuple[float, float, float]]]:
 
 def _sum(car: Car) -> Iterator[str]:
     weighed = weighed_points(car)
-    loads = sum(load.mass for load in getattr(car, "payload", {}).values())
+    loads = sum(load.mass for load in car.payload.values())
     total = sum(mass for mass, _ in weighed)
     given = car.vehicle.mass
     if abs(total - loads - given) > MASS_TOLERANCE * given:

@@ -5,12 +5,16 @@ from __future__ import annotations
 import math
 from typing import Literal
 
+from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.ends import End
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import Frequency, RackPerTurn, RoadWheelAngle, Travel
+from mbs.vehicle.quantities import Frequency, RackPerTurn, RoadWheelAngle, SteeringFriction, Travel
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Point, Side
-from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
+from mbs.vehicle.steering.steered import Steered, tie_rods
+
+STICK_STIFFNESS, STICK_DAMPING = 200.0, 5.0  # N m/rad and N m s/rad: 1 N m of friction gives by 5 mrad before it slides
 
 
 class RackByAngle(Section):
@@ -26,6 +30,8 @@ class RackByAngle(Section):
     """Of the critically damped follower between input and rack."""
     front_wheel_angle_max: RoadWheelAngle
     """Mean steering angle of the front wheels at full travel."""
+    friction: SteeringFriction = 0.0
+    """Friction of rack and column, at the steering wheel."""
 
     @property
     def wheel_angle_max(self) -> float:
@@ -47,21 +53,32 @@ class RackByAngle(Section):
         Steered
             Ends of the rack, and its outputs.
         """
-        rack = b.m.guide_input(
-            "rack", input=b.inputs["steering"], gain=way * self.rack_travel, frequency=self.frequency, unit="m"
+        m, steering, per_radian = b.m, b.inputs["steering"], way * self.rack_per_turn / (2.0 * math.pi)
+        demand = angle_demand(m, self.wheel_angle_max)
+        rack = m.guide_inputs(
+            "rack",
+            inputs=(steering, demand),
+            gains=(way * self.rack_travel, per_radian),
+            limits=(-self.rack_travel, self.rack_travel),
+            frequency=self.frequency,
+            unit="m",
         )
+        if self.friction > 0.0:
+            wheel = m.shaft("steering wheel")
+            m.drive("steering column", wheel.affine * per_radian, rack)
+            friction = CoordinateFriction(self.friction, STICK_STIFFNESS, STICK_DAMPING)
+            m.add(friction.record("steering friction", wheel.affine))
+            b.tie(self, "friction", "steering friction", "largest")
 
         def end(side: Side, point: Point) -> End:
-            return b.m.slide(
-                f"rack end {side.wheel}", b.chassis.body, point=point, direction=(0.0, 1.0, 0.0), guide=rack
-            )
+            return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=(0.0, 1.0, 0.0), guide=rack)
 
         def outputs() -> None:
             turned = "left" if way > 0.0 else "right"
-            b.m.sense_guide(
+            m.sense_guide(
                 "steering_rack", rack, description=f"rack travel, positive to the left (turns the wheels {turned})"
             )
-            b.m.sense_guide(
+            m.sense_guide(
                 "steering_wheel_angle",
                 rack,
                 scale=way * 2.0 * math.pi / self.rack_per_turn,
@@ -69,4 +86,10 @@ class RackByAngle(Section):
                 description="angle of the steering wheel, positive to the left",
             )
 
-        return Steered(end, outputs)
+        def torque_outputs() -> None:
+            m.sense_guide_force("steering_wheel_torque", rack, scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
+            m.sense_guide("steering_wheel_speed", rack, 1, 1.0 / per_radian, "rad/s", WHEEL_SPEED)
+            m.sense_guide_force("steering_rack_force", rack, tie_rods(m, rack), -1.0, description=RACK_FORCE)
+            demand_outputs(m, demand, rack, 1.0 / per_radian)
+
+        return Steered(end, outputs, torque_outputs)

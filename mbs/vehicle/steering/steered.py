@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from mbs.model import Model
+from mbs.model.guides import Guide
+from mbs.model.joints.joint import Joint
 from mbs.vehicle.corner import TieRodEnd
 
 
@@ -17,8 +20,28 @@ class Steered:
     tie_rod : TieRodEnd
         Gives the ends of the rack.
     outputs : callable
-        Adds the outputs of the steering.
+        Adds the outputs that every steering has had from the first.
+    torque_outputs : callable
+        Adds those of speed, force and torque, after all others.
     """
 
     tie_rod: TieRodEnd
     outputs: Callable[[], None]
+    torque_outputs: Callable[[], None]
+
+
+def tie_rods(m: Model, guide: Guide) -> list[Joint]:
+    """Rods with an end that a guide slides.
+
+    Parameters
+    ----------
+    m : Model
+        With the suspension.
+    guide : Guide
+        Of the rack.
+    """
+    return [
+        joint
+        for joint in m.joints
+        if joint.type == "distance" and any(t.guide == guide.index for e in joint.equations for t in e.guides)
+    ]

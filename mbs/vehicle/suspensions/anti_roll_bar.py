@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
 from mbs.vehicle.geometry import LEAST
-from mbs.vehicle.quantities import Point, TorsionalStiffness
+from mbs.vehicle.quantities import Factor, Point, TorsionalStiffness
 from mbs.vehicle.section import Section
 
 DEAD_POINT = 0.2  # sine between lever and link, seen along the bar
@@ -49,6 +49,8 @@ class AntiRollBar(Section):
 
     stiffness: TorsionalStiffness
     """Torque of the bar per angle between both levers."""
+    factor: Factor = 1.0
+    """Factor on the torque of the bar."""
     part: str
     """Part of the suspension that the drop link ends on, as the suspension's bodies are called."""
     points: AntiRollBarPoints
@@ -78,5 +80,8 @@ class AntiRollBar(Section):
                     **p,
                 )
             )
-        bar = b.m.anti_roll_bar(f"anti-roll bar {axle}", *levers, stiffness=self.stiffness)
+        bar = b.m.anti_roll_bar(
+            f"anti-roll bar {axle}", *levers, stiffness=self.stiffness, stiffness_factor=self.factor
+        )
         b.tie(self, "stiffness", bar, "stiffness")
+        b.tie(self, "factor", bar, "stiffness_factor")

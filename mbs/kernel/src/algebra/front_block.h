@@ -9,7 +9,7 @@ enum { PANEL = 4 };
 
 /* A pivot D must neither vanish beside the mass of its coordinate nor be infinite. */
 static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, double d) {
-  if (fabs(d) > 1e-14 * in->system->mass_floor[coordinate] && fabs(d) < 1e300) {
+  if (fabs(d) > 1e-14 * in->mass_floor[coordinate] && fabs(d) < 1e300) {
     if (d < 0.0) in->report.negative_pivots++;
     return ALI3_OK;
   }

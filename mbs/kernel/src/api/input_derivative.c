@@ -101,8 +101,9 @@ static void guides(ali3_instance *in, double h) {
   ali3_vectors *d = &in->direction;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
-    const double *real = in->guide_real + S->guide_real_ptr[g];
-    const double w = real[0], target = real[1] * d->used[S->guide_input[g]], slope = target / h, lag = 2.0 * slope / w;
+    const double w = in->guide_real[S->guide_real_ptr[g]], demand = ali3_guide_demand(in, g, in->now.used);
+    const bool held = ali3_guide_held(in, g, demand) != demand; /* then it does not follow */
+    const double target = held ? 0.0 : ali3_guide_demand(in, g, d->used), slope = target / h, lag = 2.0 * slope / w;
     const double rate = w * lag - slope, decay = ali3_exp(-w * h);
     d->s[g] = target - lag + (lag + rate * h) * decay;
     d->sd[g] = slope - (slope + w * rate * h) * decay;
@@ -128,7 +129,7 @@ static ali3_status factorise(ali3_instance *in, const linear_step *step) {
   ali3_roads_forgive(in);
   ali3_forces(in, &call);
   if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J_tangent, step->c * step->alpha, in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, v->lam, step->c, in->F);
   ali3_forces_tangent(in, in->F);

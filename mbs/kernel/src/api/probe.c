@@ -76,7 +76,7 @@ static void spread(const ali3_instance *in, double *dense) {
 
 ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) {
   if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
-  memcpy(in->F, in->system->front_mass, (size_t)in->system->size.front_size * sizeof(double));
+  memcpy(in->F, in->front_mass, (size_t)in->system->size.front_size * sizeof(double));
   ali3_flexible_prepare(in, q);
   ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
   spread(in, dense);
@@ -103,7 +103,7 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
   ali3_roads_forgive(in);
   ali3_forces(in, &call);
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J, c * ali3_penalty(in, h), in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
   ali3_forces_tangent(in, in->F);

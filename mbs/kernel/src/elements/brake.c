@@ -1,8 +1,9 @@
 /* Brake: elastoplastic friction torque between a wheel's spin and its carrier.
  * Signals: f (3), g (3) orthonormal on the carrier with f x g along the axis, chi with chi' = Omega the absolute rate
  * about it.
- * Reals: largest torque N m, stick stiffness N m/rad, stick damping N m s/rad. Integers: input (0..1). States: wind-up
- * z rad, z' rad/s.
+ * Reals: largest torque N m, stick stiffness N m/rad, stick damping N m s/rad; then the share of the torque that is this
+ * wheel's and the largest torque of the hand brake N m, or none. Integers: input (0..1); that of the hand brake or -1,
+ * where there are five reals. States: wind-up z rad, z' rad/s.
  * Outputs: torque on the wheel N m, 1 while sticking, relative rate w rad/s.
  *
  * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else
@@ -13,12 +14,21 @@
 #include "element.h"
 #include "element_math.h"
 
-enum { MAX_TORQUE, STIFFNESS, DAMPING, REALS };
+enum { MAX_TORQUE, STIFFNESS, DAMPING, PLAIN, SHARE = PLAIN, HAND_TORQUE, REALS };
+enum { PEDAL, HAND, INTEGERS };
+
+/* What the pads can hold: both pedals press them. */
+static double capacity(const ali3_element_args *a) {
+  const double *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], 0.0, 1.0);
+  if (a->nreal == PLAIN) return p[MAX_TORQUE] * pedal;
+  const double hand = ali3_clamp(ali3_input_or_zero(a->input, a->integer[HAND]), 0.0, 1.0);
+  return p[MAX_TORQUE] * p[SHARE] * pedal + p[HAND_TORQUE] * hand;
+}
 
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real, *f = a->u, *g = a->u + 3, *fd = a->ud, *gd = a->ud + 3;
   const double w = a->ud[6] - 0.5 * (ali3_dot(fd, g) - ali3_dot(gd, f));
-  const double bound = p[MAX_TORQUE] * ali3_clamp(a->input[a->integer[0]], 0.0, 1.0);
+  const double bound = capacity(a);
   const double half = 0.5 * a->h, wound = p[STIFFNESS] * (a->y_old[0] + half * a->y_old[1]);
   const double D = p[DAMPING] + half * p[STIFFNESS], trial = wound + D * w;
   const int sticks = fabs(trial) <= bound;
@@ -45,8 +55,14 @@ static void evaluate(ali3_element_args *a) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)nint, (void)n_roads;
-  if (integer[0] < 0 || integer[0] >= n_inputs) return "a brake names an input that does not exist";
+  (void)nsig, (void)n_roads;
+  if (!(nreal == PLAIN && nint == 1) && !(nreal == REALS && nint == INTEGERS))
+    return "a brake has 3 numbers and an input, or 5 and two inputs";
+  if (integer[PEDAL] < 0 || integer[PEDAL] >= n_inputs ||
+      (nint > 1 && (integer[HAND] < -1 || integer[HAND] >= n_inputs)))
+    return "a brake names an input that does not exist";
+  if (nreal == REALS && (real[SHARE] < 0.0 || real[HAND_TORQUE] < 0.0))
+    return "the share and the torque of the hand brake of a brake must not be negative";
   if (real[MAX_TORQUE] < 0.0) return "the largest torque of a brake must not be negative";
   if (!(real[STIFFNESS] > 0.0 && real[DAMPING] > 0.0)) return "stick stiffness and damping of a brake must be positive";
   return 0;
@@ -55,8 +71,8 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 const ali3_element_type ali3_brake = {
     .evaluate = evaluate,
     .nsig = 7,
-    .nreal = REALS,
-    .nint = 1,
+    .nreal = -1,
+    .nint = -1,
     .nstate = 2,
     .nout = 3,
     .check = check,

@@ -49,7 +49,8 @@ typedef struct ali3_element_type {
   ali3_element_function *discrete;
   ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
   bool conservative; /* a potential, or a force of inputs alone: steps of order four may be composed of it */
-  bool (*lossy)(const double *real, int32_t nreal); /* whether a conservative element takes energy with these data */
+  /* whether a conservative element takes energy with these data */
+  bool (*lossy)(const double *real, int32_t nreal, const int32_t *integer);
   /* Verdict on a start, from u, real, integer and roads, with the scene raised by `raised`, m; and its words, after the
    * element's name. */
   ali3_start_verdict (*start)(const ali3_element_args *a, double raised);

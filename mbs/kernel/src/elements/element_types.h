@@ -18,6 +18,10 @@
   X(10, automatic_drive) \
   X(11, contact_points) \
   X(12, spin_torque) \
-  X(13, electric_drive)
+  X(13, electric_drive) \
+  X(14, spring_damper_table) \
+  X(15, lift) \
+  X(16, coordinate_friction) \
+  X(17, torsion_bar)
 /* clang-format on */
 #endif

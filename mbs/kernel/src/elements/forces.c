@@ -71,7 +71,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
   active_signals(in, call->q, call->qd);
-  memcpy(call->Q, S->gravity_force, (size_t)S->size.nq * sizeof(double));
+  memcpy(call->Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, call->q);
     ali3_flexible_forces(in, call->q, call->qd, call->Q);

@@ -3,7 +3,7 @@
 #define ALI3_MASS_H
 #include "../instance.h"
 
-void ali3_constant_mass_times(const ali3_system *S, const double *x, double *out);
+void ali3_constant_mass_times(const ali3_instance *in, const double *x, double *out);
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work);
 #endif

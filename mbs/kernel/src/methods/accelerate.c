@@ -15,7 +15,7 @@ void ali3_accelerate(ali3_instance *in, int32_t iteration) {
   double present = 0.0, last = 0.0, change = 0.0, along = 0.0, theta = 0.0;
   if (iteration > 0) {
     for (int32_t i = 0; i < nq; i++) {
-      const double m = S->mass_floor[i], difference = in->x[i] - in->correction_q[i];
+      const double m = in->mass_floor[i], difference = in->x[i] - in->correction_q[i];
       present += m * in->x[i] * in->x[i];
       last += m * in->correction_q[i] * in->correction_q[i];
       change += m * difference * difference;

@@ -13,9 +13,9 @@ static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its
 /* Potential energy of v; flexible bodies prepared at its position. */
 static double potential(const ali3_instance *in, const ali3_vectors *v) {
   const ali3_system *S = in->system;
-  double gravity = S->gravity_const[0], elastic = 0.0;
+  double gravity = in->gravity_const, elastic = 0.0;
   ali3_flexible_energy(in, v->q, &gravity, &elastic);
-  for (int32_t i = 0; i < S->size.nq; i++) gravity -= S->gravity_force[i] * v->q[i];
+  for (int32_t i = 0; i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
   for (int32_t e = 0; e < S->size.ne; e++) elastic += v->potential[e];
   return gravity + elastic;
 }
@@ -33,7 +33,7 @@ void ali3_balance_open(ali3_instance *in) {
   ali3_flexible_prepare(in, in->now.q);
   const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
   double rest = 0.0;
-  for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->system->mass_floor[i];
+  for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass_floor[i];
   in->report.kinetic_peak = fmax(in->report.kinetic_peak, rest);
   kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now));
 }
@@ -56,7 +56,7 @@ void ali3_balance_motion(ali3_report *report, double speed, double change, doubl
 
 /* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
-  const double *m = in->system->mass_floor;
+  const double *m = in->mass_floor;
   double speed = 0.0, change = 0.0, miss = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
     const double d = v1[i] - v0[i], e = d - h * a[i];

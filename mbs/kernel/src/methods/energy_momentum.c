@@ -59,7 +59,7 @@ static double raised_penalty(const ali3_instance *in, double h) {
     double square = 0.0;
     for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
       const double change = in->J[i] - in->J0[i];
-      square += change * change * S->mass_floor_inverse[S->row_col[i]];
+      square += change * change * in->mass_floor_inverse[S->row_col[i]];
     }
     if (square > turn) turn = square;
   }
@@ -102,7 +102,7 @@ static void evaluate(ali3_instance *in, double h) {
   ali3_forces(in, &call);
   in->discrete = false;
   in->force_input = in->input;
-  ali3_constant_mass_times(S, in->w, in->r);
+  ali3_constant_mass_times(in, in->w, in->r);
   if (S->n_flexible > 0) {
     for (int32_t i = 0; i < nq; i++) in->w[i] *= inverse;
     ali3_discrete_inertia(in, h, in->hat, in->d0, in->rate, in->w, in->r);
@@ -131,7 +131,7 @@ static bool same_place(ali3_instance *in, const ali3_vectors *v) {
 static ali3_status factorise(ali3_instance *in, double h, double weight) {
   const ali3_system *S = in->system;
   double *J = in->J, *A = in->A;
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, 0.25 * h * h, in->F);
   ali3_forces_tangent(in, in->F);
   ali3_mirror(in, in->F);
@@ -187,7 +187,7 @@ static bool start(ali3_instance *in, double h) {
 static double change_of(const ali3_instance *in) {
   double change = 0.0, size = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
-    const double m = in->system->mass_floor[i];
+    const double m = in->mass_floor[i];
     change += m * in->step_q[i] * in->step_q[i];
     size += m * in->w[i] * in->w[i];
   }
@@ -203,7 +203,7 @@ static double need_of(const ali3_instance *in, double h) {
   double change = 0.0, size = 0.0;
   if (!(v->history[ALI3_HISTORY_COUNT] >= 2.0) || time[0] == time[1]) return ROUND_OFF;
   for (int32_t i = 0; i < nq; i++) {
-    const double a = v->past_a[i], difference = a - v->past_a[nq + i], m = in->system->mass_floor[i];
+    const double a = v->past_a[i], difference = a - v->past_a[nq + i], m = in->mass_floor[i];
     change += m * difference * difference;
     size += m * a * a;
   }

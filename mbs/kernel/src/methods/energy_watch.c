@@ -59,7 +59,7 @@ ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double 
   const double coming = fabs(error + 0.5 * h * (open - in->report.open_power)), worse = fmax(fabs(error), coming);
   double size = kinetic;
   for (int32_t i = 0; i < S->size.nq; i++)
-    size += 0.5 * (h * h * in->Q[i] * in->Q[i] * S->mass_floor_inverse[i] + left * left * S->mass_floor[i]);
+    size += 0.5 * (h * h * in->Q[i] * in->Q[i] * in->mass_floor_inverse[i] + left * left * in->mass_floor[i]);
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
   const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps adds energy instantly */
   if (!driven && !(worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size)) return ALI3_UNRESOLVED;

@@ -79,7 +79,7 @@ bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
     return false;
   lagrange(time + 1, n, time[0], weight);
   for (int32_t i = 0; i < nq; i++) {
-    const double m = in->system->mass_floor[i], one = a[i] - a[nq + i];
+    const double m = in->mass_floor[i], one = a[i] - a[nq + i];
     double all = a[i];
     for (int32_t k = 0; k < n; k++) all -= weight[k] * a[(int64_t)(k + 1) * nq + i];
     error += m * all * all;
@@ -141,7 +141,7 @@ void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
   double along = 0.0, square = 0.0;
   for (int32_t i = 0; i < nq; i++) {
     const double last = from->own[i] - half * from->past_a[i];
-    const double line = share * (in->rate[i] - last), m = in->system->mass_floor[i];
+    const double line = share * (in->rate[i] - last), m = in->mass_floor[i];
     v[i] = in->next.own[i] - in->rate[i];
     along += m * v[i] * line;
     square += m * v[i] * v[i];

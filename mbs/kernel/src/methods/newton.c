@@ -22,7 +22,7 @@ bool ali3_judge(ali3_instance *in, const double *r) {
   const ali3_system *S = in->system;
   double largest = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++) {
-    const double size = fabs(r[i]) * S->mass_floor_inverse[i];
+    const double size = fabs(r[i]) * in->mass_floor_inverse[i];
     if (!(size <= largest) && largest == largest) { /* a NaN stays */
       largest = size;
       in->report.worst_coordinate = i;

@@ -96,7 +96,7 @@ static bool evaluate(ali3_instance *in, double t, double h) {
     ali3_rows_transposed(S, J, of_rows(in, in->stage_lam, i), in->x);
     for (int32_t k = 0; k < S->size.nq; k++) {
       r[k] += in->x[k] - in->Q[k];
-      const double size = 0.5 * h * h * fabs(r[k]) * S->mass_floor_inverse[k];
+      const double size = 0.5 * h * h * fabs(r[k]) * in->mass_floor_inverse[k];
       if (!(size <= largest) && largest == largest) { /* a NaN stays */
         largest = size;
         in->report.worst_coordinate = k;
@@ -143,7 +143,7 @@ static ali3_status factorise(ali3_instance *in, double t, double h, double alpha
   memcpy(in->stage_J_tangent, in->stage_J, STAGES * (size_t)S->size.nnz_rows * sizeof(double));
   for (int i = 0; i < STAGES; i++) {
     place(in, t, h, i);
-    memcpy(in->F, S->front_mass, size);
+    memcpy(in->F, in->front_mass, size);
     memset(in->F_C, 0, size);
     memset(in->F_K, 0, size);
     forces(in, 1.0, 0.0);
@@ -176,7 +176,7 @@ static double size_of(const ali3_instance *in, const double *v, int64_t along, i
   for (int32_t k = 0; k < in->system->size.nq; k++)
     for (int i = 0; i < STAGES; i++) {
       const double x = v[k * along + i * across];
-      square += in->system->mass_floor[k] * x * x;
+      square += in->mass_floor[k] * x * x;
     }
   return sqrt(square);
 }
@@ -294,7 +294,7 @@ static ali3_status project(ali3_instance *in, double h, double alpha) {
   memcpy(in->J, of_entries(in, in->stage_J, LAST), entries);
   memcpy(in->J_tangent, in->J, entries);
   if (in->settings.project) {
-    memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+    memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
     if (S->n_flexible > 0) ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
     ali3_rows_square(in, in->J, weight, in->F);
     const ali3_status status = ali3_factorise(in, in->F);

@@ -93,6 +93,7 @@ static ali3_status accelerations(ali3_instance *in, const double *qd, double *qd
   memcpy(w->qd + 1, qd, (size_t)T->n * sizeof(double));
   ali3_tree_move(T, w);
   ali3_tree_forces(T, w);
+  ali3_tree_payloads(in);
   if (S->size.ne > 0) {
     ali3_vectors *v = &in->next;
     ali3_tree_write(in, v->q, v->qd, NULL);

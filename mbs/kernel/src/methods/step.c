@@ -70,7 +70,7 @@ static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration) {
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
   double *lam = in->next.lam;
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J, c * alpha, in->F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, lam, c, in->F);
   ali3_forces_tangent(in, in->F);

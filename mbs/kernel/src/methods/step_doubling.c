@@ -27,7 +27,7 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
   const ali3_system *S = in->system;
   double largest = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++) {
-    const double size = fabs(q[i]), speed = S->mass_missing[i] == 0.0 ? fabs(qd[i]) / rate : 0.0;
+    const double size = fabs(q[i]), speed = in->mass_missing[i] == 0.0 ? fabs(qd[i]) / rate : 0.0;
     const double part = scale_of(measure, i) * fmax(size, speed);
     if (!(part <= largest) && largest == largest) largest = part; /* a NaN stays */
   }
@@ -39,7 +39,7 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure) {
   const ali3_system *S = in->system;
   double largest = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++)
-    if (S->mass_missing[i] == 0.0) largest = fmax(largest, scale_of(measure, i) * fabs(in->now.qd[i]));
+    if (in->mass_missing[i] == 0.0) largest = fmax(largest, scale_of(measure, i) * fabs(in->now.qd[i]));
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 

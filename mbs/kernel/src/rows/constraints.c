@@ -93,6 +93,7 @@ void ali3_constraint_rate(ali3_instance *in, const double *q, const ali3_vectors
     const double qa = g->term.a < 0 ? 1.0 : q[g->term.a], qb = g->term.b < 0 ? 1.0 : q[g->term.b];
     Phit[g->row] += guide_rate(g, guides) * qa * qb;
   }
+  ali3_switch_values(in, Phit);
 }
 
 /* gamma = d(Phi_q)/dt qd + d(Phi_t)/dt, so that Phi'' = Phi_q qdd + gamma. */

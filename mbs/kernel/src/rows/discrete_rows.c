@@ -6,11 +6,13 @@
 #include "../algebra/elementary.h"
 #include "../instance.h"
 #include "discrete_rows.h"
+#include "switch_rows.h"
 
 static void correct_guided(const ali3_instance *in, const double *D, const double *s0, const double *s1) {
   const ali3_system *S = in->system;
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
     const ali3_guide_term *g = &S->gterm[t];
+    if (ali3_row_is_off(in, g->row)) continue;
     const double a = s0[g->guide], b = s1[g->guide];
     const double quarter = 0.25 * g->term.h * (g->power == 1 ? b - a : (b - a) * (b + a));
     if (g->term.a >= 0 && g->term.b >= 0) {

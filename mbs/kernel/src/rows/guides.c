@@ -1,4 +1,5 @@
-/* Guides s(t): polynomial pieces of time, or an input through a critically damped filter of second order. */
+/* Guides s(t): polynomial pieces of time, or an input, or the sum of two, through a critically damped filter of second
+ * order. */
 #include <math.h>
 #include <string.h>
 
@@ -6,9 +7,38 @@
 #include "../instance.h"
 #include "guides.h"
 
+/* Reals of a filtered guide: frequency, gain and start; of two inputs also the gain of the second one and limits. */
+enum { GAIN = 1, GAIN_2 = 3, LOW, HIGH };
+
+bool ali3_guide_filters(int32_t type) { return type == ALI3_GUIDE_OF_INPUT || type == ALI3_GUIDE_OF_TWO_INPUTS; }
+
+/* What inputs ask of a filtered guide. */
+double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input) {
+  const ali3_system *S = in->system;
+  const double *real = in->guide_real + S->guide_real_ptr[g];
+  const double first = real[GAIN] * input[S->guide_input[g]];
+  return S->guide_type[g] == ALI3_GUIDE_OF_INPUT ? first : first + real[GAIN_2] * input[S->guide_second[g]];
+}
+
+/* A demand held between the limits of its guide. */
+double ali3_guide_held(const ali3_instance *in, int32_t g, double demand) {
+  const double *real = in->guide_real + in->system->guide_real_ptr[g];
+  if (in->system->guide_type[g] == ALI3_GUIDE_OF_INPUT) return demand;
+  return demand < real[LOW] ? real[LOW] : demand > real[HIGH] ? real[HIGH] : demand;
+}
+
+static double target_of(const ali3_instance *in, int32_t g, const double *input) {
+  return ali3_guide_held(in, g, ali3_guide_demand(in, g, input));
+}
+
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {
   if (type == ALI3_GUIDE_OF_INPUT) {
     if (nreal != 3) return "a filtered guide has three numbers: frequency, gain, start";
+    return real[0] > 0.0 ? NULL : "the frequency of a filtered guide must be positive";
+  }
+  if (type == ALI3_GUIDE_OF_TWO_INPUTS) {
+    if (nreal != 6) return "a filtered guide of two inputs has six numbers: frequency, gain, start, gain, two limits";
+    if (!(real[LOW] <= real[HIGH])) return "the lower limit of a guide must not be above the upper one";
     return real[0] > 0.0 ? NULL : "the frequency of a filtered guide must be positive";
   }
   const double n = nreal > 0 ? real[0] : 0.0;
@@ -51,8 +81,7 @@ void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
-    v->s[g] =
-        in->guide_real[S->guide_real_ptr[g] + 1] * in->input[S->guide_input[g]]; /* at rest where its input holds it */
+    v->s[g] = target_of(in, g, in->input); /* at rest where its input holds it */
     v->sd[g] = v->sdd[g] = 0.0;
   }
   ali3_guides_time(in, v, t);
@@ -66,9 +95,8 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
     /* exact solution of s'' = w^2 (gain u - s) - 2 w s' for an input that goes straight from its last value to this
      * one; held over the step it would lead by h/2, which is an error of first order */
     const double *real = in->guide_real + S->guide_real_ptr[g];
-    const double w = real[0], target = real[1] * in->input[S->guide_input[g]],
-                 before = real[1] * in->input_begin[S->guide_input[g]], slope = (target - before) / h,
-                 lag = 2.0 * slope / w;
+    const double w = real[0], target = target_of(in, g, in->input), before = target_of(in, g, in->input_begin),
+                 slope = (target - before) / h, lag = 2.0 * slope / w;
     const double e = from->s[g] - before + lag, rate = from->sd[g] - slope + w * e, decay = ali3_exp(-w * h);
     to->s[g] = target - lag + (e + rate * h) * decay;
     to->sd[g] = slope + (from->sd[g] - slope - w * rate * h) * decay;

@@ -2,6 +2,11 @@
 #include "switch_rows.h"
 #include "../instance.h"
 
+bool ali3_row_is_off(const ali3_instance *in, int32_t k) {
+  const int32_t number = in->system->row_switch[k];
+  return number >= 0 && in->now.on[number] == 0.0;
+}
+
 /* Phi less the anchors; rows that are off vanish. */
 void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J) {
   const ali3_system *S = in->system;
@@ -22,5 +27,5 @@ void ali3_switch_values(const ali3_instance *in, double *v) {
   const ali3_system *S = in->system;
   if (S->size.n_switch == 0) return;
   for (int32_t k = 0; k < S->size.nc; k++)
-    if (S->row_switch[k] >= 0 && in->now.on[S->row_switch[k]] == 0.0) v[k] = 0.0;
+    if (ali3_row_is_off(in, k)) v[k] = 0.0;
 }

@@ -4,11 +4,7 @@
  * with respect to the increment is A and a term of the size of the step. */
 #include "velocity_rows.h"
 #include "../instance.h"
-
-static bool is_off(const ali3_instance *in, int32_t k) {
-  const int32_t number = in->system->row_switch[k];
-  return number >= 0 && in->now.on[number] == 0.0;
-}
+#include "switch_rows.h"
 
 /* No Phi, and what the coordinates add to A. */
 void ali3_velocity_jacobian(const ali3_instance *in, const double *q, double *Phi, double *J) {
@@ -49,7 +45,7 @@ void ali3_velocity_middle(const ali3_instance *in, const double *A, const double
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
     const int32_t k = S->velocity_row[i];
     for (int32_t j = S->row_ptr[k]; j < S->row_ptr[k + 1]; j++) J[j] = A[j];
-    if (is_off(in, k)) continue;
+    if (ali3_row_is_off(in, k)) continue;
     for (int32_t t = S->velocity_ptr[i]; t < S->velocity_ptr[i + 1]; t++)
       J[S->velocity[t].ja] += 0.5 * S->velocity[t].h * D[S->velocity[t].b];
   }

@@ -6,6 +6,7 @@
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../rows/guides.h"
 #include "../state/work.h"
 #include "../system/sensor_types.h"
 #include "sensors.h"
@@ -129,11 +130,16 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
   ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
     kinetic += in->x[i] * in->direction.qd[i];
-    gravity -= S->gravity_force[i] * in->direction.q[i];
+    gravity -= in->gravity_force[i] * in->direction.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->direction.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
+}
+
+static double change_mass(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)in, (void)v, (void)real;
+  return 0.0;
 }
 
 static double change_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
@@ -221,6 +227,12 @@ static double change_input(const ali3_instance *in, const int32_t *v, const doub
 static double change_guide(const ali3_instance *in, const int32_t *v, const double *real) {
   const double *of_order[3] = {in->direction.s, in->direction.sd, in->direction.sdd};
   return real[0] * of_order[v[1]][v[0]];
+}
+
+static double change_guide_excess(const ali3_instance *in, const int32_t *v, const double *real) {
+  if (!ali3_guide_filters(in->system->guide_type[v[0]])) return 0.0;
+  const double demand = ali3_guide_demand(in, v[0], in->now.used);
+  return ali3_guide_held(in, v[0], demand) == demand ? 0.0 : real[0] * ali3_guide_demand(in, v[0], in->direction.used);
 }
 
 /* Counts and residuals. */

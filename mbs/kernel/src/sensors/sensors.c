@@ -5,6 +5,7 @@
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../rows/guides.h"
 #include "../state/work.h"
 #include "../system/sensor_types.h"
 #include "sensors.h"
@@ -115,17 +116,24 @@ static double value_element_output(const ali3_instance *in, const int32_t *v, co
 static double value_energy(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   const ali3_system *S = in->system;
-  double kinetic = 0.0, gravity = S->gravity_const[0], elastic = 0.0;
+  double kinetic = 0.0, gravity = in->gravity_const, elastic = 0.0;
   ali3_flexible_prepare(in, in->now.q);
   ali3_flexible_energy(in, in->now.q, &gravity, &elastic);
   ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
     kinetic += 0.5 * in->x[i] * in->now.qd[i];
-    gravity -= S->gravity_force[i] * in->now.q[i];
+    gravity -= in->gravity_force[i] * in->now.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->now.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
+}
+
+static double value_mass(const ali3_instance *in, const int32_t *v, const double *real) {
+  double sum = real[0];
+  (void)v;
+  for (int64_t k = 0; k < in->system->n_payload_mass; k++) sum += in->payload_mass[k];
+  return sum;
 }
 
 static double value_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
@@ -203,6 +211,12 @@ static double value_input(const ali3_instance *in, const int32_t *v, const doubl
 static double value_guide(const ali3_instance *in, const int32_t *v, const double *real) {
   const double *of_order[3] = {in->now.s, in->now.sd, in->now.sdd};
   return real[0] * of_order[v[1]][v[0]];
+}
+
+static double value_guide_excess(const ali3_instance *in, const int32_t *v, const double *real) {
+  if (!ali3_guide_filters(in->system->guide_type[v[0]])) return 0.0;
+  const double demand = ali3_guide_demand(in, v[0], in->now.used);
+  return real[0] * (demand - ali3_guide_held(in, v[0], demand));
 }
 
 static double value_solver(const ali3_instance *in, const int32_t *v, const double *real) {

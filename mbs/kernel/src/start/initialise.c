@@ -31,8 +31,8 @@ enum { POSITION_ITERATIONS = 200 };
 static ali3_status factorise_metric(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   ali3_flexible_prepare(in, q);
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += in->mass_missing[i];
   ali3_rows_square(in, in->J, ALPHA, in->F);
   ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
   ali3_flexible_stiffen(in, BENDING, in->F);
@@ -60,7 +60,7 @@ static ali3_status close_position(ali3_instance *in) {
     ali3_flexible_elastic(in, BENDING, in->w, in->r);
     for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->Phi[k];
     ali3_rows_transposed(S, in->J, in->mu, in->x);
-    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + S->mass_missing[i] * in->w[i] + in->x[i]);
+    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->mass_missing[i] * in->w[i] + in->x[i]);
     ali3_solve(in, in->F, in->x);
     if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
     double longest = 0.0;

@@ -10,7 +10,7 @@
 #include "initialise.h"
 
 static const double TOLERANCE = 1e-8; /* N, N m */
-static const double SAME = 1e-9; /* m: an equilibrium that close to the file's is the file's */
+static const double SAME = 1e-9; /* m: of a file that does not say where its equilibrium was sought from */
 enum { ITERATIONS = 400 };
 
 static double signal(const ali3_system *S, const double *q, int32_t i) {
@@ -73,11 +73,12 @@ static void put_back(ali3_instance *in) {
   ali3_parameters_apply(in);
 }
 
-/* The equilibrium in in->stage (nq), from that of the file. */
+/* The equilibrium in in->stage (nq), from where that of the file was sought: the same values then give the same bits,
+ * whether a file has them or an instance. */
 static ali3_status search(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
   ali3_vectors_copy(in, &in->whole, &in->now);
-  memcpy(in->now.q, S->q0, (size_t)S->size.nq * sizeof(double));
+  memcpy(in->now.q, S->n_static_q > 0 ? S->static_q : S->q0, (size_t)S->size.nq * sizeof(double));
   memcpy(in->now.y, S->y0, (size_t)S->size.ny * sizeof(double));
   const ali3_status status = ali3_solve_static(in, t, TOLERANCE, ITERATIONS);
   memcpy(in->stage, in->now.q, (size_t)S->size.nq * sizeof(double));
@@ -95,13 +96,15 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   ali3_start_of_file(in);
   in->start_moved = false;
   if (solve) {
+    const ali3_report before = in->report;
     ali3_status status = prepare(in);
     if (status == ALI3_OK) status = search(in, t);
     put_back(in);
     if (status != ALI3_OK) return status;
+    in->report = before; /* the search is no part of the run */
     double most = 0.0;
     for (int32_t i = 0; i < S->size.nq; i++) most = fmax(most, fabs(in->stage[i] - S->q0[i]));
-    in->start_moved = most > SAME;
+    in->start_moved = most > (S->n_static_q > 0 ? 0.0 : SAME);
     if (in->start_moved) set_start(in, in->stage);
   }
   if (in->placed == ALI3_PLACED_BY_POSE)

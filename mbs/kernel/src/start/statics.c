@@ -56,14 +56,14 @@ static double balance(ali3_instance *in, double c) {
 /* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T gives no descent direction. */
 static ali3_status factorise(ali3_instance *in, double c) {
   const ali3_system *S = in->system;
-  memcpy(in->F, S->front_mass, (size_t)S->size.front_size * sizeof(double));
-  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += S->mass_missing[i];
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += in->mass_missing[i];
   ali3_rows_square(in, in->J, PENALTY, in->F);
   ali3_geometric(in, in->next.q, in->next.s, in->next.lam, c, in->F);
   ali3_forces_tangent(in, in->F);
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t pos = S->diagonal_pos[i];
-    in->d0[i] = in->F[pos] == S->front_mass[pos] + S->mass_missing[i] ? in->w[i] : 1.0;
+    in->d0[i] = in->F[pos] == in->front_mass[pos] + in->mass_missing[i] ? in->w[i] : 1.0;
     in->r[i] *= in->d0[i];
   }
   const ali3_status status = ali3_factorise(in, in->F);
@@ -92,7 +92,7 @@ static ali3_status correct(ali3_instance *in, double c, double *part) {
 static void mark(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.nq; i++) {
-    in->w[i] = S->gravity_force[i] == 0.0 ? 0.0 : 1.0;
+    in->w[i] = in->gravity_force[i] == 0.0 ? 0.0 : 1.0;
     in->d0[i] = 1.0;
   }
   for (int32_t k = 0; k < S->size.nnz_rows; k++) in->w[S->row_col[k]] = 1.0;

@@ -8,6 +8,7 @@
 #include "../instance.h"
 #include "../rows/guides.h"
 #include "../tree/tree.h"
+#include "masses.h"
 #include "parameters.h"
 #include "road_files.h"
 #include "vectors.h"
@@ -60,6 +61,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   in->n_roads = s->nr;
   in->n_vector = ali3_vector_count(s);
   in->force_input = in->input;
+  ali3_masses_start(in);
   if (s->tree != NULL) ali3_tree_start(s, in->tree);
   const ali3_status status = ali3_reset(in);
   if (status != ALI3_OK) {
@@ -133,8 +135,9 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->el_real, S->el_real, S->n_el_real);
   copy(in->guide_real, S->guide_real, S->n_guide_real);
   copy(in->road_real, S->road_real, S->n_road_real);
+  copy(in->payload_mass, S->payload_mass, S->n_payload_mass);
   for (int32_t g = 0; g < S->size.ng; g++)
-    if (S->guide_type[g] == ALI3_GUIDE_OF_INPUT) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
+    if (ali3_guide_filters(S->guide_type[g])) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {
     const ali3_road road = {.type = S->road_type[r],
                             .nreal = S->road_real_ptr[r + 1] - S->road_real_ptr[r],

@@ -1,9 +1,9 @@
-/* Parameters of an instance: what they write to its copies of the data of elements, guides and roads. */
-#include <string.h>
-
+/* Parameters of an instance: what they write to its copies of the data of elements, guides, roads and payloads.
+ */
+#include "parameters.h"
 #include "../instance.h"
 #include "../system/loading.h"
-#include "parameters.h"
+#include "masses.h"
 
 /* What a parameter of a value writes to its target k. */
 double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {
@@ -13,17 +13,28 @@ double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {
 
 static void write(ali3_instance *in, int32_t p) {
   const ali3_system *S = in->system;
-  double *target[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = in->el_real, [ALI3_TARGET_GUIDE] = in->guide_real, [ALI3_TARGET_ROAD] = in->road_real};
+  double *target[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = in->el_real,
+                                       [ALI3_TARGET_GUIDE] = in->guide_real,
+                                       [ALI3_TARGET_ROAD] = in->road_real,
+                                       [ALI3_TARGET_PAYLOAD] = in->payload_mass};
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
     target[S->par_target[k]][S->par_index[k]] = ali3_parameter_writes(S, k, in->parameter[p]);
 }
 
+/* The check of target k, or with k = -1 of all data. */
+static const char *check(const ali3_instance *in, int64_t k) {
+  const double *const data[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = in->el_real,
+                                                 [ALI3_TARGET_GUIDE] = in->guide_real,
+                                                 [ALI3_TARGET_ROAD] = in->road_real,
+                                                 [ALI3_TARGET_PAYLOAD] = in->payload_mass};
+  return k < 0 ? ali3_check_data(in->system, data) : ali3_check_target(in->system, k, data);
+}
+
 /* All of them; refused as a whole when an element, guide or road cannot take its data. */
 ali3_status ali3_parameters_apply(ali3_instance *in) {
-  const ali3_system *S = in->system;
-  for (int32_t p = 0; p < S->size.np; p++) write(in, p);
-  return ali3_check_data(S, in->el_real, in->guide_real, in->road_real) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
+  for (int32_t p = 0; p < in->system->size.np; p++) write(in, p);
+  ali3_masses_apply(in);
+  return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
 }
 
 /* One of them, and the checks of what it writes to. */
@@ -32,8 +43,14 @@ static ali3_status take(ali3_instance *in, int32_t p, double value) {
   in->parameter[p] = value;
   write(in, p);
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-    if (ali3_check_target(S, k, in->el_real, in->guide_real, in->road_real) != NULL) return ALI3_BAD_ARGUMENT;
+    if (check(in, k) != NULL) return ALI3_BAD_ARGUMENT;
   return ALI3_OK;
+}
+
+static bool loads(const ali3_system *S, int32_t p) {
+  for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
+    if (S->par_target[k] == ALI3_TARGET_PAYLOAD) return true;
+  return false;
 }
 
 static bool in_range(const ali3_instance *in, int32_t index, double value) {
@@ -47,6 +64,7 @@ ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
   if (in->initialised && in->system->n_par_fixed > 0 && in->system->par_fixed[index]) return ALI3_FIXED_PARAMETER;
   const ali3_status status = take(in, index, value);
   if (status != ALI3_OK) take(in, index, before);
+  if (status == ALI3_OK && loads(in->system, index)) ali3_masses_apply(in);
   return status;
 }
 

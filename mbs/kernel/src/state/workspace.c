@@ -6,6 +6,7 @@
 #include "../rows/assembly_mode.h"
 #include "../system/without_states.h"
 #include "../tree/tree.h"
+#include "masses.h"
 #include "vectors.h"
 
 /* Signals times coordinates of the largest element. */
@@ -48,6 +49,7 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->el_real = ali3_pool_array(p, (size_t)s->n_el_real);
   in->guide_real = ali3_pool_array(p, (size_t)s->n_guide_real);
   in->road_real = ali3_pool_array(p, (size_t)s->n_road_real);
+  ali3_masses_place(s, in, p);
 }
 
 /* Coordinates and rows of a step. */

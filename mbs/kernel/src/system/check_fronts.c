@@ -102,7 +102,7 @@ static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   return ALI3_OK;
 }
 
-/* A switched row is a quadratic alone. */
+/* A switched row has no angle. */
 static ali3_status check_switches(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_length(m, "row_switch", s->n_row_switch, s->size.nc));
   CHECK(ali3_check_indices(m, "row_switch", s->row_switch, s->size.nc, -1, s->n_switch_start));
@@ -114,9 +114,6 @@ static ali3_status check_switches(const ali3_system *s, ali3_message m) {
   }
   for (int64_t i = 0; i < s->n_angle_row; i++)
     if (s->row_switch[s->angle_row[i]] >= 0) return ali3_bad(m, "the angle row %d has a switch", (int)s->angle_row[i]);
-  for (int64_t t = 0; t < s->n_gterm_row; t++)
-    if (s->gterm_row[t] >= 0 && s->gterm_row[t] < s->size.nc && s->row_switch[s->gterm_row[t]] >= 0)
-      return ali3_bad(m, "the guided row %d has a switch", (int)s->gterm_row[t]);
   return ALI3_OK;
 }
 

@@ -75,6 +75,10 @@ ali3_status ali3_check_tree(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_length(m, "tree_gravity", s->n_tree_gravity, n > 0 ? 3 : 0));
   CHECK(ali3_check_indices(m, "tree_slides", s->tree_slides, n, 0, 2));
   CHECK(ali3_check_indices(m, "tree_frame", s->tree_frame, 12 * n, 0, s->size.nsig));
+  const int64_t payloads = n > 0 ? s->n_payload_mass : 0;
+  CHECK(ali3_check_length(m, "tree_payload_body", s->n_tree_payload_body, payloads));
+  CHECK(ali3_check_length(m, "tree_payload_place", s->n_tree_payload_place, 3 * payloads));
+  CHECK(ali3_check_indices(m, "tree_payload_body", s->tree_payload_body, payloads, 1, n + 1));
   for (int64_t b = 0; b < n; b++) CHECK(ali3_check_indices(m, "tree_parent", s->tree_parent + b, 1, 0, b + 1));
   if (n == 0) {
     CHECK(ali3_check_length(m, "tree_out_body", s->n_tree_out_body, 0));

@@ -13,10 +13,14 @@ ali3_status ali3_check_flexible(ali3_system *s, ali3_message m);
 ali3_status ali3_check_tree(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_modes(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_start(const ali3_system *s, ali3_message m);
-const char *ali3_check_data(const ali3_system *s, const double *el_real, const double *guide_real,
-                            const double *road_real);
-const char *ali3_check_target(const ali3_system *s, int64_t k, const double *el_real, const double *guide_real,
-                              const double *road_real);
+ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m);
+/* Data of elements, guides, roads and payloads, in the order of ALI3_TARGET_*: all, or of what target k of a parameter
+ * belongs to. */
+const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_TARGET_COUNT]);
+const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]);
 ali3_status ali3_system_derive(ali3_system *s, ali3_message m);
+/* A mass matrix in front storage, its diagonal, and what massless coordinates lack; each may be that of an instance. */
+void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front, double *floor, double *floor_inverse,
+                         double *missing);
 int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value); /* position or -1 */
 #endif

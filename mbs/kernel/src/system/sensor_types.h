@@ -61,7 +61,11 @@
     "sum weight * lam_user * u * u * u * s: forces along turning lines, of driven distances, moments of joints") \
   X(19, WORK, work, "bN(e)", 0, 0, NEVER, FORCES, \
     "kind: 0 work, 1 nonconservative (with the change of the potentials), n, then n elements", "-", \
-    "sum of the work of elements since the start, J")
+    "sum of the work of elements since the start, J") \
+  X(20, MASS, mass, "", 1, 0, ALWAYS, MOTION, \
+    "-", "mass without payloads, kg", "total mass, kg") \
+  X(21, GUIDE_EXCESS, guide_excess, "g", 1, 0, NEVER, INPUTS, \
+    "guide", "scale", "scale * (what the inputs ask of a filtered guide, less what its limits leave of it)")
 /* clang-format on */
 
 enum {

@@ -119,23 +119,39 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
   CHECK(ali3_check_length(m, "guide_input", s->n_guide_input, ng));
   CHECK(ali3_check_pointers(m, "guide_real_ptr", s->guide_real_ptr, s->n_guide_real_ptr, ng, s->n_guide_real));
   CHECK(ali3_check_indices(m, "guide_type", s->guide_type, ng, 0, ALI3_GUIDE_TYPE_COUNT));
-  for (int32_t g = 0; g < ng; g++)
-    if (s->guide_type[g] == ALI3_GUIDE_OF_INPUT)
-      CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
+  if (s->n_guide_second != 0) CHECK(ali3_check_length(m, "guide_second", s->n_guide_second, ng));
+  for (int32_t g = 0; g < ng; g++) {
+    if (!ali3_guide_filters(s->guide_type[g])) continue;
+    CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
+    if (s->guide_type[g] != ALI3_GUIDE_OF_TWO_INPUTS) continue;
+    if (s->n_guide_second == 0) return ali3_bad(m, "guide %d has two inputs and guide_second is missing", (int)g);
+    CHECK(ali3_check_indices(m, "guide_second", s->guide_second + g, 1, 0, s->size.nu));
+  }
   return ali3_check_pointers(m, "road_real_ptr", s->road_real_ptr, s->n_road_real_ptr, s->nr, s->n_road_real);
+}
+
+/* A mass that changes while it moves would take momentum from nowhere. */
+static ali3_status check_fixed(const ali3_system *s, ali3_message m) {
+  if (s->n_par_fixed != 0) CHECK(ali3_check_length(m, "par_fixed", s->n_par_fixed, s->size.np));
+  CHECK(ali3_check_indices(m, "par_fixed", s->par_fixed, s->n_par_fixed, 0, 2));
+  for (int32_t p = 0; p < s->size.np; p++)
+    for (int32_t k = s->par_ptr[p]; k < s->par_ptr[p + 1]; k++)
+      if (s->par_target[k] == ALI3_TARGET_PAYLOAD && (s->n_par_fixed == 0 || !s->par_fixed[p]))
+        return ali3_bad(m, "parameter %d writes the mass of a payload and is not fixed", (int)p);
+  return ALI3_OK;
 }
 
 static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int32_t np = s->size.np;
-  const int64_t length[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = s->n_el_real, [ALI3_TARGET_GUIDE] = s->n_guide_real, [ALI3_TARGET_ROAD] = s->n_road_real};
+  const int64_t length[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = s->n_el_real,
+                                             [ALI3_TARGET_GUIDE] = s->n_guide_real,
+                                             [ALI3_TARGET_ROAD] = s->n_road_real,
+                                             [ALI3_TARGET_PAYLOAD] = s->n_payload_mass};
   CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
   CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
   CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
   CHECK(ali3_check_length(m, "par_scale", s->n_par_scale, s->n_par_target));
   if (s->n_par_offset != 0) CHECK(ali3_check_length(m, "par_offset", s->n_par_offset, s->n_par_target));
-  if (s->n_par_fixed != 0) CHECK(ali3_check_length(m, "par_fixed", s->n_par_fixed, np));
-  CHECK(ali3_check_indices(m, "par_fixed", s->par_fixed, s->n_par_fixed, 0, 2));
   CHECK(ali3_check_pointers(m, "par_ptr", s->par_ptr, s->n_par_ptr, np, s->n_par_target));
   CHECK(ali3_check_indices(m, "par_target", s->par_target, s->n_par_target, 0, ALI3_TARGET_COUNT));
   for (int64_t k = 0; k < s->n_par_target; k++)
@@ -143,7 +159,7 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   for (int32_t p = 0; p < np; p++)
     if (!(s->par_min[p] <= s->par_value[p] && s->par_value[p] <= s->par_max[p]))
       return ali3_bad(m, "parameter %d is %g, outside its range", (int)p, s->par_value[p]);
-  return ALI3_OK;
+  return check_fixed(s, m);
 }
 
 static const char *check_element(const ali3_system *s, int32_t e, const double *el_real) {
@@ -164,12 +180,16 @@ static const char *check_road(const ali3_system *s, int32_t k, const double *roa
   return ali3_road_check(s->road_type[k], road_real + real, s->road_real_ptr[k + 1] - real);
 }
 
-const char *ali3_check_data(const ali3_system *s, const double *el_real, const double *guide_real,
-                            const double *road_real) {
+static const char *check_payload(double mass) {
+  return mass >= 0.0 && mass - mass == 0.0 ? NULL : "the mass of a payload must be a number and not negative";
+}
+
+const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_TARGET_COUNT]) {
   const char *text = NULL;
-  for (int32_t e = 0; text == NULL && e < s->size.ne; e++) text = check_element(s, e, el_real);
-  for (int32_t g = 0; text == NULL && g < s->size.ng; g++) text = check_guide(s, g, guide_real);
-  for (int32_t k = 0; text == NULL && k < s->nr; k++) text = check_road(s, k, road_real);
+  for (int32_t e = 0; text == NULL && e < s->size.ne; e++) text = check_element(s, e, data[ALI3_TARGET_ELEMENT]);
+  for (int32_t g = 0; text == NULL && g < s->size.ng; g++) text = check_guide(s, g, data[ALI3_TARGET_GUIDE]);
+  for (int32_t k = 0; text == NULL && k < s->nr; k++) text = check_road(s, k, data[ALI3_TARGET_ROAD]);
+  for (int64_t k = 0; text == NULL && k < s->n_payload_mass; k++) text = check_payload(data[ALI3_TARGET_PAYLOAD][k]);
   return text;
 }
 
@@ -187,23 +207,19 @@ static int32_t owner(const int32_t *ptr, int32_t n, int32_t index) {
 }
 
 /* The check of what target k of a parameter belongs to. */
-const char *ali3_check_target(const ali3_system *s, int64_t k, const double *el_real, const double *guide_real,
-                              const double *road_real) {
-  const int32_t index = s->par_index[k];
-  switch (s->par_target[k]) {
-  case ALI3_TARGET_ELEMENT:
-    return check_element(s, owner(s->el_real_ptr, s->size.ne, index), el_real);
-  case ALI3_TARGET_GUIDE:
-    return check_guide(s, owner(s->guide_real_ptr, s->size.ng, index), guide_real);
-  default:
-    return check_road(s, owner(s->road_real_ptr, s->nr, index), road_real);
-  }
+const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]) {
+  const int32_t index = s->par_index[k], family = s->par_target[k];
+  if (family == ALI3_TARGET_ELEMENT) return check_element(s, owner(s->el_real_ptr, s->size.ne, index), data[family]);
+  if (family == ALI3_TARGET_GUIDE) return check_guide(s, owner(s->guide_real_ptr, s->size.ng, index), data[family]);
+  if (family == ALI3_TARGET_ROAD) return check_road(s, owner(s->road_real_ptr, s->nr, index), data[family]);
+  return check_payload(data[family][index]);
 }
 
 ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(check_sizes(s, m));
   CHECK(check_mass(s, m));
   CHECK(check_signals(s, m));
+  CHECK(ali3_check_payloads(s, m));
   CHECK(check_guides_and_roads(s, m));
   CHECK(check_parameters(s, m));
   CHECK(ali3_check_fronts(s, m));
@@ -216,6 +232,10 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(ali3_check_tree(s, m));
   CHECK(ali3_check_modes(s, m));
   CHECK(ali3_check_start(s, m));
-  const char *text = ali3_check_data(s, s->el_real, s->guide_real, s->road_real);
+  const double *const data[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = s->el_real,
+                                                 [ALI3_TARGET_GUIDE] = s->guide_real,
+                                                 [ALI3_TARGET_ROAD] = s->road_real,
+                                                 [ALI3_TARGET_PAYLOAD] = s->payload_mass};
+  const char *text = ali3_check_data(s, data);
   return text == NULL ? ALI3_OK : ali3_bad(m, "%s", text);
 }

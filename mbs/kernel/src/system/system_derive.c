@@ -146,29 +146,12 @@ static void derive_hessian(ali3_system *s) {
 }
 
 static void derive_mass(ali3_system *s) {
-  const int32_t nq = s->size.nq;
-  double sum = 0.0;
-  int32_t positive = 0, f = 0;
-  memset(s->front_mass, 0, (size_t)s->size.front_size * sizeof(double));
-  for (int64_t k = 0; k < s->n_mass_col; k++)
-    if (s->mass_pos[k] >= 0) s->front_mass[s->mass_pos[k]] = s->mass_val[k];
-  for (int32_t i = 0; i < nq; i++) {
+  for (int32_t i = 0, f = 0; i < s->size.nq; i++) {
     while (i >= s->front_col[f + 1]) f++;
     const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], local = i - s->front_col[f];
     s->diagonal_pos[i] = s->front_off[f] + local * n + local;
-    s->mass_floor[i] = s->front_mass[s->diagonal_pos[i]];
-    if (s->mass_floor[i] > 0.0) {
-      sum += s->mass_floor[i];
-      positive++;
-    }
   }
-  const double typical = positive > 0 ? sum / positive : 1.0;
-  for (int32_t i = 0; i < nq; i++) {
-    const bool massless = !(s->mass_floor[i] > 1e-12 * typical);
-    s->mass_missing[i] = massless ? typical : 0.0;
-    if (massless) s->mass_floor[i] = typical;
-    s->mass_floor_inverse[i] = 1.0 / s->mass_floor[i];
-  }
+  ali3_mass_in_fronts(s, s->mass_val, s->front_mass, s->mass_floor, s->mass_floor_inverse, s->mass_missing);
 }
 
 static void derive_flexible(ali3_system *s) {

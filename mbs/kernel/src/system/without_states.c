@@ -7,6 +7,6 @@
 bool ali3_without_states(const ali3_system *S) {
   if (S->size.ny > 0) return false;
   for (int32_t g = 0; g < S->size.ng; g++)
-    if (S->guide_type[g] == ALI3_GUIDE_OF_INPUT) return false;
+    if (ali3_guide_filters(S->guide_type[g])) return false;
   return true;
 }

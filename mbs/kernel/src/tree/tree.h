@@ -44,6 +44,7 @@ struct ali3_tree_work {
   ali3_lanes inertia[6], moment[3]; /* xx, yy, zz, yz, zx, xy about the earth's origin, mass times centre: composite */
   ali3_lanes torque[3], force[3]; /* of inertia and gravity without the joint accelerations: composite */
   ali3_lanes angular[3], linear[3]; /* composite momentum per unit rate of the joint */
+  ali3_lanes composite; /* mass that each joint carries */
   ali3_lanes load; /* right side of M qdd = load */
   double gravity[3]; /* zero where the forces of the System bring it */
   double mass[ALI3_MOST_JOINTS + 1][ALI3_LANES]; /* M, lower triangle; zero where neither joint moves the other */
@@ -75,6 +76,7 @@ void ali3_tree_load(const ali3_instance *in, const double *Q);
 
 /* tree_dynamics.c: inertia and inertia forces of the bodies, then the mass matrix and the right side; M qdd = load */
 void ali3_tree_forces(const ali3_tree *T, ali3_tree_work *w);
+void ali3_tree_payloads(const ali3_instance *in);
 void ali3_tree_mass(const ali3_tree *T, ali3_tree_work *w);
 bool ali3_tree_factorise(const ali3_tree *T, ali3_tree_work *w, double *b);
 void ali3_tree_solve(const ali3_tree *T, const ali3_tree_work *w, double *b);

@@ -95,7 +95,7 @@ static void momenta(const ali3_tree *T, ali3_tree_work *w) {
   for (int32_t b = 0; b < T->lanes; b++) {
     const double t0 = w->turn[0][b], t1 = w->turn[1][b], t2 = w->turn[2][b];
     const double s0 = w->shift[0][b], s1 = w->shift[1][b], s2 = w->shift[2][b];
-    const double m0 = w->moment[0][b], m1 = w->moment[1][b], m2 = w->moment[2][b], m = T->composite[b];
+    const double m0 = w->moment[0][b], m1 = w->moment[1][b], m2 = w->moment[2][b], m = w->composite[b];
     const double xx = w->inertia[0][b], yy = w->inertia[1][b], zz = w->inertia[2][b], yz = w->inertia[3][b],
                  zx = w->inertia[4][b], xy = w->inertia[5][b];
     w->angular[0][b] = (xx * t0 + xy * t1 + zx * t2) + (m1 * s2 - m2 * s1);

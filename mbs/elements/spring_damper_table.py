@@ -1,0 +1,173 @@
+"""Spring and damper between two points by tables, with stops."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from mbs.affine import AffineVector
+from mbs.checks import array, is_number, not_negative
+from mbs.elements.record import ElementRecord
+from mbs.elements.record_checks import size
+from mbs.elements.spring_damper import LINE_OUTPUTS, EndStops
+from mbs.errors import ModelError
+from mbs.kernel.header import ElementType
+
+Rows: TypeAlias = "Sequence[Sequence[float]] | NDArray[np.float64]"
+CLOSEST = 1e-9
+"""Least distance of two points of a table, m or m/s."""
+
+
+@dataclass(frozen=True)
+class SpringDamperTable:
+    """Spring and damper along the line between two points, each by a number or by points of its curve.
+
+    Between the points the curve is a monotone cubic (F. N. Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis
+    17, 1980, 238-246; the slopes are those of scipy's PchipInterpolator), beyond the ends a straight line. The energy
+    of the spring is the integral of the curve.
+
+    Parameters
+    ----------
+    spring : float or array_like, shape (n, 2)
+        Stiffness, N/m, or rows of stretch from the free length, m, and force, N, both positive in tension; the stretch
+        rises from row to row.
+    damper : float or array_like, shape (n, 2)
+        Damping, N s/m, or rows of rate of the length, m/s, and force, N, both positive in rebound; rates rise, forces
+        do not fall, and one row is (0, 0).
+    free_length : float
+        Length without stretch, m.
+    stops : EndStops, optional
+        Bump and rebound stops.
+    stiffness_factor, damping_factor : float
+        Factors on the forces of spring and damper.
+    """
+
+    spring: float | Rows
+    damper: float | Rows = 0.0
+    free_length: float = 0.0
+    stops: EndStops | None = None
+    stiffness_factor: float = 1.0
+    damping_factor: float = 1.0
+
+    def record(self, name: str, difference: AffineVector) -> ElementRecord:
+        """The force element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        difference : AffineVector
+            Difference p2 - p1 of two points in earth axes, two or three components, m.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`; its reals stiffness and damping are there where they are numbers.
+
+        Raises
+        ------
+        ModelError
+            A number is not one or negative, a table does not rise or is no table, a damper would give energy, or the
+            bump length is not below the rebound length.
+        """
+        what = f"the spring-damper '{name}'"
+        size(difference, (2, 3), f"The distance of {what}")
+        stiffness, spring = _number_or_table(self.spring, "stiffness", "spring", what)
+        damping, damper = _number_or_table(self.damper, "damping", "damper", what)
+        if len(damper):
+            _check_damper(damper, what)
+        stops, lengths = EndStops.checked(self.stops, what)
+        every = {name: getattr(stops, name) for name in ALL_STOPS} | stops.progressive(what)
+        own = {
+            "stiffness": stiffness,
+            "damping": damping,
+            "free_length": not_negative(self.free_length, f"The free length of {what}"),
+            "stiffness_factor": not_negative(self.stiffness_factor, f"The stiffness factor of {what}"),
+            "damping_factor": not_negative(self.damping_factor, f"The damping factor of {what}"),
+            **lengths,
+            **every,
+        }
+        hidden = {"stiffness": len(spring), "damping": len(damper)}
+        return ElementRecord(
+            name,
+            ElementType.SPRING_DAMPER_TABLE,
+            difference.components,
+            (*own.values(), *_columns(spring, energy=True), *_columns(damper, energy=False)),
+            (len(spring), len(damper)),
+            outputs=LINE_OUTPUTS,
+            real_names=[f"unused {n}" if hidden.get(n) else n for n in own],
+            real_checks=[not_negative] * len(own),
+            elastic=True,
+        )
+
+
+ALL_STOPS = (
+    "bump_progression",
+    "bump_travel",
+    "rebound_progression",
+    "rebound_travel",
+    "metal_stiffness",
+    "metal_onset",
+    "bump_loss",
+    "rebound_loss",
+)
+
+
+def _number_or_table(value: float | Rows, number_name: str, name: str, what: str) -> tuple[float, NDArray[np.float64]]:
+    """The number and no rows, or zero and the rows."""
+    if is_number(value):
+        return not_negative(value, f"The {number_name} of {what}"), np.empty((0, 2))
+    table = f"the table of the {name} of {what}"
+    rows = array(value, (None, 2), table)
+    if len(rows) < 2:
+        raise ModelError(f"T{table[1:]} has {len(rows)} rows; it needs two at least.")
+    gaps = np.diff(rows[:, 0])
+    if gaps.min() < CLOSEST:
+        k = int(np.argmin(gaps))
+        raise ModelError(
+            f"T{table[1:]} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise from "
+            f"row to row, by {CLOSEST:g} at least."
+        )
+    return 0.0, rows
+
+
+def _check_damper(rows: NDArray[np.float64], what: str) -> None:
+    falls = np.flatnonzero(np.diff(rows[:, 1]) < 0.0)
+    if len(falls):
+        k = falls[0]
+        raise ModelError(
+            f"The force of the damper of {what} falls from {rows[k, 1]:g} N at {rows[k, 0]:g} m/s to "
+            f"{rows[k + 1, 1]:g} N at {rows[k + 1, 0]:g} m/s; it must not fall as the rate rises."
+        )
+    if not np.any(np.all(rows == 0.0, axis=1)):
+        raise ModelError(f"The table of the damper of {what} has no row (0, 0); a damper has no force at rest.")
+
+
+def _columns(rows: NDArray[np.float64], energy: bool) -> list[float]:
+    """Points, slopes and, if wanted, the energy from 0 to each, column after column."""
+    if not len(rows):
+        return []
+    x, y = rows.T
+    slopes = np.asarray(PchipInterpolator(x, y).derivative()(x))
+    columns = [x, y, slopes]
+    if energy:
+        width = np.diff(x)
+        pieces = width * (0.5 * (y[1:] + y[:-1]) + width * (slopes[:-1] - slopes[1:]) / 12.0)
+        columns.append(np.r_[0.0, np.cumsum(pieces)])
+        columns[-1] = columns[-1] - _energy_at_rest(x, y, slopes, columns[-1])
+    return [float(v) for v in np.concatenate(columns)]
+
+
+def _energy_at_rest(
+    x: NDArray[np.float64], y: NDArray[np.float64], m: NDArray[np.float64], energy: NDArray[np.float64]
+) -> float:
+    """Energy at x = 0 where it is 0 at the first point."""
+    if not x[0] <= 0.0 <= x[-1]:
+        k = 0 if x[0] > 0.0 else -1
+        return float(energy[k] - x[k] * (y[k] - 0.5 * m[k] * x[k]))
+    return float(PchipInterpolator(x, y).integrate(x[0], 0.0))

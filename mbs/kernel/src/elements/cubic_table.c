@@ -1,0 +1,85 @@
+#include "cubic_table.h"
+
+#include <math.h>
+#include <stddef.h>
+
+ali3_cubic_table ali3_cubic_table_at(const double *real, int32_t n, int integral) {
+  return (ali3_cubic_table){n, real, real + n, real + 2 * (size_t)n, integral ? real + 3 * (size_t)n : NULL};
+}
+
+/* A piece y + d (m + d (c + d e)) with d = x - start. */
+typedef struct {
+  double start, y, m, c, e, integral;
+} piece;
+
+/* Number of the piece that holds x: 0 before the first point, n behind the last. */
+static int32_t place(const ali3_cubic_table *t, double x) {
+  int32_t low = 0, high = t->n;
+  while (low < high) { /* x[low - 1] <= x < x[high] */
+    const int32_t middle = low + (high - low) / 2;
+    if (t->x[middle] <= x) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+static piece piece_of(const ali3_cubic_table *t, int32_t number) {
+  const int32_t i = number > 0 ? number - 1 : 0;
+  piece p = {t->x[i], t->y[i], t->slope[i], 0.0, 0.0, t->integral != NULL ? t->integral[i] : 0.0};
+  if (number == 0 || number == t->n) return p;
+  const double width = t->x[i + 1] - p.start, secant = (t->y[i + 1] - p.y) / width, end = t->slope[i + 1];
+  p.c = (3.0 * secant - 2.0 * p.m - end) / width;
+  p.e = (p.m + end - 2.0 * secant) / width / width;
+  return p;
+}
+
+static double at(const piece *p, double x) {
+  const double d = x - p->start;
+  return p->y + d * (p->m + d * (p->c + d * p->e));
+}
+
+double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, double *integral) {
+  const piece p = piece_of(t, place(t, x));
+  const double d = x - p.start;
+  *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
+  if (integral != NULL) *integral += p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
+  return at(&p, x);
+}
+
+/* Simpson's rule is exact on every piece. */
+double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1) {
+  const double low = fmin(x0, x1), high = fmax(x0, x1), width = high - low;
+  const int32_t first = place(t, low);
+  piece p = piece_of(t, first);
+  if (!(width > 0.0)) return at(&p, low);
+  double mean = 0.0, from = low;
+  for (int32_t k = first; from < high; p = piece_of(t, ++k)) {
+    const double to = k < t->n && t->x[k] < high ? t->x[k] : high;
+    mean += (to - from) / width * ((at(&p, from) + 4.0 * at(&p, 0.5 * (from + to)) + at(&p, to)) / 6.0);
+    if (k >= t->n) break;
+    from = to;
+  }
+  return mean;
+}
+
+int ali3_cubic_rises(const ali3_cubic_table *t) {
+  for (int32_t i = 1; i < t->n; i++)
+    if (!(t->x[i] > t->x[i - 1])) return 0;
+  return 1;
+}
+
+int ali3_cubic_integrals_fit(const ali3_cubic_table *t) {
+  for (int32_t i = 0; i + 1 < t->n; i++) {
+    const piece p = piece_of(t, i + 1);
+    const double d = t->x[i + 1] - p.start;
+    const double end = p.integral + d * (p.y + d * (0.5 * p.m + d * (p.c / 3.0 + d * 0.25 * p.e)));
+    if (!(fabs(t->integral[i + 1] - end) <= 1e-9 * (fabs(end) + fabs(p.integral) + fabs(d * p.y)))) return 0;
+  }
+  double slope, zero = 0.0, most = 0.0;
+  ali3_cubic_value(t, 0.0, &slope, &zero);
+  for (int32_t i = 0; i < t->n; i++) most = fmax(most, fabs(t->integral[i]));
+  return fabs(zero) <= 1e-9 * most;
+}

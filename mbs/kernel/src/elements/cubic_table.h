@@ -1,0 +1,24 @@
+/* A curve through points by cubic pieces with continuous slopes (Hermite), straight beyond its ends. */
+#ifndef ALI3_CUBIC_TABLE_H
+#define ALI3_CUBIC_TABLE_H
+#include <stdint.h>
+
+typedef struct {
+  int32_t n; /* points, two at least */
+  const double *x, *y, *slope; /* x rises */
+  const double *integral; /* of y from x = 0 to each point; NULL: not wanted */
+} ali3_cubic_table;
+
+/* Table whose columns of n numbers stand one after the other at `real`. */
+ali3_cubic_table ali3_cubic_table_at(const double *real, int32_t n, int integral);
+
+/* y; adds to *integral, if that is not NULL, the integral from 0 to x. */
+double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, double *integral);
+
+/* Mean of y from x0 to x1: the difference quotient of the integral, free of cancellation. */
+double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1);
+
+/* Whether x rises, and whether the integrals are those of y. */
+int ali3_cubic_rises(const ali3_cubic_table *t);
+int ali3_cubic_integrals_fit(const ali3_cubic_table *t);
+#endif

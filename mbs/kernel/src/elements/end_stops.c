@@ -1,0 +1,67 @@
+#include "end_stops.h"
+
+#include <math.h>
+
+#include "contact_law.h"
+
+/* Laws of the bump stop and the rebound stop over the length beyond them. */
+static void laws(const double *p, int progressive, ali3_contact_law law[2]) {
+  for (int side = 0; side < 2; side++) {
+    const double *q = p + ALI3_PROGRESSION + 2 * side;
+    law[side].stiffness = p[side ? ALI3_REBOUND_STIFFNESS : ALI3_BUMP_STIFFNESS];
+    law[side].progression = progressive ? q[0] : 0.0;
+    law[side].end = progressive ? q[1] : 0.0;
+    law[side].hard_stiffness = progressive && law[side].stiffness > 0.0 ? p[ALI3_METAL_STIFFNESS] : 0.0;
+    law[side].onset = progressive ? p[ALI3_METAL_ONSET] : 0.0;
+    law[side].loss = progressive ? p[ALI3_STOP_LOSS + side] : 0.0;
+  }
+}
+
+void ali3_end_stops_at(const double *p, int progressive, double length, double rate, ali3_tension *t) {
+  const double beyond[2] = {p[ALI3_BUMP_LENGTH] - length, length - p[ALI3_REBOUND_LENGTH]};
+  for (int side = 0; side < 2; side++) {
+    if (!(beyond[side] > 0.0)) continue;
+    const double sign = side ? 1.0 : -1.0;
+    ali3_contact_law law[2];
+    laws(p, progressive, law);
+    double slope = 0.0, loss_slope;
+    const double force = ali3_contact_force(&law[side], beyond[side], &slope, &t->potential);
+    const double factor = ali3_contact_loss(&law[side], sign * rate, &loss_slope);
+    t->elastic += sign * force;
+    t->lost += sign * force * (factor - 1.0);
+    t->stiffness += slope * factor;
+    t->damping += force * loss_slope;
+  }
+}
+
+/* Adds a stop's difference quotient dV / dl over the step and its slope; x0, x1: the length beyond it, signed. */
+static void between(const ali3_contact_law *law, double sign, double x0, double x1, double rate, ali3_tension *t) {
+  if (!(x0 > 0.0 || x1 > 0.0)) return;
+  double slope = 0.0, energy = 0.0, loss_slope;
+  const double mean = ali3_contact_mean(law, x0, x1), factor = ali3_contact_loss(law, sign * rate, &loss_slope);
+  const double end = ali3_contact_force(law, x1, &slope, &energy);
+  /* twice d(mean)/d(x1): the element's length is that of the middle */
+  if (fabs(x1 - x0) > 1e-6 * (fabs(x0) + fabs(x1))) slope = 2.0 * (end - mean) / (x1 - x0);
+  t->elastic += sign * mean * factor;
+  t->stiffness += slope * factor;
+  t->damping += mean * loss_slope;
+}
+
+void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t) {
+  const double bump = p[ALI3_BUMP_LENGTH], rebound = p[ALI3_REBOUND_LENGTH];
+  ali3_contact_law law[2];
+  laws(p, progressive, law);
+  between(&law[0], -1.0, bump - l0, bump - l1, rate, t);
+  between(&law[1], 1.0, l0 - rebound, l1 - rebound, rate, t);
+}
+
+const char *ali3_end_stops_check(const double *p, int progressive) {
+  if (p[ALI3_BUMP_STIFFNESS] < 0.0 || p[ALI3_REBOUND_STIFFNESS] < 0.0)
+    return "the stiffness of a spring's stops must not be negative";
+  if (!progressive) return 0;
+  for (int i = ALI3_PROGRESSION; i < ALI3_STOPS; i++)
+    if (p[i] < 0.0) return "the numbers of a spring's progressive stops must not be negative";
+  if (p[ALI3_METAL_STIFFNESS] > 0.0 && !(p[ALI3_METAL_ONSET] > 0.0))
+    return "the metal end of a spring's stops needs a depth over which it sets in";
+  return 0;
+}

@@ -1,0 +1,34 @@
+/* Bump and rebound stops of springs: laws of contact_law.h beyond two lengths. */
+#ifndef ALI3_END_STOPS_H
+#define ALI3_END_STOPS_H
+
+/* Reals of stops; without the last eight they are linear. */
+enum {
+  ALI3_BUMP_LENGTH,
+  ALI3_BUMP_STIFFNESS,
+  ALI3_REBOUND_LENGTH,
+  ALI3_REBOUND_STIFFNESS,
+  ALI3_LINEAR_STOPS,
+  ALI3_PROGRESSION = ALI3_LINEAR_STOPS, /* progression and travel of bump, then of rebound */
+  ALI3_METAL_STIFFNESS = ALI3_PROGRESSION + 4,
+  ALI3_METAL_ONSET,
+  ALI3_STOP_LOSS, /* of bump, then of rebound */
+  ALI3_STOPS = ALI3_STOP_LOSS + 2
+};
+
+/* A tension in its parts, its slopes by length and rate, and the energy. */
+typedef struct {
+  double elastic, lost;
+  double stiffness, damping;
+  double potential;
+} ali3_tension;
+
+/* Adds the stops at a length and its rate. */
+void ali3_end_stops_at(const double *p, int progressive, double length, double rate, ali3_tension *t);
+
+/* Adds their mean over a step from length l0 to l1, with the slopes by the length and rate of its middle. */
+void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t);
+
+/* NULL or one sentence. */
+const char *ali3_end_stops_check(const double *p, int progressive);
+#endif

@@ -1,0 +1,49 @@
+/* Aerodynamic lift rho A v^2 / 2 of a body in still air, along its axis upwards, at a point; v is the speed of the point
+ * along the axis forwards.
+ * Signals: point, forward and upward axis of the body, 2 or 3 components each. Reals: air density kg/m^3, lift area
+ * m^2 (negative: downforce). Outputs: lift N. */
+#include "../algebra/small_vectors.h"
+#include "element.h"
+
+enum { AIR_DENSITY, LIFT_AREA, REALS };
+
+static void evaluate(ali3_element_args *a) {
+  const int32_t n = a->nsig / 3;
+  const double *velocity = a->ud, *forward = a->u + n, *up = a->u + 2 * n;
+  const double factor = 0.5 * a->real[AIR_DENSITY] * a->real[LIFT_AREA];
+  double v = 0.0;
+  for (int32_t i = 0; i < n; i++) v += velocity[i] * forward[i];
+  for (int32_t i = 0; i < n; i++) a->f[i] = factor * v * v * up[i];
+  a->out[0] = factor * v * v;
+  a->potential = 0.0;
+  if (!a->S) return;
+  /* symmetric part of -df/d(point rate), -df/d(axes) */
+  for (int32_t i = 0; i < n; i++) {
+    for (int32_t j = 0; j < n; j++) {
+      const double by_rate = -a->wC * factor * v * up[i] * forward[j];
+      a->S[i * a->nsig + j] += by_rate;
+      a->S[j * a->nsig + i] += by_rate;
+      const double by_forward = -a->wK * factor * v * up[i] * velocity[j];
+      a->S[i * a->nsig + n + j] += by_forward;
+      a->S[(n + j) * a->nsig + i] += by_forward;
+    }
+    const double by_up = -0.5 * a->wK * factor * v * v;
+    a->S[i * a->nsig + 2 * n + i] += by_up;
+    a->S[(2 * n + i) * a->nsig + i] += by_up;
+  }
+}
+
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
+                         int32_t n_inputs, int32_t n_roads) {
+  (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+  if (nsig != 6 && nsig != 9) return "lift needs the 2 or 3 components of a point and of two axes";
+  return real[AIR_DENSITY] < 0.0 ? "the air density must not be negative" : 0;
+}
+
+const ali3_element_type ali3_lift = {
+    .evaluate = evaluate,
+    .nsig = -1,
+    .nreal = REALS,
+    .nout = 1,
+    .check = check,
+};

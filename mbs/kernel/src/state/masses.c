@@ -1,0 +1,73 @@
+/* Masses of an instance. The points of payloads are signals p = C q + c, so that a payload of mass m adds m C'C to the
+ * mass matrix, m C'g to the force of gravity and -m g.c to its energy. Whatever reads masses reads these sums. */
+#include <string.h>
+
+#include "../system/loading.h"
+#include "../tree/tree.h"
+#include "masses.h"
+
+/* Memory of the sums, where there are payloads. */
+void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
+  const bool loaded = s->n_payload_mass > 0;
+  const size_t nq = loaded ? (size_t)s->size.nq : 0;
+  in->payload_mass = ali3_pool_array(p, (size_t)s->n_payload_mass);
+  in->own_masses.val = ali3_pool_array(p, loaded ? (size_t)s->size.nnz_mass : 0);
+  in->own_masses.front = ali3_pool_array(p, loaded ? (size_t)s->size.front_size : 0);
+  in->own_masses.floor = ali3_pool_array(p, nq);
+  in->own_masses.floor_inverse = ali3_pool_array(p, nq);
+  in->own_masses.missing = ali3_pool_array(p, nq);
+  in->own_masses.gravity = ali3_pool_array(p, nq);
+}
+
+/* Once, for a new instance. */
+void ali3_masses_start(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const ali3_masses *own = &in->own_masses;
+  const bool loaded = S->n_payload_mass > 0;
+  in->mass_val = loaded ? own->val : S->mass_val;
+  in->front_mass = loaded ? own->front : S->front_mass;
+  in->mass_floor = loaded ? own->floor : S->mass_floor;
+  in->mass_floor_inverse = loaded ? own->floor_inverse : S->mass_floor_inverse;
+  in->mass_missing = loaded ? own->missing : S->mass_missing;
+  in->gravity_force = loaded ? own->gravity : S->gravity_force;
+  in->gravity_const = S->gravity_const[0];
+}
+
+/* A mass on a signal whose component of gravity is g. */
+static void add(ali3_instance *in, int32_t signal, double mass, double g) {
+  const ali3_system *S = in->system;
+  const int32_t first = S->sig_ptr[signal], end = S->sig_ptr[signal + 1];
+  for (int32_t a = first; a < end; a++) {
+    const int32_t row = S->sig_col[a], start = S->mass_ptr[row];
+    for (int32_t b = first; b < end; b++) {
+      const int32_t at = ali3_find(S->mass_col + start, S->mass_ptr[row + 1] - start, S->sig_col[b]);
+      in->own_masses.val[start + at] += mass * (S->sig_val[a] * S->sig_val[b]);
+    }
+    in->own_masses.gravity[row] += mass * g * S->sig_val[a];
+  }
+  in->gravity_const -= mass * g * S->sig_const[signal];
+}
+
+/* The same of the tree: what each joint carries. */
+static void carry(ali3_instance *in) {
+  const ali3_tree *T = in->system->tree;
+  double *carried = in->tree->composite;
+  memcpy(carried, T->composite, sizeof T->composite);
+  for (int64_t k = 0; k < in->system->n_tree_payload_body; k++)
+    for (int32_t b = in->system->tree_payload_body[k]; b > 0; b = T->parent[b]) carried[b] += in->payload_mass[k];
+}
+
+/* After the payloads have changed. */
+void ali3_masses_apply(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  const ali3_masses *own = &in->own_masses;
+  if (S->tree != NULL) carry(in);
+  if (S->n_payload_mass == 0) return;
+  memcpy(own->val, S->mass_val, (size_t)S->size.nnz_mass * sizeof(double));
+  memcpy(own->gravity, S->gravity_force, (size_t)S->size.nq * sizeof(double));
+  in->gravity_const = S->gravity_const[0];
+  for (int64_t i = 0; i < 3 * S->n_payload_mass; i++)
+    if (in->payload_mass[i / 3] > 0.0)
+      add(in, S->payload_signal[i], in->payload_mass[i / 3], S->payload_gravity[i % 3]);
+  ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
+}

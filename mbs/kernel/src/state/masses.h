@@ -1,0 +1,10 @@
+/* The mass matrix of an instance: that of the System and its payloads. */
+#ifndef ALI3_MASSES_H
+#define ALI3_MASSES_H
+#include "../instance.h"
+#include "../system/pool.h"
+
+void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool);
+void ali3_masses_start(ali3_instance *in);
+void ali3_masses_apply(ali3_instance *in);
+#endif

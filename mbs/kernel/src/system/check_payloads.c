@@ -1,0 +1,27 @@
+/* Payloads of a System: point masses at signals, which the mass matrix has room for. */
+#include "../system.h"
+#include "check.h"
+#include "loading.h"
+#include "message.h"
+
+/* Whether the mass matrix has an entry for every two coordinates of a signal. */
+static bool has_room(const ali3_system *s, int32_t signal) {
+  for (int32_t a = s->sig_ptr[signal]; a < s->sig_ptr[signal + 1]; a++)
+    for (int32_t b = s->sig_ptr[signal]; b < s->sig_ptr[signal + 1]; b++) {
+      const int32_t row = s->sig_col[a], first = s->mass_ptr[row];
+      if (ali3_find(s->mass_col + first, s->mass_ptr[row + 1] - first, s->sig_col[b]) < 0) return false;
+    }
+  return true;
+}
+
+/* The arrays of signals and of the mass matrix are checked. */
+ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
+  const int64_t n = s->n_payload_mass;
+  CHECK(ali3_check_length(m, "payload_signal", s->n_payload_signal, 3 * n));
+  CHECK(ali3_check_length(m, "payload_gravity", s->n_payload_gravity, n > 0 ? 3 : 0));
+  CHECK(ali3_check_indices(m, "payload_signal", s->payload_signal, 3 * n, 0, s->size.nsig));
+  for (int64_t i = 0; i < 3 * n; i++)
+    if (!has_room(s, s->payload_signal[i]))
+      return ali3_bad(m, "payload %d is at coordinates between which the mass matrix has no entry", (int)(i / 3));
+  return ALI3_OK;
+}

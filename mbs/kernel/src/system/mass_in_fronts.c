@@ -1,0 +1,29 @@
+/* A mass matrix as the start of a tangent, and its diagonal. */
+#include <string.h>
+
+#include "../system.h"
+#include "loading.h"
+
+void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front, double *floor, double *floor_inverse,
+                         double *missing) {
+  const int32_t nq = s->size.nq;
+  double sum = 0.0;
+  int32_t positive = 0;
+  memset(front, 0, (size_t)s->size.front_size * sizeof(double));
+  for (int64_t k = 0; k < s->n_mass_col; k++)
+    if (s->mass_pos[k] >= 0) front[s->mass_pos[k]] = val[k];
+  for (int32_t i = 0; i < nq; i++) {
+    floor[i] = front[s->diagonal_pos[i]];
+    if (floor[i] > 0.0) {
+      sum += floor[i];
+      positive++;
+    }
+  }
+  const double typical = positive > 0 ? sum / positive : 1.0;
+  for (int32_t i = 0; i < nq; i++) {
+    const bool massless = !(floor[i] > 1e-12 * typical);
+    missing[i] = massless ? typical : 0.0;
+    if (massless) floor[i] = typical;
+    floor_inverse[i] = 1.0 / floor[i];
+  }
+}

@@ -1,0 +1,70 @@
+"""Payloads: point masses on bodies whose mass a parameter may write."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import AffineVector
+from mbs.checks import Vector, not_negative, shown, vector
+from mbs.errors import ModelError
+from mbs.model.body import Body
+from mbs.model.core import ModelCore
+from mbs.model.flexible import FlexibleBody
+
+REALS = ("mass",)
+SAME_PLACE = 1e-6
+"""How far a point may be drawn from where it is said to be, m."""
+
+
+@dataclass(frozen=True)
+class Payload:
+    """A point mass that sits on a body; made by `Model.payload`.
+
+    Parameters
+    ----------
+    name : str
+        Unique among the payloads.
+    body : Body
+        What it sits on.
+    position : ndarray, shape (dimension,)
+        In earth axes in the reference configuration, m.
+    point : AffineVector
+        The point of the body as expressions of coordinates, m.
+    mass : float
+        kg.
+    shared : bool
+        Whether several points carry it.
+    """
+
+    name: str
+    body: Body
+    position: Vector
+    point: AffineVector
+    mass: float
+    shared: bool = False
+
+
+def new_payload(
+    model: ModelCore, name: str, body: Body, position: ArrayLike, mass: float, point: AffineVector | None
+) -> Payload:
+    """Register a payload; see `Model.payload`."""
+    what = f"payload {shown(name)}"
+    m = not_negative(mass, f"The mass of {what}")
+    place = vector(position, model.dimension, f"the position of {what}")
+    if body.is_ground:
+        raise ModelError(f"The {what} sits on the ground, which does not move; give it to a body.")
+    if point is not None:
+        drawn = model.expressions(point, f"The {what}").value(model.drawn())
+        if np.linalg.norm(drawn - place) > SAME_PLACE:
+            raise ModelError(f"The {what} is at {place.tolist()}, but its point is drawn at {drawn.tolist()}.")
+        carrier = point
+    elif isinstance(body, FlexibleBody):  # the origin of a floating frame is no material point, a node is
+        carrier = body.interface_at(place, what).point()
+    else:
+        carrier = body.point(place)
+    new = Payload(model.unique("payload", name), body, place, carrier, m, point is not None)
+    model.payloads.append(new)
+    return new

@@ -1,0 +1,42 @@
+"""What a car carries besides itself: named masses, each at its point of the chassis."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.quantities import Payload as PayloadMass
+from mbs.vehicle.quantities import Point
+from mbs.vehicle.section import Section
+
+
+class Payload(Section):
+    """A person or a piece of luggage."""
+
+    mass: PayloadMass
+    """Mass of the payload."""
+    point: Point
+    """Centre of mass as drawn; left and right are as given, nothing is mirrored."""
+
+    def build(self, b: CarBuilder, name: str, fidelity: Fidelity) -> None:
+        """Add the payload.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        name : str
+            Of the payload in the file.
+        fidelity : Fidelity
+            Of the chassis: a frame that may bend takes the force of the payload at several joints.
+        """
+        body, share = b.chassis.frame, None
+        if fidelity is not Fidelity.RIGID:
+            origin, axes, place = b.chassis.contact_frame
+            body = b.chassis.body
+            share = origin
+            for axis, size in zip(axes, np.subtract(self.point, place), strict=True):
+                share = share + axis * float(size)
+        payload = b.m.payload(name, body, self.point, mass=self.mass, point=share)
+        b.tie(self, "mass", payload, "mass")
