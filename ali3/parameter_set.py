@@ -279,7 +279,9 @@ def _parsed(file: str | os.PathLike[str]) -> Any:
     except OSError as error:
         raise FileError(f"{file} cannot be read: {reason(error)}.") from None
     try:
-        root = etree.fromstring(data, etree.XMLParser(resolve_entities=False, no_network=True))
+        # the library takes a comment for an element
+        parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
+        root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
         raise ParameterSetError(f"{file} is no XML document: {_words(error.msg or 'it is empty')}.") from None
     if root.getroottree().docinfo.doctype:

@@ -173,7 +173,7 @@ class FmuBuilder:
     @property
     def parameters(self) -> ParameterSet:
         """All parameters with their defaults."""
-        return parameter_set(fmu_name(self._name), self._contents.table)
+        return parameter_set(fmu_name(self._name), self._contents.table, self._contents.texts)
 
     def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
         """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""

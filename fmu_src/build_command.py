@@ -70,6 +70,7 @@ def _build(options: argparse.Namespace) -> int:
     if "python" in kinds:
         _need("pythonfmu")
     _need("ziglang")
+    _need("pyssp_standard")
 
     first, rest = [p for p in platforms if p == here], [p for p in PLATFORMS if p in platforms and p != here]
     with compiled_ahead([(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]):

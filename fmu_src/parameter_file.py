@@ -15,11 +15,12 @@ from ali3.parameter_set import (
     told,
     write_parameter_set,
 )
+from fmu_src.text_variables import TextVariable
 from fmu_src.units import parse_unit
 from fmu_src.variables import Variable
 
 
-def parameter_set(name: str, table: Sequence[Variable]) -> ParameterSet:
+def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVariable] = ()) -> ParameterSet:
     """All parameters of a table of variables.
 
     Parameters
@@ -27,11 +28,14 @@ def parameter_set(name: str, table: Sequence[Variable]) -> ParameterSet:
     name : str
         Of the set.
     table : sequence of Variable
+    texts : sequence of TextVariable
+        Those that are text.
     """
     chosen = [v for v in table if v.causality == "parameter" and v.start is not None]
     units = {v.unit: parse_unit(v.unit) for v in chosen if not v.whole}
     definitions = {n: UnitDefinition(u.exponents, u.factor) for n, u in sorted(units.items())}
-    return ParameterSet(name, [_entry(v) for v in chosen], definitions)
+    written = [Entry(t.name, "String", t.start, None, told(t.description, "", "fixed")) for t in texts]
+    return ParameterSet(name, [_entry(v) for v in chosen] + written, definitions)
 
 
 def write_beside(parameters: ParameterSet, file: Path) -> bool:

@@ -1,10 +1,10 @@
 """Which variables reach which outputs, and how large the outputs are: found by trying, at build time.
 
 A variable reaches an output if changing it, and nothing else, changes a bit of the output: over one step from a state
-that random inputs led to (inputs), or in the initial state from random values (all that can be set). Positions and
-velocities show their paths at any values. Forces have regimes, such as a kerb that no wheel stands on: what a force
-reaches is declared to depend on all parameters and the place of the start, and what a step changes on all inputs that
-change anything.
+that random inputs led to (inputs), or in the initial state from random values (all that can be set). Parameters are
+changed in groups (`parameter_groups`), and what a group reaches depends on each of it. Positions and velocities show
+their paths at any values. Forces have regimes, such as a kerb that no wheel stands on: what a force reaches is declared
+to depend on all parameters and the place of the start, and what a step changes on all inputs that change anything.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import mbs
+from fmu_src.parameter_groups import parameter_groups
 from fmu_src.variables import Variable
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.kernel.header import SENSOR_READS, SensorReads, SensorType
@@ -66,8 +67,8 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
     """
     outputs = [i for i, v in enumerate(table) if v.causality == "output"]
     tries = _Tries(table, outputs)
-    for k, system in enumerate(systems):
-        tries.system(Instance(LoadedSystem(system.to_bytes())), k, float(system.meta["experiment"]["step_s"]))
+    for system in systems:
+        tries.system(system, Instance(LoadedSystem(system.to_bytes())))
     tries.close(systems)
     return Dependencies(
         {i: tuple(sorted(tries.step[i])) for i in outputs},
@@ -87,25 +88,43 @@ class _Tries:
         self.of_fidelity: list[list[list[float] | None]] = []
         self.share = 1.0
         self.inputs = [i for i, v in enumerate(table) if v.source == "input"]
+        self.parameters = [i for i, v in enumerate(table) if v.source == "parameter"]
         self.settable = [i for i, v in enumerate(table) if v.source in ("input", "parameter", "pose")]
 
-    def system(self, kernel: Instance, number: int, h: float) -> None:
+    def system(self, system: mbs.System, kernel: Instance) -> None:
         rng = random.Random(_SEED)
+        groups = self._groups(system, kernel)
+        shown = dict.fromkeys(map(tuple, groups), False)
         starts = [self._start(kernel, {})]
         for k in range(_INITIAL_TRIES):
             self.share = _SHARES[k % len(_SHARES)]
             values = {i: self._random(i, rng) for i in self.settable}
             starts.append(self._start(kernel, values))
-            for i in self.settable:
-                self._compare(self.initial, i, starts[-1], self._start(kernel, values | {i: self._random(i, rng)}))
+            for group in groups:
+                other = self._start(kernel, values | {i: self._random(i, rng) for i in group})
+                shown[tuple(group)] |= starts[-1] is not None and other is not None
+                for i in group:
+                    self._compare(self.initial, i, starts[-1], other)
+        unknown = {i for group, known in shown.items() if not known for i in group}
+        for i in self.outputs:  # no start shows what these reach
+            self.initial[i] |= unknown
         self.of_fidelity.append(starts)
         fidelity = next((i for i, v in enumerate(self.table) if v.source == "fidelity"), None)
         if fidelity is not None:
             for first, mine in zip(self.of_fidelity[0], starts, strict=True):
                 self._compare(self.initial, fidelity, first, mine)
+        h = float(system.meta["experiment"]["step_s"])
         for k in range(_STEP_TRIES):
             self.share = _SHARES[k % len(_SHARES)]
             self._steps(kernel, h, rng)
+
+    def _groups(self, system: mbs.System, kernel: Instance) -> list[list[int]]:
+        """What is changed at once at a start: an input, a number of the pose, a group of parameters."""
+        rng = random.Random(_SEED)
+        self.share = 1.0
+        groups = parameter_groups(system, kernel, lambda p: self._random(self.parameters[p], rng), rng)
+        alone = [[i] for i in self.settable if self.table[i].source != "parameter"]
+        return alone + [[self.parameters[p] for p in group] for group in groups]
 
     def close(self, systems: Sequence[mbs.System]) -> None:
         """Add what no try may have opened."""

@@ -71,7 +71,8 @@ def _drive(options: argparse.Namespace) -> int:
     rows = summary(result, step, course, outline)
     write_csv(result, table)
     write_record(fmu, manoeuvre.name, step, settings, result, record)
-    plot_page(result, picture, f"{path.stem}: {manoeuvre.name.replace('_', ' ')}", rows, course)
+    title = settings.title(f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
+    plot_page(result, picture, title, rows, course)
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
 
 

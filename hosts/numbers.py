@@ -7,10 +7,11 @@ import math
 import re
 from typing import TypeAlias
 
+from ali3.decimal_number import DECIMAL
+
 Value: TypeAlias = "float | int | bool | str"
 
-# What float() takes besides, such as 1_0 or digits of other scripts, is more often a slip than a number.
-_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_NUMBER = re.compile(rf"[+-]?{DECIMAL}", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
 
 

@@ -220,7 +220,9 @@ def _path(axes: Axes, result: Result, course: Course | None) -> None:
     stretched = height > 0.02 * width and high - low < 0.12 * width
     middle = 0.5 * float(x.min() + x.max())
     if not stretched:
-        axes.set_xlim(middle - 0.55 * width, middle + 0.55 * width)
+        across = 0.5 * float(y.min() + y.max())  # a car that stands still or straight has no height
+        axes.update_datalim([(middle + s * width, across + 0.1 * s * width) for s in (-0.5, 0.5)])
+        axes.autoscale_view()
         axes.set_aspect("equal", adjustable="datalim")
     else:
         pad = 0.25 * (high - low)

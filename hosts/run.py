@@ -61,7 +61,7 @@ def _run(options: argparse.Namespace) -> int:
     rows = summary(result, step)
     write_csv(result, table)
     write_record(fmu, manoeuvre.name, step, settings, result, record)
-    plot_page(result, picture, path.stem, rows)
+    plot_page(result, picture, settings.title(path.stem), rows)
     return print_result((settings.rows(), rows), result, (table, picture, record))
 
 

@@ -16,6 +16,9 @@ from hosts.numbers import Value
 from hosts.options import Wishes
 from hosts.variables import Variable, Variables
 
+_START = "start of "
+_MOST_IN_TITLE = 2
+
 
 @dataclass(frozen=True)
 class Setting:
@@ -147,6 +150,19 @@ class Settings:
         """Rows of a summary: what was set, and what does nothing."""
         return self._notes + [(s.variable.name, s.words()) for s in self.changes]
 
+    def title(self, name: str) -> str:
+        """A name for a picture with the first of what the user has changed.
+
+        Parameters
+        ----------
+        name : str
+            Of the run.
+        """
+        mine = [s for s in self.changes if not s.source.startswith(_START)]
+        shown = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in mine[:_MOST_IN_TITLE]]
+        more = [f"{len(mine) - len(shown)} more"] if len(mine) > len(shown) else []
+        return ", ".join([name, *shown, *more])
+
     def records(self) -> list[dict[str, Any]]:
         """What was set, for JSON."""
         return [s.record() for s in self.changes]
@@ -257,7 +273,7 @@ def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | Non
     HostError
         A name, value, kind or unit is wrong.
     """
-    settings = settings_of(fmu.table, wishes, manoeuvre.start, f"start of {manoeuvre.name}")
+    settings = settings_of(fmu.table, wishes, manoeuvre.start, f"{_START}{manoeuvre.name}")
     if fidelity is not None:
         if "fidelity" in dict(wishes.values):
             raise HostError("The fidelity is given by --fidelity and by --set; give it once.")

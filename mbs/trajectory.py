@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.decimal_number import DECIMAL
 from ali3.files import whole_file
 from mbs.accuracy import Accuracy
 from mbs.checks import shown, whole
@@ -22,7 +23,7 @@ from mbs.settings import Settings
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*([eE][+-]?\d+)?|\.\d+([eE][+-]?\d+)?|inf|nan)\s*")
+_NUMBER = re.compile(rf"\s*[+-]?({DECIMAL}|inf|nan)\s*", re.ASCII)
 _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 
 

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from mbs.errors import SimulationError
+from mbs.input_signals import unit_text
 from mbs.kernel.binding import KernelError, Status, open_row
 from mbs.simulation.prepared_system import prepared
 from mbs.trajectory import Trajectory
@@ -13,6 +14,7 @@ from mbs.trajectory import Trajectory
 if TYPE_CHECKING:
     from mbs.simulation.stepping import Simulation
 
+MOST_NAMED = 3  # changed parameters in one sentence
 STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 
 
@@ -69,6 +71,8 @@ def _remedy(simulation: Simulation, status: int) -> str:
         return f" '{name}' {words}. {height:.3g} m higher (z of the pose) it would be clear of it."
     if status == Status.ROAD_LOST:
         return f" Of the road {simulation.instance.road_lost()}."
+    if status == Status.NO_EQUILIBRIUM:
+        return _farthest_changed(simulation)
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
     if rate > 0.0:
         h = simulation.step_tried
@@ -77,6 +81,20 @@ def _remedy(simulation: Simulation, status: int) -> str:
             f"below about {STIFF_STEP:g}. Implicit methods ('ali3p', 'radau_5') need not follow it."
         )
     return ""
+
+
+def _farthest_changed(simulation: Simulation) -> str:
+    """The parameters that were changed by most of their ranges."""
+    changed = []
+    for k, entry in enumerate(prepared(simulation.system)[1]["parameters"]):
+        value, span = simulation.instance.get_parameter(k), entry["max"] - entry["min"]
+        if value != entry["value"]:
+            words = f"{entry['name']!r} is {value:g}{unit_text(entry['unit'])} in place of {entry['value']:g}"
+            changed.append((abs(value - entry["value"]) / span if span < math.inf else math.inf, words))
+    changed.sort(key=lambda item: -item[0])
+    said = "; ".join(words for _, words in changed[:MOST_NAMED])
+    more = f" (and {len(changed) - MOST_NAMED} others)" if len(changed) > MOST_NAMED else ""
+    return f" {said}{more}: set them nearer to the values that the model was compiled with." if said else ""
 
 
 def _worst_equations(simulation: Simulation, report: dict[str, float]) -> str:

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "benchmarks"
 ROOMS = benchmarks.ROOMS
 COMMANDS = {"benchmarks.car.__main__", *(f"benchmarks.{name}" for name in commands())} - {"benchmarks.car"}
-WRITERS = {"calculix", "car_references", "fidelity_references", "load_paths", "pages", "stress_picture"}
+WRITERS = {"calculix", "car_references", "fidelity_references", "load_paths", "pages", "stress_picture", "variables"}
 """Commands that write references, pages or pictures; all others measure, and write rows with `--json`."""
 
 

@@ -12,10 +12,11 @@ import fmpy
 import pytest
 
 import mbs
+from benchmarks.car.variable_tables import full, overview, tables
 from benchmarks.references.cases import CASES
+from benchmarks.shared.pages import replace
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
-from fmu_src.variables import variable_table
 from hosts.manoeuvre import manoeuvre_names
 from mbs.settings import METHODS
 
@@ -94,12 +95,24 @@ def test_readme_lists_the_manoeuvres_and_the_scene_of_ones_own():
     assert load_scene(str(ROOT / scene))[0] == scene.split(":")[1]
 
 
-def test_readme_has_every_group_of_variables_and_no_other(car):
-    names = {v.name for v in variable_table(car.meta, pose=True, step_size=0.002, fidelities=("",) * 4)}
-    table = re.search(r"\| variables \|.*?\n\n", README, re.DOTALL)[0]
-    cells = re.findall(r"`([^`]+)`", "\n".join(line.split("|")[1] for line in table.splitlines() if line))
-    shown = {c.partition(".")[0] for c in cells if c[0] not in "._"}
-    assert shown == {re.sub(r"_(FR|RL|RR)$", "_FL", n.partition(".")[0]) for n in names}
+@pytest.mark.slow
+def test_tables_of_variables_are_those_of_the_cars():
+    found = tables()
+    blocks = {"car variables": overview(found)} | full(found)
+    page = (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
+    for text in (README, page):
+        assert replace(text, blocks) == text, "run: python -m benchmarks.variables"
+    assert all(f"<!-- begin {name} -->" in README + page for name in blocks)
+    # and, whatever wrote them, nothing is missing and nothing is there that no car has
+    names = {v.name for table in found.values() for v in table}
+    shown = set(re.findall(r"^\| ((?:`[^`]+`[,. ]*)+)", page, re.MULTILINE))
+    listed = {name for cell in shown for name in re.findall(r"`([^`]+)`", cell)}
+    four = {re.sub(r"_FL\b", f"_{wheel}", name) for name in listed for wheel in ("FL", "FR", "RL", "RR")}
+    assert listed <= names == listed | (four & names)
+    groups = {re.sub(r"_(FL|FR|RL|RR)$", "", n.partition(".")[0]) for n in names}
+    table = re.search(r"\| variables \|.*?\n<!--", README, re.DOTALL)[0]
+    cells = re.findall(r"`([^`]+)`", "\n".join(line.split("|")[1] for line in table.splitlines() if "|" in line))
+    assert {re.sub(r"_(FL|FR|RL|RR)$", "", c.partition(".")[0]) for c in cells if c[0] != "."} == groups
 
 
 @pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)

@@ -107,3 +107,61 @@ def crank_slider() -> mbs.Model:
     m.sense_coordinate("crank.angle", angle, description="Angle of the crank, not wrapped")
     m.sense_input("torque_used", torque)
     return m
+
+
+def loaded_beam(
+    load: float = 0.0, share: float = 0.6, free_length: float = 0.9, damping: float = 4.0, gain: float = 0.1
+) -> mbs.Model:
+    """A beam on two springs that starts in equilibrium: a load, a stiffness that is shared out, and a pull by an input.
+
+    Every argument is a parameter of the same name.
+    """
+    m = mbs.Model("loaded_beam", dimension=2)
+    beam = m.body("beam", mass=4.0, com=(0.0, -1.0), inertia=0.5)
+    springs = [
+        m.spring_damper(
+            f"spring_{side}",
+            (m.ground, (x, 0.0)),
+            (beam, (x, -1.0)),
+            stiffness=1000.0 * part,
+            damping=damping,
+            free_length=free_length,
+        )
+        for side, x, part in (("left", -1.0, share), ("right", 1.0, 1.0 - share))
+    ]
+    pull = m.input("pull", min=-1.0, max=1.0, unit="m")
+    winch = m.guide_input("winch", input=pull, gain=gain, frequency=3.0, unit="m")
+    hook = m.point_mass("hook", mass=0.5, position=(0.0, -2.0))
+    m.drive("rope", ((m.ground, (0.0, -3.0)), hook), m.guide_time("held", ([0.0, 10.0], [1.0, 1.0]), unit="m"))
+    m.spring_damper("cord", hook, (beam, (0.2, -1.0)), stiffness=300.0, free_length=1.0)
+    slider = m.slide("slider", m.ground, point=(2.0, -2.0), direction=(1.0, 0.0), guide=winch)
+    m.distance("side rope", slider, hook)
+    payload = m.payload("load", beam, (0.5, -0.9), mass=load)
+    left, right = springs
+    m.parameter("load", load, 0.0, 20.0, "kg", "Load", targets=[(payload, "mass", 1.0)], tunable=False)
+    shares = [(left, "stiffness", 1000.0), (right, "stiffness", -1000.0, 1000.0)]
+    m.parameter("share", share, 0.2, 0.8, "1", "Share of the left spring", targets=shares)
+    lengths = [(spring, "free_length", 1.0) for spring in springs]
+    m.parameter("free_length", free_length, 0.5, 1.2, "m", "Free length", targets=lengths, tunable=False)
+    losses = [(spring, "damping", 1.0) for spring in springs]
+    m.parameter("damping", damping, 0.0, 50.0, "N.s/m", "Damping", targets=losses)
+    m.parameter("gain", gain, 0.01, 0.2, "1", "Way of the slider", targets=[(winch, "gain", 1.0)])
+    m.sense_position("beam.x", beam, component="x")
+    m.sense_position("beam.y", beam, component="y")
+    m.sense_acceleration("beam.ay", beam, component="y")
+    m.sense_joint_force("rope.tension", "side rope", "tension")
+    m.sense_energy("energy.total")
+    m.sense_mass("mass")
+    m.start_in_equilibrium = True
+    return m
+
+
+def hanging() -> mbs.Model:
+    """A mass on a spring, which cannot hang without it."""
+    m = mbs.Model("hanging", dimension=2)
+    bob = m.point_mass("bob", mass=1.0, position=(0.0, -1.0))
+    spring = m.spring_damper("spring", (m.ground, (0.0, 0.0)), bob, stiffness=100.0, free_length=0.9)
+    m.parameter("stiffness", 100.0, 0.0, 200.0, "N/m", "Of the spring", targets=[(spring, "stiffness", 1.0)])
+    m.sense_position("y", bob, component="y")
+    m.start_in_equilibrium = True
+    return m

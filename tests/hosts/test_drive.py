@@ -92,6 +92,13 @@ def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
     assert colours(tmp_path / "motor_pendulum_swing.png") > 100
 
 
+def test_a_car_that_stands_still_gets_a_page_without_a_warning(fmus: dict[str, Path], tmp_path: Path) -> None:
+    (tmp_path / "rest.csv").write_text('"time","throttle"\n0,0\n1,0\n')
+    done = drive(fmus["sledge"], "-m", tmp_path / "rest.csv", "--out", tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "distance driven            0.00 m" in done.stdout
+
+
 def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "hard.csv").write_text('"time","torque"\n0,0\n1,90\n')
     done = drive(fmus["motor_pendulum"], "-m", tmp_path / "hard.csv", "--out", tmp_path)

@@ -11,7 +11,7 @@ from pathlib import Path
 import fmpy
 import pytest
 import xmlschema
-from fmpy.model_description import Item, ModelDescription, ScalarVariable, SimpleType
+from fmpy.model_description import BaseUnit, DisplayUnit, Item, ModelDescription, ScalarVariable, SimpleType, Unit
 from fmpy.ssp.ssd import read_ssv
 from fmpy.util import read_csv
 from hypothesis import given, settings
@@ -217,6 +217,40 @@ def test_version_2_is_read(variables: Variables, file: Path) -> None:
     }
 
 
+def test_comments_annotations_and_enumerations_are_passed_over(variables: Variables, file: Path) -> None:
+    note = '<ssv:Annotations><ssc:Annotation type="org.test"><a b="1"/></ssc:Annotation></ssv:Annotations>'
+    kinds_of = '<ssv:Enumerations><ssc:Enumeration name="g"><!-- g --><ssc:Item name="a" value="1"/></ssc:Enumeration>'
+    text = ssv(
+        f'<!-- softer --><ssv:Parameter name="spring.damping"><!-- was 1 --><?x y?><ssv:Real value="2"/>{note}'
+        "</ssv:Parameter>"
+    )
+    text = text.replace("<ssv:Units>", f"{kinds_of}</ssv:Enumerations><ssv:Units><!-- units -->")
+    assert taken(variables, file, text.replace("</ssv:Units>", f"</ssv:Units>{note}")).start == {"spring.damping": 2.0}
+
+
+def test_display_units_of_the_fmu_are_known(file: Path) -> None:
+    degree = DisplayUnit(name="deg", factor=57.29577951308232)
+    celsius = DisplayUnit(name="degC", factor=1.0, offset=-273.15)
+    units = [
+        Unit(name="rad", baseUnit=BaseUnit(rad=1), displayUnits=[degree]),
+        Unit(name="K", baseUnit=BaseUnit(K=1), displayUnits=[celsius]),
+        Unit(name="x"),
+    ]
+    made = [
+        ScalarVariable(name=name, type="Real", causality="parameter", variability="fixed", start="0", unit=unit)
+        for name, unit in (("angle", "rad"), ("heat", "K"), ("odd", "x"))
+    ]
+    found = taken(
+        Variables(ModelDescription(modelVariables=made, unitDefinitions=units)),
+        file,
+        ssv("angle=90[deg]", "heat=20[degC]", "odd=3[x]"),
+    )
+    assert found.start == pytest.approx({"angle": 1.5707963267948966, "heat": 293.15, "odd": 3.0}, rel=1e-15)
+    assert ("heat", "0 -> 293.15 K (20 degC in set.ssv)") in found.rows()
+    with pytest.raises(UserError, match="the FMU does not define its unit x"):
+        taken(Variables(ModelDescription(modelVariables=made, unitDefinitions=units)), file, ssv("odd=3[mm]"))
+
+
 def test_files_that_are_none_are_named(variables: Variables, tmp_path: Path) -> None:
     for path, words in ((tmp_path / "no.ssv", "There is no parameter set"), (tmp_path, "is no file")):
         with pytest.raises(UserError, match=words):
@@ -409,3 +443,11 @@ def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path
     file.write_text(built.replace(old, new))
     assert not write_beside(variables.parameter_set("Tuned", {}), file)
     assert file.read_text() == built.replace(old, new)
+
+
+def test_a_picture_names_what_the_user_has_changed() -> None:
+    made = Settings(kinds())
+    made.add_numbers({"depth": 2.0}, "start of rest")
+    assert made.title("car") == "car"
+    made.add_texts([("count", "4"), ("on", "true"), ("gear", "2")], "--set")
+    assert made.title("car") == "car, count 4, on true, 1 more"

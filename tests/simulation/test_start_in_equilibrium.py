@@ -113,8 +113,12 @@ def test_given_coordinates_stay(cars: dict[float, System]) -> None:
 def test_what_has_no_equilibrium_says_so() -> None:
     system = compile(hanging())
     with pytest.raises(SimulationError, match="no static equilibrium near the drawing") as refusal:
-        Simulation(system, parameters={"k": 0.0})
+        Simulation(system, parameters={"k": 0.0, "payload": 1.0})
     assert refusal.value.time == 0.0
+    assert (
+        "'k' is 0 N/m in place of 1000; 'payload' is 1 N in place of 0: set them nearer to the values that the model "
+        "was compiled with." in str(refusal.value)
+    )
 
 
 def test_a_model_that_does_not_ask_for_it_starts_as_drawn() -> None:

@@ -1,0 +1,223 @@
+"""Tables of the variables of the cars that come with the package, made from the cars."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import mbs
+from ali3.parameter_set import range_words
+from fmu_src.text_variables import text_table
+from fmu_src.variables import Variable, variable_table
+from mbs.vehicle import car_names, load
+
+_WHEELS = ("FL", "FR", "RL", "RR")
+_WHEEL = re.compile(r"_(FL|FR|RL|RR)(?=\.|$)")
+_TITLES = {"input": "inputs", "parameter": "parameters", "output": "outputs", "local": "constants"}
+
+# What a person calls the outputs that begin so; others are described by what the model says of each.
+_WORDS = {
+    "accelerometer": "accelerations of the four corners of the chassis",
+    "bending_moment": "bending moments at the gauges of the frame; zero where `stress.computed` is 0",
+    "chassis": "pose (angles and quaternion), velocities, angular velocities and accelerations of the car's centre of "
+    "mass at rest; force of the ground on the chassis and points that touch it",
+    "energy": "energies, and works since the start",
+    "initial": "start: place of the front axle's centre, heading, speed; `initial.z` drops the car",
+    "solver": "iterations, violation, residual, halvings, status, error and balance of the energy",
+    "spring": "length and force of the coil springs",
+    "stress": "stresses at the gauges, and whether they are computed",
+    "used": "inputs after clamping to their ranges",
+    "vehicle": "constants: dimensions of the car and of its steering",
+    "wheel": "steer, inclination, spin, travel, forces, aligning moment, slips, deflection, brake torque",
+}
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A variable of some of the cars; those of the four wheels, or of both axles, are one.
+
+    Parameters
+    ----------
+    name : str
+        Of the first of them.
+    names : sequence of str
+        All.
+    variable : Variable
+        That of the first car that has it.
+    starts : mapping of str to list of float
+        Start values by car.
+    """
+
+    name: str
+    names: Sequence[str]
+    variable: Variable
+    starts: Mapping[str, list[float]]
+
+    @property
+    def cars(self) -> list[str]:
+        """Those that have it."""
+        return list(self.starts)
+
+
+def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]:
+    """Tables of variables by car.
+
+    Parameters
+    ----------
+    cars : sequence of str, optional
+        By default all of the package, the prototype first.
+    """
+    names = sorted(car_names(), key=lambda n: (n != "prototype", n)) if cars is None else cars
+    return {name: _table(name) for name in names}
+
+
+def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
+    """The variables of all cars in the order of the first, without repetition for wheels and axles.
+
+    Parameters
+    ----------
+    found : mapping of str to sequence of Variable
+        By car.
+    """
+    merged: dict[tuple[str, str], Shown] = {}
+    for car, table in found.items():
+        present = {v.name for v in table}
+        for v in table:
+            key = (v.causality, _family(v, present))
+            one = merged.setdefault(key, Shown(v.name, [], v, {}))
+            starts = {**one.starts, car: [*one.starts.get(car, []), *([] if v.start is None else [v.start])]}
+            merged[key] = replace(one, names=list(dict.fromkeys([*one.names, v.name])), starts=starts)
+    return sorted(merged.values(), key=lambda s: list(_TITLES).index(s.variable.causality))
+
+
+def overview(found: Mapping[str, Sequence[Variable]]) -> str:
+    """A short table: a row for each part of the cars.
+
+    Parameters
+    ----------
+    found : mapping of str to sequence of Variable
+        By car.
+    """
+    groups: dict[tuple[str, str], list[Shown]] = {}
+    for s in shown(found):
+        part = s.name.rpartition(".")[0] if s.variable.causality == "parameter" else s.name.partition(".")[0]
+        groups.setdefault((s.variable.causality, part or s.name), []).append(s)
+    lines = ["| variables | what they are |", "| --- | --- |"]
+    for (causality, part), members in groups.items():
+        cars = {car for s in members for car in s.cars}
+        only = "" if len(cars) == len(found) else f" ({', '.join(car for car in found if car in cars)})"
+        lines.append(f"| {_names(members, part)} | {_words(members, causality, part)}{only} |")
+    return "\n".join(lines)
+
+
+def full(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
+    """A table for each causality by its name; start values of every car beside each other.
+
+    Parameters
+    ----------
+    found : mapping of str to sequence of Variable
+        By car.
+    """
+    made = {}
+    for causality, title in _TITLES.items():
+        members = [s for s in shown(found) if s.variable.causality == causality]
+        starts = causality != "output"
+        ranged = causality in ("input", "parameter")
+        head = ["name", "unit", *(found if starts else ["cars"]), *(["range", "variability"] if ranged else []), "what"]
+        rows = [head, ["---"] * len(head)]
+        for s in members:
+            v = s.variable
+            values = [_starts(s, car) for car in found] if starts else [_of(s, found)]
+            low, high = (float("-inf") if v.min is None else v.min), (float("inf") if v.max is None else v.max)
+            rows.append(
+                [
+                    _short(s.names),
+                    "" if v.unit == "1" else v.unit,
+                    *values,
+                    *([range_words(low, high, "1"), v.variability] if ranged else []),
+                    _plain(s),
+                ]
+            )
+        made[f"car {title}"] = "\n".join("| " + " | ".join(row) + " |" for row in rows)
+    return made
+
+
+def _table(name: str) -> tuple[Variable, ...]:
+    car = load(name)
+    makers = car.fidelities()
+    names = [str(number.name).lower() for number in makers]
+    meta = mbs.compile(car.model()).meta
+    table = variable_table(meta, pose=True, step_size=float(meta["experiment"]["step_s"]), fidelities=names)
+    texts = [Variable(t.name, "parameter", "fixed", "1", t.description, "text", 0) for t in text_table(meta, table)]
+    return (*table, *texts)
+
+
+def _family(v: Variable, present: set[str]) -> str:
+    """One name for the same thing at all wheels or both axles."""
+    plain = _WHEEL.sub("_FL", v.name)
+    if plain != v.name and all(_WHEEL.sub(f"_{wheel}", v.name) in present for wheel in _WHEELS):
+        return plain
+    front = re.sub(r"\brear\b", "front", v.name)
+    return front if v.causality == "parameter" and front in present else v.name
+
+
+def _short(names: Sequence[str]) -> str:
+    """Names of one row: those of four wheels as the first and the last."""
+    if len(names) == len(_WHEELS):
+        return f"`{names[0]}` ... `{names[-1]}`"
+    return ", ".join(f"`{name}`" for name in names)
+
+
+def _names(members: Sequence[Shown], part: str) -> str:
+    """The first cell of a row of the overview."""
+    first = members[0]
+    if first.name == part:
+        v = first.variable
+        ends = f" [{v.min:g}, {v.max:g}]" if v.causality == "input" and v.min is not None and v.max is not None else ""
+        return f"`{first.name}`{ends}"
+    if first.variable.causality == "parameter":
+        rows = []
+        for stem in dict.fromkeys(name.rpartition(".")[0] for s in members for name in s.names):
+            fields = [n.rpartition(".")[2] for s in members for n in s.names if n.rpartition(".")[0] == stem]
+            rows.append(", ".join([f"`{stem}.{fields[0]}`", *(f"`.{field}`" for field in fields[1:])]))
+        return "; ".join(rows)
+    if _WHEEL.search(part):
+        return f"`{part}.*` ... `{_WHEEL.sub('_RR', part)}.*`"
+    return f"`{part}.*`"
+
+
+def _words(members: Sequence[Shown], causality: str, part: str) -> str:
+    """The second cell of a row of the overview."""
+    known = _WORDS.get(_WHEEL.sub("", part))
+    if known is not None and causality != "input":
+        return known
+    told = [_plain(s).partition(";")[0] + ("" if s.variable.unit == "1" else f", {s.variable.unit}") for s in members]
+    kinds = [s.variable.variability for s in members]
+    if causality == "input":
+        return f"input: {'; '.join(told)}"
+    if causality == "parameter" and len(set(kinds)) > 1:
+        return "; ".join(f"{text} ({kind})" for text, kind in zip(told, kinds, strict=True))
+    return "; ".join(told) + (f"; {kinds[0]}" if causality == "parameter" else "")
+
+
+def _plain(s: Shown) -> str:
+    """The description without the part of the model that precedes it, as a phrase."""
+    text = s.variable.description
+    for stem in (s.variable.name, s.variable.name.rpartition(".")[0]):
+        text = text.removeprefix(f"{stem}: ")
+    text = text.rstrip(".").replace("|", "\\|")
+    return text if text[1:2].isupper() or not text else text[0].lower() + text[1:]
+
+
+def _starts(s: Shown, car: str) -> str:
+    values = s.starts.get(car)
+    if values is None:
+        return "–"
+    if not values:
+        return "text"
+    return ", ".join(f"{value:.6g}" for value in (values if len(set(values)) > 1 else values[:1]))
+
+
+def _of(s: Shown, found: Mapping[str, Sequence[Variable]]) -> str:
+    return "all" if len(s.cars) == len(found) else ", ".join(s.cars)

@@ -1,0 +1,90 @@
+"""Parameters in groups that reach an initial state for one reason, so that trying them costs no more for many of them.
+
+A start in static equilibrium is where forces at rest balance: parameters that change a force at rest or a guide move
+it, all of them in the same way as far as declared dependencies go. Those of roads move it where a start is put on
+the road. The others move nothing: what they reach at a start are forces.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+
+import mbs
+from mbs.kernel.binding import Instance, KernelError
+from mbs.kernel.header import ParameterTarget
+
+_DISPLACEMENTS = (0.0, 0.01, 0.05, 0.2, 0.5, 1.0, 2.0)  # m, of coordinates beside the start: all stops act
+
+
+def parameter_groups(
+    system: mbs.System, kernel: Instance, value: Callable[[int], float], rng: random.Random
+) -> list[list[int]]:
+    """Sort the parameters of a System.
+
+    Parameters
+    ----------
+    system : mbs.System
+    kernel : Instance
+        Of it; it is reset.
+    value : callable
+        A value in the range of a parameter, by its number; another one at each call.
+    rng : random.Random
+        For the places where forces are compared.
+
+    Returns
+    -------
+    list of list of int
+        Numbers of parameters that move a start, of those of roads, of the others; empty groups are left out.
+    """
+    arrays = system.arrays
+    moving: list[int] = []
+    roads: list[int] = []
+    others: list[int] = []
+    held = {int(p) for p in arrays["static_par"]}  # their values do not count while the equilibrium is sought
+    settles = len(arrays["static_start"]) > 0
+    places = [place for d in _DISPLACEMENTS for place in _beside(arrays["q0"].tolist(), d, rng)]
+    forces = [_force(kernel, q) for q in places]
+    for p in range(len(arrays["par_value"])):
+        targets = set(arrays["par_target"][arrays["par_ptr"][p] : arrays["par_ptr"][p + 1]].tolist())
+        if ParameterTarget.GUIDE in targets:
+            moving.append(p)
+        elif ParameterTarget.ROAD in targets:
+            roads.append(p)
+        elif settles and p not in held and _changes_force(kernel, p, value, places, forces):
+            moving.append(p)
+        else:
+            others.append(p)
+    kernel.reset()
+    return [group for group in (moving, roads, others) if group]
+
+
+def _beside(q0: list[float], size: float, rng: random.Random) -> list[list[float]]:
+    """Two opposite places, for stops at both ends."""
+    way = [rng.choice((-size, size)) * rng.uniform(0.5, 1.0) for _ in q0]
+    return [[q + sign * d for q, d in zip(q0, way, strict=True)] for sign in (1.0, -1.0)]
+
+
+def _changes_force(
+    kernel: Instance, p: int, value: Callable[[int], float], places: list[list[float]], forces: list[bytes]
+) -> bool:
+    """Whether a force at rest is another one with other values; also where none of them is taken."""
+    tried = False
+    for q, force in zip(places, forces, strict=True):
+        kernel.reset()
+        try:
+            kernel.set_parameter(p, value(p))
+        except KernelError:
+            continue
+        tried = True
+        if _force(kernel, q) != force:
+            return True
+    return not tried
+
+
+def _force(kernel: Instance, q: list[float]) -> bytes:
+    """Generalised forces at rest, as bytes."""
+    try:
+        return bytes(kernel.evaluate(q, [0.0] * len(q), None, 0.0)["force"])
+    except KernelError:  # such as a road that has no height there
+        return b""

@@ -1,0 +1,56 @@
+"""A parameter of an FMU, set to another value, gives the run of a model that is built with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mbs
+from tests.changed_parameters import changes
+from tests.fmu.scenes import loaded_beam
+
+SAME = 1e-9
+OK, ERROR = 0, 3
+
+
+def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[..., Path], kind: str) -> None:
+    system = mbs.compile(loaded_beam())
+    found = changes(
+        system,
+        lambda name, value: mbs.compile(loaded_beam(**{name: value})),
+        fmu=build("loaded_beam", kind),
+        inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
+        t_end=1.0,
+    )
+    assert [c.name for c in found] == ["load", "share", "free_length", "damping", "gain"]
+    assert {c.name: c.difference for c in found if c.difference > SAME} == {}
+    assert {c.name: c.fmu for c in found if c.fmu != 0.0} == {}
+    assert [c.name for c in found if c.effect < 1e-4] == []
+
+
+def test_it_falls_where_a_value_is_written_elsewhere() -> None:
+    """A model that is rebuilt with half the change is another one."""
+    system = mbs.compile(loaded_beam())
+    old = {p["name"]: p["value"] for p in system.meta["parameters"]}
+    found = changes(
+        system,
+        lambda name, value: mbs.compile(loaded_beam(**{name: 0.5 * (value + old[name])})),
+        inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
+    )
+    assert min(c.difference for c in found) > 1e-4
+
+
+def test_a_start_without_an_equilibrium_names_the_parameter(
+    build: Callable[..., Path], kind: str, host: Callable[..., Any]
+) -> None:
+    driven = host(build("hanging", kind))
+    assert driven.set("stiffness", 0.0) == OK
+    driven.slave.setupExperiment(startTime=0.0)
+    driven.slave.enterInitializationMode()
+    assert driven.call("exitInitializationMode") == ERROR
+    assert "no static equilibrium near the drawing" in driven.messages[-1]
+    assert "'stiffness' is 0 N/m, farthest from its start value 100; set it nearer to that." in driven.messages[-1]
+    assert driven.set("stiffness", 50.0) == OK
+    assert driven.call("exitInitializationMode") == OK
+    assert abs(driven.get("y") + 0.9 + 9.81 / 50.0) < 1e-9

@@ -1,0 +1,75 @@
+"""Every parameter of a car's FMU, set to another value, gives the run of a car that is built from a file with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+
+import mbs
+from fmu_src.build import build_fmu
+from mbs.vehicle import load
+from tests.changed_parameters import Change, changes
+
+SAME = 1e-9
+KERB = {"road.kerb_x": ("position", 3.0), "road.kerb_height": ("step", 0.05)}
+"""Numbers of the default road that are in no file."""
+VALUES: dict[str, float] = {name: value for name, (_, value) in KERB.items()} | {
+    "drive.max_power": 3e3,
+    "drive.max_torque": 30.0,
+    "drive.regeneration_power": 1.5e3,
+}
+"""Limits that a short run meets."""
+MANOEUVRES: dict[str, dict[str, Any]] = {
+    "bend": {
+        "inputs": {
+            "steering": lambda t: 0.3 if t > 0.1 else 0.0,
+            "throttle": lambda t: 0.7 if t < 0.6 else 0.0,
+            "brake": lambda t: 0.5 if t > 0.9 else 0.0,
+        },
+        "pose": mbs.Pose(speed=12.0),
+        "t_end": 1.2,
+    },
+    "from rest": {
+        "inputs": {"throttle": lambda t: 1.0 if t > 0.4 else 0.0, "hand_brake": lambda t: 1.0 if t > 0.8 else 0.0},
+        "pose": None,
+        "t_end": 1.4,
+    },
+}
+
+
+def rebuilt(car: Any, system: mbs.System) -> Callable[[str, float], mbs.System]:
+    """A car from the changed file; of the road of tests the kerb, which no file has."""
+
+    def build(name: str, value: float) -> mbs.System:
+        if name not in KERB:
+            return mbs.compile(car.changed({name: value}).model())
+        road = replace(car.road.default(), **{KERB[name][0]: value})
+        return mbs.compile(car.model(replace(road, lower_height=-road.step)))
+
+    return build
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["prototype", "hatchback"])
+def test_an_fmu_with_a_changed_parameter_is_a_car_rebuilt(name: str, tmp_path: Path) -> None:
+    car = load(name)
+    system = mbs.compile(car.model())
+    fmu = build_fmu(system, name, tmp_path, [fmpy.platform])
+    left = [p["name"] for p in system.meta["parameters"]]
+    count, found = len(left), list[Change]()
+    for manoeuvre in MANOEUVRES.values():
+        known = {i["name"] for i in system.meta["inputs"]}
+        inputs = {n: at for n, at in manoeuvre["inputs"].items() if n in known}
+        plan = {**manoeuvre, "inputs": inputs}
+        found += changes(system, rebuilt(car, system), names=left, fmu=fmu, values=VALUES, **plan)
+        left = [c.name for c in found if not any(d.effect for d in found if d.name == c.name)]
+        left = list(dict.fromkeys(left))
+    assert {c.name: c.difference for c in found if c.difference > SAME} == {}
+    assert {c.name: c.fmu for c in found if c.fmu != 0.0} == {}
+    assert left in ([], ["road.kerb_height"]), "no manoeuvre shows them"
+    assert len({c.name for c in found}) == count
