@@ -227,7 +227,8 @@ class Car(Section):
         for section in sections_of(self):
             for field in type(section).model_fields:
                 quantity, value = section.quantity(field), getattr(section, field)
-                if quantity is not None and quantity.change is not None and value is not None:
+                absent = value is None or (value == 0.0 and field in section.absent_at_zero)
+                if quantity is not None and quantity.change is not None and not absent:
                     found[section.key(field)] = float(value)
         return found
 

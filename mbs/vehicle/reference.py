@@ -26,7 +26,8 @@ AXLE = "AXLE"  # stands for front or rear
 TOP = "At the top of the file"
 HEAD = f"""# The car file
 
-Every table and key of a `car.toml`, version {SCHEMA} of its form; [your own car](your_own_car.md) shows how to make one.
+Every table and key of a `car.toml`, version {SCHEMA} of its form; [your own car](your_own_car.md) shows how to make
+one.
 This page and `mbs/vehicle/car.schema.json`, which editors read, are written from the types that read the file, by
 `python -m mbs.vehicle.reference`.
 

@@ -68,7 +68,7 @@ class Sentences:
             known = item.get("ctx", {}).get("expected_tags")
             if known is None:
                 return f"{_key([*path, 'kind'])} is missing; it names the template."
-            return f"{_key([*path, 'kind'])} is {shown(item['ctx']['tag'])}; it must be one of {known}."
+            return f"{_key([*path, 'kind'])} is {_given(_tag(item))}; it must be one of {known}."
         if kind == "quantity":
             return f"{self._place(path)} is {_given(item['input'])}; it must be {item['ctx']['range']}."
         if kind == MISSING:  # an element of a list that is too short
@@ -168,6 +168,12 @@ def _given(value: object) -> str:
     if isinstance(value, int) and abs(value) >= 10**18:
         return "a whole number of 19 digits or more"
     return shown(value)
+
+
+def _tag(item: Any) -> Any:
+    """What stands as the kind of a template."""
+    given = item["input"]
+    return given.get("kind") if isinstance(given, Mapping) else item["ctx"]["tag"]
 
 
 def _limits(item: Any) -> str:

@@ -11,8 +11,8 @@ from benchmarks.car.measures import MEASURES, measure
 from mbs import Pose, Simulation, compile
 from mbs.elements.road import PlaneRoad
 from mbs.vehicle import load
+from mbs.vehicle.checks.places import parts_of
 from mbs.vehicle.environment import GRAVITY
-from mbs.vehicle.plausible import parts_of
 from tests.vehicle.hatchback import WHEELS, car, drive, mirrored, system
 
 

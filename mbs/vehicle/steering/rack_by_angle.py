@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import ClassVar, Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.ends import End
@@ -37,6 +37,8 @@ class RackByAngle(Section):
     def wheel_angle_max(self) -> float:
         """Angle of the steering wheel at full travel, rad."""
         return 2.0 * math.pi * self.rack_travel / self.rack_per_turn
+
+    absent_at_zero: ClassVar[tuple[str, ...]] = ("friction",)
 
     def build(self, b: CarBuilder, way: float) -> Steered:
         """Add the rack.
