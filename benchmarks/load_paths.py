@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     ]
     for k, row in enumerate(loads):
         lines.append(",".join([frame.interfaces[k // 3], "xyz"[k % 3], *(f"{v:.7g}" for v in row)]))
-    write_text(frame.tubular.folder / str(frame.section.loads), "\n".join(lines) + "\n")
+    write_text(frame.folder / str(frame.section.loads), "\n".join(lines) + "\n")
     sizes = np.array2string(size[keep] / size[0], precision=2)
     print(f"{snapshots.shape[1]} snapshots, {loads.shape[1]} loads; sizes {sizes}")
     return 0

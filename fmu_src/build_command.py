@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
-from ali3.running import missing_package, run_command
+from ali3.running import missing_package, run_command, told_warnings
 
 if TYPE_CHECKING:
     from ali3.parameter_set import ParameterSet
@@ -73,7 +73,8 @@ def _build(options: argparse.Namespace) -> int:
     _need("pyssp_standard")
 
     first, rest = [p for p in platforms if p == here], [p for p in PLATFORMS if p in platforms and p != here]
-    with compiled_ahead([(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]):
+    ahead = [(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]
+    with compiled_ahead(ahead), told_warnings():
         return _build_kinds(options, kinds, first, rest)
 
 

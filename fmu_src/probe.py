@@ -187,7 +187,8 @@ class _Tries:
         high = v.max if v.max is not None else max(centre + span, low)
         if v.source == "pose":
             low = 0.0
-        return centre + self.share * (rng.uniform(low, high) - centre)
+        value = rng.uniform(low, high)
+        return float(round(value)) if v.whole else centre + self.share * (value - centre)
 
     def _start(self, kernel: Instance, values: dict[int, float]) -> list[float] | None:
         """Sensors of the initial state; None where there is none with these values."""

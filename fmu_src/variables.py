@@ -126,7 +126,8 @@ def variable_table(
     if not (math.isfinite(step_size) and step_size > 0.0):
         raise ValueError(f"The step size is {step_size} s; a positive number is needed.")
     table = [
-        _ranged(entry, "input", "continuous", "input", k, entry["start"]) for k, entry in enumerate(meta["inputs"])
+        _ranged(entry, "input", "discrete" if entry.get("whole") else "continuous", "input", k, entry["start"])
+        for k, entry in enumerate(meta["inputs"])
     ]
     table += [
         _ranged(entry, "parameter", "fixed" if entry.get("fixed") else "tunable", "parameter", k, entry["value"])
@@ -245,6 +246,7 @@ def _ranged(
         _bound(entry["min"]),
         _bound(entry["max"]),
         _display(entry["name"], unit),
+        whole=bool(entry.get("whole", False)),
         road=entry.get("road", -1),
     )
 

@@ -13,7 +13,7 @@ from ali3.running import run_command
 from hosts.errors import HostError
 from hosts.manoeuvres import manoeuvre_names
 from hosts.numbers import assignment, number
-from hosts.options import add_setting_options, wishes
+from hosts.options import add_road_option, add_setting_options, wishes
 
 DEFAULT_FMU = Path("dist", "PrototypeCar.fmu")
 
@@ -40,6 +40,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.dr
         help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not tell it; repeatable",
     )
     add_setting_options(parser)
+    add_road_option(parser)
     options = parser.parse_args(arguments)
     return run_command(lambda: _drive(options))
 

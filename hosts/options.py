@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hosts.numbers import name_and_text
+from hosts.road import PARAMETER, road_value
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,18 @@ def add_setting_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_road_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--road`` to a host that drives."""
+    parser.add_argument(
+        "--road",
+        metavar="FILE",
+        help="road under a car (parameter road.file): a road file, the name of one in the FMU (plane.road, kerb.road, "
+        "rough.road, split.road, washboard.road), or what 'ali3 road' makes one of",
+    )
+
+
 def wishes(options: argparse.Namespace) -> Wishes:
     """What was given by the options of `add_setting_options`."""
-    return Wishes(options.parameters, options.set)
+    given = getattr(options, "road", None)
+    road = [] if given is None else [(PARAMETER, road_value(given, options.out))]
+    return Wishes(options.parameters, road + options.set)

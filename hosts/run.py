@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ali3.running import run_command
 from hosts.errors import HostError
 from hosts.numbers import number
-from hosts.options import add_setting_options, wishes
+from hosts.options import add_road_option, add_setting_options, wishes
 
 if TYPE_CHECKING:
     from hosts.fmu import Fmu
@@ -26,6 +26,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
     )
     parser.add_argument("fmu", type=Path, metavar="FMU")
     add_setting_options(parser)
+    add_road_option(parser)
     parser.add_argument(
         "--input",
         type=Path,

@@ -29,9 +29,9 @@ class InputSignals:
     signals : mapping of str to signal
         Per input a constant, a function of time in s, or a pair (times, values) of equal length: linear in between,
         held outside. A time given twice is a jump; at that very instant the value before it counts, because the step
-        that ends there lies before it.
+        that ends there lies before it. An input of whole numbers keeps each value of a table until the next one.
     declared : sequence of mapping
-        Entries `name`, `unit`, `min`, `max` (None: open) of every input of the System, in order.
+        Entries `name`, `unit`, `min`, `max` (None: open), `whole` of every input of the System, in order.
     """
 
     def __init__(self, signals: Mapping[str, Signal], declared: list[dict[str, Any]]) -> None:
@@ -39,12 +39,18 @@ class InputSignals:
         self._units = [str(d["unit"]) for d in declared]
         self._min = np.array([-np.inf if d["min"] is None else d["min"] for d in declared], float)
         self._max = np.array([np.inf if d["max"] is None else d["max"] for d in declared], float)
+        self._whole = np.array([bool(d.get("whole")) for d in declared])
         self._signals: dict[int, Signal] = {}
         for name, signal in signals.items():
             if not isinstance(name, str) or name not in self._names:
                 known = ", ".join(self._names) or "none"
                 raise ValueError(f"There is no input {shown(name)}; the System has: {known}.")
-            self._signals[self._names.index(name)] = _checked(name, signal)
+            i = self._names.index(name)
+            signal = _checked(name, signal)
+            if self._whole[i] and isinstance(signal, tuple):
+                self._check(i, *_table(signal))
+                signal = _stairs(signal)
+            self._signals[i] = signal
 
     def columns(self) -> list[int]:
         """Numbers of the inputs that have a signal."""
@@ -96,12 +102,12 @@ class InputSignals:
 
     def _asker(self, i: int, signal: Signal, tolerance: float) -> Callable[[float, bool], float]:
         """Value of one signal at a time, before or behind a jump."""
-        low, high = float(self._min[i]), float(self._max[i])
+        low, high, whole = float(self._min[i]), float(self._max[i]), bool(self._whole[i])
         if callable(signal):
 
             def of_function(t: float, after: bool) -> float:
                 value = _value_of(self._names[i], signal, t)
-                if not low <= value <= high or math.isinf(value):
+                if not low <= value <= high or math.isinf(value) or (whole and value != math.floor(value)):
                     self._check(i, np.array([t]), np.array([value]))
                 return value
 
@@ -119,10 +125,12 @@ class InputSignals:
         return of_table
 
     def _check(self, i: int, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
-        good = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
+        inside = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
+        good = inside & (values == np.floor(values)) if self._whole[i] else inside
         if not good.all():
             k = int(np.argmin(good))
             right = f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
+            right = "be a whole number" if inside[k] else right
             value = f"{values[k]:g}{unit_text(self._units[i])}"
             raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {right}.")
 
@@ -132,6 +140,12 @@ def _table(signal: Signal) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     if isinstance(signal, tuple):
         return np.array(signal[0], float), np.array(signal[1], float)
     return np.zeros(1), np.array([signal], float)
+
+
+def _stairs(table: tuple[ArrayLike, ArrayLike]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The table that keeps each value until the next time, where it jumps."""
+    times, values = _table(table)
+    return np.repeat(times, 2)[1:], np.repeat(values, 2)[:-1]
 
 
 def _value_of(name: str, signal: Callable[[float], float], t: float) -> float:

@@ -21,7 +21,9 @@ from mbs.flexible.section import Section
 from mbs.vehicle import load
 from mbs.vehicle.environment import GRAVITY
 
-FRAME = load("prototype").tubular_frame
+CAR = load("prototype")
+FRAME = CAR.tubular_frame
+INTERFACES, REFERENCE = CAR.flexible_frame.interfaces, str(CAR.flexible_frame.reference)
 STEEL, SECTIONS = FRAME.material, FRAME.tube_sections
 
 STORED = Path(__file__).parents[2] / "tests" / "data" / "calculix" / "frames.json"
@@ -129,11 +131,11 @@ def gauge_moments(refinement: int) -> list[float]:
     section forces at nodes: the gauges sit at nodes when the refinement is even.
     """
     frame, tubes = FRAME.frame("timoshenko", refinement)
-    forces = interface_forces(FRAME.interfaces).reshape(-1, 3)
-    held = frame.names.index(FRAME.section.reference) + 1
+    forces = interface_forces(INTERFACES).reshape(-1, 3)
+    held = frame.names.index(REFERENCE) + 1
     lines = ["*ELSET,ELSET=BEAMS", *(f"E{e + 1}," for e in range(len(frame.beams))), "*BOUNDARY", f"{held},1,6"]
     lines += ["*STEP", "*STATIC", "*DLOAD", f"BEAMS,GRAV,{GRAVITY},0.,0.,-1.", "*CLOAD"]
-    for name, force in zip(FRAME.interfaces, forces, strict=True):
+    for name, force in zip(INTERFACES, forces, strict=True):
         lines += [f"{frame.names.index(name) + 1},{axis + 1},{force[axis]:.9g}" for axis in range(3)]
     lines += [f"{i + 1},3,{-GRAVITY * frame.masses[i]:.9g}" for i in np.flatnonzero(frame.masses)]
     lines += ["*EL FILE,SECTION FORCES,OUTPUT=2D", "S", "*NODE PRINT,NSET=ALL", "U", "*END STEP"]

@@ -12,7 +12,7 @@ from mbs.input_signals import InputSignals
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
 
-INTERFACES = prototype_car.car().tubular_frame.interfaces
+INTERFACES = prototype_car.car().flexible_frame.interfaces
 
 GUIDED = "kerb_test"
 H, EVERY = 0.005, 4

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -83,8 +84,10 @@ def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     merged: dict[tuple[str, str], Shown] = {}
     for car, table in found.items():
         present = {v.name for v in table}
+        alike = Counter(_alike(v) for v in table)
         for v in table:
-            key = (v.causality, _family(v, present))
+            family = _alike(v) if v.causality == "parameter" and alike[_alike(v)] > 1 else _family(v, present)
+            key = (v.causality, family)
             one = merged.setdefault(key, Shown(v.name, [], v, {}))
             starts = {**one.starts, car: [*one.starts.get(car, []), *([] if v.start is None else [v.start])]}
             merged[key] = replace(one, names=list(dict.fromkeys([*one.names, v.name])), starts=starts)
@@ -160,6 +163,12 @@ def _family(v: Variable, present: set[str]) -> str:
         return plain
     front = re.sub(r"\brear\b", "front", v.name)
     return front if v.causality == "parameter" and front in present else v.name
+
+
+def _alike(v: Variable) -> str:
+    """One name for parameters of the same words in the same table, as those of all payloads."""
+    first, _, rest = v.name.partition(".")
+    return f"{first}.*.{rest.rpartition('.')[2]}: {v.description.rpartition(': ')[2]}" if "." in rest else v.name
 
 
 def _short(names: Sequence[str]) -> str:

@@ -87,14 +87,13 @@ def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
 def chassis(modes: Sequence[int], repeats: int) -> list[dict[str, Any]]:
     """Rows of the car's frame alone, thrown and spinning: what its modes cost without the suspension."""
     flexible = load("prototype").flexible_frame
-    frame, _ = flexible.tubular.frame()
-    model = frame.finite_element_model()
+    model = flexible.model
     rows: list[dict[str, Any]] = []
     systems = []
     for count in watched(modes):
         m = mbs.Model("thrown chassis", gravity=(0.0, 0.0, -9.81))
         reduced = craig_bampton(
-            model, flexible.section.reference, flexible.interfaces, count, inertia_modes=True, damping=flexible.damping
+            model, flexible.reference, flexible.interfaces, count, inertia_modes=True, damping=flexible.damping
         )
         body = m.flexible_body("chassis", reduced)
         m.initial_velocity(body, (5.0, 0.0, 3.0), (0.3, 0.5, 2.0))

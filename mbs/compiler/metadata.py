@@ -45,6 +45,7 @@ def metadata(
                 "min": i.min if math.isfinite(i.min) else None,
                 "max": i.max if math.isfinite(i.max) else None,
             }
+            | ({"whole": True} if i.whole else {})
             for i in model.inputs
         ],
         "sensors": [
@@ -57,6 +58,7 @@ def metadata(
         "parameters": [
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
             | ({} if p.tunable else {"fixed": True})
+            | ({"whole": True} if p.whole else {})
             | _built_in_road(model, p)
             for p in model.parameters
         ],

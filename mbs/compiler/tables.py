@@ -147,7 +147,13 @@ def channel_arrays(model: Model) -> Arrays:
     element_start = pointer([len(e.real) for e in model.elements])
     guide_start = pointer([len(g.reals) for g in model.guides])
     road_start = pointer([len(r.real) for r in model.roads])
-    starts = (element_start, guide_start, road_start, pointer([1] * len(model.payloads)))
+    starts = (
+        element_start,
+        guide_start,
+        road_start,
+        pointer([1] * len(model.payloads)),
+        pointer([1] * len(model.switches)),
+    )
     targets = [[(t, int(starts[t][k]) + i, s, o) for t, k, i, s, o in p.targets] for p in model.parameters]
     flat = [t for group in targets for t in group]
     return {

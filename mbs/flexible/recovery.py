@@ -81,14 +81,28 @@ def fibre_stresses(frame: Frame, element: int, xi: float, fibres: np.ndarray | N
 
 @dataclass(frozen=True)
 class StrainGauge:
-    """A half-bridge: strain gauges on the upper and the lower fibre of a beam, at ``xi`` of its length."""
+    """Strain gauges on a beam, as single ones or joined to bridges.
+
+    Parameters
+    ----------
+    name : str
+        Of the gauge.
+    element : int
+        Number of the beam.
+    xi : float
+        Place along it, 0 at its start and 1 at its end.
+    fibre : tuple of float, optional
+        Point (y, z) of the section where a gauge sits, m; by default the highest fibre. The second gauge of a
+        half-bridge sits on the opposite point.
+    """
 
     name: str
     element: int
     xi: float = 0.5
+    fibre: tuple[float, float] | None = None
 
     def bending_moment(self, frame: Frame) -> sp.csr_array:
-        """My, positive when the upper fibre is stretched.
+        """Moment about the axis across the fibre, positive when the fibre is stretched; My for the highest fibre.
 
         Parameters
         ----------
@@ -100,10 +114,13 @@ class StrainGauge:
         sparse array, shape (1, n_dof)
             N m per m and rad.
         """
-        return sp.csr_array(section_forces(frame, self.element, self.xi)[[4]])
+        y, z = self._point(frame)
+        size = float(np.hypot(y, z))
+        forces = section_forces(frame, self.element, self.xi)
+        return sp.csr_array(forces[[4]] * (z / size) - forces[[5]] * (y / size))
 
     def half_bridge(self, frame: Frame) -> sp.csr_array:
-        """Stress of the upper minus that of the lower fibre.
+        """Stress of the fibre minus that of the opposite one; blind to pull and twist.
 
         Parameters
         ----------
@@ -115,11 +132,12 @@ class StrainGauge:
         sparse array, shape (1, n_dof)
             Pa per m and rad.
         """
-        both = fibre_stresses(frame, self.element, self.xi)
+        y, z = self._point(frame)
+        both = fibre_stresses(frame, self.element, self.xi, np.array([(y, z), (-y, -z)]))
         return sp.csr_array(both[[0]] - both[[1]])
 
     def fibre_stress(self, frame: Frame) -> sp.csr_array:
-        """Bending stress of the upper fibre, half of the half-bridge.
+        """Bending stress of the fibre, half of the half-bridge.
 
         Parameters
         ----------
@@ -132,6 +150,92 @@ class StrainGauge:
             Pa per m and rad.
         """
         return sp.csr_array(self.half_bridge(frame) * 0.5)
+
+    def quarter_bridge(self, frame: Frame) -> sp.csr_array:
+        """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads.
+
+        Parameters
+        ----------
+        frame : Frame
+            The beams.
+
+        Returns
+        -------
+        sparse array, shape (1, n_dof)
+            Pa per m and rad.
+        """
+        return fibre_stresses(frame, self.element, self.xi, np.array([self._point(frame)]))
+
+    def axial_force(self, frame: Frame) -> sp.csr_array:
+        """N, positive when the beam is pulled.
+
+        Parameters
+        ----------
+        frame : Frame
+            The beams.
+
+        Returns
+        -------
+        sparse array, shape (1, n_dof)
+            N per m and rad.
+        """
+        return sp.csr_array(section_forces(frame, self.element, self.xi)[[0]])
+
+    def axial_stress(self, frame: Frame) -> sp.csr_array:
+        """Mean normal stress, N / A.
+
+        Parameters
+        ----------
+        frame : Frame
+            The beams.
+
+        Returns
+        -------
+        sparse array, shape (1, n_dof)
+            Pa per m and rad.
+        """
+        return sp.csr_array(self.axial_force(frame) * (1.0 / frame.beams[int(self.element)].section.area))
+
+    def torque(self, frame: Frame) -> sp.csr_array:
+        """T, positive when it turns the far side of the section right-handed about the beam from start to end.
+
+        Parameters
+        ----------
+        frame : Frame
+            The beams.
+
+        Returns
+        -------
+        sparse array, shape (1, n_dof)
+            N m per m and rad.
+        """
+        return sp.csr_array(section_forces(frame, self.element, self.xi)[[3]])
+
+    def shear_stress(self, frame: Frame) -> sp.csr_array:
+        """Shear stress of the torque at the fibre of a round section, T r / J.
+
+        Parameters
+        ----------
+        frame : Frame
+            The beams.
+
+        Returns
+        -------
+        sparse array, shape (1, n_dof)
+            Pa per m and rad.
+
+        Raises
+        ------
+        ModelError
+            The section is not round.
+        """
+        section = frame.beams[int(self.element)].section
+        if not np.isclose(section.J, section.Iy + section.Iz):
+            raise ModelError(f"The section of beam {self.element} is not round: its shear stress is not T r / J.")
+        return sp.csr_array(self.torque(frame) * (float(np.hypot(*self._point(frame))) / section.J))
+
+    def _point(self, frame: Frame) -> tuple[float, float]:
+        return frame.beams[int(self.element)].section.fibres[0] if self.fibre is None else self.fibre
 
 
 def gauge_rows(frame: Frame, gauges: tuple[StrainGauge, ...]) -> tuple[np.ndarray, np.ndarray]:

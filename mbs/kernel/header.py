@@ -17,6 +17,18 @@ SYSTEM_VERSION = 1
 """Of the System file."""
 DOUBT_FROM = 100
 """Steps that a run makes before it is judged."""
+ROAD_VERSION = 1
+"""Of a road file."""
+ROAD_TILE = 32
+"""Points along the side of a tile of a road file."""
+ROAD_HIGHEST = 1e5
+"""Largest height of a road file, m."""
+ROAD_FARTHEST = 1e8
+"""Largest coordinate of a road file, m."""
+ROAD_FRICTION = 10.0
+"""Largest friction of a road file."""
+ROAD_POINTS = 1e12
+"""Most points of a road file."""
 
 FLOAT_ARRAYS = (
     "q0",
@@ -259,6 +271,7 @@ class ParameterTarget(IntEnum):
     GUIDE = 1
     ROAD = 2
     PAYLOAD = 3
+    SWITCH = 4
 
 
 class GuideType(IntEnum):

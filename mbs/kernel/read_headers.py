@@ -42,6 +42,15 @@ LIMITS = {
     "ALI3_SYSTEM_VERSION": "Of the System file.",
     "ALI3_DOUBT_FROM": "Steps that a run makes before it is judged.",
 }
+ROADS = "src/roads/road_file.h"
+ROAD_LIMITS = {
+    "ALI3_ROAD_VERSION": "Of a road file.",
+    "ALI3_ROAD_TILE": "Points along the side of a tile of a road file.",
+    "ALI3_ROAD_HIGHEST": "Largest height of a road file, m.",
+    "ALI3_ROAD_FARTHEST": "Largest coordinate of a road file, m.",
+    "ALI3_ROAD_FRICTION": "Largest friction of a road file.",
+    "ALI3_ROAD_POINTS": "Most points of a road file.",
+}
 STRUCTURES = {
     "settings": "SettingsFields",
     "report": "ReportFields",
@@ -169,19 +178,24 @@ def structure(name: str) -> list[tuple[str, str]]:
     return fields
 
 
+def _defined(file: str, limits: dict[str, str]) -> list[str]:
+    """Constants of Python for the macros of a header."""
+    content, found = text_of(file), []
+    for name, text in limits.items():
+        value = re.search(rf"#define {name} (\S+)", content)
+        if value is None:
+            raise ValueError(f"{file} does not define {name}.")
+        found.append(f'{name.removeprefix("ALI3_")} = {value[1]}\n"""{text}"""')
+    return found
+
+
 def header() -> str:
     """Text of `header.py`."""
     parts = [
         '"""Numbers and structures of the kernel\'s C headers. Written by `python mbs/kernel/read_headers.py`."""',
         "from ctypes import POINTER, Structure, c_double, c_int32, c_int64\nfrom enum import IntEnum",
     ]
-    public, limits = text_of(PUBLIC), []
-    for name, text in LIMITS.items():
-        found = re.search(rf"#define {name} (\S+)", public)
-        if found is None:
-            raise ValueError(f"{PUBLIC} does not define {name}.")
-        limits.append(f'{name.removeprefix("ALI3_")} = {found[1]}\n"""{text}"""')
-    parts.append("\n".join(limits))
+    parts.append("\n".join(_defined(PUBLIC, LIMITS) + _defined(ROADS, ROAD_LIMITS)))
     required, optional = table(SYSTEM, "ALI3_SYSTEM_ARRAYS"), table(SYSTEM, "ALI3_OPTIONAL_ARRAYS")
     kinds = {"double": "FLOAT_ARRAYS", "int32_t": "INTEGER_ARRAYS"}
     for kind, names_of in kinds.items():

@@ -74,7 +74,12 @@ class ChannelSensorVocabulary(SensorBase):
         """
         channel = owned_input(self, input, f"The sensor '{name}'")
         return self._sense(
-            name, self._unit(unit, channel.unit), description, SensorType.INPUT, integers=[channel.index]
+            name,
+            self._unit(unit, channel.unit),
+            description,
+            SensorType.INPUT,
+            integers=[channel.index],
+            whole=channel.whole,
         )
 
     def sense_guide(

@@ -336,7 +336,7 @@ class ForceVocabulary(BodyVocabulary):
         instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad or RoadFile")
         k, start = len(self.roads), ""
         if isinstance(road, RoadFile):
-            _ = road.header  # whether there is such a file
+            road.check()
             start = str(Path(road.path).absolute())
             file = file or ("road.file" if k == 0 else f"road_{k}.file")
             road = road.road

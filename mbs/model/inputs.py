@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
-from mbs.checks import limit, number, shown, text
+from mbs.checks import flag, limit, number, shown, text
+from mbs.elements.record_checks import MOST
 from mbs.errors import ModelError
 from mbs.model.core import ModelCore
 
@@ -20,9 +22,12 @@ class Input:
     max: float
     unit: str
     description: str
+    whole: bool = False
 
 
-def new_input(model: ModelCore, name: str, start: float, min: float, max: float, unit: str, description: str) -> Input:
+def new_input(
+    model: ModelCore, name: str, start: float, min: float, max: float, unit: str, description: str, whole: bool
+) -> Input:
     """Register an input; limits may be infinite."""
     low, high = limit(min, f"The min of input '{name}'"), limit(max, f"The max of input '{name}'")
     value = number(start, f"The start of input '{name}'")
@@ -34,9 +39,22 @@ def new_input(model: ModelCore, name: str, start: float, min: float, max: float,
         raise ModelError(
             f"The input '{name}' starts at {value:g}, which is not between its limits {low:g} and {high:g}."
         )
-    channel = Input(model.unique("input", name), len(model.inputs), value, low, high, unit, description)
+    if flag(whole, f"The whole of input '{name}'"):
+        _check_whole(name, {"min": low, "max": high, "start": value}, unit)
+    channel = Input(model.unique("input", name), len(model.inputs), value, low, high, unit, description, bool(whole))
     model.inputs.append(channel)
     return channel
+
+
+def _check_whole(name: str, numbers: dict[str, float], unit: str) -> None:
+    """What an integer of FMI can say: whole numbers of 32 bits, and no unit."""
+    for which, value in numbers.items():
+        if math.isfinite(value) and not (value == round(value) and -MOST - 1 <= value <= MOST):
+            raise ModelError(
+                f"The {which} of input '{name}' is {value:g}; a whole-number input needs whole numbers, at most {MOST}."
+            )
+    if unit != "1":
+        raise ModelError(f"The input '{name}' is a whole number in {shown(unit)}; whole numbers have the unit '1'.")
 
 
 def owned_input(model: ModelCore, channel: Input, what: str) -> Input:

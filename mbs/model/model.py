@@ -292,6 +292,7 @@ class Model(
         max: float = math.inf,
         unit: str = "1",
         description: str = "",
+        whole: bool = False,
     ) -> Input:
         """A number that a host sets.
 
@@ -307,6 +308,9 @@ class Model(
             "1" for a pure number.
         description : str
             One sentence for hosts.
+        whole : bool
+            Whether it takes whole numbers only, such as the position of a lever: an integer of an FMU. Over time it
+            keeps a value until the next one.
 
         Returns
         -------
@@ -318,7 +322,7 @@ class Model(
         ModelError
             The name is taken, or the start is not between the limits.
         """
-        return new_input(self, name, start, min, max, unit, description)
+        return new_input(self, name, start, min, max, unit, description, whole)
 
     def guide_input(self, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1") -> Guide:
         """A prescribed motion that follows ``gain * input`` through a critically damped filter.
@@ -475,9 +479,10 @@ class Model(
         targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
             ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
             name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; or a
-            payload and "mass". A real belongs to one parameter.
+            payload and "mass"; or the name of a switch and "on", which takes 0 or 1. A real belongs to one parameter.
         tunable : bool
-            Whether it may be set while the model moves; False: before the start only, as masses of payloads must be.
+            Whether it may be set while the model moves; False: before the start only, as masses of payloads and
+            switches must be.
 
         Returns
         -------

@@ -28,7 +28,7 @@ Target: TypeAlias = "tuple[Owner, str | int, float] | tuple[Owner, str | int, fl
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that writes value * scale + offset to data of elements, guides, roads or payloads.
+    """A number that writes value * scale + offset to data of elements, guides, roads or payloads, or a switch.
 
     Parameters
     ----------
@@ -53,6 +53,11 @@ class Parameter:
     targets: tuple[tuple[int, int, int, float, float], ...]
     tunable: bool = True
 
+    @property
+    def whole(self) -> bool:
+        """Whether its values are whole numbers: it turns a switch."""
+        return any(where[0] == ParameterTarget.SWITCH for where in self.targets)
+
 
 @dataclass(frozen=True)
 class RoadFileParameter:
@@ -76,8 +81,8 @@ class RoadFileParameter:
     def description(self) -> str:
         """One sentence for hosts."""
         return (
-            "File of the road (made by ali3 road) in place of the built-in one, which an empty text means: a path, or "
-            "the name of one in the folder roads of the resources"
+            "File of the road (made by ali3 road, or a table .csv with coordinates) in place of the built-in one, "
+            "which an empty text means: a path, or the name of one in the folder roads of the resources"
         )
 
 
@@ -135,9 +140,9 @@ def new_parameter(
 
 
 def _moving(what: str, found: Sequence[_Target]) -> None:
-    """A mass that changed while it moves would take momentum from nowhere."""
+    """A mass that changed while it moves would take momentum from nowhere, rows that are turned on are an impact."""
     for target in found:
-        if target.where[0] == ParameterTarget.PAYLOAD:
+        if target.where[0] in (ParameterTarget.PAYLOAD, ParameterTarget.SWITCH):
             raise ModelError(
                 f"The {what} writes {target.what}, which cannot change while it moves; it must be fixed, tunable=False."
             )
@@ -186,9 +191,19 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
         if payload.name == owner_name and real in PAYLOAD_REALS:
             name = f"the {real} of payload '{owner_name}'"
             return _Target((ParameterTarget.PAYLOAD, k, 0, *line), name, not_negative)
+    for k, switch in enumerate(model.switches):
+        if switch.name == owner_name and real == "on":
+            return _Target((ParameterTarget.SWITCH, k, 0, *line), f"the switch '{owner_name}'", _on_or_off)
     raise ModelError(
-        f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide or payload."
+        f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide, payload or "
+        "switch."
     )
+
+
+def _on_or_off(value: object, what: str) -> float:
+    if value not in (0.0, 1.0):
+        raise ModelError(f"{what} is {shown(value)}; it must be 1, on, or 0, off.")
+    return float(value == 1.0)
 
 
 def _road(model: ModelCore, what: str, number_of: object, real: str | int, line: tuple[float, float]) -> _Target:

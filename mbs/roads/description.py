@@ -12,8 +12,9 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.kernel.header import ROAD_FRICTION
 from mbs.roads.grid_files import read_grid
-from mbs.roads.road_file import MOST_FRICTION, RoadFileError
+from mbs.roads.road_file import RoadFileError
 from mbs.roads.rough_road import ISO_8608, rough_heights
 
 Length = Annotated[float, Field(gt=0.0, le=1e5)]
@@ -204,6 +205,6 @@ def grid_road(
             )
     elif grid.frictions is not None:
         values = grid.frictions
-    if np.any(np.asarray(values) > MOST_FRICTION) or np.any(np.asarray(values) < 0.0):
-        raise RoadFileError(f"The frictions of {heights} must lie between 0 and {MOST_FRICTION:g}.")
+    if np.any(np.asarray(values) > ROAD_FRICTION) or np.any(np.asarray(values) < 0.0):
+        raise RoadFileError(f"The frictions of {heights} must lie between 0 and {ROAD_FRICTION:g}.")
     return GridRoad(origin or grid.origin or (0.0, 0.0), step, grid.values, values)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -82,7 +82,10 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
 
 
 def _table(text: str, path: object) -> Grid:
-    """Rows are along x, columns along y; with coordinates where the first cell is no number."""
+    """Rows are along x, columns along y; with coordinates where the first cell is no number.
+
+    Such a table may be followed by another one for the frictions. `mbs/kernel/src/roads/road_table.c` reads the same.
+    """
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if len(lines) < 2:
         raise RoadFileError(f"{path} has {len(lines)} rows; a grid needs at least two.")
@@ -93,27 +96,50 @@ def _table(text: str, path: object) -> Grid:
     for k, row in enumerate(rows):
         if len(row) != len(rows[0]):
             raise RoadFileError(f"{path}: row {k + 1} has {len(row)} cells, the first one {len(rows[0])}.")
-    labelled = not _is_number(rows[0][0])
-    if not labelled:
+    if _is_number(rows[0][0]):
         return Grid(_numbers(rows, 0, path))
-    y = _numbers([rows[0][1:]], 0, path)[0]
-    body = _numbers(rows[1:], 1, path)
-    if body.shape[0] < 2 or body.shape[1] < 3:
-        raise RoadFileError(f"{path} has {body.shape[0]} x {body.shape[1] - 1} points; at least 2 x 2 are needed.")
+    begins = [k for k, row in enumerate(rows) if not _is_number(row[0])]
+    if len(begins) > 2:
+        raise RoadFileError(f"{path}: row {begins[2] + 1} begins a third table; there are heights and frictions.")
+    heights = _labelled(rows[: (*begins[1:], len(rows))[0]], 0, path)
+    if len(begins) == 1:
+        return heights
+    frictions = _labelled(rows[begins[1] :], begins[1], path)
+    if (frictions.origin, frictions.spacing) != (heights.origin, heights.spacing):
+        raise RoadFileError(f"{path}: the frictions have other coordinates than the heights.")
+    if frictions.values.shape != heights.values.shape:
+        raise RoadFileError(
+            f"{path} has {len(heights.values)} rows of heights and {len(frictions.values)} of frictions."
+        )
+    return replace(heights, frictions=frictions.values)
+
+
+def _labelled(rows: list[list[str]], first: int, path: object) -> Grid:
+    """A table with its coordinates."""
+    y = _numbers([rows[0][1:]], first, path)[0]
+    if len(rows) < 3 or len(y) < 2:
+        raise RoadFileError(f"{path} has {len(rows) - 1} x {len(y)} points; at least 2 x 2 are needed.")
+    body = _numbers(rows[1:], first + 1, path)
     (x0, dx), (y0, dy) = _regular(body[:, 0], "x", path), _regular(y, "y", path)
     return Grid(body[:, 1:], (x0, y0), (dx, dy))
 
 
+def _float(cell: str) -> float:
+    if "_" in cell:  # which Python takes as part of a number
+        raise ValueError
+    return float(cell)
+
+
 def _is_number(cell: str) -> bool:
     try:
-        return math.isfinite(float(cell)) and "_" not in cell
+        return math.isfinite(_float(cell))
     except ValueError:
         return False
 
 
 def _numbers(rows: list[list[str]], first: int, path: object) -> NDArray[np.float64]:
     try:
-        return np.array([[float(cell) for cell in row] for row in rows])
+        return np.array([[_float(cell) for cell in row] for row in rows])
     except ValueError:
         k, cell = next((k, c) for k, row in enumerate(rows) for c in row if not _is_number(c))
         raise RoadFileError(f"{path}: {cell!r} in row {k + first + 1} is no number.") from None

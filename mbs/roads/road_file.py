@@ -16,22 +16,23 @@ from numpy.typing import NDArray
 from mbs.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.errors import ModelError
-from mbs.kernel.header import RoadType
+from mbs.kernel.header import (
+    ROAD_FARTHEST,
+    ROAD_FRICTION,
+    ROAD_HIGHEST,
+    ROAD_POINTS,
+    ROAD_TILE,
+    ROAD_VERSION,
+    RoadType,
+)
 
 MAGIC = b"ALI3ROAD"
-VERSION = 1
-TILE = 32
-"""Points along the side of a tile."""
 HEADER = struct.Struct("<8sIIqiIqqii8dd")
 REALS = 8
 CHECKED_FROM = 16
 TRAILER = struct.Struct("<qII")
-HIGHEST = 1e5
-"""Largest height, m."""
-MOST_FRICTION = 10.0
-FARTHEST = 1e8
-"""Largest coordinate, m."""
-MOST_POINTS = 10**12
+TEXTS = (".csv", ".txt")
+"""Suffixes of tables that the kernel reads by itself."""
 MOST_IN_MEMORY = 10**8
 """Points of a grid that is read as a whole."""
 
@@ -43,6 +44,8 @@ class RoadFileError(ValueError):
 @dataclass(frozen=True)
 class RoadFile:
     """A road of a file that ``ali3 road`` or `write_road` made, of which the kernel keeps in memory what is near.
+
+    A table with coordinates (``.csv``, ``.txt``) is taken too; it is kept as a whole.
 
     Parameters
     ----------
@@ -71,6 +74,21 @@ class RoadFile:
         """
         with _opened(self.path) as file:
             return read_header(file, self.path)
+
+    def check(self) -> None:
+        """Refuse what is not there or no road: the beginning of a road file is looked at, a table as a whole.
+
+        Raises
+        ------
+        RoadFileError
+            With the file and what is wrong with it.
+        """
+        if Path(self.path).suffix.lower() in TEXTS:
+            from mbs.roads.grid_files import read_grid
+
+            read_grid(self.path, None, "heights")
+        else:
+            _ = self.header
 
     def read(self) -> PlaneRoad | KerbRoad | GridRoad:
         """The whole road in memory, every part checked.
@@ -120,12 +138,12 @@ class Header:
     @property
     def tiles(self) -> tuple[int, int]:
         """Number of tiles in x and y."""
-        return -(-self.nx // TILE), -(-self.ny // TILE)
+        return -(-self.nx // ROAD_TILE), -(-self.ny // ROAD_TILE)
 
     @property
     def tile_bytes(self) -> int:
         """Size of a tile."""
-        return self.maps * TILE * TILE * 8 + TRAILER.size
+        return self.maps * ROAD_TILE * ROAD_TILE * 8 + TRAILER.size
 
     @property
     def file_bytes(self) -> int:
@@ -135,8 +153,8 @@ class Header:
     def to_bytes(self) -> bytes:
         """As it stands in the file."""
         fields = (self.file_bytes, int(self.kind), self.contents, self.nx, self.ny)
-        tile = (TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
-        data = bytearray(HEADER.pack(MAGIC, VERSION, 0, *fields, *tile, *self.real, 0.0))
+        tile = (ROAD_TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
+        data = bytearray(HEADER.pack(MAGIC, ROAD_VERSION, 0, *fields, *tile, *self.real, 0.0))
         data[12:16] = struct.pack("<I", zlib.crc32(data[CHECKED_FROM:]))
         return bytes(data)
 
@@ -162,8 +180,8 @@ def read_header(file: BinaryIO, name: object) -> Header:
     if len(data) < HEADER.size:
         raise RoadFileError(f"{name} ends within its header.")
     _, version, crc, size, kind, contents, nx, ny, tile, maps, *real = HEADER.unpack(data)
-    if version != VERSION:
-        raise RoadFileError(f"{name} is a road file of version {version}; version {VERSION} is read here.")
+    if version != ROAD_VERSION:
+        raise RoadFileError(f"{name} is a road file of version {version}; version {ROAD_VERSION} is read here.")
     if crc != zlib.crc32(data[CHECKED_FROM:]):
         raise RoadFileError(f"The header of {name} was altered or damaged.")
     if problem := _problem(kind, nx, ny, tile, maps, real):
@@ -179,26 +197,26 @@ def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[f
     """What is wrong with the numbers of a header, as the kernel judges them; empty if nothing is."""
     if kind not in list(RoadType):
         return f"{kind} is no kind of road"
-    if not all(abs(x) <= FARTHEST for x in real):
+    if not all(abs(x) <= ROAD_FARTHEST for x in real):
         return "a number in its header is not finite or beyond 1e8"
-    if not 0.0 <= real[3 if kind == RoadType.PLANE else 4] <= MOST_FRICTION:
-        return f"its friction lies outside 0 to {MOST_FRICTION:g}"
+    if not 0.0 <= real[3 if kind == RoadType.PLANE else 4] <= ROAD_FRICTION:
+        return f"its friction lies outside 0 to {ROAD_FRICTION:g}"
     if kind == RoadType.KERB and not (real[2] > 0.0 and real[3] in (-1.0, 1.0)):
         return "the step of its kerb is not positive or its side neither 1 nor -1"
     if kind != RoadType.GRID:
         return "" if (nx, ny, maps) == (0, 0, 0) else "a plane or kerb has no grid"
-    if tile != TILE or maps not in (1, 2):
+    if tile != ROAD_TILE or maps not in (1, 2):
         return "its tiles have another form"
-    if min(nx, ny) < 2 or max(nx, ny) > 2**30 or nx * ny > MOST_POINTS:
+    if min(nx, ny) < 2 or max(nx, ny) > 2**30 or nx * ny > ROAD_POINTS:
         return f"its grid has {nx} x {ny} points"
     if not (real[2] > 0.0 and real[3] > 0.0):
         return "the spacing of its grid is not positive"
-    return "" if max(nx * real[2], ny * real[3]) <= FARTHEST else "its grid reaches farther than 1e8 m"
+    return "" if max(nx * real[2], ny * real[3]) <= ROAD_FARTHEST else "its grid reaches farther than 1e8 m"
 
 
 def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
     tiles_x, tiles_y = head.tiles
-    values = np.empty((head.maps, tiles_x * TILE, tiles_y * TILE))
+    values = np.empty((head.maps, tiles_x * ROAD_TILE, tiles_y * ROAD_TILE))
     checksums = []
     file.seek(HEADER.size)
     for number in range(tiles_x * tiles_y):
@@ -206,9 +224,9 @@ def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.f
         written, _, crc = TRAILER.unpack(data[-TRAILER.size :])
         if written != number or crc != zlib.crc32(data[:-4]):
             raise RoadFileError(f"Part {number} of the road {name} was altered or damaged.")
-        i, j = (number // tiles_y) * TILE, (number % tiles_y) * TILE
-        block = np.frombuffer(data, "<f8", head.maps * TILE * TILE).reshape(head.maps, TILE, TILE)
-        values[:, i : i + TILE, j : j + TILE] = block
+        i, j = (number // tiles_y) * ROAD_TILE, (number % tiles_y) * ROAD_TILE
+        block = np.frombuffer(data, "<f8", head.maps * ROAD_TILE * ROAD_TILE).reshape(head.maps, ROAD_TILE, ROAD_TILE)
+        values[:, i : i + ROAD_TILE, j : j + ROAD_TILE] = block
         checksums.append(crc)
     if head.contents != zlib.crc32(struct.pack(f"<{len(checksums)}I", *checksums)):
         raise RoadFileError(f"Parts of the road {name} belong to another file.")
@@ -219,8 +237,8 @@ def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.f
 def check_grid(heights: NDArray[np.float64], frictions: NDArray[np.float64] | None, name: object) -> None:
     """One sentence for values that no road has, with the first place."""
     for what, values, low, high, unit in (
-        ("height", heights, -HIGHEST, HIGHEST, " m"),
-        ("friction", frictions, 0.0, MOST_FRICTION, ""),
+        ("height", heights, -ROAD_HIGHEST, ROAD_HIGHEST, " m"),
+        ("friction", frictions, 0.0, ROAD_FRICTION, ""),
     ):
         if values is None:
             continue

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ali3.files import whole_file
 from mbs.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.kernel.header import RoadType
-from mbs.roads.road_file import MOST_FRICTION, REALS, TILE, Header, RoadFileError, check_grid
+from mbs.kernel.header import ROAD_FRICTION, ROAD_TILE, RoadType
+from mbs.roads.road_file import REALS, Header, RoadFileError, check_grid
 
 
 def write_road(road: PlaneRoad | KerbRoad | GridRoad, file: str | os.PathLike[str]) -> None:
@@ -54,8 +54,8 @@ def _write(road: PlaneRoad | KerbRoad | GridRoad, out: BinaryIO, name: object) -
         return
     *real, factor = road.real
     real[-1] *= factor
-    if real[-1] > MOST_FRICTION:
-        raise RoadFileError(f"The friction of {name} is {real[-1]:g}; it must lie between 0 and {MOST_FRICTION:g}.")
+    if real[-1] > ROAD_FRICTION:
+        raise RoadFileError(f"The friction of {name} is {real[-1]:g}; it must lie between 0 and {ROAD_FRICTION:g}.")
     out.write(Header(road.type, 0, 0, 0, _padded(real)).to_bytes())
 
 
@@ -80,8 +80,8 @@ def _write_grid(road: GridRoad, out: BinaryIO, name: object) -> None:
     maps = [heights] if uniform else [heights, frictions]
     tiles_y, checksums = head.tiles[1], []
     for number in range(head.tiles[0] * tiles_y):
-        i, j = (number // tiles_y) * TILE, (number % tiles_y) * TILE
-        data = b"".join(_tile(values[i : i + TILE, j : j + TILE]) for values in maps)
+        i, j = (number // tiles_y) * ROAD_TILE, (number % tiles_y) * ROAD_TILE
+        data = b"".join(_tile(values[i : i + ROAD_TILE, j : j + ROAD_TILE]) for values in maps)
         data += struct.pack("<qI", number, 0)
         checksums.append(zlib.crc32(data))
         out.write(data + struct.pack("<I", checksums[-1]))
@@ -91,6 +91,6 @@ def _write_grid(road: GridRoad, out: BinaryIO, name: object) -> None:
 
 
 def _tile(values: NDArray[np.float64]) -> bytes:
-    whole = np.zeros((TILE, TILE), "<f8")
+    whole = np.zeros((ROAD_TILE, ROAD_TILE), "<f8")
     whole[: values.shape[0], : values.shape[1]] = values
     return whole.tobytes()

@@ -21,8 +21,13 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.changes import changed_content
+from mbs.vehicle.chassis.attachments import attachments
 from mbs.vehicle.chassis.build import build_chassis, stress_outputs
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
+from mbs.vehicle.chassis.frame_joints import JointFinder
+from mbs.vehicle.chassis.frame_mass import check_mass
+from mbs.vehicle.chassis.frames.frame_section import FrameSection
+from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.ground_contact import ground_contact
 from mbs.vehicle.chassis.section import Chassis
 from mbs.vehicle.chassis.tubular_frame import TubularFrame
@@ -104,18 +109,19 @@ class Car(Section):
         """Distance between the axles as drawn, m."""
         return self.front.wheel.centre[0] - self.rear.wheel.centre[0]
 
-    @cached_property
+    @property
     def tubular_frame(self) -> TubularFrame:
         """Tables of the frame.
 
         Raises
         ------
         ModelError
-            The car has no flexible frame.
+            The car has no frame of tubes.
         """
-        if self.chassis.frame is None:
-            raise ModelError(f"The car '{self.name}' has no flexible frame: its file has no table chassis.frame.")
-        return TubularFrame(self.chassis.frame, self._folder)
+        frame = self._frame()
+        if not isinstance(frame, TubesFrame):
+            raise ModelError(f"The frame of the car '{self.name}' is not of tubes.")
+        return TubularFrame(frame, self._folder)
 
     @cached_property
     def flexible_frame(self) -> FlexibleFrame:
@@ -124,9 +130,26 @@ class Car(Section):
         Raises
         ------
         ModelError
-            The car has no flexible frame.
+            The car has no flexible frame, or its files do not describe one that fits the car.
         """
-        return FlexibleFrame(self.tubular_frame)
+        frame = self._frame()
+        structure = frame.structure(self._folder)
+        check_mass(structure.model, self.chassis)
+        points: dict[Coordinates, str] = {
+            point: self.chassis.key(f"accelerometers.{name}") for name, point in self.chassis.accelerometers.items()
+        }
+        for axle in (self.front, self.rear):
+            points |= {tuple(point): axle.suspension.points.key(name) for name, point in axle.suspension.points}
+        b = self._builder(None)
+        b.chassis = build_chassis(b.m, self.chassis, None, Fidelity.RIGID)
+        driven = ("front", "rear").index(self.drive.wheels)
+        joints = JointFinder(frame, structure, attachments(b), points).joints(self.chassis, driven)
+        return FlexibleFrame(frame, self._folder, structure, joints)
+
+    def _frame(self) -> FrameSection:
+        if self.chassis.frame is None:
+            raise ModelError(f"The car '{self.name}' has no flexible frame: its file has no table chassis.frame.")
+        return self.chassis.frame
 
     def model(
         self,
@@ -161,6 +184,24 @@ class Car(Section):
         """
         fidelity = Fidelity.of(fidelity)
         flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
+        b = self._builder(road)
+        m = b.m
+        b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
+        for name, payload in self.payload.items():
+            payload.build(b, name, fidelity)
+        (steered, front), (_, rear) = self.mechanism(b)
+        spins = front | rear
+        self.drive.build(b, spins, neutral=guide is not None)
+        self.aerodynamics.build(b)
+        b.parameters()
+        self.road.parameters(m, road, b.road, self.front.tyre.nominal_load)
+        self._outputs(b, steered, spins, fidelity)
+        if guide is not None:
+            m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
+        return m
+
+    def _builder(self, road: Road | RoadFile | None) -> CarBuilder:
+        """An empty model with road and inputs."""
         m = Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
         m.floating = True
         m.start_in_equilibrium = level_within(road, self._footprint())
@@ -171,25 +212,32 @@ class Car(Section):
             "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
             "hand_brake": m.input("hand_brake", min=0.0, max=1.0, description="hand brake on the rear wheels"),
             "selector": m.input(
-                "selector", start=1.0, min=-1.0, max=1.0, description="selector: -1 reverse, 0 neutral, 1 drive"
+                "selector",
+                start=1.0,
+                min=-1.0,
+                max=1.0,
+                description="selector: -1 reverse, 0 neutral, 1 drive",
+                whole=True,
             ),
         }
-        ground = m.road(road or self.road.default(), file="road.file")
-        b = CarBuilder(self, m, ground, inputs)
-        b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
-        for name, payload in self.payload.items():
-            payload.build(b, name, fidelity)
+        return CarBuilder(self, m, m.road(road or self.road.default(), file="road.file"), inputs)
+
+    def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
+        """Add steering and front axle, then the rear axle.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            With the chassis.
+
+        Returns
+        -------
+        iterator of (Steered, dict of str to Spin)
+            The steering and the spins of the wheels of each axle.
+        """
         steered = self.steering.build(b, self._rack_way())
-        spins = self.front.build(b, "front", steered.tie_rod, self.brakes.build)
-        spins |= self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
-        self.drive.build(b, spins, neutral=guide is not None)
-        self.aerodynamics.build(b)
-        b.parameters()
-        self.road.parameters(m, road, ground, self.front.tyre.nominal_load)
-        self._outputs(b, steered, spins, fidelity)
-        if guide is not None:
-            m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
-        return m
+        yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
+        yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
     def faults(self) -> Iterator[str]:
         """The front axle steers."""
@@ -198,8 +246,14 @@ class Car(Section):
             yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
 
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
-        """The models an FMU offers by its parameter `fidelity`: the rigid one alone where the car has no frame."""
-        offered = OFFERED if self.chassis.frame is not None else OFFERED[:1]
+        """The models an FMU offers by its parameter `fidelity`.
+
+        The rigid one alone where the car has no frame; no load paths where the frame has no table of loads.
+        """
+        frame = self.chassis.frame
+        offered: tuple[Fidelity, ...] = OFFERED if frame is not None else OFFERED[:1]
+        if frame is not None and frame.loads is None:
+            offered = tuple(fidelity for fidelity in OFFERED if fidelity is not Fidelity.LOAD_PATHS)
         return {fidelity: partial(self.model, None, fidelity) for fidelity in offered}
 
     def changed(self, values: Mapping[str, Any]) -> Car:
@@ -227,8 +281,7 @@ class Car(Section):
         for section in sections_of(self):
             for field in type(section).model_fields:
                 quantity, value = section.quantity(field), getattr(section, field)
-                absent = value is None or (value == 0.0 and field in section.absent_at_zero)
-                if quantity is not None and quantity.change is not None and not absent:
+                if quantity is not None and quantity.change is not None and value is not None:
                     found[section.key(field)] = float(value)
         return found
 

@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from mbs.checks import shown
-from mbs.errors import SimulationError
+from mbs.errors import ModelError, SimulationError
 from mbs.vehicle.car import Car
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import settled
@@ -144,6 +144,13 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
         raise CarFileError(_told(what, faults))
     if not at_rest:
         return car
+    if car.chassis.frame is not None:
+        try:
+            frame = car.flexible_frame
+            if frame.section.loads is not None:
+                frame.recorded_loads()
+        except ModelError as error:
+            raise CarFileError(_told(what, [str(error)])) from error
     try:
         rest = settled(car)
     except (ValueError, SimulationError) as error:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import csv
-import math
 import os
 import stat
-from collections.abc import Sequence
 from pathlib import Path
 
 from mbs.vehicle.errors import CarFileError
@@ -75,52 +72,3 @@ def beside(folder: Path, name: str, key: str) -> Path:
     if not path.resolve().is_relative_to(folder.resolve()):
         raise CarFileError(f"{key} is {name!r}; it leads out of the folder of the car.")
     return path
-
-
-def table_of(path: Path, columns: Sequence[str], numbers: Sequence[str]) -> list[dict[str, str]]:
-    """Rows of a table in CSV whose lines that begin with # are comments.
-
-    Parameters
-    ----------
-    path : Path
-        The table.
-    columns : sequence of str
-        That it must have.
-    numbers : sequence of str
-        Columns with finite numbers.
-
-    Raises
-    ------
-    CarFileError
-        A column is missing, a row has more or fewer fields than the first line, or a number is none.
-    """
-    lines = [(k, line) for k, line in enumerate(text_of(path, LARGEST_TABLE).splitlines(), 1) if line[:1] != "#"]
-    kept = [(k, line) for k, line in lines if line.strip()]
-    try:
-        rows = [(k, row) for (k, _), row in zip(kept, csv.reader(line for _, line in kept), strict=True)]
-    except (csv.Error, ValueError) as error:
-        raise CarFileError(f"{path} is no table in CSV: {error}.") from error
-    header = [name.strip() for name in rows[0][1]] if rows else []
-    missing = [name for name in columns if name not in header]
-    if missing:
-        raise CarFileError(f"{path} has no column '{missing[0]}'; it must have {', '.join(columns)}.")
-    if len(set(header)) < len(header):
-        twice = next(name for name in header if header.count(name) > 1)
-        raise CarFileError(f"{path} has the column '{twice}' twice.")
-    found = []
-    for k, row in rows[1:]:
-        if len(row) != len(header):
-            raise CarFileError(f"{path}, line {k} has {len(row)} fields; the first line has {len(header)}.")
-        fields = dict(zip(header, row, strict=True))
-        for name in numbers:
-            if not _is_finite(fields[name]):
-                raise CarFileError(f"{path}, line {k} has {fields[name]!r} for {name}; it must be a number.")
-        found.append(fields)
-    return found
-
-
-def _is_finite(text: str) -> bool:
-    try:
-        return "_" not in text and math.isfinite(float(text))
-    except ValueError:
-        return False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, ClassVar, get_args
+from typing import Any, get_args
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr
 
@@ -18,8 +18,6 @@ class Section(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, allow_inf_nan=False)
 
-    absent_at_zero: ClassVar[tuple[str, ...]] = ()
-    """Numbers that may change, but not where they are 0: the part that they describe is then not in the model."""
     _path: str = PrivateAttr("")
 
     @property

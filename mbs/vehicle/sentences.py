@@ -116,14 +116,17 @@ class Sentences:
         """Key path of an error, without the names of templates and types that stand in it."""
         path: list[str] = []
         here: Any = self.data
+        template: Any = None  # the table whose template stood in the path last
         for part in loc:
-            if isinstance(here, Mapping) and part in here:
+            if isinstance(here, Mapping) and part == here.get("kind") and here is not template:
+                template = here  # a table may have a key of the same name as its template
+            elif isinstance(here, Mapping) and part in here:
                 path.append(str(part))
                 here = here[part]
             elif isinstance(here, (list, tuple)) and isinstance(part, int):
                 path.append(str(part))
                 here = here[part] if part < len(here) else None
-            elif part != "[key]" and isinstance(here, Mapping) and part != here.get("kind"):
+            elif part != "[key]" and isinstance(here, Mapping):
                 path.append(str(part))
                 here = None
         return path

@@ -10,7 +10,11 @@ from pathlib import Path
 
 import fmpy
 import pytest
-import tomllib
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "your_own_car.md").read_text(encoding="utf-8")

@@ -17,7 +17,9 @@ from mbs.flexible.inertia_relief import inertia_relief
 from mbs.flexible.recovery import gauge_rows
 from mbs.vehicle import load
 
-FRAME = load("prototype").tubular_frame
+CAR = load("prototype")
+FRAME = CAR.tubular_frame
+INTERFACES, REFERENCE = CAR.flexible_frame.interfaces, str(CAR.flexible_frame.reference)
 
 STORED = json.loads(calculix.STORED.read_text())
 SLENDER = 1.5e-3  # tube of 1.5 m and 40 mm: theories and meshes differ by that
@@ -44,19 +46,19 @@ def frame_figures(theory: str) -> dict[str, np.ndarray]:
     frame, tubes = FRAME.frame(theory, refinement=2)
     model = frame.finite_element_model()
     bare = FRAME.frame(theory, 2, carried_masses=False)[0].finite_element_model()
-    held = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(FRAME.section.reference)[1:2]])
+    held = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
     free = np.setdiff1d(np.arange(model.n_dof), held)
     left, right = (model.freedoms(n)[2] for n in ("TFL", "TFR"))
     F, u = np.zeros(model.n_dof), np.zeros(model.n_dof)
     F[left], F[right] = calculix.TOWER_FORCE, -calculix.TOWER_FORCE
     u[free] = spsolve(sp.csc_matrix(model.K[free][:, free]), F[free])
     rows, _ = gauge_rows(frame, FRAME.strain_gauges(tubes))
-    relief = inertia_relief(model, FRAME.section.reference, FRAME.interfaces, rows)
+    relief = inertia_relief(model, REFERENCE, INTERFACES, rows)
     return {
         "frame_torsional_stiffness_Nm_per_deg": np.array(calculix.torsional_stiffness(frame, u[left] - u[right])),
         "frame_loaded_free_hz": natural_modes(model, 11)[0][6:],
         "frame_bare_free_hz": natural_modes(bare, 10)[0][6:],
-        "frame_gauge_moments_Nm": relief.balanced @ interface_forces(FRAME.interfaces),
+        "frame_gauge_moments_Nm": relief.balanced @ interface_forces(INTERFACES),
     }
 
 

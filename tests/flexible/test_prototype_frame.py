@@ -20,7 +20,8 @@ from mbs.vehicle import load
 
 CAR = load("prototype")
 FRAME = CAR.tubular_frame
-REFERENCE, DYNAMIC_MODES = FRAME.section.reference, FRAME.section.dynamic_modes
+INTERFACES, REFERENCE = CAR.flexible_frame.interfaces, str(CAR.flexible_frame.reference)
+DYNAMIC_MODES = FRAME.section.dynamic_modes
 DAMPING = CAR.flexible_frame.damping
 
 # project data: computed once from the same layout by an independent script (dense numpy, own elements)
@@ -64,7 +65,7 @@ def test_every_interface_is_a_hardpoint_of_the_car() -> None:
         "AF": "lower_pivot_front", "AR": "lower_pivot_rear", "TL": "toe_link_inner", "TR": "strut_top"
     }.items():  # fmt: skip
         np.testing.assert_array_equal(points[node + "L"], getattr(CAR.rear.suspension.points, name))
-    assert len(FRAME.interfaces) == 20
+    assert len(INTERFACES) == 20
 
 
 def test_free_frequencies_loaded_and_bare(model: FiniteElementModel) -> None:
@@ -99,7 +100,7 @@ def test_torsional_stiffness_between_the_towers(model: FiniteElementModel) -> No
 
 @pytest.mark.parametrize("count", [5, 10])
 def test_craig_bampton_has_the_frequencies_and_the_errors_of_the_data(model: FiniteElementModel, count: int) -> None:
-    body = craig_bampton(model, REFERENCE, FRAME.interfaces, count, damping=DAMPING)
+    body = craig_bampton(model, REFERENCE, INTERFACES, count, damping=DAMPING)
     assert body.n_static == 60
     assert body.n_modes == 60 + count
     np.testing.assert_allclose(body.frequencies, FIXED_HZ[:count], rtol=FIGURES)
@@ -136,28 +137,28 @@ def test_gauges_sit_where_the_data_puts_them_at_every_refinement() -> None:
 def test_gauge_moments_by_inertia_relief(model: FiniteElementModel, factors: tuple[int, int]) -> None:
     frame, tubes = FRAME.frame()
     moments, bridges = gauge_rows(frame, FRAME.strain_gauges(tubes))
-    forces = interface_forces(FRAME.interfaces, *factors)
-    relief = inertia_relief(model, REFERENCE, FRAME.interfaces, moments)
+    forces = interface_forces(INTERFACES, *factors)
+    relief = inertia_relief(model, REFERENCE, INTERFACES, moments)
     found = relief.balanced @ forces
     front, rear = STATIC_MOMENTS[factors]
     np.testing.assert_allclose(found, [front, front, rear, rear], rtol=MOMENT_DIGITS)
     if factors == (1, 1):
         np.testing.assert_allclose(relief.acceleration_of_forces @ forces, [0, 0, 9.81, 0, 0, 0], atol=5e-4)
     # half-bridge: upper minus lower fibre = 2 M r / I
-    stress = inertia_relief(model, REFERENCE, FRAME.interfaces, bridges).balanced @ forces
+    stress = inertia_relief(model, REFERENCE, INTERFACES, bridges).balanced @ forces
     tube = frame.beams[FRAME.strain_gauges(tubes)[0].element].section
     np.testing.assert_allclose(stress, 2 * found * 0.020 / tube.Iy, rtol=1e-9)
 
 
 def test_largest_stress_and_sag_at_rest(model: FiniteElementModel) -> None:
     frame, _ = FRAME.frame()
-    forces = interface_forces(FRAME.interfaces)
-    field = inertia_relief(model, REFERENCE, FRAME.interfaces, section_force_field(frame)).balanced @ forces
+    forces = interface_forces(INTERFACES)
+    field = inertia_relief(model, REFERENCE, INTERFACES, section_force_field(frame)).balanced @ forces
     assert peak_tube_stress(frame, field).max() == pytest.approx(PEAK_STRESS, abs=0.05e6)
     towers = np.zeros((2, model.n_dof))
     for row, name in enumerate(("TFL", "TRL")):
         towers[row, model.freedoms(name)[2]] = 1.0
-    sag = inertia_relief(model, REFERENCE, FRAME.interfaces, towers).balanced @ forces
+    sag = inertia_relief(model, REFERENCE, INTERFACES, towers).balanced @ forces
     np.testing.assert_allclose(sag, SAG, atol=0.005e-3)
 
 
@@ -165,18 +166,18 @@ def test_static_and_dynamic_modes_need_inertia_modes_for_the_moments_at_rest(mod
     """60 + 5 modes carry a third to a half less than the moment at rest; with the inertia modes all of it."""
     frame, tubes = FRAME.frame()
     rows, _ = gauge_rows(frame, FRAME.strain_gauges(tubes))
-    forces = interface_forces(FRAME.interfaces)
-    relief = inertia_relief(model, REFERENCE, FRAME.interfaces, rows)
+    forces = interface_forces(INTERFACES)
+    relief = inertia_relief(model, REFERENCE, INTERFACES, rows)
     exact = relief.balanced @ forces
     weight = (
         -model.mass_matrix() @ model.rigid_motions(model.origin(REFERENCE)) @ (relief.acceleration_of_forces @ forces)
     )
     load = weight.copy()
-    load[np.concatenate([model.freedoms(n) for n in FRAME.interfaces])] += forces
+    load[np.concatenate([model.freedoms(n) for n in INTERFACES])] += forces
     errors = {}
-    plain = craig_bampton(model, REFERENCE, FRAME.interfaces, DYNAMIC_MODES)
-    full = craig_bampton(model, REFERENCE, FRAME.interfaces, DYNAMIC_MODES, inertia_modes=True)
-    paths = load_path_modes(full, interface_loads(full, {n: np.eye(3) for n in FRAME.interfaces}))
+    plain = craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES)
+    full = craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES, inertia_modes=True)
+    paths = load_path_modes(full, interface_loads(full, {n: np.eye(3) for n in INTERFACES}))
     for name, body in (("plain", plain), ("inertia", full), ("paths", paths)):
         eta = np.linalg.solve(body.K, body.modes.T @ load)
         errors[name] = np.abs(body.recovery(rows) @ eta / exact - 1).max()

@@ -8,6 +8,10 @@ import mbs
 
 
 def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
+    return _crane(mass, name)[0]
+
+
+def _crane(mass: float, name: str) -> tuple[mbs.Model, Any]:
     m = mbs.Model(name, dimension=2)
     rod = m.body("rod", mass=mass, com=(0.5, 0.0), inertia=0.16)
     m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
@@ -22,7 +26,7 @@ def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
     m.sense_coordinate("rod.angle", angle, description="Angle of the rod")
     m.sense_input("torque_used", torque)
     m.sense_solver("solver.iterations", "iterations", "Newton iterations of the last step")
-    return m
+    return m, angle
 
 
 def heavy_crane() -> mbs.Model:
@@ -106,6 +110,15 @@ def crank_slider() -> mbs.Model:
     m.torque_on("motor", angle, input=torque)
     m.sense_coordinate("crank.angle", angle, description="Angle of the crank, not wrapped")
     m.sense_input("torque_used", torque)
+    return m
+
+
+def gearstick() -> mbs.Model:
+    """The crane with a lever of three positions that adds 4 N m each way, and the lever as an output."""
+    m, angle = _crane(2.0, "gearstick")
+    lever = m.input("lever", start=1.0, min=-1.0, max=1.0, description="Lever: -1 down, 0 none, 1 up", whole=True)
+    m.torque_on("winch", angle, input=lever, gain=4.0)
+    m.sense_input("lever_used", lever)
     return m
 
 

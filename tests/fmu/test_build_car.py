@@ -7,6 +7,7 @@ import shutil
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import fmpy
 import pytest
@@ -98,8 +99,8 @@ def test_another_file_gives_another_token(car: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("edit", "words"),
     [
-        (lambda t: t.replace("width = 1.5", "with = 1.5"), ["vehicle.width is missing", "did you mean 'width'"]),
-        (lambda t: t.replace("schema = 1", "schema = 0"), ["schema is 0; this release reads 1"]),
+        (lambda t: t.replace("width = 1.5", "with = 1.5"), ["vehicle.with is not known", "'width'"]),
+        (lambda t: t.replace("schema = 1", "schema = 0"), ["schema is 0"]),
         (lambda t: t.replace('name = "my_car"', 'name = "../x"'), ["name is '../x'"]),
         (lambda t: t + "[front\n", ["is no TOML file"]),
     ],
@@ -117,6 +118,17 @@ def test_faults_are_sentences_and_nothing_is_built(
     assert not (tmp_path / "out").exists()
 
 
+def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(car, lambda text: text.replace("damping = 1000.0", "damping = 0.0"))
+    assert build_fmu.main(command(car, tmp_path / "out")) == 0
+    said = capsys.readouterr().err
+    assert f"warning: {car / 'car.toml'}: front.damper.damping is 0 N.s/m: " in said
+    assert ".py" not in said
+    assert "CarWarning" not in said
+
+
 def test_what_is_no_car(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for given in (tmp_path / "nowhere", "protottype", tmp_path):
         assert build_fmu.main(command(given, tmp_path / "out")) == 2
@@ -129,10 +141,10 @@ def test_what_is_no_car(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> N
 def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for error in (ValueError("too heavy."), ZeroDivisionError("division by zero")):
 
-        def model(*arguments: object, error: Exception = error) -> None:
+        def refuse(model: object, error: Exception = error) -> None:
             raise error
 
-        monkeypatch.setattr("mbs.vehicle.Car.model", model)
+        monkeypatch.setattr("fmu_src.car_registry.mbs", SimpleNamespace(compile=refuse))
         with pytest.raises(ValueError, match=f"own/car.toml: the car 'my_car' cannot be built: .*{error}"):
             build_car(str(car))
 

@@ -11,6 +11,7 @@ from typing import Any
 import fmpy
 import numpy as np
 import pytest
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 
 import mbs
@@ -118,6 +119,21 @@ def test_a_road_can_be_put_into_the_resources_without_a_build(car: Path, host: A
     driven.start()
     own = host(car).start()
     assert driven.get("chassis.z") == pytest.approx(own.get("chassis.z") + 2.0, abs=1e-9)
+
+
+def test_a_table_in_the_resources(car: Path, host: Any) -> None:
+    driven, own = host(car), host(car).start()
+    rows = "\n".join(f"{x},1.5,1.5,1.5" for x in range(-20, 80, 20))
+    table = driven.folder / "resources" / "roads" / "mine.csv"
+    table.write_text(f"heights,-5,0,5\n{rows}\nfrictions,-5,0,5\n{rows.replace('1.5', '0.4')}\n")
+    assert text(driven, "mine.csv") == OK
+    driven.start({"initial.speed": 10.0})
+    assert driven.get("chassis.z") == pytest.approx(own.get("chassis.z") + 1.5, abs=1e-9)
+    table.write_text("heights,-5,0,5\n0,1,2\n")
+    other = driven.instance()
+    with pytest.raises(FMICallException):
+        other.setString([driven.references["road.file"]], ["mine.csv"])
+    assert "it has 1 x 3 points" in driven.messages[-1]
 
 
 def test_a_uri_and_letters_of_any_language(car: Path, host: Any, roads: Path) -> None:

@@ -19,9 +19,11 @@ from hypothesis import strategies as st
 from pyssp_standard.ssv import SSV
 from pyssp_standard.standard import ModelicaStandard
 
+import mbs
 from ali3.errors import UserError
 from ali3.parameter_set import UnitDefinition, is_as_built, read_parameter_set, write_parameter_set
 from fmu_src.build import FmuBuilder, build_fmu
+from fmu_src.car_registry import build_car
 from fmu_src.parameter_file import write_beside
 from fmu_src.scene_registry import load_scene
 from hosts import drive, parameters, run
@@ -451,3 +453,30 @@ def test_a_picture_names_what_the_user_has_changed() -> None:
     assert made.title("car") == "car"
     made.add_texts([("count", "4"), ("on", "true"), ("gear", "2")], "--set")
     assert made.title("car") == "car, count 4, on true, 1 more"
+
+
+def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tmp_path: Path) -> None:
+    car = build_car("hatchback")
+    fmu = build_fmu(car.systems, car.name, tmp_path, [PLATFORM])
+    system = car.systems[0]
+    changed = {}
+    for p in system.meta["parameters"]:
+        low, high = max(p["min"], p["value"] - 1.0), min(p["max"], 1.03 * p["value"] + 0.1)
+        changed[p["name"]] = high if high > p["value"] else low
+    assert len(changed) > 30
+    given = [text for n, x in changed.items() for text in ("--set", f"{n}={x!r}")]
+    assert parameters.main([str(fmu), *given, "--out", str(file)]) == 0
+    simulation = mbs.Simulation(system, parameters=changed)
+    for _ in range(50):
+        simulation.step(0.002)
+    with Fmu(fmu) as driven:
+        made = Settings(driven.table)
+        made.add_set(file)
+        assert {s.variable.name for s in made.changes} == set(changed)
+        driven.initialise(made.start)
+        for k in range(50):
+            driven.step(0.002 * k, 0.002)
+        names = [n for n in driven.names("output") if n in simulation.sensors]
+        assert len(names) > 100
+        found = dict(zip(names, driven.getter(names)(), strict=True))
+    assert found == {n: simulation.sensors[n] for n in names}

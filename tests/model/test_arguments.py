@@ -150,6 +150,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "max": 1.0,
         "unit": "N",
         "description": "a force",
+        "whole": False,
     },
     "guide_input": lambda b: {"name": "new", "input": b.pedal, "gain": 1.0, "frequency": 5.0, "unit": "m"},
     "guide_inputs": lambda b: {

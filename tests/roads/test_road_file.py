@@ -13,8 +13,9 @@ import pytest
 import mbs
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.header import ROAD_TILE
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road
-from mbs.roads.road_file import HEADER, TILE
+from mbs.roads.road_file import HEADER
 from mbs.scenes import prototype_car
 
 H = 0.002
@@ -169,7 +170,9 @@ def test_memory_does_not_grow_with_the_road(tmp_path, car):
     head = RoadFile(short).header
     tile = bytearray(short.read_bytes()[HEADER.size :][: head.tile_bytes])
     count = 3125
-    header = type(head)(head.kind, TILE * count, TILE, head.maps, (-16.0, -8.0, 0.5, 0.5, 1.0, 0.0, 0.0, 0.0), 7)
+    header = type(head)(
+        head.kind, ROAD_TILE * count, ROAD_TILE, head.maps, (-16.0, -8.0, 0.5, 0.5, 1.0, 0.0, 0.0, 0.0), 7
+    )
     long = tmp_path / "long.road"
     with long.open("wb") as file:
         file.write(header.to_bytes())
@@ -322,7 +325,7 @@ def test_a_hostile_value_is_refused_even_with_a_right_checksum(tmp_path, car, va
     data = bytearray(path.read_bytes())
     size = RoadFile(path).header.tile_bytes
     first, last = HEADER.size, HEADER.size + size
-    struct.pack_into("<d", data, first + (TILE * TILE * 8 if friction else 0) + 8 * 5, value)
+    struct.pack_into("<d", data, first + (ROAD_TILE * ROAD_TILE * 8 if friction else 0) + 8 * 5, value)
     struct.pack_into("<I", data, last - 4, zlib.crc32(data[first : last - 4]))
     path.write_bytes(bytes(data))
     with pytest.raises(ValueError, match=sentence):

@@ -90,7 +90,7 @@ def test_forces_at_the_ports_carry_the_chassis():
     simulation = at_rest(1)
     names = [row["name"] for row in simulation.system.meta["rows"]]
     lam = simulation.state.lam * simulation.system.arrays["row_scale"]
-    force = {n: lam[[k for k, row in enumerate(names) if row == f"chassis.{n}"]] for n in CAR.tubular_frame.interfaces}
+    force = {n: lam[[k for k, row in enumerate(names) if row == f"chassis.{n}"]] for n in CAR.flexible_frame.interfaces}
     total = np.sum(list(force.values()), axis=0)
     weight = CAR.chassis.mass * GRAVITY
     np.testing.assert_allclose(total, (0.0, 0.0, weight), rtol=0, atol=1e-4)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mbs import Model, Simulation, compile, simulate
 from mbs.input_signals import InputSignals
 
 DECLARED = [
@@ -86,3 +87,58 @@ def test_a_value_outside_the_range_is_refused_with_its_time(value, sentence):
     signals = InputSignals({"steering": lambda t: value if t > 1.0 else 0.0}, DECLARED)
     with pytest.raises(ValueError, match=sentence):
         signals.at(np.array([1.0, 2.0]), TOLERANCE)
+
+
+class TestWholeInputs:
+    """Positions of a lever."""
+
+    declared = ({"name": "lever", "unit": "1", "min": -1.0, "max": 1.0, "whole": True},)
+
+    def signals(self, signal):
+        return InputSignals({"lever": signal}, list(self.declared))
+
+    def test_a_table_keeps_each_value_until_the_next(self):
+        signals = self.signals(([0.0, 1.0, 2.0], [1.0, 0.0, -1.0]))
+        t = np.array([-1.0, 0.0, 0.5, 1.0, 1.5, 2.0, 3.0])
+        assert signals.at(t, TOLERANCE).ravel().tolist() == [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, -1.0]
+        assert signals.at(t, TOLERANCE, after_jump=True).ravel().tolist() == [1.0, 1.0, 1.0, 0.0, 0.0, -1.0, -1.0]
+
+    @pytest.mark.parametrize("signal", [0.5, ([0.0, 2.0], [0.0, 0.5]), lambda t: 0.5])
+    def test_what_is_not_whole_is_refused(self, signal):
+        with pytest.raises(ValueError, match=r"'lever' is 0.5 at t = 2 s; it must be a whole number"):
+            self.signals(signal).at(np.array([2.0]), TOLERANCE)
+
+    def test_the_range_is_named_first(self):
+        with pytest.raises(ValueError, match="'lever' is 1.5 at t = 2 s; it must lie between -1 and 1"):
+            self.signals(1.5).at(np.array([2.0]), TOLERANCE)
+
+    @pytest.mark.parametrize(
+        ("given", "sentence"),
+        [
+            ({"start": 0.5}, "start of input 'lever' is 0.5; a whole-number input needs whole numbers"),
+            ({"max": 2.5}, "max of input 'lever' is 2.5"),
+            ({"max": 1e10}, "max of input 'lever' is 1e"),
+            ({"unit": "m"}, "is a whole number in 'm'; whole numbers have the unit '1'"),
+            ({"whole": 1}, "whole of input 'lever'"),
+        ],
+    )
+    def test_a_model_refuses_what_an_integer_cannot_say(self, given, sentence):
+        m = Model("levers")
+        with pytest.raises(ValueError, match=sentence):
+            m.input("lever", **({"whole": True} | given))
+        assert m.inputs == []
+
+    def test_a_run_and_a_step_refuse_half_positions(self):
+        m = Model("levers", dimension=2)
+        bob = m.point_mass("bob", mass=1.0, position=(0.0, 0.0))
+        lever = m.input("lever", whole=True, min=-1.0, max=1.0)
+        m.force("push", bob, inputs=[lever, None])
+        m.sense_position("x", bob, component="x")
+        system = compile(m)
+        with pytest.raises(ValueError, match=r"'lever' is 0.5 at t = .*must be a whole number"):
+            simulate(system, 1.0, 0.01, inputs={"lever": lambda t: 0.5 if t > 0.5 else 0.0})
+        with pytest.raises(ValueError, match="must be a whole number"):
+            Simulation(system).set_input("lever", 0.25)
+        table = simulate(system, 2.0, 0.01, inputs={"lever": ([0.0, 1.0], [0.0, 1.0])})
+        assert table["x"][100] == 0.0  # the table is a stair
+        assert table["x"][-1] == pytest.approx(0.5, rel=0.02)

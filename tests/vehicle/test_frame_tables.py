@@ -9,38 +9,38 @@ import pytest
 from mbs.vehicle import CarFileError, load
 from tests.vehicle.content import sentences
 
+JOINT, TUBE, MASS = "F2L,0.45,0.28,0.4,", "F1L,LFL,M,2", "powertrain,EML,32"
 CASES = {  # table, what is replaced by what, words of the sentence
-    "missing file": ("joints.csv", None, None, "chassis.frame.joints is 'joints.csv'; there is no such file in"),
-    "missing column": ("joints.csv", "joint,x,y,z,place", "joint,x,y,height,place", "has no column 'z'; it must have"),
-    "text for a number": ("joints.csv", "F2L,0.45,0.28,0.4,", "F2L,0.45,wide,0.4,", "has 'wide' for y; it must be a"),
-    "no number": ("joints.csv", "F2L,0.45,0.28,0.4,", "F2L,0.45,nan,0.4,", "has 'nan' for y; it must be a number"),
-    "underscores": ("joints.csv", "F2L,0.45,0.28,0.4,", "F2L,0.45,0_28,0.4,", "has '0_28' for y; it must be a number"),
-    "in mm": ("joints.csv", "F2L,0.45,0.28,0.4,", "F2L,450,280,400,", "it must be within 9 m: is the unit m?"),
-    "the right side": ("joints.csv", "F2L,0.45,0.28", "F2R,0.45,-0.28", "joint 'F2R' is on the right; the table gives"),
-    "a name without side": ("joints.csv", "F2L,", "F2,", "joint 'F2' must end in L (left, mirrored) or c"),
-    "a name of the side alone": ("joints.csv", "F2L,", "L,", "joint 'L' must end in L"),
-    "left on the right": ("joints.csv", "F2L,0.45,0.28", "F2L,0.45,-0.28", "has y = -0.28 m; it must have y > 0"),
-    "a joint twice": ("joints.csv", "F2L,", "F1L,", "joint 'F1L' is there twice"),
-    "an interface elsewhere": ("joints.csv", "UFL,0.13,", "UFL,0.18,", "no point of a suspension is there"),
-    "too many fields": ("joints.csv", "F2L,0.45,", "F2L,0.45,0.45,", "has 6 fields; the first line has 5"),
-    "unknown joint": ("tubes.csv", "F1L,LFL,M,2", "F1L,XXL,M,2", "joints.csv has no joint 'XXL'"),
-    "unknown section": ("tubes.csv", "F1L,LFL,M,2", "F1L,LFL,Q,2", "has the section 'Q'; chassis.frame.sections has M"),
-    "no elements": ("tubes.csv", "F1L,LFL,M,2", "F1L,LFL,M,0", "has 0 elements; it must be a whole number from 1"),
-    "half an element": ("tubes.csv", "F1L,LFL,M,2", "F1L,LFL,M,1.5", "has 1.5 elements; it must be a whole number"),
-    "a tube twice": ("tubes.csv", "F2L,UFL,S,2", "F1L,LFL,S,2", "tube 'F1L' to 'LFL' is there twice"),
-    "a tube of both halves": ("tubes.csv", "F2L,UFL,S,2", "F1R,LFR,S,2", "is there twice; the left side is mirrored"),
-    "a tube of no length": ("tubes.csv", "F1L,LFL,M,2", "F1L,F1L,M,2", "has no length"),
-    "a tube of a gauge": ("tubes.csv", "LRL,D1L,M", "D1L,LRL,M", "has no tube from 'LRL' to 'D1L'"),
-    "mass on no joint": ("masses.csv", "powertrain,EML,32", "powertrain,EMX,32", "joints.csv has no joint 'EMX'"),
-    "mass in g": ("masses.csv", "powertrain,EML,32", "powertrain,EML,32000", "carries 32000 kg"),
-    "mass in t": (
-        "masses.csv",
-        "powertrain,EML,32",
-        "powertrain,EML,0.032",
-        "chassis.mass is 476 kg, but the tubes of",
+    "missing file": ("joints.csv", "", "", "chassis.frame.joints is 'joints.csv'; there is no such file in"),
+    "missing column": ("joints.csv", "joint,x,y,z,", "joint,x,y,height,", "(joints.csv) has no column z"),
+    "text for a number": ("joints.csv", JOINT, "F2L,0.45,wide,0.4,", "y is 'wide'; it must be a number"),
+    "no number": ("joints.csv", JOINT, "F2L,0.45,nan,0.4,", "y is 'nan'; it must be a number"),
+    "underscores": ("joints.csv", JOINT, "F2L,0.45,0_28,0.4,", "y is '0_28'; it must be a number"),
+    "in mm": ("joints.csv", JOINT, "F2L,450,280,400,", "x is '450'; it must be a number between -9 and 9 m"),
+    "the right side": (
+        "joints.csv",
+        "F2L,0.45,0.28",
+        "F2R,0.45,-0.28",
+        "joint is 'F2R'; its name must end in L (left)",
     ),
-    "loads of another joint": ("loads.csv", "LFL,x,", "LFX,x,", "has row 1 for 'LFX' x; the order of"),
-    "no CSV": ("tubes.csv", "F1L,LFL,M,2", 'F1L,"LFL,M,2', "tubes.csv"),
+    "a name without side": ("joints.csv", "F2L,", "F2,", "joint is 'F2'; its name must end in L"),
+    "left on the right": ("joints.csv", "F2L,0.45,0.28", "F2L,0.45,-0.28", "y must be positive on the left"),
+    "a joint twice": ("joints.csv", "F2L,", "F1L,", "joint F1L is there twice"),
+    "an interface elsewhere": ("joints.csv", "UFL,0.13,", "UFL,0.18,", "the frame has no joint; the nearest is UFL"),
+    "too many fields": ("joints.csv", "F2L,0.45,", "F2L,0.45,0.45,", "line 6: 6 cells; there are 5 titles"),
+    "unknown joint": ("tubes.csv", TUBE, "F1L,XXL,M,2", "joint 'XXL' is not in chassis.frame.joints"),
+    "unknown section": ("tubes.csv", TUBE, "F1L,LFL,Q,2", "section 'Q' is not in chassis.frame.sections"),
+    "no elements": ("tubes.csv", TUBE, "F1L,LFL,M,0", "elements is '0'; it must be a whole number"),
+    "half an element": ("tubes.csv", TUBE, "F1L,LFL,M,1.5", "elements is '1.5'; it must be a whole number"),
+    "a tube twice": ("tubes.csv", "F2L,UFL,S,2", "F1L,LFL,S,2", "the tube from F1L to LFL is there twice"),
+    "a tube of both halves": ("tubes.csv", "F2L,UFL,S,2", "F1R,LFR,S,2", "the tube from F1R to LFR is there twice"),
+    "a tube of no length": ("tubes.csv", TUBE, "F1L,F1L,M,2", "has one joint at both ends"),
+    "a tube of a gauge": ("tubes.csv", "LRL,D1L,M", "D1L,LRL,M", "the tube runs from D1L to LRL"),
+    "mass on no joint": ("masses.csv", MASS, "powertrain,EMX,32", "joint 'EMX' is not in chassis.frame.joints"),
+    "mass in g": ("masses.csv", MASS, "powertrain,EML,32000", "mass is '32000'; it must be a number"),
+    "mass in t": ("masses.csv", MASS, "powertrain,EML,0.032", "the frame with the masses it carries has 412"),
+    "loads of another joint": ("loads.csv", "LFL,x,", "LFX,x,", "line 5: LFX x is no axis of a joint of the suspension"),
+    "no CSV": ("tubes.csv", TUBE, 'F1L,"LFL,M,2', "tubes.csv"),
 }
 
 
@@ -49,7 +49,7 @@ def test_a_table_that_is_wrong(case, copied):
     table, before, after, words = CASES[case]
     file = copied()
     path = file.parent / table
-    if before is None:
+    if not before:
         path.unlink()
     else:
         text = path.read_text(encoding="utf-8")
@@ -63,7 +63,7 @@ def test_a_table_that_is_wrong(case, copied):
 
 @pytest.mark.parametrize(
     ("content", "words"),
-    [(b"\xff\xfe", "is no text in UTF-8"), (b"", "has no column 'joint'"), (b"joint,x,y,z\n", "has no joints")],
+    [(b"\xff\xfe", "is no text in UTF-8"), (b"", "has no lines"), (b"joint,x,y,z\n", "has no lines under its titles")],
 )
 def test_a_table_that_is_none(content, words, copied):
     file = copied()
@@ -93,14 +93,12 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"chassis.frame.reference": "XXc"}, "chassis.frame.reference is 'XXc'; joints.csv has no such joint."),
-        ({"chassis.reference": [-1.0, 0.0, 0.16]}, "joint 'S1c' of chassis.frame.reference is at"),
-        ({"chassis.frame.interfaces.0": "ZZ"}, "chassis.frame.interfaces has 'ZZ'; joints.csv has no joint 'ZZL'."),
-        ({"chassis.frame.drive_mounts.0": "F1"}, "it must be one of chassis.frame.interfaces."),
-        ({"chassis.frame.gauges.SG1.tube": ["A", "B"]}, "tubes.csv has no tube from 'A' to 'B'."),
-        ({"chassis.frame.sections.M.wall": 0.03}, "a tube of 0.04 m diameter has a wall of 0.02 m at most."),
+        ({"chassis.frame.reference": "XXc"}, "chassis.frame.reference names 'XXc'; the frame has no such joint."),
+        ({"chassis.reference": [-1.0, 0.0, 0.16]}, "where the frame has no joint; the nearest is S1c, 0.1 m away."),
+        ({"chassis.frame.gauges.SG1.tube": ["A", "B"]}, "which is no tube of the frame: no tube ends at A."),
+        ({"chassis.frame.sections.M.wall": 0.03}, "a tube of 0.04 m has at most half of that."),
         ({"chassis.frame.gauges.SG1.place": 1.5}, "it must be 0 or between 0.002 and 1."),
-        ({"chassis.mass": 400.0, "vehicle.mass": 521.0}, "chassis.mass is 400 kg, but the tubes of tubes.csv have"),
+        ({"chassis.mass": 400.0, "vehicle.mass": 521.0}, "but the frame with the masses it carries has 476 kg."),
     ],
 )
 def test_a_frame_that_names_what_is_not_there(changes, words):

@@ -82,4 +82,3 @@ def test_friction_is_what_the_hands_need_besides():
     difference = rough["steering_wheel_torque"] - smooth["steering_wheel_torque"]
     np.testing.assert_allclose(difference[50:], 0.8, rtol=0, atol=1e-3)
     np.testing.assert_allclose(rough["steering_rack_force"], smooth["steering_rack_force"], rtol=0, atol=1e-2)
-    assert [p.name for p in rubbing.model().parameters if p.name == "steering.friction"]

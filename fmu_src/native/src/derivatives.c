@@ -13,6 +13,9 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
     if (reference[i] >= t->n_variables || t->variable[reference[i]].source != SLAVE_INPUT)
       return slave_say(s, SLAVE_ERROR, "Value reference %u is no input; only inputs have derivatives to set.",
                        (unsigned)reference[i]);
+    if (t->variable[reference[i]].whole)
+      return slave_say(s, SLAVE_ERROR, "A derivative of '%s' was set; it is a whole number and has none.",
+                       t->variable[reference[i]].name);
     if (order[i] < 1 || order[i] > SLAVE_MOST_ORDERS)
       return slave_say(s, SLAVE_ERROR, "A derivative of order %d of '%s' was set; orders 1 to %d can be.",
                        (int)order[i], t->variable[reference[i]].name, SLAVE_MOST_ORDERS);
@@ -108,6 +111,9 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
     const bool none = known[i] >= t->n_known || t->variable[known[i]].source == SLAVE_STEP_SIZE ||
                       t->variable[known[i]].source == SLAVE_FIDELITY;
     if (none) return slave_say(s, SLAVE_ERROR, "There are no derivatives by value reference %u.", (unsigned)known[i]);
+    if (t->variable[known[i]].whole)
+      return slave_say(s, SLAVE_ERROR, "There are no derivatives by '%s'; it is a whole number.",
+                       t->variable[known[i]].name);
     if (!(fabs(seed[i]) < HUGE_VAL))
       return slave_say(s, SLAVE_ERROR, "The seed of '%s' is %g; a finite number is needed.", t->variable[known[i]].name,
                        seed[i]);

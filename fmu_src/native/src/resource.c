@@ -1,16 +1,14 @@
 /* The folder of the resources: from a URI to a path, and a file in it. */
-#if defined(_WIN32)
-#include <windows.h>
-#else
-#define _POSIX_C_SOURCE 200809L
-#include <sys/stat.h>
-#endif
 #include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
 
 enum { MOST_BYTES = 1 << 30 };
+
+/* Of the kernel: regular files by a path in UTF-8. */
+FILE *ali3_file_open(const char *path, int64_t *size, const char **why);
+int ali3_file_read(FILE *file, int64_t from, void *to, size_t size);
 
 static int hex(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -56,35 +54,20 @@ bool slave_path_of_uri(const char *uri, char *path, size_t size) {
   return true;
 }
 
-/* Paths are UTF-8. */
-static FILE *open_file(const char *path) {
-#if defined(_WIN32)
-  wchar_t wide[SLAVE_PATH];
-  if (MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, SLAVE_PATH) <= 0) return NULL;
-  return _wfopen(wide, L"rb");
-#else
-  struct stat kind; /* a named pipe would wait for its writer */
-  if (stat(path, &kind) != 0 || !S_ISREG(kind.st_mode)) return NULL;
-  return fopen(path, "rb");
-#endif
-}
-
 unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size) {
   char path[SLAVE_PATH + 64];
+  const char *why;
+  int64_t length = 0;
   snprintf(path, sizeof path, "%s/%s", folder, name);
-  FILE *file = open_file(path);
+  FILE *file = ali3_file_open(path, &length, &why);
   if (file == NULL) return NULL;
   unsigned char *bytes = NULL;
-  long length = -1;
-  if (fseek(file, 0, SEEK_END) == 0) length = ftell(file);
-  if (length > 0 && length < MOST_BYTES && fseek(file, 0, SEEK_SET) == 0) {
-    *size = (size_t)length;
-    bytes = memory->allocate(1, *size);
-    if (bytes != NULL && fread(bytes, 1, *size, file) != *size) {
-      memory->release(bytes);
-      bytes = NULL;
-    }
+  if (length > 0 && length < MOST_BYTES) bytes = memory->allocate(1, (size_t)length);
+  if (bytes != NULL && !ali3_file_read(file, 0, bytes, (size_t)length)) {
+    memory->release(bytes);
+    bytes = NULL;
   }
+  *size = (size_t)length;
   fclose(file);
   return bytes;
 }

@@ -65,6 +65,7 @@ enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_GUIDE,
        ALI3_TARGET_ROAD,
        ALI3_TARGET_PAYLOAD,
+       ALI3_TARGET_SWITCH,
        ALI3_TARGET_COUNT
 };
 

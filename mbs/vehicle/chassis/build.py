@@ -37,8 +37,7 @@ def build_chassis(m: Model, data: Chassis, flexible: FlexibleFrame | None, fidel
         return Mount(rigid, rigid, rigid, origin, axes, frame)
     if fidelity is Fidelity.QUASI_STATIC:
         rigid = _rigid(m, data)
-        model = flexible.model
-        ports = m.ported(rigid, {name: model.positions[model.node(name)] for name in flexible.interfaces})
+        ports = m.ported(rigid, {name: flexible.place(name) for name in flexible.interfaces})
         return Mount(ports, rigid, rigid, origin, _drive_axes(ports, flexible), _mean_frame(ports, flexible))
     body = m.flexible_body("chassis", flexible.reduced(fidelity))
     return Mount(body, body.frame, body, origin, _drive_axes(body, flexible), _mean_frame(body, flexible))
@@ -53,16 +52,16 @@ def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, Affi
 
     At the origin of the floating frame, a node without rotary inertia of its own, it would shake the frame.
     """
-    places = flexible.tubular.joint_places()
-    mounts = flexible.section.drive_mounts
-    front, rear, top = ([body.point(places[f"{joint}{side}"]) for side in "LR"] for joint in mounts)
-    p_front, p_rear, p_top = (places[f"{joint}L"] for joint in mounts)
+    front, rear, top = ([body.point(flexible.place(joint)) for joint in pair] for pair in flexible.joints.drive)
+    p_front, p_rear, p_top = (flexible.place(pair[0]) for pair in flexible.joints.drive)
     length = float(p_front[0] - p_rear[0])
     share = float(p_top[0] - p_rear[0]) / length  # of the front joints in the place under the top ones
     x = (front[0] + front[1] - rear[0] - rear[1]) * (0.5 / length)
     below = (front[0] + front[1]) * (0.5 * share) + (rear[0] + rear[1]) * (0.5 * (1.0 - share))
-    height = float(p_top[2] - p_front[2])
-    return ((top[0] + top[1]) * 0.5 - below) * (1.0 / height), x
+    slope = float(p_front[2] - p_rear[2])
+    height = float(p_top[2] - p_front[2]) + (1.0 - share) * slope
+    z = ((top[0] + top[1]) * 0.5 - below) * (1.0 / height)
+    return z, x - z * (slope / length) if slope else x
 
 
 def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list[AffineVector], np.ndarray]:
@@ -71,8 +70,7 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
     What acts on them loads the frame as forces at these joints. At the floating frame itself, one node, it would bend
     the floor; a quasi-static chassis would miss it.
     """
-    places = flexible.tubular.joint_places()
-    named = [places[f"{joint}{side}"] for joint in flexible.section.ground_mounts for side in "LR"]
+    named = [flexible.place(joint) for pair in flexible.joints.ground for joint in pair]
     origin = np.mean(named, axis=0)
     rigid = np.vstack([np.array(named).T, np.ones(len(named))])
 
@@ -100,12 +98,8 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
         Of the chassis.
     """
     note = "; zero where stress.computed is 0"
-    names = list(flexible.section.gauges)
-    outputs = [
-        (f"bending_moment.{g}", "N.m", f"bending moment at gauge {g}, positive: upper fibre pulled") for g in names
-    ]
-    outputs += [(f"stress.{g}", "Pa", f"half-bridge {g}, upper minus lower fibre") for g in names]
-    for k, (name, unit, text) in enumerate(outputs):
+    for k, reading in enumerate(flexible.structure.readings):
+        name, unit, text = reading.name, reading.unit, reading.description
         if fidelity is Fidelity.RIGID:
             m.sense_constant(name, 0.0, unit, text + note)
         elif isinstance(mount.body, PortedBody):

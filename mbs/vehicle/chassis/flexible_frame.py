@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
+from mbs.errors import ModelError
 from mbs.flexible import (
     FiniteElementModel,
     InertiaRelief,
     RayleighDamping,
     ReducedBody,
     craig_bampton,
-    gauge_rows,
     inertia_relief,
     load_path_modes,
 )
 from mbs.flexible.load_path_modes import load_path_deformations
-from mbs.vehicle.chassis.tubular_frame import TubularFrame
+from mbs.vehicle.chassis.frame_joints import FrameJoints
+from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.table import read_table
 
 MANY_MODES = 40
 LOAD_PATH_TOLERANCE = 5e-3
 """Load paths whose deformation has less than this part of the largest, in the energy norm, are left out."""
+MOST_FORCE = 1e6  # N
 
 
 class FlexibleFrame:
@@ -30,34 +35,47 @@ class FlexibleFrame:
 
     Parameters
     ----------
-    tubular : TubularFrame
-        Its tables.
+    section : FrameSection
+        Of the file.
+    folder : Path
+        Of the file and its tables.
+    structure : Structure
+        Its finite elements and gauges.
+    joints : FrameJoints
+        What the car is fixed to.
+
+    Attributes
+    ----------
+    interfaces : tuple of str
+        Joints of the suspension.
+    stiff_pairs : tuple of tuple of str
+        Pairs of them that a wishbone keeps apart: no load stretches the frame between them.
+    model : FiniteElementModel
+        Its interfaces at the hard points.
     """
 
-    def __init__(self, tubular: TubularFrame) -> None:
-        self.tubular = tubular
-        self.section = tubular.section
-        self.interfaces = tubular.interfaces
-        self.damping = RayleighDamping.fitted(self.section.damping.ratio, *self.section.damping.frequencies)
-        # wishbones hold the distance of their two pivots: no load stretches the frame between them
-        self.stiff_pairs = tuple((f"{a}{s}", f"{b}{s}") for a, b in self.section.rigid_pairs for s in "LR")
+    def __init__(self, section: FrameSection, folder: Path, structure: Structure, joints: FrameJoints) -> None:
+        self.section, self.folder, self.structure, self.joints = section, folder, structure, joints
+        self.interfaces, self.stiff_pairs, self.reference = tuple(joints.interfaces), joints.held, joints.reference
+        self.damping = RayleighDamping.fitted(section.damping.ratio, *section.damping.frequencies)
+        self.model = _at_hard_points(structure.model, joints)
         self._reduced: dict[Fidelity, ReducedBody] = {}
 
     @cached_property
-    def _finite_elements(self) -> tuple[FiniteElementModel, np.ndarray]:
-        """Model, and rows of the moments at the gauges, then of the half-bridges."""
-        frame, tubes = self.tubular.frame()
-        return frame.finite_element_model(), np.vstack(gauge_rows(frame, self.tubular.strain_gauges(tubes)))
-
-    @property
-    def model(self) -> FiniteElementModel:
-        """The finite-element model."""
-        return self._finite_elements[0]
-
-    @property
     def gauge_rows(self) -> np.ndarray:
-        """From nodal displacements to the moments at the gauges, N m, then the half-bridges, Pa."""
-        return self._finite_elements[1]
+        """From nodal displacements to the readings of the gauges, in the order of the outputs."""
+        rows = [reading.row for reading in self.structure.readings]
+        return np.array(rows).reshape(len(rows), self.model.n_dof)
+
+    def place(self, joint: str) -> np.ndarray:
+        """Place of a joint, m.
+
+        Parameters
+        ----------
+        joint : str
+            Its name.
+        """
+        return np.asarray(self.model.positions[self.model.node(joint)])
 
     def reduced(self, fidelity: Fidelity | int | str) -> ReducedBody:
         """The frame with the modes of a flexible fidelity.
@@ -75,14 +93,14 @@ class FlexibleFrame:
     def _reduce(self, fidelity: Fidelity) -> ReducedBody:
         s, model = self.section, self.model
         if fidelity is Fidelity.PAPER:
-            return craig_bampton(model, s.reference, self.interfaces, s.dynamic_modes, damping=self.damping)
+            return craig_bampton(model, self.reference, self.interfaces, s.dynamic_modes, damping=self.damping)
         count = {Fidelity.LOAD_PATHS: 0, Fidelity.DYNAMIC: s.dynamic_modes, Fidelity.MANY_MODES: MANY_MODES}[fidelity]
-        body = craig_bampton(model, s.reference, self.interfaces, count, inertia_modes=True, damping=self.damping)
+        body = craig_bampton(model, self.reference, self.interfaces, count, inertia_modes=True, damping=self.damping)
         if fidelity is not Fidelity.LOAD_PATHS:
             return body
         # without the stretch between the pivots of a wishbone the frame could not follow its fixed length, and without
         # all directions at the origin a guide, which pushes a pitched car upwards too, would bend it wrongly
-        loads, pairs = self.tubular.recorded_loads(), self._relief_with_stretch[1]
+        loads, pairs = self.recorded_loads(), self._relief_with_stretch[1]
         every = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
         guided = np.zeros((6, every.shape[1]))
         guided[:3, -3:] = np.eye(3)
@@ -91,6 +109,36 @@ class FlexibleFrame:
         scale = np.ones(every.shape[1])
         scale[loads.shape[1] :] = size[: loads.shape[1]].max() / size[loads.shape[1] :]
         return load_path_modes(body, every * scale, LOAD_PATH_TOLERANCE, guided * scale)
+
+    def recorded_loads(self) -> np.ndarray:
+        """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.
+
+        Raises
+        ------
+        ModelError
+            There is no table of them, or it is not one of these interfaces.
+        """
+        if self.section.loads is None:
+            raise ModelError(
+                f"{self.section.key('loads')} is missing: fidelity {Fidelity.LOAD_PATHS.value} needs a table of the "
+                "forces on the frame in driving (python -m benchmarks.load_paths --car writes one)."
+            )
+        key = self.section.key("loads")
+        rows = read_table(self.folder, self.section.loads, key, ("interface", "axis", "load_1"))
+        columns = [title for title in rows[0].cells if title not in ("interface", "axis")]
+        found = {}
+        for row in rows:
+            if row["interface"] not in self.interfaces or row["axis"] not in ("x", "y", "z"):
+                known = ", ".join(self.interfaces)
+                what = f"{row['interface']} {row['axis']}"
+                raise ModelError(f"{row.where}: {what} is no axis of a joint of the suspension; these are {known}.")
+            values = [row.number(column, -MOST_FORCE, MOST_FORCE, "N") for column in columns]
+            found[row["interface"], row["axis"]] = values
+        for name in self.interfaces:
+            for axis in "xyz":
+                if (name, axis) not in found:
+                    raise ModelError(f"{key} ({self.section.loads}) has no line of joint {name}, axis {axis}.")
+        return np.array([found[name, axis] for name in self.interfaces for axis in "xyz"])
 
     def settled_loads(self, forces: np.ndarray) -> np.ndarray:
         """Interface forces with the wishbones' axial forces that keep their pivots apart.
@@ -111,14 +159,14 @@ class FlexibleFrame:
         forces : ndarray, shape (3 n_interfaces, n)
             N.
         """
-        body = craig_bampton(self.model, self.section.reference, self.interfaces, 0, inertia_modes=True)
+        body = craig_bampton(self.model, self.reference, self.interfaces, 0, inertia_modes=True)
         deformation = load_path_deformations(body, forces)
         return np.asarray(deformation.T @ body.K @ deformation)
 
     @cached_property
     def _relief_with_stretch(self) -> tuple[InertiaRelief, np.ndarray, int]:
         """From loads to the gauges and to the stretch between pivots; forces per axial force; number of gauge rows."""
-        model, outputs = self._finite_elements
+        model, outputs = self.model, self.gauge_rows
         stretch = np.zeros((len(self.stiff_pairs), model.n_dof))
         pairs = np.zeros((3 * len(self.interfaces), len(self.stiff_pairs)))
         for k, pair in enumerate(self.stiff_pairs):
@@ -129,7 +177,7 @@ class FlexibleFrame:
                 stretch[k, model.freedoms(node)[:3]] = sign * along
                 start = 3 * self.interfaces.index(name)
                 pairs[start : start + 3, k] = sign * along
-        relief = inertia_relief(model, self.section.reference, self.interfaces, np.vstack([outputs, stretch]))
+        relief = inertia_relief(model, self.reference, self.interfaces, np.vstack([outputs, stretch]))
         return relief, pairs, len(outputs)
 
     @cached_property
@@ -149,3 +197,11 @@ class FlexibleFrame:
             mixed(relief.balanced),
             relief.acceleration_of_forces,
         )
+
+
+def _at_hard_points(model: FiniteElementModel, joints: FrameJoints) -> FiniteElementModel:
+    """The model with joints where the car's file has them, to the last digit: files of matrices print fewer."""
+    positions = model.positions.copy()
+    for name, place in (*joints.accelerometers.items(), *joints.interfaces.items()):
+        positions[model.node(name)] = place
+    return replace(model, positions=positions)

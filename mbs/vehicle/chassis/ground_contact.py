@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from mbs.elements.contact_points import ContactPoints
+from mbs.errors import ModelError
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.section import GroundContact
 from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.side import Point
 
 NAME = "ground contact"
 
@@ -31,7 +33,8 @@ def ground_contact(b: CarBuilder, data: GroundContact) -> None:
         radius=data.radius,
         gravity=GRAVITY,
     )
-    points = np.array([(x, sign * y, z) for x, y, z in data.points for sign in ((1.0, -1.0) if y else (1.0,))])
+    left = [_place(b, data, point) for point in data.points]
+    points = np.array([(x, sign * y, z) for x, y, z in left for sign in ((1.0, -1.0) if y else (1.0,))])
     origin, axes, place = b.chassis.contact_frame
     m.add(contact.record(NAME, origin, axes, points - place, b.road))
     force = m.sense_element(
@@ -47,3 +50,13 @@ def ground_contact(b: CarBuilder, data: GroundContact) -> None:
         "touching",
         description="number of points of the chassis that touch the ground",
     )
+
+
+def _place(b: CarBuilder, data: GroundContact, point: Point | str) -> Point:
+    if not isinstance(point, str):
+        return point
+    joints = b.car.flexible_frame.structure.joints
+    if point not in joints:
+        raise ModelError(f"{data.key('points')} names {point!r}; the frame has no such joint.")
+    x, y, z = (float(v) for v in joints[point])
+    return x, y, z

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from pydantic import Field
+from typing import Annotated
 
-from mbs.vehicle.chassis.frame_section import FrameSection
+from pydantic import Discriminator, Field, Tag
+
+from mbs.vehicle.chassis.frames import Frame
 from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import (
     Coefficient,
@@ -18,12 +20,17 @@ from mbs.vehicle.quantities import (
 )
 from mbs.vehicle.section import Section
 
+ContactPoint = Annotated[
+    Annotated[str, Tag("joint")] | Annotated[Point, Tag("point")],
+    Discriminator(lambda value: "joint" if isinstance(value, str) else "point"),
+]
+
 
 class GroundContact(Section):
     """Points of the chassis that may touch the ground; without this table it passes through."""
 
-    points: tuple[Point, ...]
-    """Points of the left half, each with its image on the right."""
+    points: tuple[ContactPoint, ...]
+    """Points of the left half, each with its image on the right: coordinates, or the name of a joint of the frame."""
     radius: Thickness
     """Radius of the tubes or edges at the points."""
     depth: SmallLength
@@ -49,7 +56,7 @@ class Chassis(Section):
     """Point that carries a floating frame."""
     accelerometers: dict[Name, Point] = Field(default_factory=dict)
     """Accelerometers by name."""
-    frame: FrameSection | None = None
+    frame: Frame | None = None
     """Flexible frame; without it the chassis is rigid and has no stresses."""
     ground_contact: GroundContact | None = None
     """Where the chassis may touch the ground."""

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-import csv
+from collections.abc import Container
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mbs.errors import ModelError
 from mbs.flexible import Beam, Frame, Material, Section, StrainGauge, tube
-from mbs.vehicle.chassis.frame_section import FrameSection
+from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
+from mbs.vehicle.table import Row, read_table
+
+if TYPE_CHECKING:
+    from mbs.vehicle.chassis.frames.tubes import TubesFrame
+
+IMAGE = {"L": "R", "R": "L", "c": "c"}
+REACH, MOST_ELEMENTS, MOST_MASS = 9.0, 50, 2000.0  # m, of a tube, kg
 
 
 @dataclass(frozen=True)
@@ -29,19 +38,14 @@ class TubularFrame:
 
     Attributes
     ----------
-    section : FrameSection
+    section : TubesFrame
         As in the car's file.
     folder : Path
         Of the tables.
     """
 
-    section: FrameSection
+    section: TubesFrame
     folder: Path
-
-    @property
-    def interfaces(self) -> tuple[str, ...]:
-        """Joints of the suspension on both sides."""
-        return tuple(f"{joint}{side}" for joint in self.section.interfaces for side in "LR")
 
     @property
     def material(self) -> Material:
@@ -51,7 +55,14 @@ class TubularFrame:
     @property
     def tube_sections(self) -> dict[str, Section]:
         """Tubes by the names of the table."""
-        return {name: tube(s.diameter, s.wall) for name, s in self.section.sections.items()}
+        sections = {}
+        for name, s in self.section.sections.items():
+            if 2.0 * s.wall > s.diameter:
+                raise ModelError(
+                    f"{s.key('wall')} is {s.wall:g} m; a tube of {s.diameter:g} m has at most half of that."
+                )
+            sections[name] = tube(s.diameter, s.wall)
+        return sections
 
     def frame(
         self, theory: str = "euler_bernoulli", refinement: int = 1, carried_masses: bool = True
@@ -69,13 +80,18 @@ class TubularFrame:
             Multiplies the number of elements of every tube.
         carried_masses : bool
             Without them the frame is bare tubes.
+
+        Raises
+        ------
+        ModelError
+            A table is missing or does not describe a frame.
         """
         material, sections = self.material, self.tube_sections
         joints = self.joint_places()
         names, positions = list(joints), list(joints.values())
         beams: list[Beam] = []
         tubes: list[FrameTube] = []
-        for start, end, section, count in self._tubes():
+        for start, end, section, count in self._tubes(joints):
             divisions = count * refinement
             first = len(names)
             inner = range(1, divisions)
@@ -84,60 +100,106 @@ class TubularFrame:
             chain = [names.index(start), *range(first, first + len(inner)), names.index(end)]
             tubes.append(FrameTube(start, end, section, range(len(beams), len(beams) + divisions)))
             beams += [Beam(i, j, sections[section], material) for i, j in pairwise(chain)]
-        masses = self._masses() if carried_masses else {}
+        masses = self._masses(joints) if carried_masses else {}
         return Frame(np.array(positions), beams, masses, names, theory), tuple(tubes)
 
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
-        """The half-bridges on the elements of a frame of any refinement.
+        """The gauges on the elements of a frame of any refinement.
 
         Parameters
         ----------
         tubes : tuple of FrameTube
             From `frame`.
+
+        Raises
+        ------
+        ModelError
+            A gauge is on no tube, or its fibre is named by a direction in which the tube runs.
         """
-        gauges = []
+        joints, gauges = self.joint_places(), []
         for name, gauge in self.section.gauges.items():
-            (found,) = (t for t in tubes if (t.start, t.end) == gauge.tube)
-            along = gauge.place * len(found.elements)
-            number = min(int(along), len(found.elements) - 1)
-            gauges.append(StrainGauge(name, found.elements[number], along - number))
+            found = _tube_of(gauge, tubes)
+            ends = joints[found.start], joints[found.end]
+            radius = 0.5 * self.section.sections[found.section].diameter
+            gauges.append(gauge.strain_gauge(name, ends, radius, found.elements))
         return tuple(gauges)
 
     def joint_places(self) -> dict[str, np.ndarray]:
         """Joints by name with their images, m."""
-        joints = {}
-        for row in self._rows(self.section.joints):
-            place = np.array([float(row[axis]) for axis in "xyz"])
-            joints[row["joint"]] = place
-            joints.setdefault(_mirrored(row["joint"]), place * [1.0, -1.0, 1.0])
+        joints: dict[str, np.ndarray] = {}
+        seen: set[str] = set()
+        for row in read_table(self.folder, self.section.joints, self.section.key("joints"), ("joint", "x", "y", "z")):
+            name = row["joint"]
+            place = np.array([row.number(axis, -REACH, REACH, "m") for axis in "xyz"])
+            _check_joint(row, name, float(place[1]), seen)
+            joints[name] = place
+            joints.setdefault(mirrored(name), place * [1.0, -1.0, 1.0])
         return joints
 
-    def recorded_loads(self) -> np.ndarray:
-        """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N."""
-        rows = self._rows(self.section.loads)
-        return np.array([[float(v) for v in list(row.values())[2:]] for row in rows])
-
-    def _tubes(self) -> list[tuple[str, str, str, int]]:
-        tubes = []
-        for row in self._rows(self.section.tubes):
+    def _tubes(self, joints: dict[str, np.ndarray]) -> list[tuple[str, str, str, int]]:
+        tubes: list[tuple[str, str, str, int]] = []
+        key, sections = self.section.key("tubes"), self.section.sections
+        ends: set[frozenset[str]] = set()
+        for row in read_table(self.folder, self.section.tubes, key, ("from", "to", "section", "elements")):
             start, end = row["from"], row["to"]
-            tubes.append((start, end, row["section"], int(row["elements"])))
-            image = (_mirrored(start), _mirrored(end))
-            if set(image) != {start, end}:
-                tubes.append((*image, row["section"], int(row["elements"])))
+            for name in (start, end):
+                _known(row, name, joints, "joint", self.section.key("joints"))
+            _known(row, row["section"], sections, "section", self.section.key("sections"))
+            image = (mirrored(start), mirrored(end))
+            pairs = [(start, end)] if set(image) == {start, end} else [(start, end), image]
+            if start == end or not ends.isdisjoint(frozenset(pair) for pair in pairs):
+                why = "has one joint at both ends" if start == end else "is there twice: images are added by themselves"
+                raise ModelError(f"{row.where}: the tube from {start} to {end} {why}.")
+            ends.update(frozenset(pair) for pair in pairs)
+            tubes += [(*pair, row["section"], row.count("elements", MOST_ELEMENTS)) for pair in pairs]
         return tubes
 
-    def _masses(self) -> dict[str | int, float]:
+    def _masses(self, joints: dict[str, np.ndarray]) -> dict[str | int, float]:
         masses: dict[str | int, float] = {}
-        for row in self._rows(self.section.masses):
-            for joint in dict.fromkeys((row["joint"], _mirrored(row["joint"]))):
-                masses[joint] = masses.get(joint, 0.0) + float(row["mass"])
+        if self.section.masses is None:
+            return masses
+        for row in read_table(self.folder, self.section.masses, self.section.key("masses"), ("joint", "mass")):
+            _known(row, row["joint"], joints, "joint", self.section.key("joints"))
+            for joint in dict.fromkeys((row["joint"], mirrored(row["joint"]))):
+                masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, MOST_MASS, "kg")
         return masses
 
-    def _rows(self, name: str) -> list[dict[str, str]]:
-        with (self.folder / name).open(encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+def mirrored(name: str) -> str:
+    """Name of the image of a joint.
+
+    Parameters
+    ----------
+    name : str
+        Of the joint; its last letter is its side.
+    """
+    return name[:-1] + IMAGE[name[-1]]
 
 
-def _mirrored(name: str) -> str:
-    return name[:-1] + {"L": "R", "R": "L", "c": "c"}[name[-1]]
+def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
+    found = {(t.start, t.end): t for t in tubes}
+    if gauge.tube in found:
+        return found[gauge.tube]
+    start, end = gauge.tube
+    if (end, start) in found:
+        hint = f"the tube runs from {end} to {start}, and place counts from {end}"
+    else:
+        at = sorted({b if a == start else a for a, b in found if start in (a, b)})
+        hint = f"tubes lead from {start} to {', '.join(at)}" if at else f"no tube ends at {start}"
+    raise ModelError(f"{gauge.key('tube')} is {list(gauge.tube)}, which is no tube of the frame: {hint}.")
+
+
+def _check_joint(row: Row, name: str, y: float, seen: set[str]) -> None:
+    if name[-1:] not in ("L", "c"):
+        raise ModelError(f"{row.where}: joint is {name!r}; its name must end in L (left) or c (centre plane).")
+    if name in seen:
+        raise ModelError(f"{row.where}: joint {name} is there twice.")
+    seen.add(name)
+    if (name[-1] == "L") != (y > 0.0) or (name[-1] == "c" and y != 0.0):
+        wanted = "positive on the left" if name[-1] == "L" else "0 on the centre plane"
+        raise ModelError(f"{row.where}: joint {name} has y = {y:g} m; y must be {wanted}.")
+
+
+def _known(row: Row, name: str, names: Container[str], what: str, key: str) -> None:
+    if name not in names:
+        raise ModelError(f"{row.where}: {what} {name!r} is not in {key}.")

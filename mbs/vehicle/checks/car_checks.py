@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from mbs.errors import ModelError
 from mbs.vehicle.checks.dimensions import dimension_faults
-from mbs.vehicle.checks.frame_tables import frame_faults
 from mbs.vehicle.checks.masses import mass_faults, mass_oddities
 from mbs.vehicle.checks.places import place_faults, place_oddities
 from mbs.vehicle.checks.rates import rate_oddities
@@ -37,7 +37,11 @@ def _faults(car: Car) -> Iterator[str]:
     yield from place_faults(car)
     yield from mass_faults(car)
     yield from tyre_faults(car)
-    yield from frame_faults(car)
+    if car.chassis.frame is not None:
+        try:
+            car.chassis.frame.check(car.folder)
+        except ModelError as error:
+            yield str(error)
 
 
 def car_oddities(car: Car, rest: Rest) -> list[str]:

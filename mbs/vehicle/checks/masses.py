@@ -76,6 +76,9 @@ def weighed_points(car: Car, payloads: bool) -> list[tuple[float, tuple[float, f
     """
     found = [(car.chassis.mass, car.chassis.com)]
     found += [(load.mass, load.point) for load in car.payload.values() if payloads]
+    points = car.front.suspension.points
+    x, _, z = getattr(points, "tie_rod_inner", car.front.wheel.centre)
+    found.append((car.steering.moving_mass, (x, 0.0, z)))
     left = [(part.mass, part.com) for part in parts_of(car)]
     left += [(axle.wheel.mass, axle.wheel.centre) for axle in (car.front, car.rear)]
     return found + [(mass, (x, side * y, z)) for mass, (x, y, z) in left for side in (1.0, -1.0)]

@@ -38,7 +38,8 @@ def place_faults(car: Car) -> Iterator[str]:
     for key, point in _points_of_the_body(car).items():
         yield from _within_the_outline(car, key, point)
     contact = car.chassis.ground_contact
-    for k, point in enumerate(contact.points if contact else ()):
+    drawn = [(k, p) for k, p in enumerate(contact.points if contact else ()) if not isinstance(p, str)]
+    for k, point in drawn:  # the others are joints of the frame
         key = f"{contact.key('points')}.{k}" if contact else ""
         if point[1] < 0.0 or 0.0 < point[1] < ASIDE:
             yield (
@@ -143,7 +144,9 @@ def _points_of_the_body(car: Car) -> dict[str, Point]:
     points |= {f"{chassis.key('accelerometers')}.{name}": point for name, point in chassis.accelerometers.items()}
     if chassis.ground_contact is not None:
         key = chassis.ground_contact.key("points")
-        points |= {f"{key}.{k}": point for k, point in enumerate(chassis.ground_contact.points)}
+        points |= {
+            f"{key}.{k}": point for k, point in enumerate(chassis.ground_contact.points) if not isinstance(point, str)
+        }
     return points
 
 

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
+from pydantic import Field
+
+from mbs.vehicle.steering.column import Column
 from mbs.vehicle.steering.rack_by_angle import RackByAngle
 
-Steering = RackByAngle
+Steering = Annotated[RackByAngle | Column, Field(discriminator="kind")]
 
 __all__ = ["Steering"]

@@ -3,42 +3,27 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Literal
+from typing import Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.ends import End
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import Frequency, RackPerTurn, RoadWheelAngle, SteeringFriction, Travel
-from mbs.vehicle.section import Section
+from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
+from mbs.vehicle.steering.rack_section import RackSection
 from mbs.vehicle.steering.steered import Steered, tie_rods
 
 STICK_STIFFNESS, STICK_DAMPING = 200.0, 5.0  # N m/rad and N m s/rad: 1 N m of friction gives by 5 mrad before it slides
 
 
-class RackByAngle(Section):
+class RackByAngle(RackSection):
     """Rack that follows the angle of the steering wheel."""
 
     kind: Literal["rack_by_angle"]
     """Names this template."""
-    rack_travel: Travel
-    """Travel of the rack to each side at steering = 1."""
-    rack_per_turn: RackPerTurn
-    """Travel of the rack per turn of the steering wheel."""
-    frequency: Frequency
-    """Of the critically damped follower between input and rack."""
-    front_wheel_angle_max: RoadWheelAngle
-    """Mean steering angle of the front wheels at full travel."""
-    friction: SteeringFriction = 0.0
+    friction: PrescribedFriction = 0.0
     """Friction of rack and column, at the steering wheel."""
-
-    @property
-    def wheel_angle_max(self) -> float:
-        """Angle of the steering wheel at full travel, rad."""
-        return 2.0 * math.pi * self.rack_travel / self.rack_per_turn
-
-    absent_at_zero: ClassVar[tuple[str, ...]] = ("friction",)
 
     def build(self, b: CarBuilder, way: float) -> Steered:
         """Add the rack.
@@ -70,16 +55,12 @@ class RackByAngle(Section):
             m.drive("steering column", wheel.affine * per_radian, rack)
             friction = CoordinateFriction(self.friction, STICK_STIFFNESS, STICK_DAMPING)
             m.add(friction.record("steering friction", wheel.affine))
-            b.tie(self, "friction", "steering friction", "largest")
 
         def end(side: Side, point: Point) -> End:
             return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=(0.0, 1.0, 0.0), guide=rack)
 
         def outputs() -> None:
-            turned = "left" if way > 0.0 else "right"
-            m.sense_guide(
-                "steering_rack", rack, description=f"rack travel, positive to the left (turns the wheels {turned})"
-            )
+            m.sense_guide("steering_rack", rack, description=self.travel_text(way))
             m.sense_guide(
                 "steering_wheel_angle",
                 rack,

@@ -8,10 +8,11 @@
 
 #include "../files/crc32.h"
 #include "../files/regular_file.h"
+#include "road_table.h"
 
 enum { PLANE, KERB, GRID }; /* elements/road.h */
-enum { POINTS = ALI3_TILE * ALI3_TILE, HINTS = 256, TEXT = 200, TRAILER = 16, MOST_SIDE = 1 << 30 };
-static const double MOST_POINTS = 1e12;
+enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, HINTS = 256, TEXT = 200, TRAILER = 16, MOST_SIDE = 1 << 30 };
+static const double TABLE_FRICTION = 0.9; /* of a text without frictions */
 
 typedef struct { /* from byte 16 on */
   int64_t size;
@@ -34,6 +35,7 @@ struct ali3_road_file {
   uint64_t clock, when[ALI3_TILES_NEAR];
   unsigned char hint[HINTS];
   unsigned char *slot; /* n_slots x tile_bytes */
+  double *values; /* of a text: all of its grid, in place of tiles */
   char lost[TEXT];
 };
 
@@ -46,8 +48,8 @@ static const char *plane_and_kerb_problem(const header *h) {
   const double *p = h->real, friction = p[h->kind == PLANE ? 3 : 4];
   if (h->nx != 0 || h->ny != 0 || h->maps != 0 || h->contents != 0) return "a plane or kerb has no grid";
   for (int i = 0; i < ALI3_ROAD_REALS; i++)
-    if (!(fabs(p[i]) <= ALI3_FARTHEST_ROAD)) return "a number in its header is not finite or beyond 1e8";
-  if (!(friction >= 0.0 && friction <= ALI3_MOST_FRICTION)) return "its friction lies outside 0 to 10";
+    if (!(fabs(p[i]) <= ALI3_ROAD_FARTHEST)) return "a number in its header is not finite or beyond 1e8";
+  if (!(friction >= 0.0 && friction <= ALI3_ROAD_FRICTION)) return "its friction lies outside 0 to 10";
   if (h->kind == PLANE && !(fabs(p[1]) <= 10.0 && fabs(p[2]) <= 10.0)) return "a grade of it lies outside -10 to 10";
   if (h->kind == KERB && !(p[2] > 0.0)) return "the step of its kerb is not positive";
   if (h->kind == KERB && p[3] != 1.0 && p[3] != -1.0) return "the side of its kerb is neither 1 nor -1";
@@ -56,18 +58,19 @@ static const char *plane_and_kerb_problem(const header *h) {
 
 static const char *grid_problem(const header *h) {
   const double *p = h->real;
-  if (h->tile != ALI3_TILE || (h->maps != 1 && h->maps != 2)) return "its tiles have another form";
-  if (h->nx < 2 || h->ny < 2 || h->nx > MOST_SIDE || h->ny > MOST_SIDE || (double)h->nx * (double)h->ny > MOST_POINTS)
+  if (h->tile != ALI3_ROAD_TILE || (h->maps != 1 && h->maps != 2)) return "its tiles have another form";
+  if (h->nx < 2 || h->ny < 2 || h->nx > MOST_SIDE || h->ny > MOST_SIDE ||
+      (double)h->nx * (double)h->ny > ALI3_ROAD_POINTS)
     return "its grid has fewer than 2 x 2 or more than 1e12 points";
   if (!(p[2] > 0.0 && p[3] > 0.0)) return "the spacing of its grid is not positive";
-  if (!(fabs(p[0]) <= ALI3_FARTHEST_ROAD && fabs(p[1]) <= ALI3_FARTHEST_ROAD &&
-        (double)h->nx * p[2] <= ALI3_FARTHEST_ROAD && (double)h->ny * p[3] <= ALI3_FARTHEST_ROAD))
+  if (!(fabs(p[0]) <= ALI3_ROAD_FARTHEST && fabs(p[1]) <= ALI3_ROAD_FARTHEST &&
+        (double)h->nx * p[2] <= ALI3_ROAD_FARTHEST && (double)h->ny * p[3] <= ALI3_ROAD_FARTHEST))
     return "its grid reaches farther than 1e8 m";
-  if (!(p[4] >= 0.0 && p[4] <= ALI3_MOST_FRICTION)) return "its friction lies outside 0 to 10";
+  if (!(p[4] >= 0.0 && p[4] <= ALI3_ROAD_FRICTION)) return "its friction lies outside 0 to 10";
   return NULL;
 }
 
-static int64_t tiles_along(int64_t n) { return (n + ALI3_TILE - 1) / ALI3_TILE; }
+static int64_t tiles_along(int64_t n) { return (n + ALI3_ROAD_TILE - 1) / ALI3_ROAD_TILE; }
 
 static size_t bytes_of_tile(const header *h) { return (size_t)h->maps * POINTS * sizeof(double) + TRAILER; }
 
@@ -124,9 +127,9 @@ static const char *tile_problem(const ali3_road_file *file, const unsigned char 
   memcpy(&crc, bytes + checked, sizeof crc);
   if (written != number || crc != ali3_crc32(bytes, checked)) return "was altered or damaged";
   for (int k = 0; k < POINTS; k++)
-    if (!(fabs(value[k]) <= ALI3_HIGHEST_ROAD)) return "has a height that is not finite or beyond 1e5 m";
+    if (!(fabs(value[k]) <= ALI3_ROAD_HIGHEST)) return "has a height that is not finite or beyond 1e5 m";
   for (int k = POINTS; k < file->head.maps * POINTS; k++)
-    if (!(value[k] >= 0.0 && value[k] <= ALI3_MOST_FRICTION)) return "has a friction outside 0 to 10";
+    if (!(value[k] >= 0.0 && value[k] <= ALI3_ROAD_FRICTION)) return "has a friction outside 0 to 10";
   return NULL;
 }
 
@@ -139,8 +142,8 @@ static int read_tile(ali3_road_file *file, int64_t number, unsigned char *to) {
   if (why == NULL) return 1;
   const double *p = file->head.real;
   snprintf(file->lost, sizeof file->lost, "its part from x = %.6g m, y = %.6g m on %s",
-           p[0] + (double)(number / file->tiles_y) * ALI3_TILE * p[2],
-           p[1] + (double)(number % file->tiles_y) * ALI3_TILE * p[3], why);
+           p[0] + (double)(number / file->tiles_y) * ALI3_ROAD_TILE * p[2],
+           p[1] + (double)(number % file->tiles_y) * ALI3_ROAD_TILE * p[3], why);
   return 0;
 }
 
@@ -163,7 +166,7 @@ static int32_t slot_of(const ali3_road_file *file, int64_t number) {
 
 /* Values of the tile with point (i, j), or NULL. */
 static const double *tile_at(ali3_road_file *file, int32_t i, int32_t j) {
-  const int64_t number = (int64_t)(i / ALI3_TILE) * file->tiles_y + j / ALI3_TILE;
+  const int64_t number = (int64_t)(i / ALI3_ROAD_TILE) * file->tiles_y + j / ALI3_ROAD_TILE;
   if (file->number[file->last] != number) {
     int32_t k = slot_of(file, number);
     if (k < 0) {
@@ -180,14 +183,16 @@ static const double *tile_at(ali3_road_file *file, int32_t i, int32_t j) {
 }
 
 double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j) {
+  if (file->values != NULL) return file->values[(int64_t)i * file->head.ny + j];
   const double *tile = tile_at(file, i, j);
-  return tile != NULL ? tile[i % ALI3_TILE * ALI3_TILE + j % ALI3_TILE] : 0.0;
+  return tile != NULL ? tile[i % ALI3_ROAD_TILE * ALI3_ROAD_TILE + j % ALI3_ROAD_TILE] : 0.0;
 }
 
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j) {
   if (file->head.maps < 2) return file->head.real[4];
+  if (file->values != NULL) return file->values[(file->head.nx + i) * file->head.ny + j];
   const double *tile = tile_at(file, i, j);
-  return tile != NULL ? tile[POINTS + i % ALI3_TILE * ALI3_TILE + j % ALI3_TILE] : 0.0;
+  return tile != NULL ? tile[POINTS + i % ALI3_ROAD_TILE * ALI3_ROAD_TILE + j % ALI3_ROAD_TILE] : 0.0;
 }
 
 /* Memory for what is near; all of a small grid, whose stream is then closed. */
@@ -212,7 +217,79 @@ static int place_tiles(ali3_road_file *file, char *message, size_t size) {
 void ali3_road_file_close(ali3_road_file *file) {
   if (file == NULL) return;
   if (file->stream != NULL) fclose(file->stream);
+  if (file->values != NULL) file->release(file->values);
   file->release(file);
+}
+
+/* Values of a text that no road has; 0 and a sentence. */
+static int table_values(const ali3_road_table *t, char *message, size_t size) {
+  const int64_t points = t->nx * t->ny;
+  for (int64_t k = 0; k < t->maps * points; k++) {
+    const double v = t->values[k];
+    const int good = k < points ? fabs(v) <= ALI3_ROAD_HIGHEST : v >= 0.0 && v <= ALI3_ROAD_FRICTION;
+    if (good) continue;
+    if (message != NULL && size > 0)
+      snprintf(message, size, "its %s at row %lld, column %lld of the points is %g", k < points ? "height" : "friction",
+               (long long)(k % points / t->ny + 1), (long long)(k % t->ny + 1), v);
+    return 0;
+  }
+  return 1;
+}
+
+/* All of a text is read and its stream closed. */
+static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*allocate)(size_t count, size_t size),
+                                  char *message, size_t message_size) {
+  ali3_road_table t = {0};
+  header *h = &start->head;
+  char *text = size <= ALI3_MOST_TABLE ? allocate(1, (size_t)size + 1) : NULL;
+  int good = text != NULL ? ali3_file_read(start->stream, 0, text, (size_t)size)
+                          : refuse(message, message_size,
+                                   "it is longer than 64 MB; make a road file of it by: ali3 "
+                                   "road INPUT OUTPUT.road");
+  fclose(start->stream);
+  start->stream = NULL;
+  if (good) {
+    start->identity = ali3_crc32(text, (size_t)size);
+    good = ali3_road_table_read(text, (size_t)size, &t, allocate, start->release, message, message_size);
+  } else if (text != NULL) {
+    refuse(message, message_size, "it cannot be read");
+  }
+  if (text != NULL) start->release(text);
+  if (!good) return NULL;
+  const header given = {.kind = GRID,
+                        .nx = t.nx,
+                        .ny = t.ny,
+                        .tile = ALI3_ROAD_TILE,
+                        .maps = t.maps,
+                        .real = {t.first[0], t.first[1], t.spacing[0], t.spacing[1], TABLE_FRICTION}};
+  *h = given;
+  const char *why = grid_problem(h);
+  ali3_road_file *file = NULL;
+  if (why != NULL)
+    refuse(message, message_size, why);
+  else if (table_values(&t, message, message_size))
+    file = allocate(1, sizeof *file);
+  if (file == NULL) {
+    start->release(t.values);
+    return NULL;
+  }
+  *file = *start;
+  file->values = t.values;
+  return file;
+}
+
+static int is_text(const char *path) {
+  static const char *const suffix[] = {".csv", ".txt"};
+  const size_t n = strlen(path);
+  for (int k = 0; k < 2; k++) {
+    int same = n > 4;
+    for (size_t i = 0; same && i < 4; i++) {
+      const char c = path[n - 4 + i];
+      same = (c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c) == suffix[k][i];
+    }
+    if (same) return 1;
+  }
+  return 0;
 }
 
 ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t count, size_t size),
@@ -222,6 +299,7 @@ ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t c
   int64_t size = 0;
   ali3_road_file start = {.release = release};
   start.stream = ali3_file_open(path, &size, &why);
+  if (why == NULL && is_text(path)) return open_table(&start, size, allocate, message, message_size);
   if (why == NULL && !ali3_file_read(start.stream, 0, bytes, size < ALI3_ROAD_HEADER ? (size_t)size : sizeof bytes))
     why = "it cannot be read";
   if (why == NULL) why = header_problem(bytes, size, &start.head, &start.identity);

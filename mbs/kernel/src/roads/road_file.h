@@ -13,15 +13,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { ALI3_ROAD_VERSION = 1, ALI3_ROAD_HEADER = 128, ALI3_ROAD_REALS = 8, ALI3_TILE = 32 };
+#define ALI3_ROAD_VERSION 1
+#define ALI3_ROAD_TILE 32
+#define ALI3_ROAD_HIGHEST 1e5
+#define ALI3_ROAD_FARTHEST 1e8
+#define ALI3_ROAD_FRICTION 10.0
+#define ALI3_ROAD_POINTS 1e12
+enum { ALI3_ROAD_HEADER = 128, ALI3_ROAD_REALS = 8 };
 enum { ALI3_TILES_NEAR = 64 }; /* kept in memory: 16 kB each, 8 kB without frictions */
-#define ALI3_HIGHEST_ROAD 1e5  /* m */
-#define ALI3_FARTHEST_ROAD 1e8 /* m */
-#define ALI3_MOST_FRICTION 10.0
 
 typedef struct ali3_road_file ali3_road_file;
 
-/* Opens and checks a file. NULL if it is refused, with one sentence, without its full stop, in `message`. What fits into
+/* Opens and checks a file; one that ends in .csv or .txt as a text (road_table.h), which is read as a whole. NULL if it is refused, with one sentence, without its full stop, in `message`. What fits into
  * memory is read at once and the file is closed; nothing is allocated later. */
 ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t count, size_t size),
                                     void (*release)(void *block), char *message, size_t message_size);

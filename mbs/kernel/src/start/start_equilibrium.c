@@ -56,6 +56,7 @@ static ali3_status prepare(ali3_instance *in) {
   memcpy(in->input_work, in->input, (size_t)S->size.nu * sizeof(double));
   for (int64_t i = 0; i < S->n_static_par; i++) in->parameter[S->static_par[i]] = S->static_value[i];
   const ali3_status status = ali3_parameters_apply(in);
+  ali3_parameters_switch(in);
   exchange_roads(in);
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
@@ -71,6 +72,7 @@ static void put_back(ali3_instance *in) {
   memcpy(in->input, in->input_work, (size_t)S->size.nu * sizeof(double));
   exchange_roads(in);
   ali3_parameters_apply(in);
+  ali3_parameters_switch(in);
 }
 
 /* The equilibrium in in->stage (nq), from where that of the file was sought: the same values then give the same bits,

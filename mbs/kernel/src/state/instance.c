@@ -128,7 +128,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);
   copy(in->now.y, S->y0, S->size.ny);
-  for (int32_t k = 0; k < S->size.n_switch; k++) in->now.on[k] = (double)S->switch_start[k];
+  for (int32_t k = 0; k < S->size.n_switch; k++) in->now.on[k] = in->switch_on[k] = (double)S->switch_start[k];
   copy(in->input, S->input_start, S->size.nu);
   copy(in->now.used, S->input_start, S->size.nu);
   copy(in->parameter, S->par_value, S->size.np);

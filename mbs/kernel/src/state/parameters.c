@@ -1,5 +1,5 @@
-/* Parameters of an instance: what they write to its copies of the data of elements, guides, roads and payloads.
- */
+/* Parameters of an instance: what they write to its copies of the data of elements, guides, roads and payloads, and
+ * the switches with which it starts. */
 #include "parameters.h"
 #include "../instance.h"
 #include "../system/loading.h"
@@ -16,7 +16,8 @@ static void write(ali3_instance *in, int32_t p) {
   double *target[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = in->el_real,
                                        [ALI3_TARGET_GUIDE] = in->guide_real,
                                        [ALI3_TARGET_ROAD] = in->road_real,
-                                       [ALI3_TARGET_PAYLOAD] = in->payload_mass};
+                                       [ALI3_TARGET_PAYLOAD] = in->payload_mass,
+                                       [ALI3_TARGET_SWITCH] = in->switch_on};
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
     target[S->par_target[k]][S->par_index[k]] = ali3_parameter_writes(S, k, in->parameter[p]);
 }
@@ -26,14 +27,29 @@ static const char *check(const ali3_instance *in, int64_t k) {
   const double *const data[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = in->el_real,
                                                  [ALI3_TARGET_GUIDE] = in->guide_real,
                                                  [ALI3_TARGET_ROAD] = in->road_real,
-                                                 [ALI3_TARGET_PAYLOAD] = in->payload_mass};
+                                                 [ALI3_TARGET_PAYLOAD] = in->payload_mass,
+                                                 [ALI3_TARGET_SWITCH] = in->switch_on};
   return k < 0 ? ali3_check_data(in->system, data) : ali3_check_target(in->system, k, data);
+}
+
+static bool writes_to(const ali3_system *S, int32_t p, int32_t family) {
+  for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
+    if (S->par_target[k] == family) return true;
+  return false;
+}
+
+/* The switches that parameters write to stand as these say. */
+void ali3_parameters_switch(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  for (int64_t k = 0; k < S->n_par_target; k++)
+    if (S->par_target[k] == ALI3_TARGET_SWITCH) in->now.on[S->par_index[k]] = in->switch_on[S->par_index[k]];
 }
 
 /* All of them; refused as a whole when an element, guide or road cannot take its data. */
 ali3_status ali3_parameters_apply(ali3_instance *in) {
   for (int32_t p = 0; p < in->system->size.np; p++) write(in, p);
   ali3_masses_apply(in);
+  if (!in->initialised) ali3_parameters_switch(in);
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
 }
 
@@ -47,12 +63,6 @@ static ali3_status take(ali3_instance *in, int32_t p, double value) {
   return ALI3_OK;
 }
 
-static bool loads(const ali3_system *S, int32_t p) {
-  for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-    if (S->par_target[k] == ALI3_TARGET_PAYLOAD) return true;
-  return false;
-}
-
 static bool in_range(const ali3_instance *in, int32_t index, double value) {
   return in != NULL && index >= 0 && index < in->system->size.np && value - value == 0.0 &&
          value >= in->system->par_min[index] && value <= in->system->par_max[index];
@@ -64,7 +74,8 @@ ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
   if (in->initialised && in->system->n_par_fixed > 0 && in->system->par_fixed[index]) return ALI3_FIXED_PARAMETER;
   const ali3_status status = take(in, index, value);
   if (status != ALI3_OK) take(in, index, before);
-  if (status == ALI3_OK && loads(in->system, index)) ali3_masses_apply(in);
+  if (status == ALI3_OK && writes_to(in->system, index, ALI3_TARGET_PAYLOAD)) ali3_masses_apply(in);
+  if (status == ALI3_OK && writes_to(in->system, index, ALI3_TARGET_SWITCH)) ali3_parameters_switch(in);
   return status;
 }
 

@@ -130,14 +130,15 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
   return ali3_check_pointers(m, "road_real_ptr", s->road_real_ptr, s->n_road_real_ptr, s->nr, s->n_road_real);
 }
 
-/* A mass that changes while it moves would take momentum from nowhere. */
+/* A mass that changes while it moves would take momentum from nowhere, rows that a parameter turns on an impact. */
 static ali3_status check_fixed(const ali3_system *s, ali3_message m) {
   if (s->n_par_fixed != 0) CHECK(ali3_check_length(m, "par_fixed", s->n_par_fixed, s->size.np));
   CHECK(ali3_check_indices(m, "par_fixed", s->par_fixed, s->n_par_fixed, 0, 2));
   for (int32_t p = 0; p < s->size.np; p++)
     for (int32_t k = s->par_ptr[p]; k < s->par_ptr[p + 1]; k++)
-      if (s->par_target[k] == ALI3_TARGET_PAYLOAD && (s->n_par_fixed == 0 || !s->par_fixed[p]))
-        return ali3_bad(m, "parameter %d writes the mass of a payload and is not fixed", (int)p);
+      if (s->par_target[k] >= ALI3_TARGET_PAYLOAD && (s->n_par_fixed == 0 || !s->par_fixed[p]))
+        return ali3_bad(m, "parameter %d writes %s and is not fixed", (int)p,
+                        s->par_target[k] == ALI3_TARGET_PAYLOAD ? "the mass of a payload" : "a switch");
   return ALI3_OK;
 }
 
@@ -146,7 +147,8 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int64_t length[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = s->n_el_real,
                                              [ALI3_TARGET_GUIDE] = s->n_guide_real,
                                              [ALI3_TARGET_ROAD] = s->n_road_real,
-                                             [ALI3_TARGET_PAYLOAD] = s->n_payload_mass};
+                                             [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
+                                             [ALI3_TARGET_SWITCH] = s->n_switch_start};
   CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
   CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
   CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
@@ -184,12 +186,18 @@ static const char *check_payload(double mass) {
   return mass >= 0.0 && mass - mass == 0.0 ? NULL : "the mass of a payload must be a number and not negative";
 }
 
+static const char *check_switch(double on) {
+  return on == 0.0 || on == 1.0 ? NULL : "a parameter writes to a switch what is neither 0 nor 1";
+}
+
 const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_TARGET_COUNT]) {
   const char *text = NULL;
   for (int32_t e = 0; text == NULL && e < s->size.ne; e++) text = check_element(s, e, data[ALI3_TARGET_ELEMENT]);
   for (int32_t g = 0; text == NULL && g < s->size.ng; g++) text = check_guide(s, g, data[ALI3_TARGET_GUIDE]);
   for (int32_t k = 0; text == NULL && k < s->nr; k++) text = check_road(s, k, data[ALI3_TARGET_ROAD]);
   for (int64_t k = 0; text == NULL && k < s->n_payload_mass; k++) text = check_payload(data[ALI3_TARGET_PAYLOAD][k]);
+  const double *on = data[ALI3_TARGET_SWITCH]; /* those of a file are 0 or 1 */
+  for (int32_t k = 0; text == NULL && on != NULL && k < s->size.n_switch; k++) text = check_switch(on[k]);
   return text;
 }
 
@@ -212,7 +220,7 @@ const char *ali3_check_target(const ali3_system *s, int64_t k, const double *con
   if (family == ALI3_TARGET_ELEMENT) return check_element(s, owner(s->el_real_ptr, s->size.ne, index), data[family]);
   if (family == ALI3_TARGET_GUIDE) return check_guide(s, owner(s->guide_real_ptr, s->size.ng, index), data[family]);
   if (family == ALI3_TARGET_ROAD) return check_road(s, owner(s->road_real_ptr, s->nr, index), data[family]);
-  return check_payload(data[family][index]);
+  return family == ALI3_TARGET_PAYLOAD ? check_payload(data[family][index]) : check_switch(data[family][index]);
 }
 
 ali3_status ali3_system_check(ali3_system *s, ali3_message m) {

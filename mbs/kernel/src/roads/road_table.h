@@ -1,0 +1,20 @@
+/* A road as a text: a table of heights with its coordinates, and below it one of frictions where there is one. */
+#ifndef ALI3_ROAD_TABLE_H
+#define ALI3_ROAD_TABLE_H
+#include <stddef.h>
+#include <stdint.h>
+
+enum { ALI3_MOST_TABLE = 1 << 26 }; /* bytes of a text */
+
+typedef struct {
+  int64_t nx, ny;
+  double first[2], spacing[2];
+  double *values; /* nx * ny heights, y fastest; behind them as many frictions where maps is 2 */
+  int32_t maps;
+} ali3_road_table;
+
+/* Reads a text; 0 and a sentence without its full stop if it is refused. The values are allocated. */
+int ali3_road_table_read(const char *text, size_t size, ali3_road_table *table,
+                         void *(*allocate)(size_t count, size_t size), void (*release)(void *block), char *message,
+                         size_t message_size);
+#endif

@@ -1,0 +1,86 @@
+"""Which points of the chassis the rest of a car hangs on, found by building it on a rigid chassis that takes notes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import AffineVector
+from mbs.model.body import Body
+from mbs.model.joints.joint import Joint
+from mbs.vehicle.side import Point
+
+if TYPE_CHECKING:
+    from mbs.vehicle.builder import CarBuilder
+
+SAME = 1e-9  # m
+
+
+@dataclass(frozen=True)
+class Attachments:
+    """Hard points on the chassis of the left side and of the centre plane, m.
+
+    Attributes
+    ----------
+    axles : tuple of tuple of tuple of float
+        Those of the front axle with the steering, then those of the rear one, in the order of their making.
+    held : tuple of tuple of tuple of float
+        Pairs of them, or one and the image of one, whose distance a part of a suspension holds, as a wishbone does
+        that of its pivots.
+    """
+
+    axles: tuple[tuple[Point, ...], tuple[Point, ...]]
+    held: tuple[tuple[Point, Point], ...]
+
+
+class _Noted(Body):
+    """The chassis, with what was asked of it."""
+
+    def __init__(self, owner: Body, reference: Point) -> None:
+        super().__init__(owner.model, owner.name, owner.com, owner.start)
+        self.left_out = reference
+        self.points: dict[Point, None] = {}
+
+    def point(self, position: ArrayLike) -> AffineVector:
+        x, y, z = (float(v) for v in np.asarray(position))
+        if np.linalg.norm(np.subtract((x, y, z), self.left_out)) > SAME:
+            self.points[x, y, z] = None
+        return super().point(position)
+
+
+def attachments(b: CarBuilder) -> Attachments:
+    """Build the mechanism of a car and note its points on the chassis.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        With a rigid chassis and nothing else.
+    """
+    noted = _Noted(b.chassis.body, b.chassis.origin)
+    b.chassis = replace(b.chassis, body=noted)
+    at = []
+    for _ in b.car.mechanism(b):
+        at.append(len(noted.points))
+    points = list(noted.points)
+    parts = (points[: at[0]], points[at[0] : at[1]])
+    axles = tuple(tuple(p for p in part if p[1] >= 0.0) for part in parts)
+    return Attachments((axles[0], axles[1]), tuple(_held(noted, b.m.joints)))
+
+
+def _held(chassis: Body, joints: list[Joint]) -> Iterator[tuple[Point, Point]]:
+    """Pairs of points of which no other is the image, at which one part is joined to the chassis."""
+    found: dict[Body, list[Point]] = {}
+    for joint in joints:
+        if joint.places is not None and chassis in joint.places.bodies:
+            number = joint.places.bodies.index(chassis)
+            x, y, z = (float(v) for v in np.asarray(joint.places.points[number]))
+            found.setdefault(joint.places.bodies[1 - number], []).append((x, y, z))
+    for points in found.values():
+        for a, b in combinations(points, 2):
+            if a[1] + b[1] >= 0.0:
+                yield a, b

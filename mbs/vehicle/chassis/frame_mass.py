@@ -1,0 +1,58 @@
+"""Whether the mass of a frame is the one that the file gives the chassis."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mbs.errors import ModelError
+from mbs.flexible import FiniteElementModel
+
+if TYPE_CHECKING:
+    from mbs.vehicle.chassis.section import Chassis
+
+MASS, INERTIA = 0.005, 0.02  # of the mass, of the largest moment of inertia
+CENTRE = 0.005  # m
+
+
+def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
+    """Refuse a frame that is another body than the rigid chassis.
+
+    Parameters
+    ----------
+    model : FiniteElementModel
+        Of the frame with all it carries.
+    chassis : Chassis
+        Of the file.
+
+    Raises
+    ------
+    ModelError
+        Mass, centre of mass or inertia differ.
+    """
+    masses, total = model.mass.masses, float(model.mass.masses.sum())
+    if abs(total - chassis.mass) > MASS * chassis.mass:
+        raise ModelError(
+            f"{chassis.key('mass')} is {chassis.mass:g} kg, but the frame with the masses it carries has "
+            f"{total:.6g} kg."
+        )
+    centre = masses @ model.mass.positions / total
+    if np.linalg.norm(centre - chassis.com) > CENTRE:
+        raise ModelError(
+            f"{chassis.key('com')} is {list(chassis.com)} m, but the centre of mass of the frame with the masses it "
+            f"carries is {_shown(centre, 4)} m."
+        )
+    arms = model.mass.positions - centre
+    second = (masses[:, None] * arms).T @ arms
+    tensor, given = np.trace(second) * np.eye(3) - second, np.array(chassis.tensor)
+    if np.abs(tensor - given).max() > INERTIA * given.max():
+        (x, xy, xz), (_, y, yz), (_, _, z) = tensor
+        raise ModelError(
+            f"{chassis.key('inertia')} is {list(chassis.inertia)} kg.m2 and products {list(chassis.products)}, but the "
+            f"frame with the masses it carries has {_shown((x, y, z), 2)} and {_shown((xy, xz, yz), 2)} kg.m2."
+        )
+
+
+def _shown(values: object, digits: int) -> list[float]:
+    return [round(float(v), digits) + 0.0 for v in np.asarray(values)]

@@ -1,0 +1,49 @@
+"""A frame from CalculiX."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from mbs.flexible import FiniteElementModel, read_calculix
+from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
+from mbs.vehicle.files import beside
+
+
+class CalculixFrame(MatrixFrame):
+    """Frame of solid elements from CalculiX, by ``*FREQUENCY, SOLVER=MATRIXSTORAGE`` (`read_calculix`)."""
+
+    kind: Literal["calculix"]
+    """Names this template."""
+    deck: str
+    """Input deck, name.inp; name.sti, name.mas and name.dof lie beside it."""
+
+    def files(self, folder: Path) -> tuple[Path, ...]:
+        """Files of the matrices, each of which is there.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            One is not.
+        """
+        return (beside(folder, self.deck, self.key("deck")),)
+
+    def finite_elements(self, folder: Path) -> FiniteElementModel:
+        """Read the deck and its matrices.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            A file is missing, or the deck has supports.
+        """
+        return read_calculix(*self.files(folder))

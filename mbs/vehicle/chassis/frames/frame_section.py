@@ -1,0 +1,101 @@
+"""What every flexible frame gives, whatever it comes from."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from pydantic import Discriminator, Field, Tag
+
+from mbs.flexible import FiniteElementModel
+from mbs.vehicle.chassis.gauges.reading import Reading
+from mbs.vehicle.quantities import Fraction, Frequency
+from mbs.vehicle.section import Section
+
+Count = Annotated[int, Field(strict=True, ge=0, le=1000)]
+Reference = Annotated[
+    Annotated[str, Tag("joint")] | Annotated[tuple[str, str, str], Tag("nodes")],
+    Discriminator(lambda value: "joint" if isinstance(value, str) else "nodes"),
+]
+
+
+@dataclass(frozen=True)
+class Structure:
+    """A frame as finite elements.
+
+    Attributes
+    ----------
+    model : FiniteElementModel
+        In the axes of the drawing.
+    readings : tuple of Reading
+        What its gauges report, in the order of the outputs.
+    joints : mapping of str to ndarray, shape (3,)
+        Nodes where suspension, drive and payloads may be fixed, m.
+    """
+
+    model: FiniteElementModel
+    readings: tuple[Reading, ...]
+    joints: Mapping[str, np.ndarray]
+
+
+class DampingSection(Section):
+    """Rayleigh damping."""
+
+    ratio: Fraction
+    """Modal damping ratio at two frequencies."""
+    frequencies: tuple[Frequency, Frequency]
+    """The two frequencies."""
+
+
+class FrameSection(Section):
+    """What every flexible frame has; the suspension hangs on those of its joints that lie at the hard points."""
+
+    damping: DampingSection
+    """Damping of the frame."""
+    dynamic_modes: Count = 5
+    """Number of dynamic modes of fidelity 3."""
+    loads: str | None = None
+    """Table of the load paths: interface, axis, load_1 and on; without it there is no fidelity 2."""
+    reference: Reference | None = None
+    """Joint at chassis.reference that carries the floating frame, by default the one that is there; of a model without
+    rotations three nodes that span a triangle, the first of them there."""
+    drive_mounts: tuple[str, str, str] | None = None
+    """Left joints that take the reaction of the drive: front, rear, top; by default the two pivots of an arm of the
+    driven axle and its highest joint."""
+    ground_mounts: tuple[str, ...] | None = None
+    """Left joints through which forces of the ground on the chassis enter the frame; by default those of the drive and
+    the first one of the axle that is not driven."""
+
+    @abstractmethod
+    def structure(self, folder: Path) -> Structure:
+        """Read it.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            A file is missing or does not describe a frame.
+        """
+
+    @abstractmethod
+    def check(self, folder: Path) -> None:
+        """Refuse at once what can be seen without reading large files.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            A file is missing, or a table is not right.
+        """

@@ -1,0 +1,70 @@
+"""A frame from matrices in plain files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from mbs.errors import ModelError
+from mbs.flexible import FiniteElementModel, external_model, read_matrix
+from mbs.flexible.sparse import Sparse
+from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
+from mbs.vehicle.files import beside
+from mbs.vehicle.table import read_table
+
+FAR = 1e3  # m
+
+
+class MatricesFrame(MatrixFrame):
+    """Frame from matrices as Matrix Market or SciPy files; per node the freedoms x, y, z, and rx, ry, rz if there."""
+
+    kind: Literal["matrices"]
+    """Names this template."""
+    stiffness: str
+    """Stiffness matrix: .mtx, .mtx.gz or .npz."""
+    mass: str
+    """Mass matrix, as `stiffness`."""
+    nodes: str
+    """Table of the nodes in the order of the matrices: name, x, y, z."""
+
+    def files(self, folder: Path) -> tuple[Path, ...]:
+        """Files of the matrices, each of which is there.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            One is not.
+        """
+        return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
+
+    def finite_elements(self, folder: Path) -> FiniteElementModel:
+        """Read the files.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            A file is missing or not of that form, or the matrices are no free model.
+        """
+        stiffness, mass, _ = self.files(folder)
+        rows = read_table(folder, self.nodes, self.key("nodes"), ("name", "x", "y", "z"))
+        positions = [[row.number(axis, -FAR, FAR, "m") for axis in "xyz"] for row in rows]
+        matrices = self._matrix("stiffness", stiffness), self._matrix("mass", mass)
+        return external_model(*matrices, positions, [row["name"] for row in rows])
+
+    def _matrix(self, field: str, path: Path) -> Sparse:
+        try:
+            return read_matrix(path)
+        except ModelError:
+            raise
+        except Exception as error:  # what a damaged file does to the readers of SciPy is not declared
+            raise ModelError(f"{self.key(field)}: {path.name} holds no matrix that can be read: {error}.") from error

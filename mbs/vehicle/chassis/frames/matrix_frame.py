@@ -1,0 +1,83 @@
+"""What frames that come as matrices of another program share."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from pathlib import Path
+
+from pydantic import Field
+
+from mbs.flexible import FiniteElementModel
+from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
+from mbs.vehicle.chassis.gauges import MatrixGauge
+from mbs.vehicle.chassis.gauges.reading import in_order
+from mbs.vehicle.names import Name
+
+
+class MatrixFrame(FrameSection):
+    """Frame from matrices in SI units, free of supports, in the axes of the drawing; joints are its nodes by name."""
+
+    gauges: dict[Name, MatrixGauge] = Field(default_factory=dict)
+    """Strain gauges by name."""
+
+    @abstractmethod
+    def files(self, folder: Path) -> tuple[Path, ...]:
+        """Files of the matrices, each of which is there.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            One is not.
+        """
+
+    def check(self, folder: Path) -> None:
+        """Look for the files.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            One is missing.
+        """
+        self.files(folder)
+
+    @abstractmethod
+    def finite_elements(self, folder: Path) -> FiniteElementModel:
+        """Read the matrices.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            A file is missing, or the matrices are no free model.
+        """
+
+    def structure(self, folder: Path) -> Structure:
+        """Read the matrices and the gauges on their nodes.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            A file is missing, the matrices are no free model, or a gauge is on no node.
+        """
+        model = self.finite_elements(folder)
+        readings = [r for name, gauge in self.gauges.items() for r in gauge.readings(name, model, folder)]
+        return Structure(model, in_order(readings), dict(zip(model.names, model.positions, strict=True)))

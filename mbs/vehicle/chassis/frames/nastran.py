@@ -1,0 +1,56 @@
+"""A frame from Nastran."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from mbs.flexible import FiniteElementModel, read_nastran
+from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
+from mbs.vehicle.files import beside
+
+
+class NastranFrame(MatrixFrame):
+    """Frame from Nastran's matrices of the g-set (`read_nastran`)."""
+
+    kind: Literal["nastran"]
+    """Names this template."""
+    bulk_data: str
+    """File with the grid points: .bdf, .dat or .nas."""
+    matrices: str
+    """OUTPUT4 file with the matrices: .op4."""
+    stiffness: str = "KGG"
+    """Name of the stiffness matrix in it."""
+    mass: str = "MGG"
+    """Name of the mass matrix in it."""
+
+    def files(self, folder: Path) -> tuple[Path, ...]:
+        """Files of the matrices, each of which is there.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            One is not.
+        """
+        return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("bulk_data", "matrices"))
+
+    def finite_elements(self, folder: Path) -> FiniteElementModel:
+        """Read grid points and matrices.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            A file or a matrix is missing, or a grid point has axes of its own.
+        """
+        bulk_data, matrices = self.files(folder)
+        return read_nastran(bulk_data, matrices, self.stiffness, self.mass)

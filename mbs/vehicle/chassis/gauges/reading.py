@@ -1,0 +1,49 @@
+"""What a gauge reports."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+STRESS = "stress"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """An output of the car that is linear in the displacements of the nodes of its frame.
+
+    Attributes
+    ----------
+    quantity : str
+        First part of the output's name, as "stress".
+    gauge : str
+        Second part.
+    unit, description : str
+        Of the output.
+    row : ndarray, shape (n_dof,)
+        Per nodal displacement, m and rad.
+    """
+
+    quantity: str
+    gauge: str
+    unit: str
+    description: str
+    row: np.ndarray
+
+    @property
+    def name(self) -> str:
+        """Of the output."""
+        return f"{self.quantity}.{self.gauge}"
+
+
+def in_order(readings: Iterable[Reading]) -> tuple[Reading, ...]:
+    """Forces and moments first, then stresses, each in the order of the file.
+
+    Parameters
+    ----------
+    readings : iterable of Reading
+        Gauge by gauge.
+    """
+    return tuple(sorted(readings, key=lambda reading: reading.quantity == STRESS))

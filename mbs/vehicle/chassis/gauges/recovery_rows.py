@@ -1,0 +1,87 @@
+"""Strain gauge by rows of recovery that another program has written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from mbs.errors import ModelError
+from mbs.flexible import FiniteElementModel
+from mbs.vehicle.chassis.gauges.reading import STRESS, Reading
+from mbs.vehicle.section import Section
+from mbs.vehicle.table import Row, read_table
+
+AXES = ("x", "y", "z", "rx", "ry", "rz")
+QUANTITIES = {
+    "bending_moment": ("N.m", "bending moment at gauge {}"),
+    "axial_force": ("N", "axial force at gauge {}, positive: pulled"),
+    "torsional_moment": ("N.m", "torsional moment at gauge {}"),
+    STRESS: ("Pa", "stress at gauge {}"),
+}
+MOST = 1e18
+RIGID = 1e-4  # of what a rigid motion would give if all factors had one sign: printed factors pass
+
+
+class RecoveryRows(Section):
+    """Gauge that is a sum of nodal displacements and rotations, each times a factor."""
+
+    kind: Literal["recovery"]
+    """Names this kind of gauge."""
+    table: str
+    """Table of the factors of this gauge, and perhaps of others: gauge, quantity (bending_moment, axial_force,
+    torsional_moment or stress), node, axis (x, y, z, rx, ry, rz), factor (N, N m or Pa per m or rad)."""
+
+    def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
+        """What it reports.
+
+        Parameters
+        ----------
+        name : str
+            Of the gauge.
+        model : FiniteElementModel
+            Has the nodes.
+        folder : Path
+            Of the car's file.
+
+        Raises
+        ------
+        ModelError
+            The table is missing or does not fit the nodes, or a rigid motion would be read as a stress.
+        """
+        columns = ("gauge", "quantity", "node", "axis", "factor")
+        rows: dict[str, np.ndarray] = {}
+        for line in read_table(folder, self.table, self.key("table"), columns):
+            if line["gauge"] != name:
+                continue
+            if line["quantity"] not in QUANTITIES:
+                known = ", ".join(QUANTITIES)
+                raise ModelError(f"{line.where}: quantity is {line['quantity']!r}; it must be one of {known}.")
+            row = rows.setdefault(line["quantity"], np.zeros(model.n_dof))
+            row[_freedom(line, model)] += line.number("factor", -MOST, MOST, "per m or rad")
+        if not rows:
+            raise ModelError(f"{self.key('table')} ({self.table}) has no line of gauge {name}.")
+        rigid = model.rigid_motions(model.positions.mean(axis=0))
+        for quantity, (unit, text) in QUANTITIES.items():
+            if quantity in rows:
+                row = rows[quantity]
+                if np.abs(row @ rigid).max() > RIGID * (np.abs(row) @ np.abs(rigid)).max():
+                    raise ModelError(
+                        f"{self.key('table')} ({self.table}): the factors of {quantity} of gauge {name} read a rigid "
+                        "motion of the frame; a strain does not."
+                    )
+                yield Reading(quantity, name, unit, text.format(name), row)
+
+
+def _freedom(line: Row, model: FiniteElementModel) -> int:
+    node, axis = line["node"], line["axis"]
+    if node not in model.names:
+        raise ModelError(f"{line.where}: the frame has no node {node!r}.")
+    if axis not in AXES:
+        raise ModelError(f"{line.where}: axis is {axis!r}; it must be one of {', '.join(AXES)}.")
+    number = int(model.dof[model.node(node), AXES.index(axis)])
+    if number < 0:
+        raise ModelError(f"{line.where}: node {node} has no freedom {axis}.")
+    return number

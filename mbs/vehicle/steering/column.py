@@ -1,0 +1,219 @@
+"""Rack, pinion and column with a torsion bar, power assistance and friction, turned by an angle or by a torque."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Literal
+
+from pydantic import field_validator
+from pydantic_core import PydanticCustomError
+
+from mbs.elements.coordinate_friction import CoordinateFriction
+from mbs.elements.spring_damper import EndStops
+from mbs.elements.torsion_bar import TorsionBar
+from mbs.errors import ModelError
+from mbs.model import Model
+from mbs.model.body import Body
+from mbs.model.core import Coordinate
+from mbs.model.ends import End
+from mbs.model.guides import Guide
+from mbs.model.inputs import Input
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.quantities import (
+    AssistanceFactor,
+    AssistanceTorque,
+    ColumnDamping,
+    ColumnStiffness,
+    OneOrZero,
+    PartMass,
+    RackFriction,
+    SteeringFriction,
+    SteeringWheelInertia,
+)
+from mbs.vehicle.side import Point, Side
+from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
+from mbs.vehicle.steering.rack_section import RackSection
+from mbs.vehicle.steering.steered import Steered
+
+LARGEST_TORQUE = 100.0  # N m, of the driver's hands
+STICK_STIFFNESS, STICK_DAMPING = 200.0, 5.0  # N m/rad, N m s/rad of a column that sticks: 1 N m gives by 5 mrad
+RACK_STICK = 5e6, 1e4  # N/m, N s/m of a rack that sticks: 300 N give by 0.06 mm
+STOP_STIFFNESS, STOP_LOSS = 2e6, 1.0  # N/m, s/m of the rack's ends
+FAR = 1.0  # m: from the middle of the rack to where the length of its stops is measured from
+RACK_RADIUS = 0.013  # m: of a rack, for its inertia
+
+
+class Column(RackSection):
+    """Rack, pinion, torsion bar and steering wheel, which the driver holds at an angle or turns by a torque."""
+
+    kind: Literal["column"]
+    """Names this template."""
+    rack_mass: PartMass
+    """Mass of the rack."""
+    rack_friction: RackFriction = 0.0
+    """Friction of the rack in its housing, with that of the gear."""
+    wheel_inertia: SteeringWheelInertia
+    """Moment of inertia of the steering wheel about its axis."""
+    friction: SteeringFriction = 0.0
+    """Friction of the column at the steering wheel."""
+    stiffness: ColumnStiffness
+    """Torsional stiffness of column and torsion bar."""
+    damping: ColumnDamping = 0.0
+    """Torsional damping of column and torsion bar."""
+    assistance: AssistanceFactor = 0.0
+    """Torque of the power assistance on the pinion per torque of the torsion bar, where it is far below its limit."""
+    assistance_limit: AssistanceTorque = 0.0
+    """Largest torque of the power assistance on the pinion."""
+    by_torque: OneOrZero = 0.0
+    """1: steering_torque turns a free steering wheel; 0: the steering wheel follows steering and its angle demand."""
+
+    @field_validator("by_torque")
+    @classmethod
+    def _one_or_zero(cls, value: float) -> float:
+        if value in (0.0, 1.0):
+            return value
+        raise PydanticCustomError("one_or_zero", "must be 0, the angle steers, or 1, the torque")
+
+    @property
+    def moving_mass(self) -> float:
+        """Mass of the rack, kg."""
+        return self.rack_mass
+
+    def build(self, b: CarBuilder, way: float) -> Steered:
+        """Add rack, column and steering wheel.
+
+        Parameters
+        ----------
+        b : CarBuilder
+            The car so far.
+        way : float
+            1 where the rack moves to the left to steer to the left, -1 where it moves to the right.
+
+        Returns
+        -------
+        Steered
+            Ends of the rack, and its outputs.
+
+        Raises
+        ------
+        ModelError
+            The chassis is not rigid.
+        """
+        m, per_radian = b.m, way * self.rack_per_turn / (2.0 * math.pi)
+        if b.chassis.body is not b.chassis.frame:
+            raise ModelError(
+                f"{self.key('kind')} is 'column', which needs a rigid chassis; on a flexible one take 'rack_by_angle'."
+            )
+        demand = angle_demand(m, self.wheel_angle_max)
+        torque = m.input(
+            "steering_torque",
+            min=-LARGEST_TORQUE,
+            max=LARGEST_TORQUE,
+            unit="N.m",
+            description="torque of the driver's hands where steering.by_torque is 1, positive to the left",
+        )
+        wheel, pinion = m.shaft("steering wheel", inertia=self.wheel_inertia), m.shaft("pinion")
+        held = self._hands(b, wheel, demand, torque)
+        self._bar(b, wheel, pinion)
+        racks: list[Body] = []
+
+        def end(side: Side, point: Point) -> End:
+            if not racks:
+                racks.append(self._rack(b, pinion, point, per_radian))
+            return racks[0], point
+
+        return Steered(
+            end,
+            lambda: self._outputs(m, wheel, pinion, per_radian, way),
+            self._torque_outputs(m, wheel, racks, demand, torque, held),
+        )
+
+    def _hands(self, b: CarBuilder, wheel: Coordinate, demand: Input, torque: Input) -> Guide:
+        """Hands without mass on the wheel, which follow the demanded angle or let the torque turn it."""
+        m, largest = b.m, self.wheel_angle_max
+        guide = m.guide_inputs(
+            "steering wheel",
+            inputs=(b.inputs["steering"], demand),
+            gains=(largest, 1.0),
+            limits=(-largest, largest),
+            frequency=self.frequency,
+            unit="rad",
+        )
+        hands = m.shaft("hands")
+        m.gear("grip", wheel, hands, ratio=1.0)
+        m.torque_on("steering torque", hands, input=torque)
+        m.drive("steering angle", hands, guide, switch=True)
+        b.tie(self, "by_torque", "steering angle", "on", -1.0, offset=1.0)
+        # an equilibrium of a free steering wheel would be any angle at which friction holds
+        m.equilibrium_parameters[self.key("by_torque")] = 0.0
+        return guide
+
+    def _bar(self, b: CarBuilder, wheel: Coordinate, pinion: Coordinate) -> None:
+        bar = TorsionBar(self.stiffness, self.damping, self.assistance, self.assistance_limit)
+        b.m.add(bar.record("torsion bar", wheel.affine, pinion.affine))
+        friction = CoordinateFriction(self.friction, STICK_STIFFNESS, STICK_DAMPING)
+        b.m.add(friction.record("steering friction", wheel.affine))
+        for name, real in (
+            ("stiffness", "stiffness"),
+            ("damping", "damping"),
+            ("assistance", "assist_gain"),
+            ("assistance_limit", "assist_limit"),
+        ):
+            b.tie(self, name, "torsion bar", real)
+        b.tie(self, "friction", "steering friction", "largest")
+
+    def _rack(self, b: CarBuilder, pinion: Coordinate, left: Point, per_radian: float) -> Body:
+        """The rack between the inner ends of the tie rods."""
+        m, chassis, length = b.m, b.chassis.frame, 2.0 * abs(left[1])
+        middle, across = (left[0], 0.0, left[2]), self.rack_mass * length**2 / 12.0
+        inertia = (across, self.rack_mass * RACK_RADIUS**2, across)
+        rack = m.body("rack", mass=self.rack_mass, com=middle, inertia=inertia)
+        m.prismatic("rack housing", rack, chassis, axis=(0.0, 1.0, 0.0), point=middle)
+        m.rack("pinion", pinion, rack, carrier=chassis, axis=(0.0, 1.0, 0.0), radius=per_radian, point=middle)
+        friction = CoordinateFriction(self.rack_friction, *RACK_STICK, unit="N")
+        m.add(friction.record("rack friction", pinion.affine * per_radian))
+        b.tie(self, "rack_friction", "rack friction", "largest")
+        ends = (rack, middle), (chassis, (middle[0], FAR, middle[2]))
+        stops = EndStops(
+            FAR - self.rack_travel,
+            STOP_STIFFNESS,
+            FAR + self.rack_travel,
+            STOP_STIFFNESS,
+            bump_loss=STOP_LOSS,
+            rebound_loss=STOP_LOSS,
+        )
+        m.spring_damper("rack stop", *ends, stiffness=0.0, free_length=FAR, stops=stops)
+        return rack
+
+    def _outputs(self, m: Model, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
+        m.sense_coordinate("steering_rack", pinion, scale=per_radian, unit="m", description=self.travel_text(way))
+        m.sense_coordinate(
+            "steering_wheel_angle", wheel, description="angle of the steering wheel, positive to the left"
+        )
+
+    def _torque_outputs(
+        self, m: Model, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, held: Guide
+    ) -> Callable[[], None]:
+        def add() -> None:
+            (rack,) = racks
+            rods = [j for j in m.joints if j.type == "distance" and j.ends is not None and rack in j.ends.bodies]
+            m.sense_joint_force("steering_wheel_torque", "grip", "torque", "N.m", WHEEL_TORQUE)
+            m.sense_coordinate("steering_wheel_speed", wheel, 1, description=WHEEL_SPEED)
+            m.sense_rod_force("steering_rack_force", rods, rack, (0.0, 1.0, 0.0), description=RACK_FORCE)
+            demand_outputs(m, demand, held, 1.0)
+            m.sense_input(f"used.{torque.name}", torque, description=f"{torque.name} as used")
+            m.sense_element("steering_column_torque", "torsion bar", "torque", description="torque of the torsion bar")
+            m.sense_element(
+                "steering_assistance", "torsion bar", "assistance", description="torque of the assistance on the pinion"
+            )
+            names = ("steering torque", "torsion bar", "steering friction", "rack friction", "rack stop")
+            m.sense_work(
+                "energy.steering",
+                [e for e in m.elements if e.name in names],
+                "nonconservative",
+                "work of steering_torque, assistance, friction and stops of the steering since the start, "
+                "without what is stored",
+            )
+
+        return add

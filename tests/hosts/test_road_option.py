@@ -1,0 +1,59 @@
+"""The option ``--road`` of hosts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+import mbs
+from fmu_src.build import build_fmu
+from hosts.errors import HostError
+from hosts.road import road_value
+from hosts.run import main
+from mbs.elements import ContactPoints, PlaneRoad
+
+TABLE = "x,-5,0,5\n-50,{0},{0},{0}\n0,{0},{0},{0}\n50,{0},{0},{0}\n"
+
+
+@pytest.fixture(scope="module")
+def sledge(tmp_path_factory):
+    m = mbs.Model("sledge", gravity=(0.0, 0.0, -9.81))
+    m.floating = m.start_in_equilibrium = True
+    m.stop_time, m.step = 0.2, 0.002
+    body = m.body("sledge", mass=20.0, com=(0.0, 0.0, 0.2), inertia=(1.0, 2.0, 2.0))
+    road = m.road(PlaneRoad(friction=0.5), file="road.file")
+    feet = [(x, y, 0.0) for x in (-0.5, 0.5) for y in (-0.2, 0.2)]
+    m.contact_points("feet", body, feet, road=road, contact=ContactPoints.for_mass(20.0, 0.001))
+    m.sense_position("z", body, None, "z")
+    return build_fmu(mbs.compile(m), "sledge", tmp_path_factory.mktemp("sledge"), [fmpy.platform])
+
+
+def test_what_the_parameter_is_set_to(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert road_value("rough.road", tmp_path) == "rough.road"  # of the FMU
+    Path("rough.road").touch()
+    assert road_value("rough.road", tmp_path) == str(tmp_path / "rough.road")
+    Path("hill.csv").write_text(TABLE.format(2.0))
+    made = road_value("hill.csv", tmp_path / "out")
+    assert made == str(tmp_path / "out" / "hill.road")
+    assert np.all(np.asarray(mbs.read_road(made).heights) == 2.0)
+    Path("bad.csv").write_text("1,2\n")
+    with pytest.raises(HostError, match=r"^bad.csv has 1 rows; a grid needs at least two\.$"):
+        road_value("bad.csv", tmp_path / "out")
+
+
+def test_a_run_on_a_table(sledge, tmp_path, capsys):
+    (tmp_path / "hill.csv").write_text(TABLE.format(3.0))
+    out = tmp_path / "out"
+    assert main([str(sledge), "--road", str(tmp_path / "hill.csv"), "--out", str(out)]) == 0
+    assert "'' -> " in capsys.readouterr().out
+    table = np.genfromtxt(out / f"{sledge.stem}.csv", delimiter=",", names=True)
+    assert table["z"][-1] == pytest.approx(3.2, abs=0.01)
+
+
+def test_a_road_that_is_not_there(sledge, tmp_path, capsys):
+    assert main([str(sledge), "--road", "nothing.road", "--out", str(tmp_path)]) == 2
+    assert "'road.file' cannot be 'nothing.road'" in capsys.readouterr().err

@@ -1,0 +1,173 @@
+"""Roads as texts that the kernel reads by itself: the same numbers as Python's, one sentence for what is none."""
+
+from __future__ import annotations
+
+import locale
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.elements import GridRoad
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.roads import RoadFileError, read_road, write_road
+from mbs.scenes import prototype_car
+
+H = 0.002
+GOOD = "x,-1,0,1\n-5,0.0,0.1,0.2\n-3,1.0,1.1,1.2\n"
+
+
+@pytest.fixture(scope="module")
+def loaded():
+    return LoadedSystem(mbs.compile(prototype_car.build()).to_bytes())
+
+
+def table(road, frictions=True, mark=",", digits=repr):
+    nx, ny = np.shape(road.heights)
+    x, y = (road.origin[k] + road.spacing[k] * np.arange(n) for k, n in enumerate((nx, ny)))
+    lines = []
+    for name, values in (("heights", road.heights), ("frictions", road.frictions))[: 1 + frictions]:
+        rows = [[name, *map(digits, y.tolist())]]
+        rows += [[digits(a), *map(digits, row)] for a, row in zip(x.tolist(), values.tolist(), strict=True)]
+        lines += [mark.join(row) for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def rough(seed=1):
+    """Multiples of 2^-10, so that their decimals are short."""
+    rng = np.random.default_rng(seed)
+    heights = np.round(0.004 * rng.standard_normal((300, 40)) * 1024) / 1024
+    frictions = np.round((0.5 + 0.5 * rng.random((300, 40))) * 1024) / 1024
+    return GridRoad((-10.0, -5.0), (0.25, 0.25), heights, frictions)
+
+
+def driven(loaded, path, steps=200):
+    instance = Instance(loaded)
+    instance.set_road(0, path)
+    instance.set_pose(0.0, 0.0, 0.0, 0.1, 10.0)
+    instance.initialise()
+    instance.run(H, steps)
+    return list(instance.get_state()[0])
+
+
+@pytest.mark.parametrize("mark", [",", ";", "\t"])
+def test_a_text_is_the_same_road_as_the_file_made_of_it(tmp_path, loaded, mark):
+    (tmp_path / "a.csv").write_text(table(rough(), mark=mark))
+    write_road(read_road(tmp_path / "a.csv"), tmp_path / "a.road")
+    assert np.array_equal(read_road(tmp_path / "a.csv").heights, rough().heights)
+    assert driven(loaded, tmp_path / "a.csv") == driven(loaded, tmp_path / "a.road")
+
+
+def test_without_frictions_they_are_as_in_python(tmp_path, loaded):
+    (tmp_path / "a.TXT").write_text("# a remark\r\n\r\n" + table(rough(), False).replace("\n", "\r\n"))
+    write_road(read_road(tmp_path / "a.TXT"), tmp_path / "a.road")
+    assert driven(loaded, tmp_path / "a.TXT") == driven(loaded, tmp_path / "a.road")
+
+
+def test_decimals_of_any_length(tmp_path, loaded):
+    """Seventeen digits, exponents, signs, decimal commas: within round-off of the correctly rounded numbers."""
+    rng = np.random.default_rng(2)
+    road = rough()
+    long = GridRoad(road.origin, road.spacing, road.heights + 1e-5 * rng.random((300, 40)), road.frictions)
+    write_road(long, tmp_path / "a.road")
+    (tmp_path / "a.csv").write_text(table(long))
+    (tmp_path / "b.csv").write_text(table(long, digits=lambda v: f"{v:+.17E}"))
+    (tmp_path / "c.csv").write_text(table(long, mark=";").replace(".", ","))
+    expected = np.array(driven(loaded, tmp_path / "a.road"))
+    for name in "abc":
+        assert np.abs(np.array(driven(loaded, tmp_path / f"{name}.csv")) - expected).max() < 1e-11
+
+
+def test_the_locale_does_not_matter(tmp_path, loaded):
+    (tmp_path / "a.csv").write_text(table(rough()))
+    before, kept = driven(loaded, tmp_path / "a.csv"), locale.setlocale(locale.LC_NUMERIC)
+    for name in ("de_DE.UTF-8", "de_DE", "fr_FR.UTF-8"):
+        try:
+            locale.setlocale(locale.LC_NUMERIC, name)
+        except locale.Error:
+            continue
+        try:
+            assert driven(loaded, tmp_path / "a.csv") == before
+        finally:
+            locale.setlocale(locale.LC_NUMERIC, kept)
+        return
+    pytest.skip("no locale with a decimal comma")
+
+
+def test_a_state_is_bound_to_the_text(tmp_path, loaded):
+    for seed in (1, 2):
+        (tmp_path / f"{seed}.csv").write_text(table(rough(seed)))
+    instances = [Instance(loaded) for _ in range(2)]
+    for instance, seed in zip(instances, (1, 2), strict=True):
+        instance.set_road(0, tmp_path / f"{seed}.csv")
+        instance.initialise()
+    with pytest.raises(KernelError) as refused:
+        instances[1].restore(instances[0].save())
+    assert refused.value.status == Status.BAD_STATE
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "it is empty"),
+        ("# only a remark\n", "it is empty"),
+        ("1,2\n3,4\n", "first cell is a number, so that it has no coordinates; make a road file"),
+        ("x\n", "0 x 0 points"),
+        ("x,1\n0,1\n1,1\n", "2 x 1 points"),
+        ("x,0,1\n0,1,1\n", "1 x 2 points"),
+        (GOOD.replace("1.1", "1,1"), "line 3 has more cells"),
+        (GOOD.replace("1.0,1.1", "1.1"), "line 3 has 3 cells, the first one 4"),
+        (GOOD.replace("1.1", "abc"), "'abc' in line 3 is no number"),
+        (GOOD.replace("1.1", "nan"), "'nan' in line 3 is no number"),
+        (GOOD.replace("1.1", "1e400"), "'1e400' in line 3 is no number"),
+        (GOOD.replace("1.1", "1_0"), "'1_0' in line 3 is no number"),
+        (GOOD.replace("1.1", ""), "'' in line 3 is no number"),
+        (GOOD.replace("1.1", "2e5"), "its height at row 2, column 2 of the points is 200000"),
+        (GOOD.replace("-3,", "-5,"), "coordinates x do not ascend"),
+        ("x,0,1,5\n0,1,2,3\n1,1,2,3\n", "coordinates y are not regular: 1 should be 2.5"),
+        (GOOD + GOOD.replace("1.1", "-0.1"), "its friction at row 2, column 2 of the points is -0.1"),
+        (GOOD + GOOD.replace("-3", "-2"), "frictions have other coordinates"),
+        (GOOD + GOOD + "-1,1,1,1\n", "2 rows of heights and 3 of frictions"),
+        (GOOD * 3, "third table"),
+    ],
+)
+def test_a_bad_text_is_refused(tmp_path, loaded, text, sentence):
+    (tmp_path / "a.csv").write_text(text)
+    instance = Instance(loaded)
+    with pytest.raises(KernelError) as refused:
+        instance.set_road(0, tmp_path / "a.csv")
+    assert refused.value.status == Status.BAD_ROAD
+    assert sentence in str(refused.value)
+    with pytest.raises((RoadFileError, ValueError)):  # Python's reader refuses the same
+        write_road(read_road(tmp_path / "a.csv"), tmp_path / "a.road")
+
+
+def test_altered_texts_end_in_a_sentence(tmp_path, loaded):
+    rng, instance, refused = np.random.default_rng(4), Instance(loaded), 0
+    text = bytearray((GOOD + GOOD).encode())
+    letters = b"0123456789.,;-+eE \t\r\nx#\0\xff"
+    for _ in range(2000):
+        altered = bytearray(text)
+        for _ in range(rng.integers(1, 5)):
+            place = rng.integers(0, len(altered))
+            letter = letters[rng.integers(0, len(letters))]
+            if rng.random() < 0.3:
+                del altered[place]
+            else:
+                altered[place] = letter
+        (tmp_path / "a.csv").write_bytes(bytes(altered))
+        try:
+            instance.set_road(0, tmp_path / "a.csv")
+        except KernelError as error:
+            refused += error.status == Status.BAD_ROAD and len(str(error)) > 30
+    assert 1000 < refused < 2000
+
+
+def test_a_model_on_a_table(tmp_path):
+    (tmp_path / "a.csv").write_text(table(rough()))
+    system = mbs.compile(prototype_car.build(mbs.RoadFile(tmp_path / "a.csv")))
+    run = mbs.simulate(system, 0.5, H, pose=mbs.Pose(speed=10.0), progress=False)
+    assert np.ptp(run["wheel_FL.Fz"]) > 50.0
+    (tmp_path / "a.csv").write_text("x,1\n")
+    with pytest.raises(ValueError, match="a.csv has 1 rows"):
+        prototype_car.build(mbs.RoadFile(tmp_path / "a.csv"))
