@@ -39,7 +39,12 @@ CASES = {  # table, what is replaced by what, words of the sentence
     "mass on no joint": ("masses.csv", MASS, "powertrain,EMX,32", "joint 'EMX' is not in chassis.frame.joints"),
     "mass in g": ("masses.csv", MASS, "powertrain,EML,32000", "mass is '32000'; it must be a number"),
     "mass in t": ("masses.csv", MASS, "powertrain,EML,0.032", "the frame with the masses it carries has 412"),
-    "loads of another joint": ("loads.csv", "LFL,x,", "LFX,x,", "line 5: LFX x is no axis of a joint of the suspension"),
+    "loads of another joint": (
+        "loads.csv",
+        "LFL,x,",
+        "LFX,x,",
+        "line 5: LFX x is no axis of a joint of the suspension",
+    ),
     "no CSV": ("tubes.csv", TUBE, 'F1L,"LFL,M,2', "tubes.csv"),
 }
 
