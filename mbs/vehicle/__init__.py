@@ -4,5 +4,6 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.car_file import car_names, load
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.json_schema import json_schema
 
-__all__ = ["Car", "CarFileError", "CarWarning", "Fidelity", "car_names", "load"]
+__all__ = ["Car", "CarFileError", "CarWarning", "Fidelity", "car_names", "json_schema", "load"]

@@ -36,7 +36,7 @@ from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.fidelity import OFFERED, Fidelity
-from mbs.vehicle.names import CarName, Text
+from mbs.vehicle.names import CarName, Name, Text
 from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, work_outputs
 from mbs.vehicle.payload import Payload
 from mbs.vehicle.quantities import Length, Mass, Point
@@ -79,7 +79,7 @@ class Car(Section):
     """The car as a whole."""
     chassis: Chassis
     """Chassis with all that is fixed to it."""
-    payload: dict[str, Payload] = Field(default_factory=dict)
+    payload: dict[Name, Payload] = Field(default_factory=dict)
     """Persons and luggage by name."""
     front: Axle
     """Front axle."""

@@ -19,7 +19,7 @@ from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.files import text_of
 from mbs.vehicle.schema_version import check_version
-from mbs.vehicle.sentences import Sentences
+from mbs.vehicle.sentences import Sentences, one_line
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -146,24 +146,26 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
         return car
     if car.chassis.frame is not None:
         try:
-            car.flexible_frame  # noqa: B018
+            frame = car.flexible_frame
+            if frame.section.loads is not None:
+                frame.recorded_loads()
         except ModelError as error:
             raise CarFileError(_told(what, [str(error)])) from error
     try:
         rest = settled(car)
     except (ValueError, SimulationError) as error:
-        raise CarFileError(f"{what}: as drawn it makes no car. {error}") from error
+        raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
     faults = list(rest.faults(car))
     if faults:
         raise CarFileError(_told(what, faults))
     if warn:
         for sentence in car_oddities(car, rest):
-            warnings.warn(f"{what}: {sentence}", CarWarning, stacklevel=3)
+            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=3)
     return car
 
 
 def _told(what: str, faults: Sequence[str]) -> str:
-    told = [f"{what}: {fault}" for fault in faults[:MOST_FAULTS]]
+    told = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
     if len(faults) > MOST_FAULTS:
         told.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
     return "\n".join(told)

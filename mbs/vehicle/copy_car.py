@@ -1,4 +1,4 @@
-"""Copies a car of the package, so that its file can be changed."""
+"""Copies a car of the package, so that its file can be changed, with the schema that editors check it by."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from pathlib import Path
 from ali3.errors import FileError
 from ali3.files import reason
 from mbs.checks import shown
-from mbs.vehicle.car_file import CARS, car_names
+from mbs.vehicle.car_file import CARS, FILE, car_names
 from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.json_schema import SCHEMA_FILE
 
 
 def copy_car(name: str, folder: Path) -> list[Path]:
@@ -45,6 +46,9 @@ def copy_car(name: str, folder: Path) -> list[Path]:
         folder.parent.mkdir(parents=True, exist_ok=True)
         made = tempfile.mkdtemp(prefix=".writing-", dir=folder.parent)
         part = shutil.copytree(CARS / name, Path(made, folder.name), ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copy(SCHEMA_FILE, part)
+        file = part / FILE
+        file.write_text(f"#:schema {SCHEMA_FILE.name}\n" + file.read_text(encoding="utf-8"), encoding="utf-8")
         part.replace(folder)
     except OSError as error:
         raise FileError(f"{folder} cannot be written: {reason(error)}.") from error

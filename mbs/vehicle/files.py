@@ -69,4 +69,6 @@ def beside(folder: Path, name: str, key: str) -> Path:
     path = folder / name
     if not os.path.lexists(path):
         raise CarFileError(f"{key} is {name!r}; there is no such file in {folder}.")
+    if not path.resolve().is_relative_to(folder.resolve()):
+        raise CarFileError(f"{key} is {name!r}; it leads out of the folder of the car.")
     return path

@@ -26,6 +26,17 @@ def keys_of(table: type[Section]) -> dict[str, FieldInfo]:
     return {field.alias or name: field for name, field in table.model_fields.items()}
 
 
+def annotation_of(field: FieldInfo) -> Any:
+    """Type of a field with what is annotated to it.
+
+    Parameters
+    ----------
+    field : FieldInfo
+        Of a table.
+    """
+    return Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
+
+
 def templates(annotation: Any) -> list[type[Section]]:
     """Tables that may stand at a key; several where templates are chosen by `kind`.
 
@@ -90,7 +101,7 @@ def annotation_at(top: type[Section], path: Sequence[str], data: Any) -> Any | N
             field = keys_of(table).get(key)
             if field is None:
                 return None
-            annotation = Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
+            annotation = annotation_of(field)
         else:
             annotation = _element(annotation, key)
             if annotation is None:
@@ -182,8 +193,12 @@ def words(annotation: Any) -> str:
 
 
 def _list_words(inner: tuple[Any, ...]) -> str:
+    if inner[-1] is not Ellipsis and any(item != inner[0] for item in inner):
+        return f"a list of {' and '.join(words(item) for item in inner)}"
     each = words(inner[0])
-    plural = each.replace("a number", "numbers", 1).replace("a list", "lists", 1).replace("text", "texts", 1)
+    first, _, rest = each.partition(" of ")
+    plural = {"a list": "lists", "text": "texts", "a table": "tables"}.get(first, first.replace("a number", "numbers"))
+    plural += f" of {rest}" if rest else ""
     if inner[-1] is Ellipsis:
         return f"a list of {plural}"
     return f"a list of {len(inner)} {plural}"

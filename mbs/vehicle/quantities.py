@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -72,6 +72,20 @@ class Quantity:
         if self.zero and self.low > 0.0:
             return {"anyOf": [{"const": 0}, limits], "unit": self.unit}
         return limits | {"unit": self.unit}
+
+
+def quantities_in(annotation: Any) -> list[Quantity]:
+    """Quantities of a type, each once: of a number, or of the elements of a list.
+
+    Parameters
+    ----------
+    annotation : type
+        Of a field.
+    """
+    found: dict[Quantity, None] = {}
+    for item in (*getattr(annotation, "__metadata__", ()), *get_args(annotation)):
+        found |= dict.fromkeys([item] if isinstance(item, Quantity) else quantities_in(item))
+    return list(found)
 
 
 def _fixed(quantity: Quantity) -> Quantity:
@@ -145,9 +159,9 @@ RackFriction = Annotated[float, Quantity("N", 5.0, 2000.0, zero=True, change="tu
 SteeringWheelInertia = Annotated[float, Quantity("kg.m2", 0.002, 1.0)]
 ColumnStiffness = Annotated[float, Quantity("N.m/rad", 15.0, 1.4e4, change="tunable")]
 ColumnDamping = Annotated[float, Quantity("N.m.s/rad", 0.01, 9.0, zero=True, change="tunable")]
-AssistanceFactor = Annotated[float, Quantity("1", 0.0, 60.0, change="tunable")]
+AssistanceFactor = Annotated[float, Quantity("1", 0.1, 60.0, zero=True, change="tunable")]
 AssistanceTorque = Annotated[float, Quantity("N.m", 0.5, 400.0, zero=True, change="tunable")]
-OneOrZero = Annotated[float, Quantity("1", 0.0, 1.0, change="fixed")]
+OneOrZero = Annotated[float, Quantity("1", 0.5, 1.0, zero=True, change="fixed")]
 RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
 RoadWheelAngle = Annotated[float, Quantity("rad", 0.1, 1.2)]
 PoissonsRatio = Annotated[float, Quantity("1", 0.01, 0.49, zero=True)]
@@ -161,6 +175,6 @@ DamperForce = Annotated[float, Quantity("N", -5e4, 5e4)]
 LiftArea = Annotated[float, Quantity("m2", -9.0, 9.0, change="tunable")]
 BrakeTorque = Annotated[float, Quantity("N.m", 30.0, 2.5e4, change="tunable")]
 HandBrakeTorque = Annotated[float, Quantity("N.m", 10.0, 9e3, zero=True, change="tunable")]
-Balance = Annotated[float, Quantity("1", 0.0, 1.0, change="tunable")]
+Balance = Annotated[float, Quantity("1", 0.01, 1.0, zero=True, change="tunable")]
 TyreRate = Annotated[float, Quantity("N/m", 1e4, 2e6, change="tunable")]
-RollingResistance = Annotated[float, Quantity("1", 0.0, 0.3, change="tunable")]
+RollingResistance = Annotated[float, Quantity("1", 0.001, 0.3, zero=True, change="tunable")]

@@ -15,6 +15,7 @@ from mbs.vehicle.names import FORMS, NAME_WORDS
 from mbs.vehicle.section import Section
 
 CLOSE = 0.6  # of difflib: spellings that may be meant
+LONGEST = 400  # characters of a sentence
 ELSEWHERE = 3  # places of a key that a sentence names
 UNKNOWN, MISSING = "extra_forbidden", "missing"
 Loc = Sequence["int | str"]
@@ -67,7 +68,7 @@ class Sentences:
             known = item.get("ctx", {}).get("expected_tags")
             if known is None:
                 return f"{_key([*path, 'kind'])} is missing; it names the template."
-            return f"{_key([*path, 'kind'])} is {shown(item['ctx']['tag'])}; it must be one of {known}."
+            return f"{_key([*path, 'kind'])} is {_given(_tag(item))}; it must be one of {known}."
         if kind == "quantity":
             return f"{self._place(path)} is {_given(item['input'])}; it must be {item['ctx']['range']}."
         if kind == MISSING:  # an element of a list that is too short
@@ -139,6 +140,18 @@ class Sentences:
         return _key(path)
 
 
+def one_line(sentence: str) -> str:
+    """A sentence whose names and values, which may be any text, neither break the line nor make it endless.
+
+    Parameters
+    ----------
+    sentence : str
+        With texts of a file in it.
+    """
+    printable = "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
+    return printable if len(printable) <= LONGEST else f"{printable[: LONGEST // 2]} ... {printable[-LONGEST // 2 :]}"
+
+
 def _key(path: Sequence[str]) -> str:
     return ".".join(path) or "the file"
 
@@ -158,6 +171,12 @@ def _given(value: object) -> str:
     if isinstance(value, int) and abs(value) >= 10**18:
         return "a whole number of 19 digits or more"
     return shown(value)
+
+
+def _tag(item: Any) -> Any:
+    """What stands as the kind of a template."""
+    given = item["input"]
+    return given.get("kind") if isinstance(given, Mapping) else item["ctx"]["tag"]
 
 
 def _limits(item: Any) -> str:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
-
-from pydantic import model_validator
-from pydantic_core import PydanticCustomError
 
 from mbs.elements.record import ElementRecord
 from mbs.elements.spring_damper import EndStops, SpringDamper
@@ -32,32 +30,36 @@ from mbs.vehicle.quantities import (
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Point
 
-Law: TypeAlias = "tuple[tuple[float, float], ...] | None"
+Rows: TypeAlias = "tuple[tuple[float, float], ...]"
 
 
-def check_law(number: float | None, table: Law, name: str, what: str) -> None:
-    """Refuse what has neither or both of a number and a table, or a table that falls.
+def law_faults(section: Section, name: str, number: float | None, table: Rows | None) -> Iterator[str]:
+    """A force is given by a number or by a table that rises.
 
     Parameters
     ----------
+    section : Section
+        Spring or damper.
+    name : str
+        Key of the number.
     number : float or None
-        Of a spring or a damper.
+        Its value.
     table : rows of (float, float) or None
         In its place.
-    name, what : str
-        The number in the file and in words.
-
-    Raises
-    ------
-    PydanticCustomError
-        It is so.
     """
-    if (number is None) == (table is None):
-        which = f"both {name} and table" if table is not None else f"neither {name} nor table"
-        wanted = "has {which}; it must have either a {what} or a table of rows"
-        raise PydanticCustomError("law", wanted, {"which": which, "what": what})
-    if table is not None and (len(table) < 2 or not all(a[0] < b[0] and a[1] <= b[1] for a, b in pairwise(table))):
-        raise PydanticCustomError("law", "has a table that does not rise from row to row; it needs two rows or more")
+    if number is None and table is None:
+        yield f"{section.key(name)} is missing; there must be it or {section.key('table')}, rows of two numbers."
+    if number is not None and table is not None:
+        yield f"{section.key(name)} is {number:g}, and there is {section.key('table')} too; there must be one of both."
+    if table is not None and len(table) < 2:
+        yield f"{section.key('table')} has {len(table)} rows; it must have two or more."
+    for k, (first, second) in enumerate(pairwise(table or ())):
+        if second[0] <= first[0] or second[1] < first[1]:
+            yield (
+                f"{section.key('table')}.{k + 1} is {list(second)} after {list(first)}; both columns must rise "
+                "from row to row."
+            )
+            return
 
 
 class Spring(Section):
@@ -72,10 +74,9 @@ class Spring(Section):
     factor: Factor = 1.0
     """Factor on the force of the spring."""
 
-    @model_validator(mode="after")
-    def _one_law(self) -> Spring:
-        check_law(self.stiffness, self.table, "stiffness", "spring rate")
-        return self
+    def faults(self) -> Iterator[str]:
+        """By a number or a table."""
+        yield from law_faults(self, "stiffness", self.stiffness, self.table)
 
     @property
     def law(self) -> float | list[tuple[float, float]]:
@@ -96,10 +97,9 @@ class Damper(Section):
     factor: Factor = 1.0
     """Factor on the force of the damper."""
 
-    @model_validator(mode="after")
-    def _one_law(self) -> Damper:
-        check_law(self.damping, self.table, "damping", "damping coefficient")
-        return self
+    def faults(self) -> Iterator[str]:
+        """By a number or a table."""
+        yield from law_faults(self, "damping", self.damping, self.table)
 
     @property
     def law(self) -> float | list[tuple[float, float]]:

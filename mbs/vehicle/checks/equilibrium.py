@@ -53,8 +53,8 @@ class Rest:
         """
         yield from self._moved(car, TOO_FAR, math.inf)
         for name, axle in _axles(car):
-            free, length = getattr(axle.spring, "free_length", None), self.spring_length[name]
-            if free is not None and not LEAST_LENGTH * free <= length:
+            free, length = axle.spring.free_length, self.spring_length[name]
+            if length < LEAST_LENGTH * free:
                 yield (
                     f"{axle.spring.key('free_length')} is {free:g} m, but at rest the spring has {length:.3g} m "
                     f"between its points; it must be {length / LEAST_LENGTH:.3g} m or less."
@@ -89,11 +89,8 @@ class Rest:
             travel = self.travel[name]
             if low < abs(travel) <= high:
                 spring = axle.spring
-                values = [
-                    f"{spring.key(key)} {value:g} {unit}"
-                    for key, unit in (("free_length", "m"), ("stiffness", "N/m"))
-                    if (value := getattr(spring, key, None)) is not None
-                ]
+                values = [f"{spring.key('free_length')} {spring.free_length:g} m"]
+                values += [f"stiffness {spring.stiffness:g} N/m"] if spring.stiffness is not None else []
                 yield (
                     f"at rest the {name} wheels stand {abs(travel):.3g} m {'higher' if travel > 0.0 else 'lower'} "
                     f"in the chassis than {axle.wheel.key('centre')} is drawn, at a load of {self.load[name]:.0f} N "

@@ -64,16 +64,18 @@ def mass_oddities(car: Car) -> Iterator[str]:
             )
 
 
-def weighed_points(car: Car) -> list[tuple[float, tuple[float, float, float]]]:
-    """Masses with their places as drawn, of both sides, with the payloads.
+def weighed_points(car: Car, payloads: bool) -> list[tuple[float, tuple[float, float, float]]]:
+    """Masses with their places as drawn, of both sides.
 
     Parameters
     ----------
     car : Car
         Each number of it is in its range.
+    payloads : bool
+        Whether with the payloads.
     """
     found = [(car.chassis.mass, car.chassis.com)]
-    found += [(load.mass, load.point) for load in getattr(car, "payload", {}).values()]
+    found += [(load.mass, load.point) for load in car.payload.values() if payloads]
     points = car.front.suspension.points
     x, _, z = getattr(points, "tie_rod_inner", car.front.wheel.centre)
     found.append((car.steering.moving_mass, (x, 0.0, z)))
@@ -83,16 +85,14 @@ def weighed_points(car: Car) -> list[tuple[float, tuple[float, float, float]]]:
 
 
 def _sum(car: Car) -> Iterator[str]:
-    weighed = weighed_points(car)
-    loads = sum(load.mass for load in getattr(car, "payload", {}).values())
-    total = sum(mass for mass, _ in weighed)
+    total = sum(mass for mass, _ in weighed_points(car, payloads=False))
     given = car.vehicle.mass
-    if abs(total - loads - given) > MASS_TOLERANCE * given:
-        yield f"{car.vehicle.key('mass')} is {given:g} kg, but the masses of all parts add up to {total - loads:g} kg."
+    if abs(total - given) > MASS_TOLERANCE * given:
+        yield f"{car.vehicle.key('mass')} is {given:g} kg, but the masses of all parts add up to {total:g} kg."
         return
-    centre = [sum(mass * place[k] for mass, place in weighed) / total for k in range(3)]
+    centre, loaded = _centre(car, payloads=False), _centre(car, payloads=True)
     off = math.dist(centre, car.vehicle.reference_point)
-    if off > REFERENCE_TOLERANCE:
+    if min(off, math.dist(loaded, car.vehicle.reference_point)) > REFERENCE_TOLERANCE:
         yield (
             f"{car.vehicle.key('reference_point')} is {list(car.vehicle.reference_point)} m, {off:.3g} m from the "
             f"centre of mass of all parts, {[round(c, 4) for c in centre]} m, which it is."
@@ -114,6 +114,13 @@ def _sum(car: Car) -> Iterator[str]:
             f"{car.chassis.key('com')} puts the centre of mass of the car at a height of {centre[2]:.3g} m; with a "
             f"track of {track:g} m it must be between {0.1 * track:.3g} and {track:g} m."
         )
+
+
+def _centre(car: Car, payloads: bool) -> list[float]:
+    """Centre of mass, m."""
+    weighed = weighed_points(car, payloads)
+    total = sum(mass for mass, _ in weighed)
+    return [sum(mass * place[k] for mass, place in weighed) / total for k in range(3)]
 
 
 def _tensor(key: str, inertia: tuple[float, float, float]) -> Iterator[str]:

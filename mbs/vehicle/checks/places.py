@@ -140,6 +140,7 @@ def _parts(axle: Axle) -> Iterator[str]:
 def _points_of_the_body(car: Car) -> dict[str, Point]:
     chassis = car.chassis
     points: dict[str, Point] = {chassis.key("com"): chassis.com, chassis.key("reference"): chassis.reference}
+    points |= {load.key("point"): load.point for load in car.payload.values()}
     points |= {f"{chassis.key('accelerometers')}.{name}": point for name, point in chassis.accelerometers.items()}
     if chassis.ground_contact is not None:
         key = chassis.ground_contact.key("points")

@@ -35,11 +35,11 @@ def rate_oddities(car: Car, rest: Rest) -> Iterator[str]:
         unsprung = axle.wheel.mass + sum(part.mass for part in parts_of(axle))
         carried = rest.load[name] - GRAVITY * unsprung
         force = abs(rest.spring_force[name])
-        stiffness, damping = getattr(axle.spring, "stiffness", None), getattr(axle.damper, "damping", None)
+        stiffness, damping = axle.spring.stiffness, axle.damper.damping
         if stiffness is None or force < 1.0 or carried <= 0.0:
             continue
         ratio = carried / force
-        rate, mass = stiffness * ratio**2, carried / GRAVITY
+        rate, mass = stiffness * axle.spring.factor * ratio**2, carried / GRAVITY
         ride = math.sqrt(rate / mass) / (2.0 * math.pi)
         if not RIDE[0] <= ride <= RIDE[1]:
             yield (
@@ -47,18 +47,21 @@ def rate_oddities(car: Car, rest: Rest) -> Iterator[str]:
                 f"{mass:.0f} kg on each {name} wheel a ride frequency of {ride:.2g} Hz; usual is {RIDE[0]:g} to "
                 f"{RIDE[1]:g} Hz."
             )
-        share = damping * ratio**2 / (2.0 * math.sqrt(rate * mass)) if damping is not None else DAMPING[0]
+        share = (
+            damping * axle.damper.factor * ratio**2 / (2.0 * math.sqrt(rate * mass))
+            if damping is not None
+            else DAMPING[0]
+        )
         if not DAMPING[0] <= share <= DAMPING[1]:
             yield (
                 f"{axle.damper.key('damping')} is {damping:g} N.s/m: {share:.2g} of the critical damping of the "
                 f"{name} end on its springs; usual is {DAMPING[0]:g} to {DAMPING[1]:g}."
             )
     weight = 2.0 * (rest.load["front"] + rest.load["rear"])
-    pairs = [(getattr(car.brakes, name, None), getattr(car, name).wheel.centre[2]) for name in ("front", "rear")]
-    torques = [(getattr(brake, "torque", None), radius) for brake, radius in pairs]
-    braking = sum(2.0 * torque / radius for torque, radius in torques if torque is not None) / weight
-    if all(torque is not None for torque, _ in torques) and not BRAKING[0] <= braking <= BRAKING[1]:
+    shares = car.brakes.balance / car.front.wheel.centre[2] + (1.0 - car.brakes.balance) / car.rear.wheel.centre[2]
+    braking = 2.0 * car.brakes.torque * shares / weight
+    if not BRAKING[0] <= braking <= BRAKING[1]:
         yield (
-            f"brakes.front.torque and brakes.rear.torque hold {braking:.2g} of the weight at full pedal; usual is "
-            f"{BRAKING[0]:g} to {BRAKING[1]:g}."
+            f"{car.brakes.key('torque')} is {car.brakes.torque:g} N.m, which holds {braking:.2g} of the weight at full "
+            f"pedal; usual is {BRAKING[0]:g} to {BRAKING[1]:g}."
         )

@@ -1,0 +1,85 @@
+"""JSON Schema of the car file, for editors and validators, from the types that read it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
+from pydantic_core import core_schema
+
+from mbs.vehicle.car import Car
+
+SCHEMA_FILE = Path(__file__).with_name("car.schema.json")
+DRAFT = "http://json-schema.org/draft-07/schema#"  # what the TOML plugins of editors read
+NULL = {"type": "null"}
+
+
+def json_schema() -> dict[str, Any]:
+    """Schema of a car file, draft 7.
+
+    Numbers have the keyword `unit` besides; what holds between several numbers is not in it.
+
+    Returns
+    -------
+    dict
+        As `json.dumps` takes it.
+    """
+    made = Car.model_json_schema(ref_template="#/definitions/{model}", schema_generator=_Generator)
+    made["definitions"] = dict(sorted(made.pop("$defs").items()))
+    made["definitions"] = {name: _plain(table) for name, table in made["definitions"].items()}
+    head: dict[str, Any] = {"$schema": DRAFT, "title": "Car file of ALi3"}
+    head.update(_plain({key: value for key, value in made.items() if key != "title"}))
+    return head
+
+
+def schema_text() -> str:
+    """The schema as the file in the package has it."""
+    return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
+
+
+class _Generator(GenerateJsonSchema):
+    """Lists of numbers as draft 7 has them."""
+
+    def tuple_schema(self, schema: core_schema.TupleSchema) -> JsonSchemaValue:
+        items = schema["items_schema"]
+        inner = [self.generate_inner(item) for item in items]
+        alike = all(item == inner[0] for item in inner)
+        found: JsonSchemaValue = {"type": "array", "items": inner[0] if alike else inner}
+        if schema.get("variadic_item_index") is None:
+            return found | {"minItems": len(items), "maxItems": len(items)}
+        limits = {"minItems": schema.get("min_length"), "maxItems": schema.get("max_length")}
+        return found | {key: value for key, value in limits.items() if value is not None}
+
+
+def _plain(schema: Any) -> Any:
+    """Without what only this library reads: null, which TOML has not, titles, and the names of templates."""
+    if isinstance(schema, list):
+        return [_plain(item) for item in schema]
+    if not isinstance(schema, dict):
+        return schema
+    kept = {key: value for key, value in schema.items() if key not in ("title", "discriminator", "definitions")}
+    choices = [choice for choice in kept.get("anyOf", []) if choice != NULL]
+    if "anyOf" in kept and len(choices) < len(kept["anyOf"]):
+        del kept["anyOf"]
+        kept = ({"anyOf": choices} if len(choices) > 1 else choices[0]) | kept
+        if kept.get("default", 0) is None:
+            del kept["default"]
+    if "patternProperties" in kept:
+        kept["additionalProperties"] = False
+    made = {
+        key: {name: _field(_plain(value)) for name, value in inner.items()} if key == "properties" else _plain(inner)
+        for key, inner in kept.items()
+    }
+    return made | ({"definitions": schema["definitions"]} if "definitions" in schema else {})
+
+
+def _field(schema: Any) -> Any:
+    """Its unit stands in the description, which editors show."""
+    items = schema.get("items", {})
+    unit = schema.get("unit") or (items.get("unit") if isinstance(items, dict) else None)
+    text = " ".join(schema.get("description", "").split())
+    if text:
+        schema["description"] = text if unit in (None, "1") else f"{text.rstrip('.')}, {unit}."
+    return schema

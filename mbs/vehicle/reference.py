@@ -1,0 +1,140 @@
+"""Writes the reference page of the car file and its JSON Schema: ``python -m mbs.vehicle.reference``, in a clone."""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from pydantic.fields import FieldInfo
+
+from ali3.files import write_text
+from mbs.vehicle.car import Car
+from mbs.vehicle.json_schema import SCHEMA_FILE, schema_text
+from mbs.vehicle.key_paths import annotation_of, by_name, keys_of, kinds_of, templates, words
+from mbs.vehicle.names import NAME_WORDS
+from mbs.vehicle.quantities import Quantity, quantities_in
+from mbs.vehicle.schema_version import SCHEMA
+from mbs.vehicle.section import Section
+
+PAGE = Path(__file__).parents[2] / "docs" / "car_file.md"
+WIDTH = 118
+NAME = "NAME"  # stands for a name that the user chooses
+AXLE = "AXLE"  # stands for front or rear
+TOP = "At the top of the file"
+HEAD = f"""# The car file
+
+Every table and key of a `car.toml`, version {SCHEMA} of its form; [your own car](your_own_car.md) shows how to make
+one.
+This page and `mbs/vehicle/car.schema.json`, which editors read, are written from the types that read the file, by
+`python -m mbs.vehicle.reference`.
+
+A key without a default must be given, and no other keys are known. A number outside its range is refused: but for
+coordinates the ends of a range are less than a factor of 1000 apart, so that millimetres or tonnes are noticed. *FMU*
+says whether the key is a parameter of the FMU, of the same name: *tunable* while driving, or *fixed* from the start.
+`{AXLE}` is `front` or `rear`, `{NAME}` a name of your choice: {NAME_WORDS}.
+"""
+COLUMNS = ("key", "value", "unit", "range", "default", "FMU", "what it is")
+
+
+def page() -> str:
+    """The reference page."""
+    parts = [HEAD]
+    for table, places in _tables().items():
+        paths = list(dict.fromkeys(path for path, _ in places))
+        kinds = list(dict.fromkeys(kind for _, kind in places if kind))
+        kind = f", {kinds[0]}" if len(kinds) == 1 else ""
+        heading = " and ".join(f"`{path}`" for path in paths) if len(paths) <= 2 else _name(table)
+        where = "" if len(paths) <= 2 else "Stands at " + ", ".join(f"`{path}`" for path in paths) + "."
+        text = inspect.cleandoc(table.__doc__ or "").replace("``", "`")
+        paragraphs = [textwrap.fill(" ".join(p.split()), WIDTH) for p in text.split("\n\n")]
+        rows = [_row(key, field) for key, field in keys_of(table).items()]
+        parts.append(
+            f"## {heading if paths != [''] else TOP}{kind if len(paths) <= 2 else ''}\n\n"
+            + "\n\n".join(paragraphs)
+            + "\n\n"
+            + (textwrap.fill(where, WIDTH, break_on_hyphens=False) + "\n\n" if where else "")
+            + "\n".join(_line(row) for row in [COLUMNS, ("---",) * len(COLUMNS), *rows])
+            + "\n"
+        )
+    return "\n".join(parts)
+
+
+def _name(table: type[Section]) -> str:
+    """Heading of a table that stands at many places: the first words of what is said about it."""
+    return inspect.cleandoc(table.__doc__ or "").partition("\n")[0].partition(";")[0].partition(",")[0].rstrip(".")
+
+
+def _tables() -> dict[type[Section], list[tuple[str, str]]]:
+    """Tables with the places and templates where they stand, in the order of the file."""
+    found: dict[type[Section], list[tuple[str, str]]] = {}
+    for table, path, kind in _walk(Car, "", ""):
+        head, dot, rest = path.partition(".")
+        place = f"{AXLE}{dot}{rest}" if head in ("front", "rear") else path
+        found.setdefault(table, []).append((place, kind))
+    return found
+
+
+def _walk(table: type[Section], path: str, kind: str) -> Iterator[tuple[type[Section], str, str]]:
+    """Tables in the order of the file; `kind` names the template that they belong to."""
+    kind = ", ".join(kinds_of(table)) or kind
+    yield table, path, kind
+    for key, field in keys_of(table).items():
+        place = f"{path}.{key}" if path else key
+        named = by_name(field.annotation)
+        for inner in templates(field.annotation if named is None else named):
+            yield from _walk(inner, place if named is None else f"{place}.{NAME}", kind)
+
+
+def _row(key: str, field: FieldInfo) -> tuple[str, ...]:
+    annotation = annotation_of(field)
+    quantities = quantities_in(annotation)
+    text = " ".join((field.description or "").split())
+    default = "" if field.is_required() else "optional" if field.default_factory or field.default is None else ""
+    if not field.is_required() and not default:
+        default = _shown(field.default)
+    units = "; ".join(quantity.unit for quantity in quantities)
+    limits = "; ".join(map(_range, quantities))
+    change = next((q.change for q in quantities if q.change is not None), "")
+    return f"`{key}`", _value(annotation), units, limits, default, change, text
+
+
+def _range(quantity: Quantity) -> str:
+    limits = f"{quantity.low:g} to {quantity.high:g}"
+    return f"0 or {limits}" if quantity.zero and quantity.low > 0.0 else limits
+
+
+def _value(annotation: Any) -> str:
+    named = by_name(annotation)
+    if named is not None:
+        return f"tables by `{NAME}`" if templates(named) else f"{_value(named)} by `{NAME}`"
+    tables = templates(annotation)
+    if tables:
+        kinds = [kind for table in tables for kind in kinds_of(table)]
+        return "table" + (f", kind {' or '.join(map(repr, kinds))}" if len(kinds) > 1 else "")
+    text = words(annotation)
+    for quantity in quantities_in(annotation):  # their ranges have a column
+        text = text.replace(f", {quantity.range}", "")
+    return text.removeprefix("a ")
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, tuple):
+        return "[" + ", ".join(map(_shown, value)) + "]"
+    return f"{value:g}" if isinstance(value, float) else f"`{value!r}`"
+
+
+def _line(cells: tuple[str, ...]) -> str:
+    return "| " + " | ".join(cells) + " |"
+
+
+def main() -> None:
+    """Write both files."""
+    write_text(PAGE, page())
+    write_text(SCHEMA_FILE, schema_text())
+
+
+if __name__ == "__main__":
+    main()

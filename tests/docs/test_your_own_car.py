@@ -1,0 +1,131 @@
+"""The commands and snippets of docs/your_own_car.md run and print what it says."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import fmpy
+import pytest
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "your_own_car.md").read_text(encoding="utf-8")
+COMMANDS = re.findall(r"^    ali3 (.*)$", PAGE, re.MULTILINE)
+ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8", "MPLBACKEND": "Agg"}
+
+
+def blocks(language):
+    return re.findall(rf"^```{language}\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+
+
+def ali3(line, folder, status=0):
+    """Run a command line of the page."""
+    command = [sys.executable, "-m", "ali3", *line.split()]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder, env=ENVIRONMENT)
+    assert done.returncode == status, done.stderr
+    return done.stdout + done.stderr
+
+
+def edit(file, changes, table=""):
+    """Write values into a car file as a user does in an editor."""
+    for key, value in changes.items():
+        if isinstance(value, dict):
+            edit(file, value, f"{table}.{key}" if table else key)
+            continue
+        text = file.read_text(encoding="utf-8")
+        start = text.index(f"\n[{table}]") if table else 0
+        literal = f'"{value}"' if isinstance(value, str) else repr(value)
+        changed, count = re.subn(rf"(?m)^{key} = [^#\n]*", f"{key} = {literal} ", text[start:], count=1)
+        assert count == 1, (table, key)
+        file.write_text(text[:start] + changed, encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder in which the page has been followed up to the check."""
+    place = tmp_path_factory.mktemp("own_car")
+    assert "prototype" in ali3(COMMANDS[0], place)
+    assert "my_car/car.toml" in ali3(COMMANDS[1], place).replace("\\", "/")
+    (snippet,) = blocks("toml")
+    edit(place / "my_car" / "car.toml", tomllib.loads(snippet))
+    return place
+
+
+def test_the_page_shows_the_commands_in_order():
+    assert [line.split()[0] for line in COMMANDS] == ["car", "car", "car", "build", "drive", "drive"]
+
+
+def test_the_check_prints_what_the_page_says(folder):
+    printed = ali3(COMMANDS[2], folder)
+    for line in blocks("text")[0].splitlines():
+        assert line in printed
+    assert "warning" not in printed
+    assert "front.damper.damping" in ali3(f"{COMMANDS[2]} --parameters", folder)
+
+
+def test_the_copy_names_its_schema(folder):
+    assert (folder / "my_car" / "car.toml").read_text(encoding="utf-8").startswith("#:schema car.schema.json\n")
+    assert (folder / "my_car" / "car.schema.json").is_file()
+
+
+@pytest.mark.parametrize(
+    ("number", "before", "after"),
+    [
+        (0, "stiffness = 14000.0", "stiffness = 14.0"),
+        (1, "[front.spring]\nstiffness", "[front.spring]\nstifness"),
+        (2, "mass = 597.0", "mass = 650.0"),
+    ],
+)
+def test_the_errors_of_the_page(folder, number, before, after):
+    file = folder / "my_car" / "car.toml"
+    kept = file.read_text(encoding="utf-8")
+    assert before in kept
+    try:
+        file.write_text(kept.replace(before, after, 1), encoding="utf-8")
+        assert ali3(COMMANDS[2], folder, 2).strip() == blocks("text")[1].splitlines()[number]
+    finally:
+        file.write_text(kept, encoding="utf-8")
+
+
+def test_the_warning_of_the_page(folder):
+    file = folder / "my_car" / "car.toml"
+    kept = file.read_text(encoding="utf-8")
+    try:
+        file.write_text(kept.replace("stiffness = 14000.0", "stiffness = 10000.0", 1), encoding="utf-8")
+        assert blocks("text")[2].strip() in ali3(COMMANDS[2], folder)
+    finally:
+        file.write_text(kept, encoding="utf-8")
+
+
+def test_the_snippet_in_python(folder):
+    (code,) = blocks("python")
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=folder,
+        env=ENVIRONMENT,
+    )
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"\d+ numbers can be tuned, front\.damper\.damping = 1200", done.stdout)
+    assert 3.0 < float(re.search(r"after 2 s (\d+) m/s", done.stdout)[1]) < 15.0
+
+
+@pytest.mark.slow
+def test_build_drive_and_tune(folder):
+    assert "dist/MyCar.fmu" in ali3(COMMANDS[3], folder).replace("\\", "/")
+    assert (folder / "dist" / "MyCar.ssv").is_file()
+    names = {v.name: v for v in fmpy.read_model_description(str(folder / "dist" / "MyCar.fmu")).modelVariables}
+    assert float(names["front.spring.stiffness"].start) == 14000.0
+    for line in COMMANDS[4:]:
+        assert "failed steps               0 of" in ali3(line, folder)
+    assert any((folder / "out").glob("my_car_step_steer*"))

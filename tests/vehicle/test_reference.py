@@ -1,0 +1,122 @@
+"""The JSON Schema and the reference page say what the types say, and every range catches a unit wrong by 1000."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import fastjsonschema
+import jsonschema
+import pytest
+
+from mbs.vehicle import Car, car_names, json_schema, load
+from mbs.vehicle import quantities as listed
+from mbs.vehicle.json_schema import SCHEMA_FILE, schema_text
+from mbs.vehicle.key_paths import all_keys, annotation_of, by_name, keys_of, templates
+from mbs.vehicle.quantities import Quantity, quantities_in
+from mbs.vehicle.reference import PAGE, page
+
+
+def every_table(table=Car):
+    yield table
+    for field in keys_of(table).values():
+        named = by_name(field.annotation)
+        for inner in templates(field.annotation if named is None else named):
+            yield from every_table(inner)
+
+
+TABLES = list(dict.fromkeys(every_table()))
+FIELDS = {
+    f"{table.__name__}.{key}": quantity
+    for table in TABLES
+    for key, field in keys_of(table).items()
+    for quantity in quantities_in(annotation_of(field))
+}
+QUANTITIES = {name: quantity for name in dir(listed) for quantity in quantities_in(getattr(listed, name))}
+
+
+@pytest.mark.parametrize("name", [*QUANTITIES, *FIELDS])
+def test_ranges_span_less_than_a_factor_of_1000(name):
+    q = (QUANTITIES | FIELDS)[name]
+    assert q.low < q.high
+    if q.low > 0.0:
+        assert q.high < 1000.0 * q.low
+    else:
+        assert q.low < 0.0, "what may be 0 has zero=True"
+        assert q.unit in ("m", "m/s", "m2", "N", "kg.m2", "deg"), "coordinates, inertia, lift, rows, angles"
+
+
+def test_there_are_many_quantities():
+    assert len(QUANTITIES) > 40
+    assert len(FIELDS) > 100
+
+
+def test_a_number_must_be_told_by_its_own_range_unless_it_is_a_coordinate():
+    for name, q in FIELDS.items():
+        if q.low > 0.0:
+            for value in (q.low, q.high):
+                assert q.low > value / 1000.0
+                assert q.high < value * 1000.0, name
+
+
+@pytest.mark.parametrize("table", TABLES, ids=lambda t: t.__name__)
+def test_every_key_has_a_description(table):
+    for key, field in keys_of(table).items():
+        assert re.fullmatch(r"[^.].*\.", field.description or "", re.DOTALL), key
+    assert table.__doc__
+
+
+def test_the_schema_in_the_package_is_that_of_the_types():
+    assert SCHEMA_FILE.read_text(encoding="utf-8") == schema_text(), "run python -m mbs.vehicle.reference"
+    jsonschema.Draft7Validator.check_schema(json_schema())
+
+
+@pytest.mark.parametrize("name", car_names())
+def test_two_validators_accept_the_cars_of_the_package(name):
+    schema, data = json.loads(schema_text()), load(name)._data
+    jsonschema.Draft7Validator(schema).validate(data)
+    fastjsonschema.compile(schema)(data)
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        ("front.spring.stiffness", 12.36),
+        ("front.spring.stifness", 1.0),
+        ("front.wheel.centre", [0.0, 0.67]),
+        ("front.suspension.kind", "five_link"),
+        ("schema", 2),
+        ("front.tyre.grip", 0.001),
+        ("chassis.accelerometers", {"a b": [0.0, 0.0, 0.2]}),
+    ],
+)
+def test_two_validators_refuse_what_the_types_refuse(path, value):
+    schema, data = json.loads(schema_text()), json.loads(json.dumps(load("prototype")._data))
+    *outer, last = path.split(".")
+    table = data
+    for key in outer:
+        table = table[key]
+    table[last] = value
+    assert not jsonschema.Draft7Validator(schema).is_valid(data)
+    with pytest.raises(fastjsonschema.JsonSchemaException):
+        fastjsonschema.compile(schema)(data)
+
+
+def test_0_is_allowed_where_the_type_says_so():
+    schema = json.loads(schema_text())["definitions"]["TMeasy"]["properties"]["grip"]
+    validator = jsonschema.Draft7Validator(schema)
+    assert [validator.is_valid(value) for value in (0, 0.0, 0.01, 0.5, 11)] == [True, True, False, True, False]
+    assert schema["unit"] == "1"
+
+
+def test_the_page_is_that_of_the_types():
+    assert PAGE.read_text(encoding="utf-8") == page(), "run python -m mbs.vehicle.reference"
+
+
+def test_the_page_has_every_key_range_and_parameter():
+    text = PAGE.read_text(encoding="utf-8")
+    for path in all_keys(Car):
+        assert f"| `{path.split('.')[-1]}` |" in text, path
+    q: Quantity = FIELDS["Spring.stiffness"]
+    row = next(line for line in text.splitlines() if line.startswith("| `stiffness` ") and "Spring rate" in line)
+    assert all(word in row for word in (f"{q.low:g} to {q.high:g}", "N/m", "tunable"))
