@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timezone
 from xml.etree import ElementTree
 
@@ -142,7 +142,7 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
         ElementTree.SubElement(
             ElementTree.SubElement(variables, "ScalarVariable", named | fixed), "String", start=text.start
         )
-    _structure(root, table, reach)
+    _structure(root, table, with_texts(table, reach, head.texts))
     return to_bytes(root)
 
 
@@ -253,6 +253,19 @@ def variable_attributes(v: Variable) -> dict[str, str]:
         if value is not None:
             attributes[key] = value_text(v, value)
     return attributes
+
+
+def with_texts(table: Sequence[Variable], reach: Dependencies, texts: Sequence[TextVariable]) -> Dependencies:
+    """The same where initial outputs depend on texts too, whose places are behind the table.
+
+    A road decides where a start stands: what depends on the initial place depends on the road.
+    """
+    places = [i for i, v in enumerate(table) if v.source == "pose"]
+    if not texts or not places:
+        return reach
+    more = tuple(range(len(table), len(table) + len(texts)))
+    initial = {i: (*known, *more) if set(places) & set(known) else known for i, known in reach.initial.items()}
+    return replace(reach, initial=initial)
 
 
 def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Dependencies) -> None:

@@ -16,6 +16,7 @@ from fmu_src.description import (
     to_bytes,
     units,
     variable_attributes,
+    with_texts,
 )
 from fmu_src.probe import Dependencies
 from fmu_src.variables import Variable
@@ -83,7 +84,7 @@ def model_description_fmi3(
         fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
         named = {"name": text.name, "valueReference": str(reference), "description": text.description}
         ElementTree.SubElement(ElementTree.SubElement(variables, "String", named | fixed), "Start", value=text.start)
-    _structure(root, arrays, reach)
+    _structure(root, arrays, with_texts(table, reach, head.texts), (len(table), len(head.texts)))
     return to_bytes(root)
 
 
@@ -157,9 +158,11 @@ def _variable(parent: ElementTree.Element, reference: int, array: Array, types: 
         ElementTree.SubElement(element, "Dimension", start=str(len(array.items)))
 
 
-def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Dependencies) -> None:
+def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Dependencies, texts: tuple[int, int]) -> None:
+    """`texts`: place of the first variable that is text, and how many there are."""
     structure = ElementTree.SubElement(root, "ModelStructure")
     array_of = {k: i for i, a in enumerate(arrays) for k in a.items}
+    array_of |= {texts[0] + k: len(arrays) + 1 + k for k in range(texts[1])}
     for tag, of in (("Output", reach.step), ("InitialUnknown", reach.initial)):
         for i, a in enumerate(arrays):
             if a.of.causality == "output":

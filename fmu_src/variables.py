@@ -248,7 +248,6 @@ def _ranged(
         _display(entry["name"], unit),
         whole=bool(entry.get("whole", False)),
         road=entry.get("road", -1),
-        whole=bool(entry.get("whole", False)),
     )
 
 

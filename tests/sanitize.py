@@ -22,6 +22,7 @@ ROOT = Path(__file__).resolve().parents[1]
 TESTS = [
     *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "tests" / "kernel").glob("test_*.py")),
     "tests/flexible_engine/test_loader.py",
+    "tests/model/test_payloads.py",
     "tests/roads/test_road_file.py",
     "tests/roads/test_road_table.py",
     "tests/scenes/test_prototype_car_rest.py",

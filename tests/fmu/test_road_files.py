@@ -88,6 +88,9 @@ def test_the_description_has_it_after_all_others(car: Path) -> None:
     assert v.start in ("", None)
     assert v.valueReference not in {w.valueReference for w in variables[:-1]}
     assert "resources" in v.description
+    unknowns = {u.variable.name: u for u in fmpy.read_model_description(str(car)).initialUnknowns}
+    assert "road.file" in {w.name for w in unknowns["chassis.z"].dependencies}
+    assert "road.file" not in {w.name for w in unknowns["steering_wheel_angle"].dependencies}
 
 
 def test_a_path_gives_the_same_bits_as_in_python(car: Path, host: Any, roads: Path) -> None:
@@ -298,6 +301,8 @@ def test_fmi_3_gives_the_same(
     references = {v.name: v.valueReference for v in description.modelVariables}
     assert len(set(references.values())) == len(references)
     folder = fmpy.extract(str(path), unzipdir=str(tmp_path / "unpacked"))
+    heights_of = {u.variable.name: u for u in description.initialUnknowns}["wheel_FL.travel"]
+    assert "road.file" in {v.name for v in heights_of.dependencies}
     said: list[str] = []
     slave = FMU3Slave(
         guid=description.guid,

@@ -48,3 +48,15 @@ def tuned() -> mbs.Model:
     m.sense_position("bob.y", bob, component="y")
     m.constant("spring.mass", 0.1, "kg", "Of the spring itself")
     return m
+
+
+def switched() -> mbs.Model:
+    """An input that is a whole number beside one that is not, and what the model sees of them."""
+    m = mbs.Model("switched", dimension=2, gravity=(0.0, 0.0))
+    bob = m.point_mass("bob", mass=1.0, position=(0.0, 0.0))
+    pull = m.input("pull", min=-5.0, max=5.0, unit="N")
+    gear = m.input("gear", min=-1.0, max=3.0, start=1.0, whole=True)
+    m.force("pull", bob, inputs=(pull, None))
+    m.sense_input("gear_used", gear)
+    m.sense_position("bob.x", bob, component="x")
+    return m

@@ -480,3 +480,19 @@ def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tm
         assert len(names) > 100
         found = dict(zip(names, driven.getter(names)(), strict=True))
     assert found == {n: simulation.sensors[n] for n in names}
+
+
+def test_a_column_of_whole_numbers_is_held_between_its_rows(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    name, system = load_scene(f"{HERE / 'scenes.py'}:switched")
+    fmu = build_fmu(system, name, tmp_path, [PLATFORM])
+    table = tmp_path / "shift.csv"
+    table.write_text('"time","pull","gear"\n0,0,1\n1,2,3\n2,2,-1\n')
+    assert run.main([str(fmu), "--input", str(table), "--step", "0.1", "--out", str(tmp_path)]) == 0
+    found = read_csv(tmp_path / "Switched.csv")
+    assert list(found["gear"]) == list(found["gear_used"]) == [1.0] * 11 + [3.0] * 10
+    assert found["pull"][6] == pytest.approx(1.0)
+    table.write_text('"time","gear"\n0,1\n1,1.5\n')
+    assert run.main([str(fmu), "--input", str(table), "--out", str(tmp_path)]) == 2
+    assert "a column 'gear' with the value 1.5; 'gear' is a whole number" in capsys.readouterr().err
+    assert run.main([str(fmu), "--set", "gear=0.5", "--out", str(tmp_path)]) == 2
+    assert "--set: 'gear' is 0.5; it must be a whole number" in capsys.readouterr().err

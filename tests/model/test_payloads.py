@@ -351,3 +351,25 @@ def test_the_loader_refuses_a_payload_without_room_in_the_mass_matrix():
     )
     with pytest.raises(KernelError, match="payload 0 is at coordinates between which the mass matrix has no entry"):
         LoadedSystem(altered(system, payload_signal=put(0, between)))
+
+
+@pytest.mark.parametrize("model", [lambda: pendulum("parameter"), lambda: flexible("parameter")], ids=["tree", "bar"])
+def test_hostile_payloads_never_crash(model):
+    """Every integer out of range or out of place, and reals at random: refused, or a run that ends in a status."""
+    system, rng = compile(model()), np.random.default_rng(7)
+    accepted = 0
+    for name in ("payload_signal", "tree_payload_body", "payload_mass", "payload_gravity", "tree_payload_place"):
+        integers = system.arrays[name].dtype == np.int32
+        for k in range(len(system.arrays[name])):
+            for value in (-1, 0, 1, 5, 1 << 30) if integers else (-1.0, 1e-300, 1e150, rng.uniform(-9.0, 9.0)):
+                try:
+                    instance = Instance(LoadedSystem(altered(system, **{name: put(k, value)})))
+                    accepted += 1
+                    instance.initialise()
+                    for method in ("ali3p", "semi_recursive", "energy_momentum"):
+                        instance.set_settings(**METHOD_TABLE[method].kernel_fields)
+                        instance.step(0.01)
+                    assert np.isfinite(instance.sensors()[:]).all()
+                except KernelError:
+                    continue
+    assert accepted > 5

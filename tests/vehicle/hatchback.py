@@ -34,7 +34,13 @@ def system():
 
 
 def drive(t_end, h=0.005, inputs=None, *, pose=None, parameters=None, every=1, of=None):
-    return simulate(of or system(), t_end, h, inputs, None, parameters, every=every, pose=pose, progress=False)
+    return simulate(
+        *(of or system(), t_end, h, inputs, None, parameters),
+        every=every,
+        pose=pose,
+        progress=False,
+        estimate_error=False,
+    )
 
 
 def mirrored(first, second, tolerance):

@@ -11,8 +11,8 @@ from benchmarks.car.measures import MEASURES, measure
 from mbs import Pose, Simulation, compile
 from mbs.elements.road import PlaneRoad
 from mbs.vehicle import load
+from mbs.vehicle.checks.places import parts_of
 from mbs.vehicle.environment import GRAVITY
-from mbs.vehicle.plausible import parts_of
 from tests.vehicle.hatchback import WHEELS, car, drive, mirrored, system
 
 
@@ -105,8 +105,8 @@ def test_a_stop_by_newtons_law():
     drag = 0.5 * car().aerodynamics.air_density * car().aerodynamics.drag_area * np.mean(run["speed"][late] ** 2)
     assert run["chassis.ax"][late].mean() == pytest.approx((pull - drag) / total, rel=0.005)
     torque = {w: np.abs(run[f"wheel_{w}.brake_torque"][late]).mean() for w in WHEELS}
-    assert torque["FL"] == pytest.approx(0.4 * car().brakes.front.torque, rel=1e-3)
-    assert torque["RL"] == pytest.approx(0.4 * car().brakes.rear.torque, rel=1e-3)
+    assert torque["FL"] == pytest.approx(0.4 * car().brakes.torque * car().brakes.balance, rel=1e-3)
+    assert torque["RL"] == pytest.approx(0.4 * car().brakes.torque * (1.0 - car().brakes.balance), rel=1e-3)
 
 
 def test_energy_is_kept_but_for_what_takes_it():

@@ -139,6 +139,19 @@ def test_the_front_bar_stiffens_roll_by_the_square_of_its_twist_and_leaves_bump_
     assert stiffer["front.wheel_rate"] == pytest.approx(measured()["front.wheel_rate"], rel=1e-6)
 
 
+def test_without_its_bar_an_axle_rolls_on_its_springs_alone():
+    """The factor 0 is a bar that is not there."""
+    car = hatchback()
+    none = kinematics(car.changed({"front.anti_roll_bar.factor": 0.0, "rear.anti_roll_bar.factor": 0.0}))
+    for name, axle, twist in (
+        ("front", car.front, rolls(car.front, instant.macpherson(car.front.suspension.points))),
+        ("rear", car.rear, rolls(car.rear, instant.twist_beam(car.rear.suspension.points, "roll"))),
+    ):
+        bar = axle.anti_roll_bar
+        lost = stiffer_by(axle, instant.lever_rate(bar, twist), bar.stiffness)
+        assert measured()[f"{name}.roll_stiffness"] - none[f"{name}.roll_stiffness"] == pytest.approx(lost, rel=0.01)
+
+
 def test_two_freedoms_an_axle_and_the_spins():
     report = compile(hatchback().model()).report
     assert report["degrees_of_freedom"] == 14

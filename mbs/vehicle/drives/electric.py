@@ -11,17 +11,28 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (
     AngularSpeed,
     DriveRatio,
-    Fraction,
+    Efficiency,
+    FadeSpeed,
     MotorPower,
     MotorSpeed,
     PartInertia,
     RegenerationTorque,
+    ReverseShare,
     Time,
     Torque,
 )
 from mbs.vehicle.section import Section
 
-TIED = ("max_torque", "max_power", "ratio", "regeneration_torque", "regeneration_power")
+TIED = (
+    "max_torque",
+    "max_power",
+    "ratio",
+    "efficiency",
+    "gear_efficiency",
+    "regeneration_torque",
+    "regeneration_power",
+    "regeneration_speed",
+)
 
 
 class Electric(Section):
@@ -41,17 +52,17 @@ class Electric(Section):
     """Speed of the motor beyond which its torque fades."""
     rotor_inertia: PartInertia
     """Moment of inertia of the rotor as each driven wheel feels it: half of its own times the ratio squared."""
-    efficiency: Fraction = 0.9
+    efficiency: Efficiency = 0.9
     """Efficiency between battery and shaft of the motor, both ways."""
-    gear_efficiency: Fraction = 0.97
+    gear_efficiency: Efficiency = 0.97
     """Efficiency between shaft and wheels, both ways."""
     regeneration_torque: RegenerationTorque = 0.0
     """Torque of the motor that brakes with closed throttle."""
     regeneration_power: MotorPower = 50e3
     """Largest power of it."""
-    regeneration_speed: AngularSpeed = 60.0
+    regeneration_speed: FadeSpeed = 60.0
     """Speed of the motor below which it fades, so that the car rests."""
-    reverse_torque: Fraction = 0.5
+    reverse_torque: ReverseShare = 0.5
     """Share of the largest torque in reverse."""
     reverse_speed: MotorSpeed = 250.0
     """Speed of the motor beyond which its torque fades in reverse."""

@@ -26,7 +26,8 @@ static void set_start(ali3_instance *in, const double *q) {
   for (int32_t i = 0; S->size.has_pose && i < S->size.nq; i++) {
     const int32_t partner = S->pose_partner[i];
     if (partner == 0) {
-      in->pose_0[i] = S->pose_0[i] + (q[i] - S->q0[i]); /* spins have no place */
+      const double moved = S->pose_0[i] + (q[i] - S->q0[i]); /* spins have no place */
+      in->pose_0[i] = S->pose_0[i] == S->q0[i] ? q[i] : moved; /* the same without round-off */
     } else {
       in->pose_cos[i] = q[i];
       in->pose_sin[i] = partner < 0 ? -signal(S, q, -partner - 1) : signal(S, q, partner - 1);

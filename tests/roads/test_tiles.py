@@ -1,0 +1,67 @@
+"""Which tiles of a road file are read: counts."""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+import pytest
+
+from mbs.elements import GridRoad
+from mbs.roads import write_road
+from tests.elements.harness import library
+
+NEAR = 64
+
+
+@pytest.fixture(scope="module")
+def lib():
+    lib = library()
+    lib.ali3_road_file_open.restype = ctypes.c_void_p
+    lib.ali3_road_file_height.restype = ctypes.c_double
+    lib.ali3_road_file_height.argtypes = [ctypes.c_void_p, ctypes.c_int32, ctypes.c_int32]
+    lib.ali3_road_file_reads.restype = ctypes.c_int64
+    lib.ali3_road_file_reads.argtypes = [ctypes.c_void_p]
+    lib.ali3_road_file_close.argtypes = [ctypes.c_void_p]
+    return lib
+
+
+def opened(lib, path):
+    libc = ctypes.CDLL(None)
+    message = ctypes.create_string_buffer(256)
+    allocate, release = (ctypes.cast(f, ctypes.c_void_p) for f in (libc.calloc, libc.free))
+    file = lib.ali3_road_file_open(str(path).encode(), allocate, release, message, ctypes.c_size_t(256))
+    assert file, message.value
+    return file
+
+
+@pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "calloc"), reason="no C library by that name")
+def test_each_tile_is_read_once_on_the_way_and_again_only_when_it_was_left_behind(lib, tmp_path):
+    heights = np.arange(4000.0 * 64).reshape(4000, 64) / 1e3
+    write_road(GridRoad((0.0, 0.0), (1.0, 1.0), heights), tmp_path / "a.road")
+    file = opened(lib, tmp_path / "a.road")
+    assert lib.ali3_road_file_reads(file) == 0  # more than are kept: none before it is needed
+    for i in range(0, 3960, 7):  # a window of 40 x 64 points moves on: two to four tiles at once
+        for k in (0, 20, 39):
+            for j in (0, 40, 63):
+                assert lib.ali3_road_file_height(file, i + k, j) == heights[i + k, j]
+    tiles = 125 * 2
+    assert lib.ali3_road_file_reads(file) == tiles
+    for i in range(3999, 3999 - 32 * (NEAR // 2), -32):  # the last ones are still there
+        assert lib.ali3_road_file_height(file, i, 0) == heights[i, 0]
+    assert lib.ali3_road_file_reads(file) == tiles
+    assert lib.ali3_road_file_height(file, 5, 5) == heights[5, 5]  # the first one is not
+    assert lib.ali3_road_file_reads(file) == tiles + 1
+    lib.ali3_road_file_close(file)
+
+
+@pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "calloc"), reason="no C library by that name")
+def test_what_fits_is_read_at_once(lib, tmp_path):
+    write_road(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((256, 256))), tmp_path / "a.road")
+    file = opened(lib, tmp_path / "a.road")
+    assert lib.ali3_road_file_reads(file) == NEAR
+    (tmp_path / "a.road").write_bytes(b"")
+    for i in range(256):
+        assert lib.ali3_road_file_height(file, i, 255 - i) == 0.0
+    assert lib.ali3_road_file_reads(file) == NEAR
+    lib.ali3_road_file_close(file)
