@@ -97,7 +97,7 @@ class SpringDamperTable:
             name,
             ElementType.SPRING_DAMPER_TABLE,
             difference.components,
-            (*own.values(), *_columns(spring, energy=True), *_columns(damper, energy=False)),
+            (*own.values(), *_spring_columns(spring), *_damper_columns(damper)),
             (len(spring), len(damper)),
             outputs=LINE_OUTPUTS,
             real_names=[f"unused {n}" if hidden.get(n) else n for n in own],
@@ -148,26 +148,30 @@ def _check_damper(rows: NDArray[np.float64], what: str) -> None:
         raise ModelError(f"The table of the damper of {what} has no row (0, 0); a damper has no force at rest.")
 
 
-def _columns(rows: NDArray[np.float64], energy: bool) -> list[float]:
-    """Points, slopes and, if wanted, the energy from 0 to each, column after column."""
+def _spring_columns(rows: NDArray[np.float64]) -> list[float]:
+    """Stretches, forces, slopes and the energy from stretch 0 to each, column after column."""
     if not len(rows):
         return []
     x, y = rows.T
-    slopes = np.asarray(PchipInterpolator(x, y).derivative()(x))
-    columns = [x, y, slopes]
-    if energy:
-        width = np.diff(x)
-        pieces = width * (0.5 * (y[1:] + y[:-1]) + width * (slopes[:-1] - slopes[1:]) / 12.0)
-        columns.append(np.r_[0.0, np.cumsum(pieces)])
-        columns[-1] = columns[-1] - _energy_at_rest(x, y, slopes, columns[-1])
-    return [float(v) for v in np.concatenate(columns)]
-
-
-def _energy_at_rest(
-    x: NDArray[np.float64], y: NDArray[np.float64], m: NDArray[np.float64], energy: NDArray[np.float64]
-) -> float:
-    """Energy at x = 0 where it is 0 at the first point."""
-    if not x[0] <= 0.0 <= x[-1]:
+    slopes = _slopes(rows)
+    width = np.diff(x)
+    pieces = width * (0.5 * (y[1:] + y[:-1]) + width * (slopes[:-1] - slopes[1:]) / 12.0)
+    energy = np.r_[0.0, np.cumsum(pieces)]
+    if x[0] <= 0.0 <= x[-1]:
+        at_rest = float(PchipInterpolator(x, y).integrate(x[0], 0.0))
+    else:
         k = 0 if x[0] > 0.0 else -1
-        return float(energy[k] - x[k] * (y[k] - 0.5 * m[k] * x[k]))
-    return float(PchipInterpolator(x, y).integrate(x[0], 0.0))
+        at_rest = energy[k] - x[k] * (y[k] - 0.5 * slopes[k] * x[k])
+    return [float(v) for v in np.concatenate([x, y, slopes, energy - at_rest])]
+
+
+def _damper_columns(rows: NDArray[np.float64]) -> list[float]:
+    """Rates, forces and slopes, column after column."""
+    if not len(rows):
+        return []
+    return [float(v) for v in np.concatenate([*rows.T, np.maximum(_slopes(rows), 0.0)])]  # below 0: round-off
+
+
+def _slopes(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    x, y = rows.T
+    return np.asarray(PchipInterpolator(x, y).derivative()(x), float)

@@ -164,3 +164,56 @@ def test_bad_brakes_are_refused() -> None:
     with pytest.raises(ValueError, match="whole number"):
         BRAKE.record("FL", f, g, spin[0], -2)
     assert "input that does not exist" in (brake_element().check(n_inputs=0) or "")
+
+
+def two_pedals(share: float = 1.0, hand_torque: float = 0.0, hand: int | None = 1) -> Element:
+    f, g, spin = vectors(3, 3, 1)
+    given = replace(BRAKE, share=share, hand_torque=hand_torque)
+    return Element(given.record("brake", f, g, spin[0], 0, hand))
+
+
+def test_the_torque_is_the_share_of_the_pedals_and_that_of_the_hand_brake() -> None:
+    element = two_pedals(0.3, 200.0)
+    for pedal, hand in ((1.0, 0.0), (0.0, 1.0), (0.5, 0.25), (3.0, 9.0), (-1.0, -1.0)):
+        bound = 0.3 * TORQUE * min(max(pedal, 0.0), 1.0) + 200.0 * min(max(hand, 0.0), 1.0)
+        for rate in (30.0, -30.0):
+            u, ud = signals_of(rate)
+            r = element(u, ud, [0.0, 0.0], 0.01, inputs=[pedal, hand])
+            assert r.out["torque"] == pytest.approx(-bound * np.sign(rate), rel=1e-14)
+
+
+def test_without_hand_brake_and_share_it_is_the_brake_of_before_bit_by_bit() -> None:
+    new = two_pedals(hand=None)
+    old = Element(replace(new.element, real=new.element.real[:3], integer=(0,), real_names=(), real_checks=()))
+    rng = np.random.default_rng(9)
+    for _ in range(100):
+        u, ud = signals_of(10.0 ** rng.uniform(-3.0, 1.5), rng.normal(size=3), frame(rng))
+        y, pedal = 1e-3 * rng.normal(size=2), rng.uniform(0.0, 1.2)
+        a, b = (e(u, ud, y, 0.01, 0.005, 0.0, [pedal, 1.0]) for e in (new, old))
+        for x, z in ((a.f, b.f), (a.S, b.S), (a.y, b.y)):
+            assert np.array_equal(x, z)
+        assert a.out == b.out
+
+
+def test_the_hand_brake_holds_alone() -> None:
+    element = two_pedals(hand_torque=200.0)
+    u, ud = signals_of(1e-4)
+    r = element(u, ud, [0.0, 0.0], 0.01, inputs=[0.0, 1.0])
+    assert r.out["sticking"] == 1.0
+    assert element(u, ud, [0.0, 0.0], 0.01, inputs=[0.0, 0.0]).out["sticking"] == 0.0
+
+
+def test_bad_shares_and_hand_brakes_are_refused() -> None:
+    f, g, spin = vectors(3, 3, 1)
+    for change, words in (({"share": -0.1}, "share of the brake 'FL' is -0.1"), ({"hand_torque": -1.0}, "hand torque")):
+        with pytest.raises(ValueError, match=words):
+            replace(BRAKE, **change).record("FL", f, g, spin[0], 0)
+    with pytest.raises(ValueError, match="hand brake of the brake 'FL' is -2"):
+        BRAKE.record("FL", f, g, spin[0], 0, -2)
+    element = two_pedals()
+    assert "input that does not exist" in (element.check(n_inputs=1) or "")
+    real = list(element.element.real)
+    element.element = replace(element.element, real=[*real[:3], -1.0, real[4]])
+    assert "share" in (element.check() or "")
+    with pytest.raises(AssertionError, match="5 and two inputs"):
+        Element(replace(element.element, real=real[:3]))

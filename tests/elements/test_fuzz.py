@@ -18,10 +18,12 @@ from mbs.elements import (
     GyroscopicSpin,
     InputForce,
     KerbRoad,
+    Lift,
     PlaneRoad,
     ScalarSpringDamper,
     SpinTorque,
     SpringDamper,
+    SpringDamperTable,
     TorsionBar,
 )
 from tests.elements.harness import Element, contacts, signals, vectors
@@ -49,9 +51,16 @@ def elements() -> dict[str, Element]:
         "gyroscopic spin": Element(GyroscopicSpin(0.5).record("g", f, g, chi[0])),
         "spin torque": Element(SpinTorque(1, 2.0).record("t", f, g, chi[0])),
         "drag": Element(Drag(0.8).record("d", p)),
+        "spring by table": Element(
+            SpringDamperTable(
+                ((-0.2, -9e3), (-0.1, -2e3), (0.1, 2e3)), ((-1.0, -2e3), (0.0, 0.0), (0.5, 500.0)), 0.5
+            ).record("s", p)
+        ),
+        "lift": Element(Lift(0.3).record("l", p, a, b)),
         "brake": Element(Brake(650.0, 2e5, 600.0).record("b", f, g, chi[0], 0)),
         "coordinate friction": Element(CoordinateFriction(2.0, 400.0, 7.0).record("f", signals(1)[0])),
         "torsion bar": Element(TorsionBar(100.0, 1.0, 8.0, 40.0).record("t", *signals(2))),
+        "hand brake": Element(Brake(650.0, 2e5, 600.0, 0.4, 300.0).record("b", f, g, chi[0], 0, 1)),
         "drive": Element(AutomaticDrive(110.0, 5e4).record("a", left[0], right[0], f2, g2, 0)),
         "drive with a selector": Element(
             AutomaticDrive(110.0, 5e4).record("a", left[0], right[0], f2, g2, 0, selector=1)

@@ -14,9 +14,11 @@ from mbs.elements import (
     EndStops,
     GyroscopicSpin,
     InputForce,
+    Lift,
     ScalarSpringDamper,
     SpinTorque,
     SpringDamper,
+    SpringDamperTable,
 )
 from tests.elements.harness import Element, frame, signals, tangent_by_differences, vectors
 
@@ -54,6 +56,19 @@ def elements() -> dict[str, Element]:
         "gyroscopic spin": Element(GyroscopicSpin(0.55).record("g", f, g, chi[0])),
         "spin torque": Element(SpinTorque(1, 1.5).record("t", f, g, chi[0])),
         "drag in space": Element(Drag(0.8).record("d", p)),
+        "lift in space": Element(Lift(0.3).record("l", *vectors(3, 3, 3))),
+        "lift in the plane": Element(Lift(-3.0).record("l", *vectors(2, 2, 2))),
+        "spring by table": Element(
+            SpringDamperTable(
+                ((-2.0, -300.0), (0.0, 10.0), (0.4, 50.0), (1.5, 400.0)),
+                ((-1.0, -40.0), (0.0, 0.0), (0.3, 5.0), (2.0, 9.0)),
+                0.4,
+                EndStops(2.5, 300.0),
+                1.2,
+                0.7,
+            ).record("s", p)
+        ),
+        "spring by table in the plane": Element(SpringDamperTable(30.0, ((-1.0, -4.0), (0.0, 0.0))).record("s", p2)),
         "drag in the plane": Element(Drag(0.8).record("d", p2)),
     }
 
