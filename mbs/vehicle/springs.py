@@ -33,8 +33,23 @@ from mbs.vehicle.side import Point
 Rows: TypeAlias = "tuple[tuple[float, float], ...]"
 
 
-def law_faults(section: Section, name: str, number: float | None, table: Rows | None) -> Iterator[str]:
-    """A force is given by a number or by a table that rises.
+@dataclass(frozen=True)
+class _Plausible:
+    """What a table may be: least span of its first column, and slopes from row to row."""
+
+    span: float
+    slopes: tuple[float, float]
+    units: tuple[str, str]
+
+
+SPRING_TABLE = _Plausible(0.01, (200.0, 2e6), ("m", "N/m"))
+DAMPER_TABLE = _Plausible(0.1, (20.0, 5e4), ("m/s", "N.s/m"))
+
+
+def law_faults(
+    section: Section, name: str, number: float | None, table: Rows | None, plausible: _Plausible
+) -> Iterator[str]:
+    """A force is given by a number or by a table that rises as one of its kind does.
 
     Parameters
     ----------
@@ -46,6 +61,8 @@ def law_faults(section: Section, name: str, number: float | None, table: Rows | 
         Its value.
     table : rows of (float, float) or None
         In its place.
+    plausible : _Plausible
+        What the table may be.
     """
     if number is None and table is None:
         yield f"{section.key(name)} is missing; there must be it or {section.key('table')}, rows of two numbers."
@@ -53,11 +70,25 @@ def law_faults(section: Section, name: str, number: float | None, table: Rows | 
         yield f"{section.key(name)} is {number:g}, and there is {section.key('table')} too; there must be one of both."
     if table is not None and len(table) < 2:
         yield f"{section.key('table')} has {len(table)} rows; it must have two or more."
+        return
+    if table is not None and table[-1][0] - table[0][0] < plausible.span:
+        yield (
+            f"{section.key('table')} goes from {table[0][0]:g} to {table[-1][0]:g} {plausible.units[0]}; it must span "
+            f"{plausible.span:g} {plausible.units[0]} or more."
+        )
+        return
     for k, (first, second) in enumerate(pairwise(table or ())):
         if second[0] <= first[0] or second[1] < first[1]:
             yield (
                 f"{section.key('table')}.{k + 1} is {list(second)} after {list(first)}; both columns must rise "
                 "from row to row."
+            )
+            return
+        slope, (low, high) = (second[1] - first[1]) / (second[0] - first[0]), plausible.slopes
+        if not low <= slope <= high:
+            yield (
+                f"{section.key('table')}.{k + 1} is {list(second)} after {list(first)}, a slope of {slope:.3g} "
+                f"{plausible.units[1]}; it must be between {low:g} and {high:g} {plausible.units[1]}."
             )
             return
 
@@ -76,7 +107,7 @@ class Spring(Section):
 
     def faults(self) -> Iterator[str]:
         """By a number or a table."""
-        yield from law_faults(self, "stiffness", self.stiffness, self.table)
+        yield from law_faults(self, "stiffness", self.stiffness, self.table, SPRING_TABLE)
 
     @property
     def law(self) -> float | list[tuple[float, float]]:
@@ -99,7 +130,7 @@ class Damper(Section):
 
     def faults(self) -> Iterator[str]:
         """By a number or a table."""
-        yield from law_faults(self, "damping", self.damping, self.table)
+        yield from law_faults(self, "damping", self.damping, self.table, DAMPER_TABLE)
 
     @property
     def law(self) -> float | list[tuple[float, float]]:
