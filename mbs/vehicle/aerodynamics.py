@@ -16,13 +16,13 @@ class Aerodynamics(Section):
     """Drag coefficient times frontal area."""
     air_density: AirDensity
     """Density of the air."""
-    lift_area_front: LiftArea = 0.0
-    """Lift coefficient of the front axle times frontal area; negative: downforce."""
-    lift_area_rear: LiftArea = 0.0
-    """Lift coefficient of the rear axle times frontal area; negative: downforce."""
+    lift_area_front: LiftArea | None = None
+    """Lift coefficient of the front axle times frontal area; negative: downforce; without it none is computed."""
+    lift_area_rear: LiftArea | None = None
+    """Lift coefficient of the rear axle times frontal area; negative: downforce; without it none is computed."""
 
     def build(self, b: CarBuilder) -> None:
-        """Add the drag at the vehicle's reference point and the lift of both axles.
+        """Add the drag at the vehicle's reference point and the lift of the axles that have one.
 
         Parameters
         ----------
@@ -39,6 +39,9 @@ class Aerodynamics(Section):
         b.tie(self, "drag_area", drag, "drag_area")
         frame = b.chassis.frame
         for name, axle in (("front", b.car.front), ("rear", b.car.rear)):
+            area = getattr(self, f"lift_area_{name}")
+            if area is None:
+                continue
             x, _, z = axle.wheel.centre
             lift = b.m.lift(
                 f"lift {name}",
@@ -46,7 +49,7 @@ class Aerodynamics(Section):
                 (x, 0.0, z),
                 forward=FORWARD,
                 up=UP,
-                lift_area=getattr(self, f"lift_area_{name}"),
+                lift_area=area,
                 air_density=self.air_density,
             )
             b.tie(self, f"lift_area_{name}", lift, "lift_area")
