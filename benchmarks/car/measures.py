@@ -72,7 +72,7 @@ MEASURES = (
     Measure("time_to_100", "s", (8.0, 16.0), "0 to 100 km/h at full throttle"),
     Measure("top_speed", "km/h", (125.0, 190.0), "after two minutes at full throttle"),
     Measure("deceleration", "g", (0.7, 1.1), "mean from 100 to 20 km/h at the best pedal"),
-    Measure("brake_share_front", "%", (65.0, 85.0), "of the front wheels in the brake torque"),
+    Measure("brake_share_front", "%", (65.0, 85.0), "of the front wheels in the brake torque of that stop"),
     Measure("dive_gradient", "deg/g", (0.5, 3.0), "pitch of the chassis over deceleration in that stop"),
 )
 
