@@ -365,7 +365,7 @@ def test_a_moment_sensor_changes_no_motion():
         (lambda m: m.sense_joint_force("s", "rope", "y"), "for a driven distance it must be 'tension' or 'drive'"),
         (
             lambda m: m.sense_joint_force("s", "turn"),
-            "lines, distances, drives, gears, racks and screws have one",
+            "lines, distances, drop links, drives, gears, racks and screws have one",
         ),
     ],
 )

@@ -58,7 +58,7 @@ def test_parked_on_a_slope_up_down_and_across(way, grade):
 
 @pytest.mark.parametrize(("road", "slope"), [("level", 0.0), ("up", GRADE), ("down", -GRADE)])
 def test_braked_from_15_m_s_to_a_stop_that_lasts(road, slope):
-    system = car() if road == "level" else compile(prototype_car.build(rise(slope)))
+    system = car() if road == "level" else compile(prototype_car.build(rise(grade=slope)))
     pedal = ([0.0, 2.5, 2.7, 40.0], [0.0, 0.0, 0.5, 0.5])
     t = drive(system, 20.0, H, {"brake": pedal}, pose=Pose(speed=15.0))
     stop = t.t[np.argmax(t["speed"] < 0.05)]

@@ -116,8 +116,9 @@ def test_a_body_that_turns_over_turns_over_in_time() -> None:
 
 def test_a_kerb_is_run_down_with_the_loads_of_short_steps() -> None:
     manoeuvre = load("kerb_drop")
-    parameters, pose = start_of(manoeuvre)
-    system, given = car_of("kerb_drop"), (inputs_of(manoeuvre), None, parameters)
+    system = car_of("kerb_drop")
+    parameters, pose = start_of(manoeuvre, system)
+    given = (inputs_of(manoeuvre, system), None, parameters)
     fine = mbs.simulate(system, 2.5, 5e-4, *given, every=20, pose=pose, progress=False)
     run = mbs.simulate(system, 2.5, 0.01, *given, pose=pose, progress=False, tolerance=1e-3)
     assert run.control is not None
