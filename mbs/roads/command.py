@@ -37,7 +37,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.road
     parser.add_argument("input", type=Path, metavar="INPUT", help="what the road is made of, see below")
     parser.add_argument("output", type=Path, nargs="?", metavar="OUTPUT.road", help="the road file to write")
     parser.add_argument(
-        "--frictions", metavar="NUMBER|FILE", help="of a grid: one number, or a file of its shape; default: 0.9"
+        "--frictions",
+        metavar="NUMBER|FILE",
+        help="of a grid: one number, or a file of its shape; default: as INPUT says, else 0.9",
     )
     parser.add_argument(
         "--origin", type=_number, nargs=2, metavar=("X", "Y"), help="of a grid: its first point, m; default: 0 0"

@@ -21,6 +21,8 @@ Length = Annotated[float, Field(gt=0.0, le=1e5)]
 Place = Annotated[float, Field(ge=-1e6, le=1e6)]
 Height = Annotated[float, Field(ge=-1e4, le=1e4)]
 Friction = Annotated[float, Field(ge=0.0, le=2.0)]
+GRID_FRICTION = 0.9
+"""Of a grid whose friction nothing says."""
 Range = tuple[float, float]
 RESOLUTION = 2.0**-17
 """m, 0.008 mm: heights of waves and rough roads are multiples of it, so that their files are the same everywhere."""
@@ -66,7 +68,7 @@ class GridOfFiles(_Road):
 
     kind: Literal["grid"]
     heights: str
-    frictions: str | Friction = 0.9
+    frictions: str | Friction | None = None
     origin: tuple[Place, Place] | None = None
     spacing: tuple[Length, Length] | None = None
     height_range: Range | None = None
@@ -74,7 +76,7 @@ class GridOfFiles(_Road):
 
     def road(self, folder: Path) -> GridRoad:
         """As the kernel takes it."""
-        frictions = self.frictions if isinstance(self.frictions, float) else folder / self.frictions
+        frictions = folder / self.frictions if isinstance(self.frictions, str) else self.frictions
         return grid_road(
             folder / self.heights, frictions, self.origin, self.spacing, self.height_range, self.friction_range
         )
@@ -142,6 +144,8 @@ _ADAPTER: TypeAdapter[Any] = TypeAdapter(
     Annotated[Plane | Kerb | GridOfFiles | Washboard | Rough | Split, Field(discriminator="kind")]
 )
 
+KINDS = ", ".join(repr(kind) for kind in _ADAPTER.json_schema()["discriminator"]["mapping"])
+
 
 def _rounded(heights: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
     return np.asarray(np.round(heights / RESOLUTION) * RESOLUTION + 0.0)
@@ -175,15 +179,18 @@ def described_road(path: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridR
 
 def _sentence(path: object, error: ValidationError) -> str:
     first = error.errors()[0]
-    place = ".".join(str(part) for part in first["loc"][1:]) or "kind"
-    given = "" if first["type"] in ("missing", "union_tag_not_found") else f" is {first['input']!r}"
+    if first["type"] in ("union_tag_invalid", "union_tag_not_found"):
+        given = f"is {first['ctx']['tag']!r}" if first["type"] == "union_tag_invalid" else "is missing"
+        return f"{path}: 'kind' {given}; it must be one of {KINDS}."
+    place = ".".join(str(part) for part in first["loc"][1:])
+    given = "" if first["type"] == "missing" else f" is {first['input']!r}"
     words = first["msg"][:1].lower() + first["msg"][1:]
     return f"{path}: '{place}'{given}: {words}."
 
 
 def grid_road(
     heights: str | os.PathLike[str],
-    frictions: str | os.PathLike[str] | float,
+    frictions: str | os.PathLike[str] | float | None,
     origin: tuple[float, float] | None,
     spacing: tuple[float, float] | None,
     height_range: Range | None = None,
@@ -195,7 +202,9 @@ def grid_road(
     if step is None:
         raise RoadFileError(f"{heights} does not say how far its points are apart; give the spacing in x and y, m.")
     values: Any = frictions
-    if not isinstance(frictions, int | float):
+    if frictions is None:
+        values = GRID_FRICTION if grid.frictions is None else grid.frictions
+    elif not isinstance(frictions, int | float):
         second = read_grid(frictions, friction_range, "frictions")
         values = second.values
         if values.shape != grid.values.shape:
@@ -203,8 +212,6 @@ def grid_road(
                 f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} "
                 f"{grid.values.shape}; both must agree."
             )
-    elif grid.frictions is not None:
-        values = grid.frictions
     if np.any(np.asarray(values) > ROAD_FRICTION) or np.any(np.asarray(values) < 0.0):
         raise RoadFileError(f"The frictions of {heights} must lie between 0 and {ROAD_FRICTION:g}.")
     return GridRoad(origin or grid.origin or (0.0, 0.0), step, grid.values, values)

@@ -77,7 +77,8 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     for values in (grid.values, grid.frictions):
         if values is not None and not np.all(np.isfinite(values)):
             i, j = np.argwhere(~np.isfinite(values))[0].tolist()
-            raise RoadFileError(f"{path}: the value at row {i}, column {j} is {values[i, j]}, not a finite number.")
+            place = f"row {i + 1}, column {j + 1} of the points"
+            raise RoadFileError(f"{path}: the value at {place} is {values[i, j]}, not a finite number.")
     return grid
 
 

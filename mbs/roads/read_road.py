@@ -14,7 +14,7 @@ SUFFIXES = (".road", ".toml", ".csv", ".txt", ".npy", ".npz", ".png")
 def read_road(
     path: str | os.PathLike[str],
     *,
-    frictions: str | os.PathLike[str] | float = 0.9,
+    frictions: str | os.PathLike[str] | float | None = None,
     origin: tuple[float, float] | None = None,
     spacing: tuple[float, float] | None = None,
     height_range: tuple[float, float] | None = None,
@@ -29,12 +29,12 @@ def read_road(
         in the first row and column where the first cell is no number), ``.npy`` (``heights[i, j]`` at x number i and y
         number j), ``.npz`` (arrays `heights`, and as one likes `frictions`, `origin`, `spacing`), ``.png`` (8 or 16
         bits of grey, seen from above with x to the right and y up).
-    frictions : path or float
-        Of a grid: a second file of the same shape, or one number.
+    frictions : path or float, optional
+        Of a grid: a second file of the same shape, or one number; by default what the file says, else 0.9.
     origin : (float, float), optional
         Of a grid: x and y of its first point, m; by default what the file says, else 0.
     spacing : (float, float), optional
-        Of a grid: distances of its points in x and y, m.
+        Of a grid: distances of its points in x and y, m; by default what the file says.
     height_range, friction_range : (float, float), optional
         What black and white of a picture mean.
 

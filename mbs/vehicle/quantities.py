@@ -57,7 +57,8 @@ class Quantity:
     def range(self) -> str:
         """The range in words."""
         zero = "0 or " if self.zero and self.low > 0.0 else ""
-        return f"{zero}between {self.low:g} and {self.high:g}" + ("" if self.unit == "1" else f" {self.unit}")
+        limits = f"{self.low:g}" if self.low == self.high else f"between {self.low:g} and {self.high:g}"
+        return f"{zero}{limits}" + ("" if self.unit == "1" else f" {self.unit}")
 
     @property
     def least(self) -> float:
@@ -161,7 +162,7 @@ ColumnStiffness = Annotated[float, Quantity("N.m/rad", 15.0, 1.4e4, change="tuna
 ColumnDamping = Annotated[float, Quantity("N.m.s/rad", 0.01, 9.0, zero=True, change="tunable")]
 AssistanceFactor = Annotated[float, Quantity("1", 0.1, 60.0, zero=True, change="tunable")]
 AssistanceTorque = Annotated[float, Quantity("N.m", 0.5, 400.0, zero=True, change="tunable")]
-OneOrZero = Annotated[float, Quantity("1", 0.5, 1.0, zero=True, change="fixed")]
+OneOrZero = Annotated[float, Quantity("1", 1.0, 1.0, zero=True, change="fixed")]
 RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
 RoadWheelAngle = Annotated[float, Quantity("rad", 0.1, 1.2)]
 PoissonsRatio = Annotated[float, Quantity("1", 0.01, 0.49, zero=True)]

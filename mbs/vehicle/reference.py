@@ -102,7 +102,7 @@ def _row(key: str, field: FieldInfo) -> tuple[str, ...]:
 
 
 def _range(quantity: Quantity) -> str:
-    limits = f"{quantity.low:g} to {quantity.high:g}"
+    limits = f"{quantity.low:g}" if quantity.low == quantity.high else f"{quantity.low:g} to {quantity.high:g}"
     return f"0 or {limits}" if quantity.zero and quantity.low > 0.0 else limits
 
 

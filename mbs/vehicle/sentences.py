@@ -49,7 +49,7 @@ class Sentences:
         for item in items:
             if item["type"] == UNKNOWN:
                 path = self._path(item["loc"])
-                near = self._near(path, [m[-1] for m in missing if m[:-1] == path[:-1]])
+                near = None if _key(path) in self._places(path) else self._near(path, _in_table(missing, path))
                 meant += [[*path[:-1], near]] if near else []
                 found.append(self._unknown(path, near))
             elif item["type"] != MISSING or self._path(item["loc"]) not in meant:
@@ -93,13 +93,27 @@ class Sentences:
     def _unknown(self, path: Sequence[str], near: str | None) -> str:
         if near is not None:
             return f"{_key(path)} is not known; did you mean '{near}'?"
-        places = [p for p in all_keys(self.top) if p.split(".")[-1] == path[-1]]
-        if places:
+        places = self._places(path)
+        if places and _key(path) not in places:
             more = f" and {len(places) - ELSEWHERE} more" if len(places) > ELSEWHERE else ""
             return f"{_key(path)} is not known; '{path[-1]}' stands at {', '.join(places[:ELSEWHERE])}{more}."
         table = table_at(self.top, path[:-1], self.data)
         known = ", ".join(keys_of(table)) if table else "none"
-        return f"{_key(path)} is not known; the keys of {_key(path[:-1])} are {known}."
+        why = f"belongs to another kind than {shown(self._kind(path))}" if places else "is not known"
+        return f"{_key(path)} {why}; the keys of {_key(path[:-1])} are {known}."
+
+    def _places(self, path: Sequence[str]) -> list[str]:
+        """Where a key of that name stands, in all templates."""
+        return list(dict.fromkeys(p for p in all_keys(self.top) if p.split(".")[-1] == path[-1]))
+
+    def _kind(self, path: Sequence[str]) -> Any:
+        """Kind of the innermost template that a key is in."""
+        here: Any = self.data
+        kind = None
+        for part in path[:-1]:
+            here = item_of(here, part)
+            kind = here.get("kind", kind) if isinstance(here, Mapping) else kind
+        return kind
 
     def _near(self, path: Sequence[str], missing: Sequence[str]) -> str | None:
         """The key that is meant, first among those that are missing."""
@@ -150,6 +164,11 @@ def one_line(sentence: str) -> str:
     """
     printable = "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
     return printable if len(printable) <= LONGEST else f"{printable[: LONGEST // 2]} ... {printable[-LONGEST // 2 :]}"
+
+
+def _in_table(paths: Sequence[Sequence[str]], path: Sequence[str]) -> list[str]:
+    """Keys of those paths that lie in the same table as a path."""
+    return [other[-1] for other in paths if other[:-1] == path[:-1]]
 
 
 def _key(path: Sequence[str]) -> str:

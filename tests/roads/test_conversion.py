@@ -60,7 +60,7 @@ def test_a_table_without_coordinates(tmp_path):
         ("1,2\n", "1 rows"),
         ("1,2\n3\n", "row 2 has 1 cells, the first one 2"),
         ("1,2\n3,x\n", "'x' in row 2 is no number"),
-        ("1,2\n3,nan\n", "at row 1, column 1 is nan"),
+        ("1,2\n3,nan\n", "at row 2, column 2 of the points is nan"),
         ("x,0,1\n0,1,2\n0,1,2\n", "coordinates x do not ascend"),
         ("x,0,1,5\n0,1,2,3\n1,1,2,3\n", "coordinates y are not regular: 1 should be 2.5"),
         ("x,0\n0,1\n1,1\n", "at least 2 x 2"),
@@ -82,6 +82,7 @@ def test_arrays(tmp_path):
     np.savez(tmp_path / "a.npz", heights=HEIGHTS, frictions=frictions, origin=[1.0, 2.0], spacing=0.25)
     road = read_road(tmp_path / "a.npz")
     assert np.array_equal(road.frictions, frictions)
+    assert read_road(tmp_path / "a.npz", frictions=0.3).frictions == 0.3
     assert (*road.origin, *road.spacing) == (1.0, 2.0, 0.25, 0.25)
     np.save(tmp_path / "mu.npy", frictions)
     road = read_road(tmp_path / "a.npy", spacing=(1.0, 2.0), frictions=tmp_path / "mu.npy")
@@ -102,7 +103,7 @@ def test_bad_arrays_are_refused(tmp_path):
         ("o.npy", "pickle"),
         ("c.npy", "type complex128"),
         ("flat.npy", r"shape \(5,\)"),
-        ("inf.npy", "row 0, column 0 is inf"),
+        ("inf.npy", "row 1, column 1 of the points is inf"),
         ("a.npz", "array 'height'; known are frictions, heights, origin, spacing"),
         ("b.npz", "no array 'heights'"),
         ("text.npy", "cannot be read as a NumPy file"),
@@ -170,8 +171,8 @@ def test_descriptions(tmp_path):
     ("text", "sentence"),
     [
         ("kind = ", "no TOML file"),
-        ("", "kind"),
-        ('kind = "hill"', "kind"),
+        ("", "'kind' is missing; it must be one of 'grid', 'kerb', "),
+        ('kind = "hill"', "'kind' is 'hill'; it must be one of 'grid', 'kerb', "),
         ('kind = "plane"\ngrade = 0.1', "'grade' is 0.1: extra inputs are not permitted"),
         ('kind = "plane"\nfriction = 9', "'friction' is 9: input should be less than or equal to 2"),
         ('kind = "plane"\nheight = nan', "'height' is nan"),

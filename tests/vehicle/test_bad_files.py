@@ -40,6 +40,18 @@ def told(changes, name=FIRST):
     return [line for warning in caught for line in sentences(warning.message, "x: ")]
 
 
+def test_keys_of_another_kind_are_told_as_such():
+    lines = refused(
+        {"steering.kind": "column"} | {f"steering.{key}": 1.0 for key in ("rack_mass", "trail")}, lines=None
+    )
+    assert not [line for line in lines if "another kind" in line]
+    (line,) = refused({"steering.rack_mass": 2.5})
+    kind = load(FIRST).steering.kind
+    assert line.startswith(f"steering.rack_mass belongs to another kind than '{kind}'; the keys of steering are ")
+    lines = refused({"front.suspension.kind": "twist_beam"}, lines=None)
+    assert any(line.startswith("front.suspension.points.lower_ball_joint belongs to another kind") for line in lines)
+
+
 @pytest.mark.parametrize("name", CAR_NAMES)
 def test_cars_of_the_package_have_nothing_odd(name):
     assert told({}, name) == []

@@ -168,8 +168,12 @@ def test_the_other_way_of_steering_is_not_heard():
 
 
 def test_bad_numbers_and_a_flexible_chassis_are_refused():
-    with pytest.raises(CarFileError, match=r"steering\.column\.by_torque|steering\.by_torque"):
-        car(by_torque=0.5)
+    for value in (0.5, 0.7):
+        with pytest.raises(CarFileError, match=rf"steering\.by_torque is {value}; it must be 0 or 1\."):
+            car(by_torque=value)
+    with pytest.raises(CarFileError, match=r"steering\.assistance_limit is missing; without it .* has no effect"):
+        car(assistance=1.5)
+    assert car(assistance=1.5, assistance_limit=0.0).steering.assistance_limit == 0.0
     with pytest.raises(CarFileError, match=r"stiffness"):
         car(stiffness=115e3)
     with pytest.raises(CarFileError, match=r"steering\.kind is 'column', which needs a rigid chassis"):

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Literal
-
-from pydantic import field_validator
-from pydantic_core import PydanticCustomError
 
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.elements.spring_damper import EndStops
@@ -68,12 +65,13 @@ class Column(RackSection):
     by_torque: OneOrZero = 0.0
     """1: steering_torque turns a free steering wheel; 0: the steering wheel follows steering and its angle demand."""
 
-    @field_validator("by_torque")
-    @classmethod
-    def _one_or_zero(cls, value: float) -> float:
-        if value in (0.0, 1.0):
-            return value
-        raise PydanticCustomError("one_or_zero", "must be 0, the angle steers, or 1, the torque")
+    def faults(self) -> Iterator[str]:
+        """Assistance has a limit."""
+        if self.assistance > 0.0 and "assistance_limit" not in self.model_fields_set:
+            yield (
+                f"{self.key('assistance_limit')} is missing; without it {self.key('assistance')}, {self.assistance:g}, "
+                "has no effect: it must be the largest torque of the assistance, N.m."
+            )
 
     @property
     def moving_mass(self) -> float:
