@@ -77,6 +77,12 @@ def law_faults(
             f"{plausible.span:g} {plausible.units[0]} or more."
         )
         return
+    if table is not None and (0.0, 0.0) not in table:
+        yield (
+            f"{section.key('table')} has no row [0, 0]: a spring has no force at its free length, a damper none "
+            "at rest."
+        )
+        return
     for k, (first, second) in enumerate(pairwise(table or ())):
         if second[0] <= first[0] or second[1] < first[1]:
             yield (
@@ -99,7 +105,7 @@ class Spring(Section):
     stiffness: Stiffness | None = None
     """Spring rate; or there is a table."""
     table: tuple[tuple[Compression, SpringForce], ...] | None = None
-    """Rows of compression from the free length and force, both rising, a monotone cubic between them."""
+    """Rows of compression and force, both rising, through (0, 0), a monotone cubic between them."""
     free_length: FreeLength
     """Length without force, between the points that the suspension names."""
     factor: Factor = 1.0

@@ -352,3 +352,13 @@ def test_the_same_through_every_door(changes, copied, capsys):
     assert str(error.value) == f"{file}: {line}"
     assert main(["car", str(file)]) == 2
     assert capsys.readouterr().err == f"error: {file}: {line}\n"
+
+
+@pytest.mark.parametrize(
+    ("part", "rows"), [("spring", [[0.01, 240.0], [0.2, 4800.0]]), ("damper", [[-1.0, -900.0], [1.0, 900.0]])]
+)
+def test_a_table_passes_through_the_origin(part, rows):
+    data = changed_content(load("prototype")._data, {}, "x")
+    data["front"][part] = {"table": rows} | ({"free_length": 0.75} if part == "spring" else {})
+    with pytest.raises(CarFileError, match=rf"front\.{part}\.table has no row \[0, 0\]"):
+        car_from(data, load("prototype").folder, "x", at_rest=False)
