@@ -39,15 +39,6 @@ def write_road(road: PlaneRoad | KerbRoad | GridRoad, file: str | os.PathLike[st
         _write(road, out, file)
 
 
-def road_bytes(road: PlaneRoad | KerbRoad | GridRoad) -> bytes:
-    """The same in memory, for archives."""
-    import io
-
-    out = io.BytesIO()
-    _write(road, out, "the road")
-    return out.getvalue()
-
-
 def _write(road: PlaneRoad | KerbRoad | GridRoad, out: BinaryIO, name: object) -> None:
     if isinstance(road, GridRoad):
         _write_grid(road, out, name)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from mbs.vehicle.axes import FORWARD, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import AirDensity, Area, LiftArea
 from mbs.vehicle.section import Section
-
-FORWARD, UP = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 
 
 class Aerodynamics(Section):

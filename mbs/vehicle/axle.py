@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pydantic import Field
 
 from mbs.model.spin import Spin
+from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.quantities import PartMass, Point, WheelInertia
@@ -99,7 +100,7 @@ class Axle(Section):
             f"wheel {w}",
             carrier=corner.carrier,
             centre=corner.side.point(self.wheel.centre),
-            axis=(0.0, 1.0, 0.0),
+            axis=LEFT,
             rolling_radius=self.rolling_radius,
             mass=self.wheel.mass,
             spin_inertia=self.wheel.spin_inertia,

@@ -110,3 +110,45 @@ def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
                 f"{points.key(upper)} and {points.key(lower)} give the steering axis a {name} of {angle:.3g} deg; "
                 f"it must be between {low:g} and {high:g} deg."
             )
+
+
+def arm(points: Section, part: str, what: str) -> Iterator[str]:
+    """An arm with two pivots and a ball joint has an axis and a length, and its ends are where their names say.
+
+    Parameters
+    ----------
+    points : Section
+        Table of the points, with those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
+        ``{part}_ball_joint``.
+    part : str
+        "lower" or "upper".
+    what : str
+        What it is, as in "wishbone".
+    """
+    pivots, ball = (f"{part}_pivot_front", f"{part}_pivot_rear"), f"{part}_ball_joint"
+    yield from apart(points, *pivots, f"the axis of the {part} {what}")
+    yield from farther(points, "x", *pivots, "ahead of", "so they are called")
+    yield from off_line(points, ball, pivots, f"the {part} {what}", "the axis of its pivots", 0.05)
+    for pivot in pivots:
+        yield from farther(points, "y", ball, pivot, "outside of", f"the {what} carries the wheel")
+
+
+def steering_rod(points: Section, rod: str, axis: tuple[str, str], line: str) -> Iterator[str]:
+    """A rod that steers has a length and a lever about the steering axis, which stands nearly upright.
+
+    Parameters
+    ----------
+    points : Section
+        Table of the points, with those of the rod as its name with underscores, `_inner` and `_outer`.
+    rod : str
+        Its name, as in "tie rod".
+    axis : (str, str)
+        Lower and upper point of the steering axis.
+    line : str
+        What the axis is, as in "the steering axis".
+    """
+    inner, outer = (f"{rod.replace(' ', '_')}_{end}" for end in ("inner", "outer"))
+    yield from steering_axis(points, *axis)
+    yield from off_line(points, outer, axis, "the steering arm", line)
+    yield from apart(points, inner, outer, f"the {rod}", 0.05)
+    yield from farther(points, "y", outer, inner, "outside of", "so they are called")

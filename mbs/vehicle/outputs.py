@@ -8,10 +8,9 @@ from mbs.affine import AffineVector
 from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.spin import Spin
+from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
-
-FORWARD, LEFT, UP = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def chassis_outputs(b: CarBuilder) -> None:

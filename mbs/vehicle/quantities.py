@@ -89,23 +89,11 @@ def quantities_in(annotation: Any) -> list[Quantity]:
     return list(found)
 
 
-def _fixed(quantity: Quantity) -> Quantity:
-    return Quantity(quantity.unit, quantity.low, quantity.high, quantity.zero, "fixed")
-
-
-def _tunable(quantity: Quantity) -> Quantity:
-    return Quantity(quantity.unit, quantity.low, quantity.high, quantity.zero, "tunable")
-
-
-_STIFFNESS = Quantity("N/m", 1e3, 9e5)
-_DAMPING = Quantity("N.s/m", 50.0, 2e4, zero=True)
-_LENGTH = Quantity("m", 0.01, 9.0)
-
 Coordinate = Annotated[float, Quantity("m", -9.0, 9.0)]
 """A coordinate of the drawing."""
 Point = tuple[Coordinate, Coordinate, Coordinate]
 """x forward, y left, z up from the ground under the front axle."""
-Length = Annotated[float, _LENGTH]
+Length = Annotated[float, Quantity("m", 0.01, 9.0)]
 FreeLength = Annotated[float, Quantity("m", 0.05, 2.0, change="tunable")]
 SmallLength = Annotated[float, Quantity("m", 0.0005, 0.4)]
 Travel = Annotated[float, Quantity("m", 0.001, 0.5)]
@@ -119,8 +107,8 @@ PartInertia = Annotated[float, Quantity("kg.m2", 0.002, 1.9)]
 WheelInertia = Annotated[float, Quantity("kg.m2", 0.01, 9.0)]
 ProductOfInertia = Annotated[float, Quantity("kg.m2", -2000.0, 2000.0)]
 
-Stiffness = Annotated[float, _tunable(_STIFFNESS)]
-Damping = Annotated[float, _tunable(_DAMPING)]
+Stiffness = Annotated[float, Quantity("N/m", 1e3, 9e5, change="tunable")]
+Damping = Annotated[float, Quantity("N.s/m", 50.0, 2e4, zero=True, change="tunable")]
 StopStiffness = Annotated[float, Quantity("N/m", 2e4, 1.9e7)]
 HysteresisLoss = Annotated[float, Quantity("s/m", 0.01, 9.0, zero=True)]
 TyreStiffness = Annotated[float, Quantity("N/m", 1e4, 2e6)]
@@ -130,7 +118,6 @@ Force = Annotated[float, Quantity("N", 100.0, 9e4)]
 SlopeForce = Annotated[float, Quantity("N", 1e3, 9e5)]
 Torque = Annotated[float, Quantity("N.m", 5.0, 4.9e3, change="tunable")]
 SmallTorque = Annotated[float, Quantity("N.m", 0.5, 400.0, zero=True)]
-Power = Annotated[float, Quantity("W", 1e3, 9e5)]
 MotorPower = Annotated[float, Quantity("W", 1e3, 9e5, change="tunable")]
 RegenerationTorque = Annotated[float, Quantity("N.m", 0.5, 400.0, zero=True, change="tunable")]
 DriveRatio = Annotated[float, Quantity("1", 0.3, 60.0, change="tunable")]

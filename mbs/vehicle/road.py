@@ -49,9 +49,7 @@ class RoadSection(Section):
             m.parameter(
                 "road.friction",
                 own.friction,
-                0.0,
-                2.0,
-                "1",
+                *_range(self, "friction"),
                 f"friction coefficient: largest longitudinal tyre force over load at {nominal_load:g} N; {BUILT_IN}",
                 targets=[(target, "friction", 1.0)],
             )
@@ -60,9 +58,7 @@ class RoadSection(Section):
         m.parameter(
             "road.friction_factor",
             own.friction_factor,
-            0.0,
-            10.0,
-            "1",
+            *_range(self, "friction_factor"),
             "factor on the friction of the road, also of one from a file",
             targets=[(target, "friction_factor", 1.0)],
         )
@@ -88,6 +84,13 @@ class RoadSection(Section):
             f"drop behind the kerb's edge; {BUILT_IN}",
             targets=[(target, "lower_height", -1.0), (target, "step", 1.0)],
         )
+
+
+def _range(section: Section, field: str) -> tuple[float, float, str]:
+    """Limits and unit of a parameter as the file's type has them."""
+    q = section.quantity(field)
+    assert q is not None, f"{section.key(field)} is no quantity"
+    return q.least, q.high, q.unit
 
 
 def level_within(road: Road | RoadFile | None, footprint: tuple[tuple[float, float], tuple[float, float]]) -> bool:

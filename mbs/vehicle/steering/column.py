@@ -16,6 +16,7 @@ from mbs.model.core import Coordinate
 from mbs.model.ends import End
 from mbs.model.guides import Guide
 from mbs.model.inputs import Input
+from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (
     AssistanceFactor,
@@ -30,11 +31,10 @@ from mbs.vehicle.quantities import (
 )
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
-from mbs.vehicle.steering.rack_section import RackSection
+from mbs.vehicle.steering.rack_section import COLUMN_STICK, RackSection
 from mbs.vehicle.steering.steered import Steered
 
 LARGEST_TORQUE = 100.0  # N m, of the driver's hands
-STICK_STIFFNESS, STICK_DAMPING = 200.0, 5.0  # N m/rad, N m s/rad of a column that sticks: 1 N m gives by 5 mrad
 RACK_STICK = 5e6, 1e4  # N/m, N s/m of a rack that sticks: 300 N give by 0.06 mm
 STOP_STIFFNESS, STOP_LOSS = 2e6, 1.0  # N/m, s/m of the rack's ends
 FAR = 1.0  # m: from the middle of the rack to where the length of its stops is measured from
@@ -150,7 +150,7 @@ class Column(RackSection):
     def _bar(self, b: CarBuilder, wheel: Coordinate, pinion: Coordinate) -> None:
         bar = TorsionBar(self.stiffness, self.damping, self.assistance, self.assistance_limit)
         b.m.add(bar.record("torsion bar", wheel.affine, pinion.affine))
-        friction = CoordinateFriction(self.friction, STICK_STIFFNESS, STICK_DAMPING)
+        friction = CoordinateFriction(self.friction, *COLUMN_STICK)
         b.m.add(friction.record("steering friction", wheel.affine))
         for name, real in (
             ("stiffness", "stiffness"),
@@ -167,8 +167,8 @@ class Column(RackSection):
         middle, across = (left[0], 0.0, left[2]), self.rack_mass * length**2 / 12.0
         inertia = (across, self.rack_mass * RACK_RADIUS**2, across)
         rack = m.body("rack", mass=self.rack_mass, com=middle, inertia=inertia)
-        m.prismatic("rack housing", rack, chassis, axis=(0.0, 1.0, 0.0), point=middle)
-        m.rack("pinion", pinion, rack, carrier=chassis, axis=(0.0, 1.0, 0.0), radius=per_radian, point=middle)
+        m.prismatic("rack housing", rack, chassis, axis=LEFT, point=middle)
+        m.rack("pinion", pinion, rack, carrier=chassis, axis=LEFT, radius=per_radian, point=middle)
         friction = CoordinateFriction(self.rack_friction, *RACK_STICK, unit="N")
         m.add(friction.record("rack friction", pinion.affine * per_radian))
         b.tie(self, "rack_friction", "rack friction", "largest")
@@ -198,7 +198,7 @@ class Column(RackSection):
             rods = [j for j in m.joints if j.type == "distance" and j.ends is not None and rack in j.ends.bodies]
             m.sense_joint_force("steering_wheel_torque", "grip", "torque", "N.m", WHEEL_TORQUE)
             m.sense_coordinate("steering_wheel_speed", wheel, 1, description=WHEEL_SPEED)
-            m.sense_rod_force("steering_rack_force", rods, rack, (0.0, 1.0, 0.0), description=RACK_FORCE)
+            m.sense_rod_force("steering_rack_force", rods, rack, LEFT, description=RACK_FORCE)
             demand_outputs(m, demand, held, 1.0)
             m.sense_input(f"used.{torque.name}", torque, description=f"{torque.name} as used")
             m.sense_element("steering_column_torque", "torsion bar", "torque", description="torque of the torsion bar")

@@ -7,14 +7,13 @@ from typing import Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.ends import End
+from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
-from mbs.vehicle.steering.rack_section import RackSection
+from mbs.vehicle.steering.rack_section import COLUMN_STICK, RackSection
 from mbs.vehicle.steering.steered import Steered, tie_rods
-
-STICK_STIFFNESS, STICK_DAMPING = 200.0, 5.0  # N m/rad and N m s/rad: 1 N m of friction gives by 5 mrad before it slides
 
 
 class RackByAngle(RackSection):
@@ -53,11 +52,11 @@ class RackByAngle(RackSection):
         if self.friction > 0.0:
             wheel = m.shaft("steering wheel")
             m.drive("steering column", wheel.affine * per_radian, rack)
-            friction = CoordinateFriction(self.friction, STICK_STIFFNESS, STICK_DAMPING)
+            friction = CoordinateFriction(self.friction, *COLUMN_STICK)
             m.add(friction.record("steering friction", wheel.affine))
 
         def end(side: Side, point: Point) -> End:
-            return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=(0.0, 1.0, 0.0), guide=rack)
+            return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=LEFT, guide=rack)
 
         def outputs() -> None:
             m.sense_guide("steering_rack", rack, description=self.travel_text(way))

@@ -7,6 +7,8 @@ import math
 from mbs.vehicle.quantities import Frequency, RackPerTurn, RoadWheelAngle, Travel
 from mbs.vehicle.section import Section
 
+COLUMN_STICK = 200.0, 5.0  # N m/rad, N m s/rad of a column that sticks: 1 N m of friction gives by 5 mrad
+
 
 class RackSection(Section):
     """Rack and steering wheel."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
 from mbs.vehicle.geometry import LEAST
@@ -76,7 +77,7 @@ class AntiRollBar(Section):
                     f"anti-roll link {corner.side.wheel}",
                     b.chassis.body,
                     corner.parts[self.part],
-                    axis=(0.0, 1.0, 0.0),
+                    axis=LEFT,
                     **p,
                 )
             )

@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 from mbs.elements.spring_damper import EndStops
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
-from mbs.vehicle.geometry import apart, farther, off_line, steering_axis
+from mbs.vehicle.geometry import apart, arm, farther, off_line, steering_rod
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import HysteresisLoss, Length, Point, SmallLength, StopStiffness
 from mbs.vehicle.section import Section
@@ -44,18 +44,10 @@ class DoubleWishbonePoints(Section):
     def faults(self) -> Iterator[str]:
         """Arms, links, axes and the spring must have a length, and be where their names say."""
         for part in ("lower", "upper"):
-            pivots, ball = (f"{part}_pivot_front", f"{part}_pivot_rear"), f"{part}_ball_joint"
-            yield from apart(self, *pivots, f"the axis of the {part} wishbone")
-            yield from farther(self, "x", pivots[0], pivots[1], "ahead of", "so they are called")
-            yield from off_line(self, ball, pivots, f"the {part} wishbone", "the axis of its pivots", 0.05)
-            for pivot in pivots:
-                yield from farther(self, "y", ball, pivot, "outside of", "the wishbone carries the wheel")
+            yield from arm(self, part, "wishbone")
         axis = ("lower_ball_joint", "upper_ball_joint")
         yield from farther(self, "z", axis[1], axis[0], "above", "the steering axis goes through both", 0.05)
-        yield from steering_axis(self, *axis)
-        yield from off_line(self, "tie_rod_outer", axis, "the steering arm", "the steering axis")
-        yield from apart(self, "tie_rod_inner", "tie_rod_outer", "the tie rod", 0.05)
-        yield from farther(self, "y", "tie_rod_outer", "tie_rod_inner", "outside of", "so they are called")
+        yield from steering_rod(self, "tie rod", axis, "the steering axis")
         yield from apart(self, "spring_lower", "spring_upper", "the spring", 0.05)
         yield from farther(self, "z", "spring_upper", "spring_lower", "above", "the spring carries the car")
         pivots = ("lower_pivot_front", "lower_pivot_rear")

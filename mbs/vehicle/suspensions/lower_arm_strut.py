@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-import numpy as np
-
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
-from mbs.vehicle.geometry import apart, farther, off_line, steering_axis
+from mbs.vehicle.geometry import arm, farther, steering_rod
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import sides
-from mbs.vehicle.springs import AxleSprings, spring_and_damper
+from mbs.vehicle.springs import AxleSprings
+from mbs.vehicle.suspensions.strut import strut_corner
 
 
 class LowerArmStrutPoints(Section):
@@ -35,18 +34,10 @@ class LowerArmStrutPoints(Section):
 
     def faults(self) -> Iterator[str]:
         """Arm, link, axes and strut must have a length, and be where their names say."""
-        pivots = ("lower_pivot_front", "lower_pivot_rear")
-        yield from apart(self, *pivots, "the axis of the lower arm")
-        yield from farther(self, "x", pivots[0], pivots[1], "ahead of", "so they are called")
-        yield from off_line(self, "lower_ball_joint", pivots, "the lower arm", "the axis of its pivots", 0.05)
-        for pivot in pivots:
-            yield from farther(self, "y", "lower_ball_joint", pivot, "outside of", "the arm carries the wheel")
+        yield from arm(self, "lower", "arm")
         axis = ("lower_ball_joint", "strut_top")
         yield from farther(self, "z", axis[1], axis[0], "above", "the strut stands between both", 0.05)
-        yield from steering_axis(self, *axis)
-        yield from off_line(self, "toe_link_outer", axis, "the steering arm", "the axis of the strut")
-        yield from apart(self, "toe_link_inner", "toe_link_outer", "the toe link", 0.05)
-        yield from farther(self, "y", "toe_link_outer", "toe_link_inner", "outside of", "so they are called")
+        yield from steering_rod(self, "toe link", axis, "the axis of the strut")
 
 
 class LowerArmStrutBodies(Section):
@@ -90,17 +81,7 @@ class LowerArmStrut(Section):
         tie_rod : TieRodEnd
             Gives what the inner ends of the toe links hang on.
         """
-        m, chassis = b.m, b.chassis.body
         for side in sides(axle):
-            w = side.wheel
-            p = {name: side.point(point) for name, point in self.points}
-            arm = side.body(m, "lower arm", self.bodies.lower_arm)
-            upright = side.body(m, "upright", self.bodies.upright)
-            for end in ("front", "rear"):
-                m.spherical(f"lower arm {w} {end} pivot", chassis, arm, point=p[f"lower_pivot_{end}"])
-            m.spherical(f"lower ball joint {w}", arm, upright, point=p["lower_ball_joint"])
-            strut = np.subtract(p["strut_top"], p["lower_ball_joint"])
-            m.point_on_line(f"strut {w}", (chassis, p["strut_top"]), (upright, p["lower_ball_joint"]), axis=strut)
-            m.distance(f"toe link {w}", (upright, p["toe_link_outer"]), tie_rod(side, p["toe_link_inner"]))
-            spring_and_damper(b, f"spring {w}", (upright, p["lower_ball_joint"]), (chassis, p["strut_top"]), springs)
-            yield Corner(side, upright, {"lower_arm": arm, "upright": upright})
+            yield strut_corner(
+                b, side, dict(self.points), self.bodies, springs, tie_rod, foot="lower_ball_joint", rod="toe link"
+            )

@@ -16,6 +16,7 @@ import math
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
+from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.geometry import LEAST, apart, farther
@@ -24,8 +25,6 @@ from mbs.vehicle.quantities import Point, TorsionalStiffness
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import sides
 from mbs.vehicle.springs import AxleSprings, spring_beside_damper
-
-LATERAL = (0.0, 1.0, 0.0)
 
 
 class TwistBeamPoints(Section):
@@ -113,7 +112,7 @@ class TwistBeam(Section):
             yield Corner(side, half, {"half": half})
         left, right = halves
         x, _, z = self.points.cross_beam
-        m.cylindrical(f"cross-beam {axle}", left, right, point=(x, 0.0, z), axis=LATERAL)
-        twist = m.relative_angle(f"twist {axle}", left, right, axis=LATERAL)
+        m.cylindrical(f"cross-beam {axle}", left, right, point=(x, 0.0, z), axis=LEFT)
+        twist = m.relative_angle(f"twist {axle}", left, right, axis=LEFT)
         beam = m.torsional_spring_damper(f"cross-beam {axle}", twist, stiffness=self.torsional_stiffness)
         b.tie(self, "torsional_stiffness", beam, "stiffness")
