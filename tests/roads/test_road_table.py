@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import locale
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from mbs.roads import RoadFileError, read_road, write_road
 from mbs.scenes import prototype_car
 
 H = 0.002
+SOURCES = Path(mbs.__file__).parent / "kernel" / "src"
 GOOD = "x,-1,0,1\n-5,0.0,0.1,0.2\n-3,1.0,1.1,1.2\n"
 
 
@@ -92,6 +95,16 @@ def test_the_locale_does_not_matter(tmp_path, loaded):
             locale.setlocale(locale.LC_NUMERIC, kept)
         return
     pytest.skip("no locale with a decimal comma")
+
+
+def test_the_kernel_calls_nothing_that_follows_the_locale():
+    """Holds on machines without a locale with a decimal comma too, where the test above cannot run."""
+    calls = re.compile(
+        r"\b(strto(d|f|ld)|atof|[sf]?scanf|setlocale|localeconv|is(space|digit|alpha)|to(lower|upper))\s*\("
+    )
+    sources = [*SOURCES.rglob("*.c"), *SOURCES.rglob("*.h")]
+    assert len(sources) > 100
+    assert [path.name for path in sources if calls.search(path.read_text(encoding="utf-8"))] == []
 
 
 def test_a_state_is_bound_to_the_text(tmp_path, loaded):
