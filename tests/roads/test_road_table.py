@@ -101,8 +101,6 @@ def test_the_kernel_calls_nothing_that_follows_the_locale():
     """Holds on machines without a locale with a decimal comma too, where the test above cannot run."""
     words = r"strto(d|f|ld)|atof|[sf]?scanf|setlocale|localeconv|is(space|digit|alpha)|to(lower|upper)"
     calls = re.compile(rf"\b({words})\s*\(")
-        r"\b(strto(d|f|ld)|atof|[sf]?scanf|setlocale|localeconv|is(space|digit|alpha)|to(lower|upper))\s*\("
-    )
     sources = [*SOURCES.rglob("*.c"), *SOURCES.rglob("*.h")]
     assert len(sources) > 100
     assert [path.name for path in sources if calls.search(path.read_text(encoding="utf-8"))] == []
