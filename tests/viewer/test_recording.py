@@ -86,7 +86,8 @@ def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_told() -> N
     recording = full(angle=np.full(21, np.nan), **{"body.x": gaps})
     assert {"name": "spinning wheel", "why": "the column 'angle' holds no number"} in recording.missing
     assert recording.notes == [
-        "The column 'body.x' has 4 of 21 values that are no numbers, the first at 0.6 s; there is nothing drawn for them."
+        "The column 'body.x' has 4 of 21 values that are no numbers, the first at 0.6 s; there is nothing drawn for "
+        "them."
     ]
 
 

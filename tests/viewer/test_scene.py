@@ -36,30 +36,11 @@ PLACES = [place for place in keys(everything()) if place[0] not in (("frames",),
 OPTIONAL = {
     *("description", "up", "planar", "focus", "start", "at", "name", "body", "axes", "material", "color", "opacity"),
     *("wire", "coils", "rim", "axis", "normals", "stress", "constant", "unit", "limit", "sign", "frictions", "height"),
-    *(
-        "flexible",
-        "arrows",
-        "roads",
-        "missing",
-        "variable",
-        "path",
-        "rule",
-        "computed",
-        "limit_name",
-        "names",
-        "note",
-        "range",
-        "direction",
-        "origin",
-        "width",
-    ),
+    *("flexible", "arrows", "roads", "missing", "variable", "path", "rule", "computed", "limit_name"),
+    *("names", "note", "range", "direction", "origin", "width"),
 }
-NEEDED = {
-    (("roads", 1), "origin"),
-    (("frames", "spinning wheel"), "axis"),
-    (("missing", 0), "name"),
-    (("arrows", 1), "at"),
-}
+NEEDED = {(("roads", 1), "origin"), (("shapes", 8), "width"), (("frames", "spinning wheel"), "axis")}
+NEEDED |= {(("missing", 0), "name"), (("arrows", 1), "at")}
 NEEDED |= {(("arrows", k), "name") for k in range(3)} | {((), "name"), (("arrows", 2, "tyre"), "axis")}
 
 
