@@ -425,6 +425,7 @@ class SettingsFields(Structure):
         ("geometric", c_int32),
         ("method", c_int32),
         ("predictor", c_int32),
+        ("step_iterations", c_int32),
     )
 
 
@@ -462,6 +463,8 @@ class ReportFields(Structure):
         ("branch_kind", c_int32),
         ("branch_loop", c_int32),
         ("branch_triad", c_int32),
+        ("capped", c_int64),
+        ("capped_residual", c_double),
     )
 
 
