@@ -102,9 +102,9 @@ static bool limit_valid(const ali3_settings *s) {
 }
 
 bool ali3_settings_valid(const ali3_settings *s) {
-  return limit_valid(s) && s->alpha >= 0.0 && s->alpha < 1e300 && s->eps_rel > 0.0 && s->eps_rel < 1e300 && s->tolerance_r > 0.0 &&
-         s->tolerance_r < 1e300 && s->tolerance_phi > 0.0 && s->tolerance_phi < 1e300 && s->max_iterations >= 1 &&
-         s->max_iterations <= 1000 && s->max_halvings >= 0 && s->max_halvings <= 16 &&
+  return limit_valid(s) && s->alpha >= 0.0 && s->alpha < 1e300 && s->eps_rel > 0.0 && s->eps_rel < 1e300 &&
+         s->tolerance_r > 0.0 && s->tolerance_r < 1e300 && s->tolerance_phi > 0.0 && s->tolerance_phi < 1e300 &&
+         s->max_iterations >= 1 && s->max_iterations <= 1000 && s->max_halvings >= 0 && s->max_halvings <= 16 &&
          (s->project == 0 || s->project == 1) &&
          (s->update == ALI3_UPDATE_LINEARISED || s->update == ALI3_UPDATE_PAPER) &&
          (s->geometric == 0 || s->geometric == 1) && s->rho_infinity >= 0.0 && s->rho_infinity <= 1.0 &&
