@@ -93,7 +93,9 @@ def _heading(path: Path, line: str) -> tuple[list[str], dict[str, str]]:
     cells = next(csv.reader([line]), [])
     matches = [_HEADING.fullmatch(cell) for cell in cells]
     with_units = bool(cells) and matches[0] is not None
-    names = [m["name"] if with_units and m is not None else cell.strip() for m, cell in zip(matches, cells, strict=True)]
+    names = [
+        m["name"] if with_units and m is not None else cell.strip() for m, cell in zip(matches, cells, strict=True)
+    ]
     units = {m["name"]: m["unit"] for m in matches if with_units and m is not None}
     if not names or names[0] != "time":
         first = f"{cells[0][:40]!r}" if cells else "nothing"
