@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -80,7 +80,7 @@ def _view(options: argparse.Namespace) -> int:
     unknown = next((name for name in options.plot if name not in known), None)
     if unknown is not None:
         raise HostError(f"There is no signal {unknown!r} to be plotted; the result has {_some(list(known), unknown)}.")
-    written: list[object] = [*_exports(recordings, options)]
+    written: list[object] = list(_exports(recordings, options))
     if page is not None:
         written.append(_write_page(page, recordings, options))
     print(f"written: {', '.join(map(str, written))}")
@@ -129,26 +129,29 @@ def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.N
     return f"{made.path} ({1e-6 * made.size:.2g} MB)"
 
 
-def _exports(recordings: Sequence[Recording], options: argparse.Namespace) -> list[Path]:
-    """Pictures, films and animations that were asked for."""
-    made: list[Path] = []
+def _exports(recordings: Sequence[Recording], options: argparse.Namespace) -> Iterator[Path]:
+    """Write the pictures, films and animations that were asked for, and print what there is to say of them."""
+    start = {"arrows": options.arrows}
+    size = (options.size[0], options.size[1])
+    notes: list[str] = []
     if options.gltf is not None:
         from viewer.gltf import write_gltf
 
-        write_gltf(options.gltf, recordings[0])
-        made.append(options.gltf)
+        notes += write_gltf(options.gltf, recordings[0]).notes
+        yield options.gltf
     if options.png is not None:
         from viewer.pictures import write_picture
 
         time = options.at if options.at is not None else float(recordings[0].t[0])
-        write_picture(options.png, recordings, time, tuple(options.size), options.camera, {"arrows": options.arrows})
-        made.append(options.png)
+        notes += write_picture(options.png, recordings, time, size, options.camera, start)
+        yield options.png
     if options.mp4 is not None:
-        from viewer.video import write_video
+        from viewer.video import write_mp4
 
-        write_video(options.mp4, recordings, size=tuple(options.size), camera=options.camera)
-        made.append(options.mp4)
-    return made
+        notes += write_mp4(options.mp4, recordings, size=size, camera=options.camera, options=start).notes
+        yield options.mp4
+    for note in dict.fromkeys(notes):
+        print(note)
 
 
 def _some(names: list[str], word: str) -> str:

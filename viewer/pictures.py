@@ -11,7 +11,7 @@ from typing import Any
 from ali3.files import check_writable, whole_file
 from viewer.browser import screenshot
 from viewer.errors import ViewerError
-from viewer.page_file import thinned, write_page
+from viewer.page_file import notes_of, thinned, write_page
 from viewer.recording import MOST_TIMES, Recording
 
 
@@ -67,7 +67,7 @@ def write_picture(
     size: tuple[int, int] = (1280, 720),
     camera: str | None = None,
     options: Mapping[str, Any] | None = None,
-) -> None:
+) -> list[str]:
     """Write a picture of recordings at one time, a PNG file; see `pictures`.
 
     Parameters
@@ -83,6 +83,11 @@ def write_picture(
         Its name.
     options : mapping, optional
         Of the player.
+
+    Returns
+    -------
+    list of str
+        Sentences: what is not drawn, thinning.
 
     Raises
     ------
@@ -101,3 +106,4 @@ def write_picture(
     (picture,) = pictures(shown, [time], size, camera, options)
     with whole_file(path) as made:
         made.write_bytes(picture)
+    return notes_of(shown)
