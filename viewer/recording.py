@@ -191,7 +191,9 @@ def _times(t: ArrayLike) -> NDArray[np.float64]:
     except (TypeError, ValueError):
         raise ViewerError("The times of a recording are no numbers.") from None
     if times.ndim != 1 or len(times) == 0:
-        raise ViewerError(f"The times of a recording have the shape {times.shape}; it must be (n,) with n of 1 or more.")
+        raise ViewerError(
+            f"The times of a recording have the shape {times.shape}; it must be (n,) with n of 1 or more."
+        )
     if not np.isfinite(times).all():
         k = int((~np.isfinite(times)).argmax())
         raise ViewerError(f"The times of a recording must be numbers; time {k} (from 0 on) is {times[k]}.")
@@ -207,7 +209,9 @@ def _column(name: str, values: ArrayLike, count: int) -> NDArray[np.float64]:
     if found.dtype.kind not in "fiub":
         raise ViewerError(f"The column {name!r} holds no numbers, but {found.dtype}.")
     if found.shape != (count,):
-        raise ViewerError(f"The column {name!r} has the shape {found.shape}; there are {count} times, so it must be ({count},).")
+        raise ViewerError(
+            f"The column {name!r} has the shape {found.shape}; there are {count} times, so it must be ({count},)."
+        )
     return found.astype(np.float64, copy=False)
 
 

@@ -126,8 +126,6 @@ def schema_text() -> str:
     return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
 
 
-
-
 def _plain(value: Any, by_name: bool) -> Any:
     """Tables whose keys are names of the user's keep them all."""
     if isinstance(value, Mapping):

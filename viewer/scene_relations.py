@@ -169,7 +169,10 @@ def _array(text: str, kind: str, path: tuple[str | int, ...], size: int | None =
 
 
 def _mesh(mesh: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
-    faults = [*_array(mesh["positions"], "f", (*path, "positions")), *_array(mesh["triangles"], "u", (*path, "triangles"))]
+    faults = [
+        *_array(mesh["positions"], "f", (*path, "positions")),
+        *_array(mesh["triangles"], "u", (*path, "triangles")),
+    ]
     yield from faults
     if faults:
         return

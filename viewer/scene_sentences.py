@@ -20,9 +20,7 @@ _KINDS: dict[str, type[BaseModel]] = {
     if isinstance(model, type) and issubclass(model, types.Part) and "kind" in model.model_fields
 }
 _MODELS: dict[str, type[BaseModel]] = {
-    name: model
-    for name, model in vars(types).items()
-    if isinstance(model, type) and issubclass(model, types.Part)
+    name: model for name, model in vars(types).items() if isinstance(model, type) and issubclass(model, types.Part)
 }
 # The tables of a key, where no tag names them.
 _OF_KEY: dict[str, type[BaseModel]] = {

@@ -52,7 +52,9 @@ def joined(solids: Sequence[Solid]) -> Solid:
 def box(size: Sequence[float]) -> Solid:
     """A box about the origin."""
     half = 0.5 * np.asarray(size, dtype=float)
-    positions, normals, triangles = [], [], []
+    positions: list[Array] = []
+    normals: list[Array] = []
+    triangles: list[list[int]] = []
     for axis in range(3):
         for sign in (1.0, -1.0):
             u, v = np.eye(3)[(axis + 1) % 3], np.eye(3)[(axis + 2) % 3] * sign
@@ -101,10 +103,10 @@ def _smooth(flat: Array, segment: int, beside: int, closed: bool) -> Array:
     """Normal of a segment at the end towards the one beside it."""
     own = flat[segment]
     if not closed and not 0 <= beside < len(flat):
-        return own
+        return np.asarray(own)
     other = flat[beside % len(flat)]
     if float(own @ other) < _CREASE:
-        return own
+        return np.asarray(own)
     return np.asarray((own + other) / np.linalg.norm(own + other))
 
 
@@ -139,7 +141,7 @@ def helix(radius: float, wire: float, length: float, coils: float) -> Solid:
     slope = reach / turn[-1]
     along = np.column_stack([radius * np.cos(turn), np.full(count + 1, slope), -radius * np.sin(turn)])
     along /= np.linalg.norm(along, axis=1)[:, None]
-    return swept(radius * out + np.column_stack([0 * y, y, 0 * y]), out, np.cross(along, out), 0.5 * wire)
+    return swept(radius * out + np.column_stack([0 * y, y, 0 * y]), out, np.cross(out, along), 0.5 * wire)
 
 
 def swept(centres: Array, across: Array, other: Array, radius: float, sides: int = 8) -> Solid:

@@ -152,7 +152,13 @@ def crank(times: np.ndarray, speed: float = 2.0, name: str = "crank") -> Recordi
         "extent": 2.0,
         "frames": {"crank": moving("crank"), "slider": moving("slider")},
         "shapes": [
-            {"kind": "cylinder", "frame": "crank", "ends": [[0, 0, 0], [0.5, 0, 0]], "radius": 0.04, "color": "#3366cc"},
+            {
+                "kind": "cylinder",
+                "frame": "crank",
+                "ends": [[0, 0, 0], [0.5, 0, 0]],
+                "radius": 0.04,
+                "color": "#3366cc",
+            },
             {"kind": "box", "frame": "slider", "size": [0.3, 0.2, 0.2], "color": "#cc3333"},
             {"kind": "tube", "points": [["crank", [0.5, 0, 0]], ["slider", [0, 0, 0]]], "radius": 0.03},
         ],

@@ -36,26 +36,29 @@ class Document:
         self._accessors: dict[tuple[Any, ...], int] = {}
         self._materials: dict[Look, int] = {}
         self._meshes: dict[str, int] = {}
+        self._names: dict[str, int] = {}
         self._animation = pygltflib.Animation(name=name)
 
     def node(self, name: str, parent: int | None, mesh: int | None = None) -> int:
-        """Add a node to another one or, without one, to the scene."""
-        self._gltf.nodes.append(pygltflib.Node(name=name, mesh=mesh))
+        """Add a node to another one or, without one, to the scene; a second one of a name has a number behind it."""
+        self._names[name] = self._names.get(name, 0) + 1
+        unique = name if self._names[name] == 1 else f"{name} ({self._names[name]})"
+        self._gltf.nodes.append(pygltflib.Node(name=unique, mesh=mesh))
         index = len(self._gltf.nodes) - 1
         siblings = self._gltf.scenes[0].nodes if parent is None else self._gltf.nodes[parent].children
         siblings.append(index)
         return index
 
     def place(self, node: int, path: str, values: NDArray[Any]) -> None:
-        """Set ``translation``, ``rotation`` (a unit quaternion, scalar first) or ``scale`` of a node, unless it has none."""
-        if np.array_equal(np.float32(values), _NOTHING[path]):
-            return
-        numbers = values[[1, 2, 3, 0]] if path == "rotation" else values
-        setattr(self._gltf.nodes[node], path, [float(x) for x in np.float32(numbers)])
+        """Set ``translation``, ``rotation`` (scalar first) or ``scale`` of a node, unless it has none."""
+        numbers = values.astype(np.float32)
+        if not np.array_equal(numbers, _NOTHING[path]):
+            ordered = numbers[[1, 2, 3, 0]] if path == "rotation" else numbers
+            setattr(self._gltf.nodes[node], path, ordered.astype(float).tolist())
 
     def set_weights(self, mesh: int, weights: NDArray[Any]) -> None:
         """Give a mesh with targets the weights that it has without an animation."""
-        self._gltf.meshes[mesh].weights = [float(x) for x in np.float32(weights)]
+        self._gltf.meshes[mesh].weights = weights.astype(np.float32).astype(float).tolist()
 
     def mesh(
         self,

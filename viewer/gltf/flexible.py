@@ -63,6 +63,10 @@ def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], 
     count = len(part["amplitudes"])
     modes = decoded(part["modes"], "f").reshape(len(nodes), 3, count).astype(float)
     amplitudes = np.column_stack([np.nan_to_num(np.asarray(columns[c], dtype=float)) for c in part["amplitudes"]])
+    computed = np.ones(len(amplitudes), dtype=bool)
+    if part.get("computed"):
+        computed = np.nan_to_num(np.asarray(columns[part["computed"]], dtype=float)) != 0.0
+        amplitudes = amplitudes * computed[:, None]
     solid, owner, ends = _tubes(nodes, beams, np.array(part["radii"], dtype=float))
     shapes, weights = _few_targets(modes.reshape(-1, count), amplitudes)
     made = shapes.reshape(len(nodes), 3, -1)
@@ -71,10 +75,11 @@ def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], 
     kept = weights[looked] @ shapes.T
     error = float(np.linalg.norm((full - kept).reshape(len(looked), -1, 3), axis=2).max())
     colors, peak = None, None
-    if part.get("stress"):
-        stress = _stress(part["stress"], amplitudes[looked], len(beams))
+    if part.get("stress") and computed.any():
+        stress = computed[looked, None, None] * _stress(part["stress"], amplitudes[looked], len(beams))
         time = int(stress.max(axis=(1, 2)).argmax())
-        colors = stress_colors(stress[time] / float(part["stress"]["limit"]))[owner, ends]
+        limit = float(part["stress"].get("limit") or stress.max() or 1.0)
+        colors = stress_colors(stress[time] / limit)[owner, ends]
         peak = int(looked[time]), float(stress[time].max())
     corner = beams[owner, ends]
     targets = [deformation * made[corner, :, k] for k in range(made.shape[2])]
@@ -115,10 +120,14 @@ def _few_targets(modes: Vectors, amplitudes: Vectors) -> tuple[Vectors, Vectors]
 
 
 def _stress(stress: Mapping[str, Any], amplitudes: Vectors, beams: int) -> Vectors:
-    """Largest of the fibres' absolute stresses, of shape (times, beams, 2)."""
-    fibres = int(stress["fibres"])
+    """Largest stress around each end of a beam, of shape (times, beams, 2)."""
+    round_rows = stress.get("rule") == "round"
+    fibres = 3 if round_rows else int(stress["fibres"])
     rows = decoded(stress["rows"], "f").reshape(beams * 2 * fibres, -1).astype(float)
     made = amplitudes @ rows.T
     if stress.get("constant"):
         made += decoded(stress["constant"], "f").astype(float)
-    return np.abs(made).reshape(len(amplitudes), beams, 2, fibres).max(axis=3)
+    made = np.abs(made).reshape(len(amplitudes), beams, 2, fibres)
+    if round_rows:  # axial, and bending about two axes, of a round tube
+        return np.asarray(made[..., 0] + np.hypot(made[..., 1], made[..., 2]))
+    return np.asarray(made.max(axis=3))

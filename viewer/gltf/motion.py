@@ -55,11 +55,12 @@ def kept_times(t: Vectors, rate: float) -> NDArray[np.intp]:
     Of a time that stands twice, a step, the later one is kept: times of a glTF file increase.
     """
     unique = np.flatnonzero(np.append(np.diff(np.float32(t - t[0])) > 0.0, True))
-    span = float(t[-1] - t[0])
-    count = int(np.floor(span * rate * (1.0 + 1e-9))) + 1
+    if len(unique) < 3 or not np.isfinite(rate):
+        return unique
+    count = np.floor(float(t[-1] - t[0]) * rate * (1.0 + 1e-9)) + 1.0
     if count >= len(unique) or count < 2:
         return unique
-    grid = np.linspace(t[0], t[-1], count)
+    grid = np.linspace(t[0], t[-1], int(count))
     place = np.clip(np.searchsorted(t[unique], grid), 1, len(unique) - 1)
     before = grid - t[unique[place - 1]] < t[unique[place]] - grid
     return np.unique(np.concatenate([unique[:1], unique[place - before], unique[-1:]]))
@@ -82,7 +83,7 @@ def thinned(motion: Motion, t: Vectors, rate: float) -> Track:
 
 
 def largest_errors(motion: Motion, track: Track, t: Vectors) -> tuple[float, float]:
-    """How far the interpolated motion is from the recorded one: of any point of `reach` in m, of the rotation in rad."""
+    """How far the interpolated motion is from the recorded one: of a point of `reach`, m, and of the rotation, rad."""
     looked = np.unique(np.linspace(0, len(t) - 1, min(len(t), _LOOKED_AT)).astype(np.intp))
     position, quaternion, scale = interpolated(track, t[looked])
     off = 0.0
@@ -120,7 +121,7 @@ def interpolated(track: Track, t: Vectors) -> tuple[Vectors, Vectors, Vectors | 
 
 
 def between(a: Vectors, b: Vectors) -> tuple[Vectors, Vectors, Vectors]:
-    """Position, quaternion and length of nodes whose y axis runs from points a to points b, with as little twist as can be.
+    """Position, quaternion and length of a node whose y axis runs from points a to points b, with the least twist.
 
     Parameters
     ----------

@@ -166,12 +166,9 @@ def _wheel(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
     rim = shape.get("rim") or 0.65 * radius
     turn = along(_unit(shape.get("axis") or (0.0, 1.0, 0.0)))
     half, side = 0.5 * width, radius - rim
-    profile = [
-        (rim, -0.8 * half), (rim + 0.1 * side, -0.92 * half), (rim + 0.45 * side, -half), (rim + 0.75 * side, -0.96 * half),
-        (radius - 0.08 * side, -0.82 * half), (radius, -0.6 * half), (radius, 0.6 * half), (radius - 0.08 * side, 0.82 * half),
-        (rim + 0.75 * side, 0.96 * half), (rim + 0.45 * side, half), (rim + 0.1 * side, 0.92 * half), (rim, 0.8 * half),
-        (rim, -0.8 * half),
-    ]  # fmt: skip
+    bead = [(rim, 0.8), (rim + 0.1 * side, 0.92), (rim + 0.45 * side, 1.0), (rim + 0.75 * side, 0.96)]
+    half_profile = [(r, y * half) for r, y in [*bead, (radius - 0.08 * side, 0.82), (radius, 0.6)]]
+    profile = [*((r, -y) for r, y in half_profile), *half_profile[::-1], (rim, -0.8 * half)]
     ring = [(0.9 * rim, -0.7 * half), (rim, -0.78 * half), (rim, 0.78 * half), (0.9 * rim, 0.7 * half)]
     metal = [solids.lathe([*ring, ring[0]], 48), solids.cylinder(0.2 * rim, -0.5 * half, 0.5 * half)]
     spoke = solids.box((0.75 * rim, 0.2 * width, 0.16 * rim))

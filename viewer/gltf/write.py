@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -131,7 +130,7 @@ def _checked(target: Path, recording: Recording, rate: float, deformation: float
         good = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
         if not good or not low <= value <= high:
             raise ViewerError(f"The {name} is {value!r}; it must be a number from {low:g} to {high:g}.")
-    return recording.scene
+    return dict(recording.scene)
 
 
 def _document(name: str) -> Document:
@@ -193,6 +192,9 @@ class _Writer:
                 self.parts.notes.append("The road of a file is not drawn.")
 
     def write_nodes(self) -> None:
+        """Frames first, so that they have their names."""
+        for name in [*(frame for frame, _, _ in self.parts.fixed), *(part["frame"] for part, _ in self.flexible)]:
+            self._frame(name)
         for name, motion, meshes in self.parts.free:
             node = self.document.node(name, self._root, self.document.mesh(name, meshes))
             motion.reach = _corners([solid.positions for solid, _ in meshes])
@@ -250,14 +252,16 @@ class _Writer:
         for path, values in (("translation", track.position), ("rotation", track.quaternion), ("scale", track.scale)):
             if values is None:
                 continue
-            if (np.float32(values) == np.float32(values[0])).all():
-                self.document.place(node, path, values[0])
-            else:
+            self.document.place(node, path, values[0])  # for readers that do not animate
+            if (np.float32(values) != np.float32(values[0])).any():
                 self.document.channel(node, path, track.times, values)
 
     def _write_flexible(self, part: dict[str, Any], deformation: float) -> None:
-        made = flexible_part(part, self._columns, deformation)
         name = part.get("name") or f"flexible {part['frame']}"
+        if not part["beams"]:
+            self.parts.notes.append(f"The deformation of {name} is not drawn: it has no beams.")
+            return
+        made = flexible_part(part, self._columns, deformation)
         look = _FRAME if made.colors is None else _WHITE
         mesh = self.document.mesh(name, [(made.solid, look)], made.targets, made.colors)
         node = self.document.node(name, self._frame(part["frame"]), mesh)
