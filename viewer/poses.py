@@ -62,7 +62,9 @@ class FramePoses:
         """Poses of a frame."""
         if name not in self._found:
             frame = self._frames[name]
-            if "parent" in frame:
+            if "way" in frame:
+                made = self._slid(frame)
+            elif "parent" in frame:
                 made = self._turned(frame)
             elif "points" in frame:
                 made = self._carried(frame)
@@ -86,6 +88,14 @@ class FramePoses:
         position = parent.points(frame.get("at") or (0.0, 0.0, 0.0))
         position[~(np.isfinite(angle) & parent.shown)] = np.nan
         return held(position, product(parent.quaternion, turn))
+
+    def _slid(self, frame: Mapping[str, Any]) -> Poses:
+        parent = self.of(frame["parent"])
+        way = np.asarray(self._columns[frame["way"]], dtype=float)
+        at = np.asarray(frame.get("at") or (0.0, 0.0, 0.0), dtype=float)
+        position = parent.points(at + way[:, None] * np.asarray(frame["direction"], dtype=float))
+        position[~parent.shown] = np.nan
+        return held(position, parent.quaternion)
 
     def _carried(self, frame: Mapping[str, Any]) -> Poses:
         a, b, c = (self.points(anchor) for anchor in frame["on"])

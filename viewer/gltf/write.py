@@ -18,7 +18,7 @@ from viewer.gltf.flexible import flexible_part
 from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned
 from viewer.gltf.parts import Parts
-from viewer.gltf.roads import flat_road, grid_road
+from viewer.gltf.roads import road_solid
 from viewer.poses import GROUND, FramePoses, Vectors, about_axis, shortest_turns
 from viewer.recording import Recording
 
@@ -159,8 +159,9 @@ class _Writer:
         self.error = (0.0, 0.0)
         self._nodes: dict[str, int] = {}
         self._frame_errors: dict[str, tuple[float, float]] = {GROUND: (0.0, 0.0)}
-        up = np.array([scene.get("up") or (0.0, 0.0, 1.0)], dtype=float)
-        turn = shortest_turns(up / np.linalg.norm(up), np.array([[0.0, 1.0, 0.0]]))[0]
+        up = np.array(scene.get("up") or (0.0, 0.0, 1.0), dtype=float)
+        self._up: Vectors = up / np.linalg.norm(up)
+        turn = shortest_turns(self._up[None], np.array([[0.0, 1.0, 0.0]]))[0]
         self._root = self.document.node(recording.name, None)
         self.document.place(self._root, "rotation", turn)
         self._begin = float(t[0])
@@ -171,25 +172,19 @@ class _Writer:
         self.flexible = [(part, deformation) for part in self._scene.get("flexible") or []]
 
     def add_roads(self) -> None:
-        """Flat ground reaches as far as the frames go, and twice the size of the scene beyond."""
-        places = [self.parts.poses.of(name).position for name in [GROUND, *self._scene["frames"]]]
-        margin = 2.0 * float(self._scene["extent"])
-        low = np.min([p.min(axis=0) for p in places[1:] or places], axis=0) - margin
-        high = np.max([p.max(axis=0) for p in places[1:] or places], axis=0) + margin
+        """Roads without an end reach as far as the frames go, and twice the size of the scene beyond."""
+        frames = self._scene["frames"]
+        places = np.vstack([self.parts.poses.of(name).position for name in frames] or [np.zeros((1, 3))])
+        low, high = places.min(axis=0), places.max(axis=0)
+        half = 0.5 * float(np.linalg.norm(high - low)) + 2.0 * float(self._scene["extent"])
         for road in self._scene.get("roads") or []:
-            if road["kind"] == "flat":
-                self.parts.fixed.append(
-                    (GROUND, "road", [(flat_road(float(road.get("height", 0.0)), low, high), _ROAD)])
-                )
-            elif road["kind"] == "grid":
-                solid, every = grid_road(road)
-                self.parts.fixed.append((GROUND, "road", [(solid, _ROAD)]))
-                if every > 1:
-                    self.parts.notes.append(
-                        f"Of the grid of the road every {every}th point is drawn in each direction."
-                    )
-            else:
+            made = road_solid(road, self._up, 0.5 * (low + high), half)
+            if made is None:
                 self.parts.notes.append("The road of a file is not drawn.")
+                continue
+            self.parts.fixed.append((GROUND, "road", [(made[0], _ROAD)]))
+            if made[1] > 1:
+                self.parts.notes.append(f"Of the grid of the road every {made[1]}th point is drawn in each direction.")
 
     def write_nodes(self) -> None:
         """Frames first, so that they have their names."""
@@ -228,10 +223,7 @@ class _Writer:
         if "parent" in frame:
             parent = self._frame(frame["parent"])
             before = self._frame_errors[frame["parent"]]
-            motion.position = np.tile(np.array(frame.get("at") or (0.0, 0.0, 0.0), dtype=float), (len(self._t), 1))
-            angle = _filled(np.asarray(self._columns[frame["angle"]], dtype=float))
-            motion.angle = np.asarray(frame["axis"], dtype=float), angle
-            motion.quaternion = about_axis(frame["axis"], angle)
+            self._relative(motion, frame)
         reach = [s.positions for frame_name, _, meshes in self.parts.fixed if frame_name == name for s, _ in meshes]
         reach += [np.array(part["nodes"], dtype=float) for part, _ in self.flexible if part["frame"] == name]
         motion.reach = _corners(reach) if reach else motion.reach
@@ -241,6 +233,18 @@ class _Writer:
             self._frame_errors[name] = before[0] + off[0], before[1] + off[1]
             self._count(self._frame_errors[name])
         return node
+
+    def _relative(self, motion: Motion, frame: dict[str, Any]) -> None:
+        """The motion of a frame that turns or slides in its parent."""
+        motion.position = np.tile(np.array(frame.get("at") or (0.0, 0.0, 0.0), dtype=float), (len(self._t), 1))
+        motion.quaternion = np.tile([1.0, 0.0, 0.0, 0.0], (len(self._t), 1))
+        if "way" in frame:
+            way = _filled(np.asarray(self._columns[frame["way"]], dtype=float))
+            motion.position += way[:, None] * np.asarray(frame["direction"], dtype=float)
+        else:
+            angle = _filled(np.asarray(self._columns[frame["angle"]], dtype=float))
+            motion.angle = np.asarray(frame["axis"], dtype=float), angle
+            motion.quaternion = about_axis(frame["axis"], angle)
 
     def _animate(self, node: int, motion: Motion) -> tuple[float, float]:
         """Give a node its motion; what does not change is written once. Its largest errors, m and rad."""
