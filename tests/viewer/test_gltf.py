@@ -21,6 +21,7 @@ from viewer.errors import ViewerError
 from viewer.gltf import write_gltf
 from viewer.gltf.flexible import stress_colors
 from viewer.gltf.materials import KINDS, linear
+from viewer.gltf.roads import road_solid
 from viewer.recording import Recording
 
 PAGE = Path(bundle.__file__).parent / "page"
@@ -286,6 +287,35 @@ def test_materials_are_those_of_the_page():
         assert coat == kind.clearcoat
     assert linear("#ffffff") == (1.0, 1.0, 1.0)
     assert linear("#808080")[0] == pytest.approx(0.2158605, abs=1e-6)
+
+
+@pytest.mark.parametrize("up", [[0.0, 0, 1], [0, 1, 0]])
+@pytest.mark.parametrize("kind", ["flat", "plane", "profile", "grid"])
+def test_roads_face_up_and_have_their_heights(up, kind):
+    up = np.array(up)
+    roads = {
+        "flat": {"height": 0.2},
+        "plane": {"point": (0.2 * up).tolist(), "normal": (up + np.array([0.1, 0.0, 0.0])).tolist()},
+        "profile": {"stations": [1.0, 2.0, 2.0], "heights": [0.2, 0.5, 0.3]},
+        "grid": {
+            "origin": [-1, -1],
+            "spacing": [0.5, 0.25],
+            "shape": [5, 9],
+            "heights": hand_scenes.floats([0.2] * 45),
+        },
+    }
+    solid, _ = road_solid(roads[kind] | {"kind": kind}, up, np.array([0.5, 0.0, 0.0]), 20.0)
+    a, b, c = (solid.positions[solid.triangles[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    assert np.linalg.norm(normals, axis=1).min() > 0.0
+    assert (normals @ up).min() >= -1e-9
+    heights = solid.positions @ up
+    at = solid.positions[:, 0]
+    expected = {"flat": 0.2 + 0 * at, "plane": 0.2 - 0.1 * at, "grid": 0.2 + 0 * at}
+    expected["profile"] = np.where(at <= 1.0, 0.2, np.where(at > 2.0, 0.3, heights))
+    assert np.abs(heights - expected[kind]).max() < 1e-6
+    if kind == "profile":
+        assert set(heights[np.isclose(at, 2.0)].round(9)) == {0.5, 0.3}
 
 
 def test_a_second_writing_gives_the_same_bytes(tmp_path):

@@ -16,6 +16,7 @@ from viewer.poses import FramePoses, from_matrices, shortest_turns
 
 PAGE = Path(bundle.__file__).parent / "page"
 FRAMES = ("chassis", "carrier", "wheel", "arm")
+SLIDING = {"parent": "chassis", "at": [0.1, 0.2, 0.3], "direction": [0.0, 0.6, 0.8], "way": "rack"}
 T = np.linspace(0.0, 3.0, 61)
 
 
@@ -56,6 +57,17 @@ def test_the_page_has_the_same_poses():
             assert np.abs(np.array(row[name]["position"]) - mine.position[k]).max() < 1e-12
             other = np.array(row[name]["quaternion"])
             assert np.abs(other * np.sign(other @ mine.quaternion[k]) - mine.quaternion[k]).max() < 1e-9
+
+
+def test_a_sliding_frame_moves_along_a_direction_of_its_parent():
+    recording = moving_car.recording(T)
+    way = 0.2 * np.sin(T)
+    scene = recording.scene | {"frames": recording.scene["frames"] | {"rack": SLIDING}}
+    found = FramePoses(scene, recording.columns | {"rack": way}, len(T))
+    position, rotation = moving_car.pose("chassis", T)
+    exact = position + rotation.apply(np.array([0.1, 0.2, 0.3]) + way[:, None] * [0.0, 0.6, 0.8])
+    assert np.abs(found.of("rack").position - exact).max() < 1e-12
+    assert np.abs(found.of("rack").quaternion - found.of("chassis").quaternion).max() < 1e-15
 
 
 def test_a_pose_without_numbers_is_the_one_before_it():
