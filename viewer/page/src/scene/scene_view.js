@@ -1,7 +1,7 @@
 // A picture of a scene in an element of a page.
 import * as THREE from "three";
 import { Cameras } from "./cameras.js";
-import { add, middle, rotate, subtract, transpose, unit } from "./math.js";
+import { add, dot, middle, rotate, subtract, transpose, unit } from "./math.js";
 import { Notes } from "./notes.js";
 import { Parts } from "./parts.js";
 import { makeRenderer } from "./renderer.js";
@@ -94,12 +94,12 @@ export class SceneView {
   /** Draw the picture now. */
   render() {
     if (this.problem || this.lost) return;
-    const began = performance.now();
+    this.look.before();
     for (const parts of [this.parts, ...this.ghosts]) parts.place(this.origin);
     this.cameras.follow();
     this.look.follow();
     this.renderer.render(this.world, this.cameras.current);
-    this.look.measured(performance.now() - began);
+    this.look.after();
   }
 
   /** @param {string} name one of `cameraNames` */
@@ -153,6 +153,7 @@ export class SceneView {
     this.extent = this.scene.extent > 0 ? this.scene.extent : Math.hypot(...subtract(high, low)) || 1;
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     const centre = middle(low, high);
+    this.floor = Math.min(...[low, high].map((corner) => dot(corner, this.up))) - 0.002 * this.extent;
     this.centre = shown ? rotate(transpose(rotation), subtract(centre, position)) : centre;
     this.origin = centre;
   }

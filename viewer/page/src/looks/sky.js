@@ -1,0 +1,66 @@
+// A sky made by code: haze, blue, sun, clouds and far hills. It is drawn once, into a cube.
+import * as THREE from "three";
+
+/** Linear colours of the sky; fog has the colour of the haze. */
+export const HAZE = new THREE.Color(0.62, 0.71, 0.8);
+const ZENITH = new THREE.Color(0.1, 0.25, 0.58);
+const GROUND = new THREE.Color(0.2, 0.2, 0.19);
+const HILL = new THREE.Color(0.36, 0.45, 0.5);
+
+const VERTEX = /* glsl */ `
+varying vec3 direction;
+void main() {
+  direction = position;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+const FRAGMENT = /* glsl */ `
+varying vec3 direction;
+uniform vec3 up, sun, haze, zenith, ground, hill;
+float hash(vec2 p) { return fract(sin(dot(p, vec2(127.1, 311.7))) * 43758.5453); }
+float noise(vec2 p) {
+  vec2 i = floor(p), f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x), mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y);
+}
+float octaves(vec2 p) {
+  float sum = 0.0, weight = 0.5;
+  for (int i = 0; i < 6; i++) { sum += weight * noise(p); p = p * 2.03 + 17.0; weight *= 0.5; }
+  return sum;
+}
+void main() {
+  vec3 d = normalize(direction);
+  vec3 x = normalize(abs(up.x) < 0.9 ? cross(up, vec3(1, 0, 0)) : cross(up, vec3(0, 1, 0)));
+  vec3 y = cross(up, x);
+  float h = dot(d, up);
+  float s = max(dot(d, sun), 0.0);
+  vec3 sky = mix(haze, zenith, pow(clamp(h, 0.0, 1.0), 0.55));
+  sky += vec3(1.0, 0.82, 0.6) * (0.22 * pow(s, 12.0) + 0.5 * pow(s, 220.0));
+  vec2 high = vec2(dot(d, x), dot(d, y)) / max(h, 0.02);
+  float cloud = smoothstep(0.5, 0.78, octaves(high * 0.9 + 3.0)) * smoothstep(0.05, 0.3, h);
+  float lit = 0.72 + 0.4 * octaves(high * 2.2 - 5.0);
+  sky = mix(sky, vec3(1.0, 0.99, 0.97) * lit, 0.8 * cloud);
+  sky += vec3(1.0, 0.95, 0.86) * 40.0 * smoothstep(0.99985, 0.99993, s) * (1.0 - cloud);
+  float around = atan(dot(d, y), dot(d, x));
+  vec2 ring = vec2(cos(around), sin(around));
+  float far = 0.012 + 0.034 * octaves(ring * 3.1 + 9.0);
+  float near = 0.003 + 0.022 * octaves(ring * 6.3 + 31.0);
+  vec3 colour = mix(sky, mix(haze, hill, 0.42), smoothstep(0.0015, -0.0015, h - far));
+  colour = mix(colour, mix(haze, hill, 0.7), smoothstep(0.0015, -0.0015, h - near));
+  colour = mix(colour, mix(haze, ground, smoothstep(0.0, -0.25, h)), smoothstep(0.001, -0.001, h));
+  gl_FragColor = vec4(colour, 1.0);
+}`;
+
+/** A ball around everything with the sky on its inside. @param {number[]} up @param {THREE.Vector3} sun unit vector */
+export function skyBall(up, sun) {
+  const uniforms = { up: new THREE.Vector3(...up), sun, haze: HAZE, zenith: ZENITH, ground: GROUND, hill: HILL };
+  const material = new THREE.ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: Object.fromEntries(Object.entries(uniforms).map(([name, value]) => [name, { value }])),
+    side: THREE.BackSide,
+    depthWrite: false,
+    toneMapped: false,
+  });
+  return new THREE.Mesh(new THREE.SphereGeometry(10, 48, 32), material);
+}
