@@ -1,10 +1,12 @@
 // A white board for planar mechanisms: a grid in metres behind them, even light.
 import * as THREE from "three";
-import { gridSurface, niceStep } from "./grid.js";
+import { niceStep } from "../scene/forces.js";
+import { gridSurface } from "./grid.js";
+import { mirrorOf } from "./mirror.js";
 import { room } from "./room.js";
 
-/** @param {object} view the SceneView */
-export function board(view) {
+/** @param {object} view the SceneView @param {boolean} fine */
+export function board(view, fine) {
   const { world, renderer, extent } = view;
   world.background = new THREE.Color("#ffffff");
   renderer.toneMapping = THREE.NoToneMapping;
@@ -18,14 +20,7 @@ export function board(view) {
   let mirrored = null;
   const bake = () => {
     mirrored?.dispose();
-    const mirror = new THREE.PMREMGenerator(renderer);
-    const around = room([0, 0.6, 0.8]);
-    mirrored = mirror.fromScene(around, 0.05);
-    mirror.dispose();
-    around.traverse((part) => {
-      part.geometry?.dispose();
-      part.material?.dispose();
-    });
+    mirrored = mirrorOf(renderer, room([0, 0.6, 0.8]), fine);
     world.environment = mirrored.texture;
     world.environmentIntensity = 0.8;
   };

@@ -2,12 +2,6 @@
 import * as THREE from "three";
 import { dot } from "../scene/math.js";
 
-/** The step of 1, 2, 5, 10 ... metres nearest below a length. @param {number} length */
-export function niceStep(length) {
-  const power = 10 ** Math.floor(Math.log10(length));
-  return [5, 2, 1].map((n) => n * power).find((step) => step <= length * 1.0000001) ?? power;
-}
-
 const CODE = /* glsl */ `
 vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
 vec2 soft = max(fwidth(plane), 1e-7);

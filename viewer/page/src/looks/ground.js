@@ -21,7 +21,7 @@ float grain = texture2D(aNoise, (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)})
 float speck = texture2D(aNoise, (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)}).a;
 float patches = texture2D(aNoise, (plane + aOffset[1]) / ${PERIODS[1].toFixed(1)}).g;
 float tone = texture2D(aNoise, (plane + aOffset[2]) / ${PERIODS[2].toFixed(1)}).b;
-vec3 stone = vec3(0.098, 0.1, 0.104) * (0.45 + 0.62 * grain + 0.5 * (patches - 0.5) + 0.75 * (tone - 0.5)) + 0.07 * speck;
+vec3 stone = vec3(0.118, 0.119, 0.12) * (0.3 + 1.05 * grain + 0.45 * (patches - 0.5) + 0.6 * (tone - 0.5)) + 0.09 * speck;
 #ifdef A_GRASS
 stone = aGrass * (0.35 + 0.75 * grain * patches + 1.1 * (tone - 0.3));
 #endif

@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import { across, add, cross, scale, unit } from "../scene/math.js";
 import { groundMaterial } from "./ground.js";
+import { mirrorOf } from "./mirror.js";
 import { noiseTexture } from "./noise.js";
 import { makeRoads } from "./roads.js";
 import { HAZE, skyBall } from "./sky.js";
@@ -15,28 +16,24 @@ export function outdoors(view, fine) {
   const sun = sunLight({ direction, reach: 0.75 * extent, strength: 3.4, color: "#fff1dc", size: fine ? 2048 : 1024 });
   world.add(sun);
   renderer.toneMapping = THREE.ACESFilmicToneMapping;
-  renderer.toneMappingExposure = 0.82;
+  renderer.toneMappingExposure = 1.15;
   world.fog = new THREE.Fog(HAZE, 60 + 15 * extent, 700 + 60 * extent);
   const held = {};
-  /** Draws the sky once: what is seen and what things mirror. */
+  const noise = noiseTexture(fine ? 8 : 1);
+  /** Draws the sky once: what is seen, and, small, what things mirror. */
   const bake = () => {
     held.cube?.dispose();
     held.mirrored?.dispose();
-    const ball = skyBall(up, new THREE.Vector3(...direction));
-    held.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType, generateMipmaps: true, minFilter: THREE.LinearMipmapLinearFilter });
-    const bakery = new THREE.Scene().add(ball);
-    new THREE.CubeCamera(0.1, 100, held.cube).update(renderer, bakery);
-    const mirror = new THREE.PMREMGenerator(renderer);
-    held.mirrored = mirror.fromCubemap(held.cube.texture);
-    mirror.dispose();
-    ball.geometry.dispose();
-    ball.material.dispose();
+    const ball = skyBall(up, new THREE.Vector3(...direction), noise);
+    const around = new THREE.Scene().add(ball);
+    held.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
+    new THREE.CubeCamera(0.1, 100, held.cube).update(renderer, around);
+    held.mirrored = mirrorOf(renderer, around, fine);
     world.background = held.cube.texture;
     world.environment = held.mirrored.texture;
     world.environmentIntensity = 0.75;
   };
   bake();
-  const noise = noiseTexture(fine ? 8 : 1);
   const asphalt = groundMaterial({ noise, up, paint: 1, relief: fine });
   const road = groundMaterial({ noise, up, relief: fine });
   const grass = groundMaterial({ noise, up, grass: true });

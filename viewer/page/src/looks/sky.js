@@ -17,17 +17,8 @@ void main() {
 const FRAGMENT = /* glsl */ `
 varying vec3 direction;
 uniform vec3 up, sun, haze, zenith, ground, hill;
-float hash(vec2 p) { return fract(sin(dot(p, vec2(127.1, 311.7))) * 43758.5453); }
-float noise(vec2 p) {
-  vec2 i = floor(p), f = fract(p);
-  f = f * f * (3.0 - 2.0 * f);
-  return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x), mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y);
-}
-float octaves(vec2 p) {
-  float sum = 0.0, weight = 0.5;
-  for (int i = 0; i < 6; i++) { sum += weight * noise(p); p = p * 2.03 + 17.0; weight *= 0.5; }
-  return sum;
-}
+uniform sampler2D noise;
+float octaves(vec2 p) { return 0.7 * texture2D(noise, p).b + 0.3 * texture2D(noise, p * 5.3 + 0.37).g; }
 void main() {
   vec3 d = normalize(direction);
   vec3 x = normalize(abs(up.x) < 0.9 ? cross(up, vec3(1, 0, 0)) : cross(up, vec3(0, 1, 0)));
@@ -37,23 +28,23 @@ void main() {
   vec3 sky = mix(haze, zenith, pow(clamp(h, 0.0, 1.0), 0.55));
   sky += vec3(1.0, 0.82, 0.6) * (0.22 * pow(s, 12.0) + 0.5 * pow(s, 220.0));
   vec2 high = vec2(dot(d, x), dot(d, y)) / max(h, 0.02);
-  float cloud = smoothstep(0.5, 0.78, octaves(high * 0.9 + 3.0)) * smoothstep(0.05, 0.3, h);
-  float lit = 0.72 + 0.4 * octaves(high * 2.2 - 5.0);
+  float cloud = smoothstep(0.5, 0.72, octaves(high * 0.11 + 0.3)) * smoothstep(0.05, 0.3, h);
+  float lit = 0.72 + 0.4 * octaves(high * 0.23 - 0.5);
   sky = mix(sky, vec3(1.0, 0.99, 0.97) * lit, 0.8 * cloud);
   sky += vec3(1.0, 0.95, 0.86) * 40.0 * smoothstep(0.99985, 0.99993, s) * (1.0 - cloud);
   float around = atan(dot(d, y), dot(d, x));
   vec2 ring = vec2(cos(around), sin(around));
-  float far = 0.012 + 0.034 * octaves(ring * 3.1 + 9.0);
-  float near = 0.003 + 0.022 * octaves(ring * 6.3 + 31.0);
+  float far = 0.012 + 0.034 * octaves(ring * 0.31 + 0.9);
+  float near = 0.003 + 0.022 * octaves(ring * 0.73 + 0.31);
   vec3 colour = mix(sky, mix(haze, hill, 0.42), smoothstep(0.0015, -0.0015, h - far));
   colour = mix(colour, mix(haze, hill, 0.7), smoothstep(0.0015, -0.0015, h - near));
   colour = mix(colour, mix(haze, ground, smoothstep(0.0, -0.25, h)), smoothstep(0.001, -0.001, h));
   gl_FragColor = vec4(colour, 1.0);
 }`;
 
-/** A ball around everything with the sky on its inside. @param {number[]} up @param {THREE.Vector3} sun unit vector */
-export function skyBall(up, sun) {
-  const uniforms = { up: new THREE.Vector3(...up), sun, haze: HAZE, zenith: ZENITH, ground: GROUND, hill: HILL };
+/** A ball around everything with the sky on its inside. @param {number[]} up @param {THREE.Vector3} sun unit vector @param {THREE.Texture} noise */
+export function skyBall(up, sun, noise) {
+  const uniforms = { up: new THREE.Vector3(...up), sun, haze: HAZE, zenith: ZENITH, ground: GROUND, hill: HILL, noise };
   const material = new THREE.ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,

@@ -2,7 +2,9 @@
 import * as THREE from "three";
 import { across, add, cross, dot, fromColumns, scale, unit } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
-import { gridSurface, niceStep } from "./grid.js";
+import { niceStep } from "../scene/forces.js";
+import { gridSurface } from "./grid.js";
+import { mirrorOf } from "./mirror.js";
 import { room } from "./room.js";
 import { sharpen, sunLight } from "./sun.js";
 
@@ -20,21 +22,14 @@ export function studio(view, fine) {
   renderer.toneMapping = THREE.NeutralToneMapping;
   renderer.toneMappingExposure = 1;
   const step = niceStep(extent / 8);
-  const floor = gridSurface({ x, y, step, reach: 7 * extent, color: "#e6e9ec", ink: "#7d8890", lit: true });
+  const floor = gridSurface({ x, y, step, reach: 7 * extent, color: "#e6e9ec", ink: "#aab3ba", lit: true });
   floor.mesh.receiveShadow = true;
   turn(floor.mesh, fromColumns(x, y, up));
   world.add(floor.mesh);
   let mirrored = null;
   const bake = () => {
     mirrored?.dispose();
-    const mirror = new THREE.PMREMGenerator(renderer);
-    const around = room(up);
-    mirrored = mirror.fromScene(around, 0.03);
-    mirror.dispose();
-    around.traverse((part) => {
-      part.geometry?.dispose();
-      part.material?.dispose();
-    });
+    mirrored = mirrorOf(renderer, room(up), fine);
     world.environment = mirrored.texture;
     world.environmentIntensity = 0.8;
   };

@@ -30,12 +30,10 @@ function tyre(r, rim, w, materials) {
   const geometry = new THREE.LatheGeometry(points(profile), 72);
   const material = materials.named("rubber").clone();
   if (!materials.options.ghost) {
-    material.color.set("#2b2c2e");
+    material.color.set("#48494c");
     material.map = treadTexture([start / (profile.length - 1), 1 - start / (profile.length - 1)]);
   }
-  const mesh = new THREE.Mesh(geometry, material);
-  mesh.userData.owned = [material, material.map];
-  return mesh;
+  return { mesh: new THREE.Mesh(geometry, material), owned: [material, material.map].filter(Boolean) };
 }
 
 /** Face of the rim: a disc with windows between the spokes. */
@@ -87,8 +85,9 @@ function outward(shape, axis, { frames, scene }) {
 export function wheel(shape, context) {
   const { radius, width, rim = 0.65 * radius, axis = [0, 1, 0] } = shape;
   const out = outward(shape, axis, context);
-  const object = new THREE.Group().add(tyre(radius, rim, width, context.materials), ...rimParts(rim, width, out, context.materials));
+  const { mesh, owned } = tyre(radius, rim, width, context.materials);
+  const object = new THREE.Group().add(mesh, ...rimParts(rim, width, out, context.materials));
   object.position.set(...(shape.at ?? [0, 0, 0]));
   turn(object, alongY(axis));
-  return { object, frame: shape.frame };
+  return { object, frame: shape.frame, owned };
 }
