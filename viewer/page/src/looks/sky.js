@@ -2,10 +2,10 @@
 import * as THREE from "three";
 
 /** Linear colours of the sky; fog has the colour of the haze. */
-export const HAZE = new THREE.Color(0.62, 0.71, 0.8);
-const ZENITH = new THREE.Color(0.1, 0.25, 0.58);
+export const HAZE = new THREE.Color(0.47, 0.58, 0.7);
+const ZENITH = new THREE.Color(0.045, 0.16, 0.46);
 const GROUND = new THREE.Color(0.2, 0.2, 0.19);
-const HILL = new THREE.Color(0.36, 0.45, 0.5);
+const HILL = new THREE.Color(0.12, 0.2, 0.2);
 
 const VERTEX = /* glsl */ `
 varying vec3 direction;
@@ -25,10 +25,10 @@ void main() {
   vec3 y = cross(up, x);
   float h = dot(d, up);
   float s = max(dot(d, sun), 0.0);
-  vec3 sky = mix(haze, zenith, pow(clamp(h, 0.0, 1.0), 0.55));
+  vec3 sky = mix(haze, zenith, pow(clamp(h, 0.0, 1.0), 0.5));
   sky += vec3(1.0, 0.82, 0.6) * (0.22 * pow(s, 12.0) + 0.5 * pow(s, 220.0));
   vec2 high = vec2(dot(d, x), dot(d, y)) / max(h, 0.02);
-  float cloud = smoothstep(0.5, 0.72, octaves(high * 0.11 + 0.3)) * smoothstep(0.05, 0.3, h);
+  float cloud = smoothstep(0.52, 0.72, octaves(high * 0.085 + 0.3)) * smoothstep(0.03, 0.22, h);
   float lit = 0.72 + 0.4 * octaves(high * 0.23 - 0.5);
   sky = mix(sky, vec3(1.0, 0.99, 0.97) * lit, 0.8 * cloud);
   sky += vec3(1.0, 0.95, 0.86) * 40.0 * smoothstep(0.99985, 0.99993, s) * (1.0 - cloud);

@@ -52,8 +52,8 @@ export class Cameras {
       this.free.position.set(0, 0, extent);
     } else {
       const [left, forward] = this.#axes();
-      const from = unit(add(add(scale(forward, 0.78), scale(left, -1)), scale(up, 0.42)));
-      this.free.position.set(...scale(from, extent * 2));
+      const from = unit(add(add(scale(forward, 0.78), scale(left, -1)), scale(up, 0.34)));
+      this.free.position.set(...scale(from, extent * 1.7));
     }
     this.free.lookAt(0, 0, 0);
   }
