@@ -38,11 +38,29 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
     bytes
         The library.
     """
-    files, made = _files(face, table), []
+    return _library(targets, _files(face, table), _INCLUDE, folder, name)
+
+
+def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: str) -> bytes:
+    """The same from the sources that lie in an FMU.
+
+    Parameters
+    ----------
+    targets : sequence of str
+    sources : Path
+        The unpacked folder.
+    folder, name
+        As for `compile_library`.
+    """
+    return _library(targets, sorted(sources.rglob("*.c")), (sources,), folder, name)
+
+
+def _library(targets: Sequence[str], files: Sequence[Path], include: Sequence[Path], folder: Path, name: str) -> bytes:
+    made = []
     for target in targets:
         library = folder / target / name
         build.compile_c(
-            files, target, library, include=_INCLUDE, what="the FMU", defines=_DEFINES, exports=exports(files)
+            files, target, library, include=include, what="the FMU", defines=_DEFINES, exports=exports(files)
         )
         made.append(library.read_bytes())
     return made[0] if len(made) == 1 else universal(made)

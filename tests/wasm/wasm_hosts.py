@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import shutil
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -179,9 +180,60 @@ def in_node(script: str, job: dict[str, Any]) -> Any:
     return json.loads(done.stdout)
 
 
+class Chromium:
+    """The modules of the page in a browser without a screen; one start for all drives."""
+
+    _ORIGIN = "http://fmu.test/"
+
+    def __init__(self) -> None:
+        sync_api = pytest.importorskip("playwright.sync_api", reason="Chromium is driven by playwright")
+        program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+        if program is None:
+            pytest.skip("there is no Chromium here")
+        self._playwright = sync_api.sync_playwright().start()
+        arguments = ["--headless=new", "--no-sandbox"]
+        self._browser = self._playwright.chromium.launch(executable_path=program, args=arguments)
+        self._page = self._browser.new_page()
+        self._page.route(f"{self._ORIGIN}**", self._serve)
+        self._page.goto(self._ORIGIN)
+
+    def _serve(self, route: Any, request: Any) -> None:
+        name = request.url.removeprefix(self._ORIGIN)
+        file = next((folder / name for folder in (PAGE, JS) if name and (folder / name).is_file()), None)
+        if file is None:
+            route.fulfill(content_type="text/html", body="<!doctype html><title>FMU</title>")
+        else:
+            route.fulfill(content_type="text/javascript", body=file.read_text(encoding="utf-8"))
+
+    def __call__(self, fmu: Fmu, plan: Plan) -> Driven:
+        told = self.run(
+            "async (job) => (await import('/drive.js')).drive((await import('/fmu.js')).loadFmu, job)", fmu.job(plan)
+        )
+        return decoded(told, plan)
+
+    def run(self, code: str, argument: Any = None) -> Any:
+        """What JavaScript in the page gives."""
+        return self._page.evaluate(code, argument)
+
+    def close(self) -> None:
+        self._browser.close()
+        self._playwright.stop()
+
+
 def decoded(told: dict[str, Any], plan: Plan) -> Driven:
     """What `drive.js` gave."""
     rows = np.frombuffer(base64.b64decode(told["rows"]))
     states = [base64.b64decode(text) for text in told["states"]]
     refusals = [(k, status) for k, status, _ in told["refusals"]]
     return Driven(rows.reshape(len(plan.steps) + 1, -1), states, refusals)
+
+
+def assert_same(found: Driven, expected: Driven, fmu: Fmu, plan: Plan) -> None:
+    """Fails with the first value that differs."""
+    assert found.refusals == expected.refusals
+    differ = found.rows.view(np.int64) != expected.rows.view(np.int64)
+    if differ.any():
+        k, i = np.argwhere(differ)[0]
+        name, values = fmu.outputs(plan)[i], (found.rows[k, i], expected.rows[k, i])
+        pytest.fail(f"{differ.sum()} values differ, first '{name}' after step {k}: {values[0]!r} and {values[1]!r}")
+    assert found.states == expected.states
