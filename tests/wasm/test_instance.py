@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from wasm_hosts import Fmu, Plan, in_node
+from wasm_hosts import Fmu, Plan, told_by_node
 
 
 @pytest.fixture(scope="module")
 def told(prototype: Fmu) -> Any:
     """What `instance.mjs` saw."""
-    return in_node("instance.mjs", prototype.job(Plan({}, [], [])))
+    return told_by_node("instance.mjs", prototype.job(Plan({}, [], [])))
 
 
 @pytest.mark.parametrize(

