@@ -29,6 +29,7 @@ _EXTRAS = {
     "pyyeti": "fem",
     "pyvista": "pictures",
     "tqdm": "hosts",
+    "trimesh": "pictures",
     "ziglang": "fmu",
 }
 """The extra of ``pip install "ali3[...]"`` that brings a package."""

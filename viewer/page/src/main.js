@@ -1,4 +1,2 @@
-// What a page can ask for: `play` for recordings, `drive` for an FMU that runs in the page.
-export { play } from "./player/play.js";
-export { drive } from "./live/drive.js";
+// What a page can ask for: pictures of a scene.
 export { SceneView } from "./scene/scene_view.js";

@@ -1,0 +1,23 @@
+"""The parts of the page that need no browser, by Node's own test runner."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from viewer import bundle
+
+PAGE = Path(bundle.__file__).parent / "page"
+
+
+@pytest.mark.parametrize("file", sorted((PAGE / "test").glob("*.test.js")), ids=lambda path: path.name)
+def test_units_of_the_page(file):
+    try:
+        bundle.packages(PAGE)
+    except RuntimeError as error:
+        pytest.skip(str(error))
+    result = subprocess.run(
+        [bundle.node()[0], "--test", str(file)], cwd=PAGE, capture_output=True, text=True, encoding="utf-8", check=False
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "# pass 0" not in result.stdout

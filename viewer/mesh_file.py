@@ -1,0 +1,180 @@
+"""Meshes from files: STL, OBJ, PLY, OFF, glTF."""
+
+from __future__ import annotations
+
+import math
+import os
+import warnings
+from numbers import Real
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.errors import FileError
+from ali3.files import reason
+from ali3.running import missing_package
+from viewer.errors import ViewerError
+
+if TYPE_CHECKING:
+    import trimesh
+
+Positions = NDArray[np.float32]
+Triangles = NDArray[np.uint32]
+
+SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
+MOST_TRIANGLES = 100_000
+"""Of a mesh that is drawn: 1.8 MB of a page."""
+LARGER, SMALLER = 20.0, 1.0 / 2000.0
+"""Sizes of a mesh, as shares of the model's, beyond which its unit is doubted: 25.4 and 1000 times lie beyond."""
+DOUBTED_SIZES = 1e-3, 500.0
+"""The same for a model whose size is not known, m."""
+
+
+class MeshError(ViewerError):
+    """A file that gives no mesh; the message names it and says why."""
+
+
+def read_mesh(
+    path: str | os.PathLike[str],
+    scale: float = 1.0,
+    *,
+    extent: float | None = None,
+    most_triangles: int = MOST_TRIANGLES,
+) -> tuple[Positions, Triangles]:
+    """Read the triangles of a mesh from a file.
+
+    Points of the same place are one point. The axes are those of the file: a glTF file has its y axis up. All parts of
+    a file with several are read, each where the file places it; colours and textures are left out.
+
+    Parameters
+    ----------
+    path : path
+        ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``.
+    scale : float
+        Metres per unit of the file: 0.001 for millimetres, 0.0254 for inches.
+    extent : float, optional
+        Size of the model that the mesh belongs to, m: a mesh that is very much larger or smaller is warned about.
+    most_triangles : int
+        A finer mesh is thinned by merging points that are close to each other; a warning says by how much they move.
+
+    Returns
+    -------
+    positions : (n, 3) float32
+        Points, m.
+    triangles : (m, 3) uint32
+        Numbers of their points, counterclockwise as seen from outside.
+
+    Raises
+    ------
+    MeshError
+        The file is of another kind, is damaged, has no triangles, or has coordinates that are not finite.
+    FileError
+        The file cannot be read.
+    """
+    file = Path(path)
+    factor = _checked_scale(path, scale)
+    if file.suffix.lower() not in SUFFIXES:
+        raise MeshError(f"{path} is of a kind that is not read as a mesh; {', '.join(SUFFIXES)} are.")
+    try:
+        with file.open("rb") as stream:
+            stream.read(1)
+    except (OSError, ValueError) as error:
+        words = reason(error) if isinstance(error, OSError) else str(error)
+        raise FileError(f"{path} cannot be read: {words}.") from None
+    mesh = _load(file)
+    points = np.asarray(mesh.vertices, dtype=float) * factor
+    triangles = np.asarray(mesh.faces, dtype=np.int64)
+    if not len(triangles):
+        raise MeshError(f"{path} is no mesh: it has no triangles.")
+    if triangles.min() < 0 or triangles.max() >= len(points):
+        raise MeshError(f"{path} is no mesh: a triangle has a point that is not there.")
+    used = points[triangles]
+    largest = float(np.finfo(np.float32).max)
+    bad = int((~(np.abs(used) < largest).all(axis=(1, 2))).sum())
+    if bad:
+        raise MeshError(
+            f"{path} is no mesh: {bad} of its {len(triangles)} triangles have coordinates that are no number."
+        )
+    points, triangles = _merged(used.reshape(-1, 3))
+    if not len(triangles):
+        raise MeshError(f"{path} is no mesh: none of its triangles has an area.")
+    if len(triangles) > most_triangles:
+        points, triangles = _thinned(path, points, triangles, most_triangles)
+    _doubt_size(path, float(np.linalg.norm(np.ptp(points, axis=0))), extent)
+    return points.astype(np.float32), triangles.astype(np.uint32)
+
+
+def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
+    if isinstance(scale, bool) or not isinstance(scale, Real) or not 0.0 < float(scale) < math.inf:
+        raise MeshError(f"The scale of the mesh {path} is {scale!r}; a positive number is needed, in metres per unit.")
+    return float(scale)
+
+
+def _load(file: Path) -> trimesh.Trimesh:
+    try:
+        import trimesh
+    except ModuleNotFoundError:
+        raise MeshError(f"{file} cannot be read as a mesh. {missing_package('trimesh')}") from None
+    options = {"skip_materials": True} if file.suffix.lower() == ".obj" else {}
+    try:
+        # `process` would remove what is not finite without a word.
+        return trimesh.load_mesh(str(file), process=False, **options)
+    except Exception as error:  # what a reader of many formats raises on a damaged file has no common kind
+        words = str(error).strip().splitlines()
+        raise MeshError(f"{file} cannot be read as a mesh: {words[0].rstrip('.') if words else repr(error)}.") from None
+
+
+def _merged(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Points that are different as float32, and triangles with three different ones, of 3 m corners."""
+    points, index = np.unique(corners.astype(np.float32), axis=0, return_inverse=True)
+    return points.astype(float), _proper(index.reshape(-1, 3))
+
+
+def _proper(triangles: NDArray[np.int64]) -> NDArray[np.int64]:
+    a, b, c = triangles.T
+    proper: NDArray[np.int64] = triangles[(a != b) & (b != c) & (c != a)]
+    return proper
+
+
+def _thinned(
+    path: str | os.PathLike[str], points: NDArray[np.float64], triangles: NDArray[np.int64], most: int
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Merge the points of each cube of a grid, which is made coarser until few enough triangles are left."""
+    low, size = points.min(axis=0), float(np.ptp(points, axis=0).max())
+    cells = math.sqrt(most)
+    while True:
+        cubes = np.floor((points - low) * (cells / size)).astype(np.int64)
+        _, index = np.unique(cubes, axis=0, return_inverse=True)
+        index = index.ravel()
+        count = np.bincount(index)
+        merged = np.column_stack([np.bincount(index, points[:, k]) / count for k in range(3)])
+        left = _proper(index[triangles])
+        _, first = np.unique(np.sort(left, axis=1), axis=0, return_index=True)
+        if len(first) <= most:
+            break
+        cells *= 0.8
+    moved = float(np.linalg.norm(merged[index] - points, axis=1).max())
+    warnings.warn(
+        f"The mesh {path} has {len(triangles)} triangles and is drawn with {len(first)}: "
+        f"points that are close to each other were merged and moved by up to {1000.0 * moved:.3g} mm.",
+        UserWarning,
+        stacklevel=3,
+    )
+    return merged, left[np.sort(first)]
+
+
+def _doubt_size(path: str | os.PathLike[str], size: float, extent: float | None) -> None:
+    if extent is None:
+        smallest, largest = DOUBTED_SIZES
+        beside = ""
+    else:
+        smallest, largest = SMALLER * extent, LARGER * extent
+        beside = f", the model {extent:.3g} m"
+    if smallest <= size <= largest:
+        return
+    advice = (
+        "in a file in millimetres, scale=0.001 is needed" if size > largest else "scale is given in metres per unit"
+    )
+    warnings.warn(f"The mesh {path} is {size:.3g} m across{beside}; {advice}.", UserWarning, stacklevel=3)

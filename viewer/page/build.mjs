@@ -1,0 +1,46 @@
+// Makes the bundle: node build.mjs OUT writes ali3-viewer.js (one script, window.ALi3Viewer) and its licences into OUT.
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import * as esbuild from "esbuild";
+
+const page = dirname(fileURLToPath(import.meta.url));
+const out = process.argv[2];
+if (!out) {
+  console.error("usage: node build.mjs OUT");
+  process.exit(2);
+}
+
+const result = await esbuild.build({
+  absWorkingDir: page,
+  entryPoints: ["src/main.js"],
+  bundle: true,
+  minify: true,
+  format: "iife",
+  globalName: "ALi3Viewer",
+  target: ["es2022"],
+  charset: "ascii", // the same in a page of any encoding
+  legalComments: "none", // the whole licences follow the code
+  loader: { ".css": "text" },
+  metafile: true,
+  write: false,
+});
+
+const packages = new Set();
+for (const input of Object.keys(result.metafile.inputs)) {
+  const found = /(?:^|\/)node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
+  if (found) packages.add(found[1]);
+}
+const licences = [...packages].sort().map((name) => {
+  const folder = join(page, "node_modules", name);
+  const { version, license, homepage } = JSON.parse(readFileSync(join(folder, "package.json"), "utf-8"));
+  const text = readFileSync(join(folder, "LICENSE"), "utf-8").trim();
+  return `${name} ${version} (${license}) ${homepage ?? ""}\n\n${text}\n`;
+});
+const notice = `Third-party software in this bundle\n\n${licences.join("\n" + "-".repeat(80) + "\n\n")}`;
+
+mkdirSync(out, { recursive: true });
+// Inside <script> nothing may look like the end of it.
+const code = result.outputFiles[0].text.replace(/<\/script/gi, "<\\/script").replace(/<!--/g, "<\\!--");
+writeFileSync(join(out, "THIRD_PARTY_LICENSES.txt"), notice);
+writeFileSync(join(out, "ali3-viewer.js"), `${code}/*!\n${notice.replace(/\*\//g, "* /")}*/\n`);

@@ -1,0 +1,56 @@
+// Physically based materials by name; one object a look and colour, shared by all shapes that have it.
+import * as THREE from "three";
+
+const KINDS = {
+  steel: { color: "#8f979e", metalness: 0.85, roughness: 0.42 },
+  paint: { color: "#a5271f", metalness: 0.15, roughness: 0.45, clearcoat: 0.8, clearcoatRoughness: 0.12 },
+  dark_paint: { color: "#23282d", metalness: 0.2, roughness: 0.5, clearcoat: 0.3, clearcoatRoughness: 0.3 },
+  rubber: { color: "#17181a", metalness: 0, roughness: 0.88 },
+  rim: { color: "#b9bec4", metalness: 0.9, roughness: 0.28 },
+  glass: { color: "#8fb0bf", metalness: 0, roughness: 0.05, opacity: 0.28 },
+  plastic: { color: "#4c7ba6", metalness: 0, roughness: 0.5 },
+  chrome: { color: "#dfe3e6", metalness: 1, roughness: 0.12 },
+};
+
+/** Makes and keeps the materials of a scene. */
+export class Materials {
+  #made = new Map();
+
+  /** @param {{ghost?: boolean, tint?: string, opacity?: number}} [options] a ghost is see-through and of one tint */
+  constructor(options = {}) {
+    this.options = options;
+  }
+
+  /**
+   * @param {{material?: string, color?: string, opacity?: number}} shape
+   * @param {string} [other] kind of material where the shape names none
+   * @param {{double?: boolean}} [sides] seen from both sides
+   */
+  of(shape, other = "plastic", { double = false } = {}) {
+    const kind = KINDS[shape.material] ? shape.material : other;
+    return this.named(kind, shape.color, shape.opacity, double);
+  }
+
+  /** @param {string} kind @param {string} [color] @param {number} [opacity] @param {boolean} [double] */
+  named(kind, color, opacity, double = false) {
+    const { ghost, tint } = this.options;
+    const key = [kind, color, opacity, double].join("|");
+    if (!this.#made.has(key)) {
+      const { opacity: own = 1, clearcoat, clearcoatRoughness, ...look } = KINDS[kind];
+      if (ghost) Object.assign(look, { color: tint ?? "#3f7fd0", metalness: 0, roughness: 0.9 });
+      else if (color) look.color = color;
+      const solid = ghost ? (this.options.opacity ?? 0.32) * (opacity ?? own) : (opacity ?? own);
+      const coated = clearcoat && !ghost;
+      const material = coated ? new THREE.MeshPhysicalMaterial({ ...look, clearcoat, clearcoatRoughness }) : new THREE.MeshStandardMaterial(look);
+      material.side = double ? THREE.DoubleSide : THREE.FrontSide;
+      if (solid < 1) Object.assign(material, { transparent: true, opacity: solid, depthWrite: false });
+      this.#made.set(key, material);
+    }
+    return this.#made.get(key);
+  }
+
+  dispose() {
+    for (const material of this.#made.values()) material.dispose();
+    this.#made.clear();
+  }
+}

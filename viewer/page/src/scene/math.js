@@ -1,0 +1,103 @@
+// Vectors [x, y, z] and rotations as nine numbers, row by row, in double precision; no drawing library.
+
+/** @typedef {number[]} Vector three numbers */
+/** @typedef {number[]} Rotation nine numbers, row by row; takes a frame's coordinates to those of its parent */
+
+export const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+
+export const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+export const subtract = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const scale = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const length = (a) => Math.hypot(a[0], a[1], a[2]);
+export const middle = (a, b) => scale(add(a, b), 0.5);
+export const finite = (a) => a.every(Number.isFinite);
+
+/** @param {Vector} a @param {Vector} b @returns {Vector} */
+export function cross(a, b) {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+/** Unit vector along `a`; null where `a` has no direction. @param {Vector} a @returns {Vector | null} */
+export function unit(a) {
+  const size = length(a);
+  return size > 0 && Number.isFinite(size) ? scale(a, 1 / size) : null;
+}
+
+/** A unit vector across a unit vector. @param {Vector} a @returns {Vector} */
+export function across(a) {
+  const [x, y, z] = a.map(Math.abs);
+  return unit(cross(a, x <= y && x <= z ? [1, 0, 0] : y <= z ? [0, 1, 0] : [0, 0, 1]));
+}
+
+/** R v. @param {Rotation} R @param {Vector} v @returns {Vector} */
+export function rotate(R, v) {
+  return [
+    R[0] * v[0] + R[1] * v[1] + R[2] * v[2],
+    R[3] * v[0] + R[4] * v[1] + R[5] * v[2],
+    R[6] * v[0] + R[7] * v[1] + R[8] * v[2],
+  ];
+}
+
+/** A B. @param {Rotation} A @param {Rotation} B @returns {Rotation} */
+export function product(A, B) {
+  const C = new Array(9);
+  for (let i = 0; i < 3; i++) {
+    for (let j = 0; j < 3; j++) C[3 * i + j] = A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j];
+  }
+  return C;
+}
+
+/** @param {Rotation} R @returns {Rotation} */
+export const transpose = (R) => [R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]];
+
+/** Rotation whose columns are three vectors. @returns {Rotation} */
+export const fromColumns = (x, y, z) => [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]];
+
+/** Rotation of a quaternion (w, x, y, z) of any length; null for one of length zero. @returns {Rotation | null} */
+export function fromQuaternion([w, x, y, z]) {
+  const n = w * w + x * x + y * y + z * z;
+  if (!(n > 0) || !Number.isFinite(n)) return null;
+  const s = 2 / n;
+  return [
+    1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),
+    s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),
+    s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y),
+  ]; // prettier-ignore
+}
+
+/** Quaternion (w, x, y, z) of a rotation, w >= 0 or the largest part positive. @param {Rotation} R */
+export function toQuaternion(R) {
+  const trace = R[0] + R[4] + R[8];
+  if (trace > 0) {
+    const s = 2 * Math.sqrt(1 + trace);
+    return [s / 4, (R[7] - R[5]) / s, (R[2] - R[6]) / s, (R[3] - R[1]) / s];
+  }
+  const i = R[0] >= R[4] && R[0] >= R[8] ? 0 : R[4] >= R[8] ? 1 : 2;
+  const [j, k] = [(i + 1) % 3, (i + 2) % 3];
+  const s = 2 * Math.sqrt(Math.max(0, 1 + R[4 * i] - R[4 * j] - R[4 * k]));
+  const q = [(R[3 * k + j] - R[3 * j + k]) / s, 0, 0, 0];
+  q[1 + i] = s / 4;
+  q[1 + j] = (R[3 * i + j] + R[3 * j + i]) / s;
+  q[1 + k] = (R[3 * i + k] + R[3 * k + i]) / s;
+  return q;
+}
+
+/** Right-handed rotation by an angle about an axis; null for an axis without direction. @returns {Rotation | null} */
+export function aboutAxis(axis, angle) {
+  const u = unit(axis);
+  if (u === null || !Number.isFinite(angle)) return null;
+  const h = Math.sin(angle / 2);
+  return fromQuaternion([Math.cos(angle / 2), u[0] * h, u[1] * h, u[2] * h]);
+}
+
+/** Axes of three points: x from the first to the second, the third in the x-y plane; null where they lie on a line. */
+export function axesOfPoints(a, b, c) {
+  const x = unit(subtract(b, a));
+  if (x === null) return null;
+  const to = subtract(c, a);
+  const across = subtract(to, scale(x, dot(x, to)));
+  if (!(length(across) > 1e-9 * length(to))) return null;
+  const y = unit(across);
+  return fromColumns(x, y, cross(x, y));
+}

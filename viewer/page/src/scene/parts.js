@@ -1,0 +1,92 @@
+// What moves: the shapes of one scene, placed by its frames.
+import * as THREE from "three";
+import { Materials } from "../looks/materials.js";
+import { makeShape } from "../shapes/index.js";
+import { turn, shaded } from "../shapes/place.js";
+import { Frames } from "./frames.js";
+import { subtract } from "./math.js";
+
+/** The moving things of a scene: the run itself, or a ghost of another run. */
+export class Parts {
+  /**
+   * @param {object} scene
+   * @param {{ghost?: boolean, tint?: string, opacity?: number, tell: (sentence: string) => void}} options
+   */
+  constructor(scene, options) {
+    this.scene = scene;
+    this.tell = options.tell;
+    this.group = new THREE.Group();
+    this.frames = new Frames(scene);
+    this.materials = new Materials(options);
+    this.carriers = new Map();
+    this.shapes = [];
+    const context = { materials: this.materials, frames: this.frames, scene };
+    for (const shape of scene.shapes ?? []) this.#add(shape, context, options);
+    for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why}.`);
+  }
+
+  #add(shape, context, { ghost = false }) {
+    const made = makeShape(shape, context);
+    if (made === null) {
+      this.tell(`A shape of the kind '${shape.kind}' is not known to this page and is not drawn.`);
+      return;
+    }
+    if (!ghost) shaded(made.object);
+    made.object.name = shape.name ?? shape.body ?? "";
+    (made.frame !== undefined ? this.#carrier(made.frame) : this.group).add(made.object);
+    this.shapes.push(made);
+  }
+
+  /** The group that moves with a frame. */
+  #carrier(name) {
+    if (!this.carriers.has(name)) {
+      const carrier = new THREE.Group();
+      this.carriers.set(name, carrier);
+      this.group.add(carrier);
+    }
+    return this.carriers.get(name);
+  }
+
+  /** @param {((name: string) => number | undefined) | null} lookup numbers now; null: as drawn */
+  update(lookup) {
+    this.frames.update(lookup);
+    for (const { frames } of this.shapes) {
+      for (const name of frames) {
+        const { shown, why } = this.frames.pose(name);
+        if (!shown) this.tell(`${why}.`);
+      }
+    }
+  }
+
+  /** Puts everything to its place relative to the origin of the picture. @param {number[]} origin earth position */
+  place(origin) {
+    for (const [name, carrier] of this.carriers) {
+      const { position, rotation, shown } = this.frames.pose(name);
+      carrier.visible = shown;
+      carrier.position.set(...subtract(position, origin));
+      turn(carrier, rotation);
+    }
+    for (const made of this.shapes) {
+      if (made.update === undefined) continue;
+      made.object.visible = made.frames.every((name) => this.frames.pose(name).shown);
+      if (made.object.visible) made.update(([frame, local]) => subtract(this.frames.point(frame, local), origin));
+    }
+  }
+
+  /** Earth box of all shapes as they stand: [low, high]; null where nothing is drawn. */
+  bounds() {
+    this.place([0, 0, 0]);
+    this.group.updateMatrixWorld(true);
+    const box = new THREE.Box3();
+    for (const { object, frames } of this.shapes) {
+      if (frames.every((name) => this.frames.pose(name).shown)) box.expandByObject(object);
+    }
+    return box.isEmpty() ? null : [box.min.toArray(), box.max.toArray()];
+  }
+
+  dispose() {
+    this.group.traverse((part) => part.geometry?.dispose());
+    this.materials.dispose();
+    this.group.removeFromParent();
+  }
+}

@@ -1,0 +1,41 @@
+// The WebGL context: made, lost, given back; a sentence where there is none.
+import * as THREE from "three";
+
+const NO_WEBGL =
+  "This browser gives no WebGL, so nothing can be drawn here; plots still work. " +
+  "Switch on hardware acceleration in the browser's settings, or open the page in another browser.";
+
+/** Whether a context draws by the processor: SwiftShader, llvmpipe and the like. @param {WebGLRenderingContext} gl */
+export function drawsBySoftware(gl) {
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+/**
+ * @param {HTMLElement} container
+ * @param {{antialias?: boolean, keep?: boolean}} options keep: the picture can be read after it is drawn
+ * @returns {{renderer?: THREE.WebGLRenderer, software?: boolean, problem?: string}}
+ */
+export function makeRenderer(container, { antialias, keep = false }) {
+  const canvas = document.createElement("canvas");
+  canvas.style.cssText = "display:block;width:100%;height:100%;outline:none;touch-action:none";
+  // The context is asked for here: three.js writes an error to the console where there is none.
+  let gl = null;
+  let software = false;
+  try {
+    const probe = document.createElement("canvas").getContext("webgl2");
+    if (probe === null) return { problem: NO_WEBGL };
+    software = drawsBySoftware(probe);
+    probe.getExtension("WEBGL_lose_context")?.loseContext();
+    const settings = { antialias: antialias ?? !software, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: keep };
+    gl = canvas.getContext("webgl2", settings);
+  } catch {
+    gl = null;
+  }
+  if (gl === null) return { problem: NO_WEBGL };
+  const renderer = new THREE.WebGLRenderer({ canvas, context: gl });
+  renderer.outputColorSpace = THREE.SRGBColorSpace;
+  container.append(canvas);
+  return { renderer, software };
+}

@@ -1,0 +1,27 @@
+// One maker a kind of shape. A maker gives {object, frame} for a shape fixed in a frame, or {object, update} otherwise.
+import { box } from "./box.js";
+import { cylinder } from "./cylinder.js";
+import { sphere } from "./sphere.js";
+
+/**
+ * @typedef {object} Context
+ * @property {import("../looks/materials.js").Materials} materials
+ * @property {import("../scene/frames.js").Frames} frames poses as drawn while shapes are made
+ * @property {object} scene
+ */
+
+const MAKERS = { box, cylinder, sphere };
+
+/**
+ * @param {object} shape one of a scene
+ * @param {Context} context
+ * @returns {{object: import("three").Object3D, frame?: string, update?: Function, frames: string[]} | null}
+ *   null for a kind that this page does not know
+ */
+export function makeShape(shape, context) {
+  const maker = MAKERS[shape.kind];
+  if (maker === undefined) return null;
+  const made = maker(shape, context);
+  made.frames = [...new Set(made.frame !== undefined ? [made.frame] : (shape.points ?? shape.ends).map(([frame]) => frame))];
+  return made;
+}

@@ -1,0 +1,39 @@
+// Where things stand: from numbers in double precision to the matrices of three.js.
+import * as THREE from "three";
+import { across, cross, fromColumns, subtract, toQuaternion, unit } from "../scene/math.js";
+
+/** Rotation that takes y to a direction. @param {number[]} direction unit vector */
+export function alongY(direction) {
+  const x = across(direction);
+  return fromColumns(x, direction, cross(x, direction));
+}
+
+/** @param {THREE.Object3D} object @param {number[]} rotation nine numbers, row by row */
+export function turn(object, rotation) {
+  const [w, x, y, z] = toQuaternion(rotation);
+  object.quaternion.set(x, y, z, w);
+}
+
+/** Rotation of a shape's `axes` (three vectors), or none. @param {number[][] | undefined} axes */
+export function turnByAxes(object, axes) {
+  if (axes) turn(object, fromColumns(...axes));
+}
+
+/** A mesh of height 1 along y, stretched between two points (relative to the origin of the picture). */
+export function stretch(mesh, from, to, radius) {
+  const along = subtract(to, from);
+  const direction = unit(along);
+  mesh.visible = direction !== null;
+  if (direction === null) return;
+  mesh.position.set((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, (from[2] + to[2]) / 2);
+  mesh.scale.set(radius, Math.hypot(...along), radius);
+  turn(mesh, alongY(direction));
+}
+
+/** @param {THREE.Object3D} object its meshes cast and take shadows */
+export function shaded(object) {
+  object.traverse((part) => {
+    if (part.isMesh) part.castShadow = part.receiveShadow = true;
+  });
+  return object;
+}
