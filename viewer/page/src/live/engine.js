@@ -104,7 +104,9 @@ export class Engine {
    * @returns {{which: number, text: string}[]} FMUs that refused this step; each stays where it is.
    */
   advance() {
-    const held = this.hand.move(this.step).map((value, i) => (this._whole[i] ? Math.round(value) : value));
+    // The first step has the values of the start: so a run that sets the same table from the start is the same.
+    const hand = this.k === 0 ? this.hand.values : this.hand.move(this.step);
+    const held = hand.map((value, i) => (this._whole[i] ? Math.round(value) : value));
     this.held = held;
     const refused = this._stepWith(held);
     if (!this.alive) return refused; // a step that all refuse is none

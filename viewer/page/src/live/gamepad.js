@@ -31,6 +31,7 @@ export function readSource(pad, source, pedal, zone) {
   if (kind !== "axis") return 0;
   const value = (inverted ? -1 : 1) * (pad.axes[Number(number)] ?? 0);
   if (!pedal) return withDeadZone(value, zone);
+  if (!pad.axes[Number(number)]) return 0; // browsers give 0 until an axis was moved
   return Math.min(1, Math.max(0, ((value + 1) / 2 - zone) / (1 - zone)));
 }
 
