@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from fmu_src.platforms import PLATFORMS
 from mbs import ArgumentTypeError
 from mbs.checks import instance_of, shown, whole
 
@@ -58,9 +59,9 @@ def folder(out: str | PathLike[str]) -> Path:
 
 
 def known_platforms(platforms: Sequence[str] | None, able: Sequence[str], kind: str) -> tuple[str, ...]:
-    """The platforms that were asked for, by default all that the kind of FMU can have."""
+    """The platforms that were asked for, by default the usual ones that the kind of FMU can have."""
     if platforms is None:
-        return tuple(able)
+        return tuple(name for name in able if name in PLATFORMS)
     if isinstance(platforms, str) or not isinstance(platforms, Iterable):
         raise ArgumentTypeError(f"The platforms of an FMU must be a list of names, not {shown(platforms)}.")
     asked = tuple(platforms)

@@ -22,7 +22,7 @@ from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.reference import ReferenceRun, reference_run
 from fmu_src.parameter_file import parameter_set
-from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
+from fmu_src.platforms import able_platforms
 from fmu_src.probe import probe, with_nominal
 from fmu_src.texts import check_texts
 from fmu_src.variables import check_fidelities, variable_table
@@ -81,7 +81,8 @@ def build_fmu(
     out : str or path-like
         Folder; made if it is not there.
     platforms : sequence of str, optional
-        Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``; by default all the kind can have.
+        Out of ``linux64``, ``win64``, ``darwin64``, ``aarch64-linux`` and, for pages, ``wasm32`` (native only); by
+        default all but the last that the kind can have.
     say : callable
         Called with one line of progress at a time.
     kind : str
@@ -105,8 +106,7 @@ def build_fmu(
     """
     if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"There is no kind of FMU '{kind}'; the kinds are {', '.join(KINDS)}.")
-    able = PYTHON_PLATFORMS if kind == "python" else PLATFORMS
-    chosen = known_platforms(platforms, able, kind)
+    chosen = known_platforms(platforms, able_platforms(kind), kind)
     file = folder(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
     check_writable(file)
     # one library is there soon enough

@@ -47,8 +47,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument(
         "--platforms",
         metavar="LIST",
-        help="out of linux64, win64, darwin64 and aarch64-linux, or this: the one of this machine; default: all that "
-        "the kind can have, that of this machine first",
+        help="out of linux64, win64, darwin64, aarch64-linux and wasm32 (WebAssembly, of the kind native), or this: "
+        "the one of this machine; default: all but wasm32 that the kind can have, that of this machine first",
     )
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
@@ -60,7 +60,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
 def _build(options: argparse.Namespace) -> int:
     from fmu_src.build import KINDS, face_name
     from fmu_src.native.ahead import compiled_ahead
-    from fmu_src.platforms import PLATFORMS, this_platform
+    from fmu_src.platforms import TARGETS, this_platform
 
     kinds = list(dict.fromkeys(options.kind.split(",")))
     if set(kinds) - set(KINDS):
@@ -72,7 +72,7 @@ def _build(options: argparse.Namespace) -> int:
     _need("ziglang")
     _need("pyssp_standard")
 
-    first, rest = [p for p in platforms if p == here], [p for p in PLATFORMS if p in platforms and p != here]
+    first, rest = [p for p in platforms if p == here], [p for p in TARGETS if p in platforms and p != here]
     ahead = [(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]
     with compiled_ahead(ahead), told_warnings():
         return _build_kinds(options, kinds, first, rest)
@@ -82,7 +82,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     """Build what this machine runs, then the same for the others."""
     from ali3.files import check_writable
     from fmu_src.build import FmuBuilder, fmu_name
-    from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS
+    from fmu_src.platforms import TARGETS, able_platforms
     from fmu_src.progress_line import ProgressLine
 
     line = ProgressLine()
@@ -93,10 +93,10 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
     builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin)
-    wanted = [p for p in PLATFORMS if p in first or p in rest]
+    wanted = [p for p in TARGETS if p in first or p in rest]
     able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not able[k]]:
-        print(f"{kind}: left out, it runs on {', '.join(PYTHON_PLATFORMS)} only", flush=True)
+        print(f"{kind}: left out, it runs on {', '.join(able_platforms(kind))} only", flush=True)
         del able[kind]
     # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
     here = {kind: list(first) for kind in able if first and set(first) <= set(able[kind])}
@@ -149,23 +149,23 @@ def _write_parameters(parameters: ParameterSet, file: Path) -> bool:
 
 
 def _able(kind: str, platform: str) -> bool:
-    from fmu_src.platforms import PYTHON_PLATFORMS
+    from fmu_src.platforms import able_platforms
 
-    return kind != "python" or platform in PYTHON_PLATFORMS
+    return platform in able_platforms(kind)
 
 
 def _platforms(text: str | None, here: str | None) -> list[str]:
-    from fmu_src.platforms import PLATFORMS
+    from fmu_src.platforms import PLATFORMS, TARGETS
 
     if text is None:
         return list(PLATFORMS)
     chosen = list(dict.fromkeys(text.split(",")))
     if "this" in chosen:
         if here is None:
-            raise UserError(f"No FMU runs on this machine; the platforms are {', '.join(PLATFORMS)}.")
+            raise UserError(f"No FMU runs on this machine; the platforms are {', '.join(TARGETS)}.")
         chosen[chosen.index("this")] = here
-    if set(chosen) - set(PLATFORMS):
-        raise UserError(f"Platform '{text}' is not known; the platforms are {', '.join(PLATFORMS)} and this.")
+    if set(chosen) - set(TARGETS):
+        raise UserError(f"Platform '{text}' is not known; the platforms are {', '.join(TARGETS)} and this.")
     return list(dict.fromkeys(chosen))
 
 

@@ -10,12 +10,14 @@ TARGETS = {
     "win64": ("x86_64-windows-gnu",),
     "darwin64": ("x86_64-macos.10.13", "aarch64-macos.11.0"),
     "aarch64-linux": ("aarch64-linux-gnu.2.17",),
+    "wasm32": ("wasm32-wasi",),
 }
 """Target triples of `zig cc`; the two of darwin64 become one universal file."""
 
-SUFFIXES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-linux": ".so"}
+SUFFIXES = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-linux": ".so", "wasm32": ".wasm"}
 
-PLATFORMS = tuple(TARGETS)
+PLATFORMS = tuple(name for name in TARGETS if name != "wasm32")
+"""Those of a build that names none: where tools load an FMU. WebAssembly, for pages, is asked for by name."""
 
 PYTHON_PLATFORMS = ("linux64", "win64")
 """PythonFMU has libraries for these two only."""
@@ -28,6 +30,11 @@ FMI3_FOLDERS = {
     "aarch64-linux-gnu.2.17": "aarch64-linux",
 }
 """Folders of binaries in FMI 3.0, one per target."""
+
+
+def able_platforms(kind: str) -> tuple[str, ...]:
+    """The platforms that a kind of FMU can have, see `fmu_src.build.KINDS`."""
+    return {"native": tuple(TARGETS), "python": PYTHON_PLATFORMS}.get(kind, PLATFORMS)
 
 
 def this_platform() -> str | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -12,6 +13,8 @@ from mbs.kernel import build
 _INCLUDE = (KERNEL_INCLUDE, HERE, DETOUR)
 # The kernel's own functions are not for hosts: only those of FMI are exported.
 _DEFINES = ("ALI3_INSIDE",)
+# What the host of a WebAssembly module calls beside FMI: memory, and files in it.
+_ALONE = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
 
 
 def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path, name: str) -> bytes:
@@ -38,14 +41,23 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
     files, made = _files(face, table), []
     for target in targets:
         library = folder / target / name
-        build.compile_c(files, target, library, include=_INCLUDE, what="the FMU", defines=_DEFINES)
+        build.compile_c(
+            files, target, library, include=_INCLUDE, what="the FMU", defines=_DEFINES, exports=exports(files)
+        )
         made.append(library.read_bytes())
     return made[0] if len(made) == 1 else universal(made)
 
 
 def library_command(face: str, target: str, table: Path, library: Path) -> list[str]:
     """Command line of the compiler by which `compile_library` makes the library for a target."""
-    return build.compiler_command(_files(face, table), target, library, include=_INCLUDE, defines=_DEFINES)
+    files = _files(face, table)
+    return build.compiler_command(files, target, library, include=_INCLUDE, defines=_DEFINES, exports=exports(files))
+
+
+def exports(files: Sequence[Path]) -> list[str]:
+    """Functions that a WebAssembly module of these C files exports: those of FMI 2.0 and what its host needs beside."""
+    shell = [f.read_text(encoding="utf-8") for f in files if f.name.startswith("fmi2_")]
+    return [*re.findall(r"^FMI2_EXPORT .*\bFMI2_NAME\((\w+)\)", "\n".join(shell), re.MULTILINE), *_ALONE]
 
 
 def _files(face: str, table: Path) -> list[Path]:

@@ -9,7 +9,7 @@ from fmu_src.description import Description, model_description
 from fmu_src.description_fmi3 import build_description, model_description_fmi3, terminals
 from fmu_src.native.package import Face, NativeContents
 from fmu_src.native.table import c_arrays, c_table
-from fmu_src.platforms import FMI3_FOLDERS, TARGETS
+from fmu_src.platforms import FMI3_FOLDERS, PLATFORMS, TARGETS
 from fmu_src.variables import Variable
 
 
@@ -60,7 +60,7 @@ def _face_fmi3(group: Callable[[Sequence[Variable]], tuple[Array, ...]], words: 
             "derivatives of outputs by inputs are those over the last inner step, the state before it held; in "
             "initialisation mode those of the initial state.",
         ),
-        {platform: {FMI3_FOLDERS[target]: (target,) for target in targets} for platform, targets in TARGETS.items()},
+        {name: {FMI3_FOLDERS[target]: (target,) for target in TARGETS[name]} for name in PLATFORMS},
         "terminalsAndIcons/icon.png",
         tables,
         documents,

@@ -177,7 +177,7 @@ def pack_native(
     run : ReferenceRun
         The default experiment.
     platforms : sequence of str
-        Out of ``linux64``, ``win64``, ``darwin64`` and ``aarch64-linux``.
+        Out of `fmu_src.platforms.TARGETS`.
     file : Path
         Where to.
     told : callable

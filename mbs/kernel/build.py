@@ -29,6 +29,14 @@ FLAGS = [
 ]
 """No fused or reordered arithmetic: the same bits on every platform."""
 
+WASM_FLAGS = [
+    "-mexec-model=reactor",
+    "-DALI3_ALONE",  # files and messages in memory: the module imports nothing
+    "-Wno-pass-failed",  # a loop that is asked to be vectors stays one, without simd128
+    "-Wl,-z,stack-size=1048576",  # below all data, so that an overflow is a trap
+]
+"""In place of ``-shared -fPIC`` for WebAssembly."""
+
 
 def sources() -> list[Path]:
     """C files of the kernel, sorted by room and name."""
@@ -131,6 +139,7 @@ def compile_c(
     defines: Sequence[str] = (),
     what: str,
     shared: bool = True,
+    exports: Sequence[str] = (),
 ) -> None:
     """Compile C files into one library or program.
 
@@ -150,6 +159,8 @@ def compile_c(
         Name for messages.
     shared : bool
         A library; otherwise a program.
+    exports : sequence of str
+        Functions that a WebAssembly module exports; other libraries export by the sources.
 
     Raises
     ------
@@ -160,7 +171,9 @@ def compile_c(
     environment = compiler_environment()
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         made = Path(folder) / path.name
-        command = compiler_command(files, target, made, include=include, defines=defines, shared=shared)
+        command = compiler_command(
+            files, target, made, include=include, defines=defines, shared=shared, exports=exports
+        )
         result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         if result.returncode != 0:
             words = result.stderr.strip()
@@ -190,12 +203,16 @@ def compiler_command(
     include: Sequence[Path] = (),
     defines: Sequence[str] = (),
     shared: bool = True,
+    exports: Sequence[str] = (),
 ) -> list[str]:
     """Command line that compiles C files into `path`; the arguments are those of `compile_c`."""
     command = [compiler(), "cc", "-target", target, *FLAGS]
-    if not shared:
+    module = "wasm" in target
+    if module or not shared:
         command = [part for part in command if part not in ("-shared", "-fPIC")]
-    elif "macos" in target:
+    if module:
+        command += WASM_FLAGS + [f"-Wl,--export={name}" for name in exports]
+    elif shared and "macos" in target:
         command.append(f"-Wl,-install_name,@rpath/{path.name}")
     command += [f"-I{place}" for place in include] + [f"-D{name}" for name in defines]
     command += ["-o", str(path), *map(str, files)]

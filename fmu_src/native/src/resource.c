@@ -7,8 +7,10 @@
 enum { MOST_BYTES = 1 << 30 };
 
 /* Of the kernel: regular files by a path in UTF-8. */
-FILE *ali3_file_open(const char *path, int64_t *size, const char **why);
-int ali3_file_read(FILE *file, int64_t from, void *to, size_t size);
+typedef struct ali3_file ali3_file;
+ali3_file *ali3_file_open(const char *path, int64_t *size, const char **why);
+int ali3_file_read(ali3_file *file, int64_t from, void *to, size_t size);
+void ali3_file_close(ali3_file *file);
 
 static int hex(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -59,7 +61,7 @@ unsigned char *slave_read(const char *folder, const char *name, const ali3_memor
   const char *why;
   int64_t length = 0;
   snprintf(path, sizeof path, "%s/%s", folder, name);
-  FILE *file = ali3_file_open(path, &length, &why);
+  ali3_file *file = ali3_file_open(path, &length, &why);
   if (file == NULL) return NULL;
   unsigned char *bytes = NULL;
   if (length > 0 && length < MOST_BYTES) bytes = memory->allocate(1, (size_t)length);
@@ -68,6 +70,6 @@ unsigned char *slave_read(const char *folder, const char *name, const ali3_memor
     bytes = NULL;
   }
   *size = (size_t)length;
-  fclose(file);
+  ali3_file_close(file);
   return bytes;
 }

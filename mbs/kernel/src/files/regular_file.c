@@ -5,7 +5,9 @@
 #endif
 #include "regular_file.h"
 
+#if !defined(ALI3_ALONE)
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/types.h>
@@ -91,7 +93,7 @@ static const char *reason(int error) {
   }
 }
 
-FILE *ali3_file_open(const char *path, int64_t *size, const char **why) {
+ali3_file *ali3_file_open(const char *path, int64_t *size, const char **why) {
   file_kind kind;
   errno = 0;
   FILE *file = open_path(path);
@@ -102,13 +104,17 @@ FILE *ali3_file_open(const char *path, int64_t *size, const char **why) {
   if (kind_of(file, &kind) == 0 && IS_REGULAR(kind.st_mode)) {
     setvbuf(file, NULL, _IONBF, 0); /* a buffer would be allocated by the first read */
     *size = (int64_t)kind.st_size;
-    return file;
+    return (ali3_file *)file;
   }
   *why = "it is no regular file";
   fclose(file);
   return NULL;
 }
 
-int ali3_file_read(FILE *file, int64_t from, void *to, size_t size) {
-  return seek(file, from) == 0 && fread(to, 1, size, file) == size;
+int ali3_file_read(ali3_file *file, int64_t from, void *to, size_t size) {
+  FILE *stream = (FILE *)file;
+  return seek(stream, from) == 0 && fread(to, 1, size, stream) == size;
 }
+
+void ali3_file_close(ali3_file *file) { fclose((FILE *)file); }
+#endif

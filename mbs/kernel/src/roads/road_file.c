@@ -25,7 +25,7 @@ typedef struct { /* from byte 16 on */
 
 struct ali3_road_file {
   void (*release)(void *block);
-  FILE *stream; /* NULL once all tiles are in memory */
+  ali3_file *stream; /* NULL once all tiles are in memory */
   header head;
   uint32_t identity;
   int64_t tiles_y, n_tiles, reads;
@@ -209,14 +209,14 @@ static int place_tiles(ali3_road_file *file, char *message, size_t size) {
   if (file->used_slots < file->n_tiles) return 1;
   if (file->n_tiles > 0 && file->head.contents != ali3_crc32(crc, (size_t)file->n_tiles * sizeof *crc))
     return refuse(message, size, "parts of it belong to another file");
-  fclose(file->stream);
+  ali3_file_close(file->stream);
   file->stream = NULL;
   return 1;
 }
 
 void ali3_road_file_close(ali3_road_file *file) {
   if (file == NULL) return;
-  if (file->stream != NULL) fclose(file->stream);
+  if (file->stream != NULL) ali3_file_close(file->stream);
   if (file->values != NULL) file->release(file->values);
   file->release(file);
 }
@@ -246,7 +246,7 @@ static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*a
                           : refuse(message, message_size,
                                    "it is longer than 64 MB; make a road file of it by: ali3 "
                                    "road INPUT OUTPUT.road");
-  fclose(start->stream);
+  ali3_file_close(start->stream);
   start->stream = NULL;
   if (good) {
     start->identity = ali3_crc32(text, (size_t)size);
@@ -318,7 +318,7 @@ ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t c
     }
   }
   if (why != NULL) {
-    if (start.stream != NULL) fclose(start.stream);
+    if (start.stream != NULL) ali3_file_close(start.stream);
     refuse(message, message_size, why);
     return NULL;
   }

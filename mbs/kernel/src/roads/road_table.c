@@ -194,7 +194,7 @@ int ali3_road_table_read(const char *text, size_t size, ali3_road_table *t,
   const char *start = r.at;
   if (!count(&r, t)) return 0;
   const size_t points = (size_t)t->nx * (size_t)t->ny;
-  if (points > size) return refuse(&r, "it has fewer cells than rows and columns");
+  if (t->nx > (int64_t)size / t->ny) return refuse(&r, "it has fewer cells than rows and columns");
   t->values = allocate((size_t)t->maps * points + (size_t)t->nx + (size_t)t->ny, sizeof(double));
   if (t->values == NULL) return refuse(&r, "there is not enough memory");
   double *x = t->values + (size_t)t->maps * points;

@@ -1,0 +1,172 @@
+"""An FMU's WebAssembly module in wasmtime, with the calls of FMPy's slave and nothing of the page's JavaScript."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import wasmtime
+from fmpy.fmi1 import FMICallException
+
+_FORMATS = {"Real": "d", "Integer": "i", "String": "I"}
+
+
+class FmuModule:
+    """A module with its files, and one instance of the FMU.
+
+    Parameters
+    ----------
+    wasm : bytes
+        The file ``binaries/wasm32/NAME.wasm``.
+    resources : mapping of str to bytes
+        Files by their paths in the folder of the resources.
+    guid : str
+    memory_limit : int, optional
+        Bytes beyond which the memory cannot grow.
+    """
+
+    def __init__(self, wasm: bytes, resources: Mapping[str, bytes], guid: str, memory_limit: int | None = None) -> None:
+        engine = wasmtime.Engine()
+        module = wasmtime.Module(engine, wasm)
+        self._store = wasmtime.Store(engine)
+        if memory_limit is not None:
+            self._store.set_limits(memory_size=memory_limit)
+        exports: Any = wasmtime.Instance(self._store, module, []).exports(self._store)
+        self._exports, self._memory = exports, exports["memory"]
+        self._call("_initialize")
+        self.messages: list[tuple[int, str]] = []
+        for path, data in resources.items():
+            block = self.block(data)
+            if block == 0 or not self._call("ali3_file_add", self.text(f"/resources/{path}"), block, len(data)):
+                raise MemoryError(path)
+        self._room = self._call("malloc", 16)
+        self._component = self._call(
+            *("fmi2Instantiate", self.text("wasmtime"), 1, self.text(guid), self.text("file:///resources")),
+            *(self._call("ali3_callbacks"), 0, 0),
+        )
+        self._listen()
+
+    @property
+    def there(self) -> bool:
+        """Whether the FMU gave an instance."""
+        return bool(self._component != 0)
+
+    def _call(self, name: str, *arguments: Any) -> Any:
+        return self._exports[name](self._store, *arguments)
+
+    def _listen(self) -> None:
+        box = self._call("ali3_messages")
+        used, lost = struct.unpack("<2I", self.bytes_at(box, 8))
+        words = bytes(self.bytes_at(box + 8, used)).decode().split("\0")[:-1]
+        self.messages += [(int(head[0]), text) for head, text in zip(words[::2], words[1::2], strict=True)]
+        self.messages += [(1, f"{lost} lost")] if lost else []
+        self._memory.write(self._store, bytes(8), box)
+
+    def bytes_at(self, address: int, size: int) -> bytes:
+        """Bytes of the module's memory."""
+        return bytes(self._memory.read(self._store, address, address + size))
+
+    def block(self, data: bytes) -> int:
+        """A block with these bytes, never freed; 0 if there is no memory."""
+        address = int(self._call("malloc", max(len(data), 1)))
+        if address != 0:
+            self._memory.write(self._store, data, address)
+        return address
+
+    def text(self, text: str) -> int:
+        """A block with a text."""
+        return self.block(text.encode() + b"\0")
+
+    def fmi(self, name: str, *arguments: Any) -> None:
+        """A call of FMI for the instance; raises FMICallException."""
+        status = self._call(name, self._component, *arguments)
+        self._listen()
+        if status > 1:
+            raise FMICallException(function=name, status=status)
+
+    def caller(self, name: str) -> Callable[..., int]:
+        """The bare function for the instance, for measurements."""
+        function, store, component = self._exports[name], self._store, self._component
+        return lambda *arguments: int(function(store, component, *arguments))
+
+    def setupExperiment(self, startTime: float = 0.0, stopTime: float | None = None) -> None:
+        self.fmi("fmi2SetupExperiment", 0, 0.0, startTime, int(stopTime is not None), stopTime or 0.0)
+
+    def enterInitializationMode(self) -> None:
+        self.fmi("fmi2EnterInitializationMode")
+
+    def exitInitializationMode(self) -> None:
+        self.fmi("fmi2ExitInitializationMode")
+
+    def doStep(self, time: float, step: float) -> None:
+        self.fmi("fmi2DoStep", time, step, 1)
+
+    def reset(self) -> None:
+        self.fmi("fmi2Reset")
+
+    def get(self, kind: str, references: Sequence[int]) -> list[Any]:
+        """Values of variables of a type."""
+        form, n = _FORMATS[kind], len(references)
+        to, where = self.block(bytes(8 * n)), self.block(struct.pack(f"<{n}I", *references))
+        self.fmi(f"fmi2Get{kind}", where, n, to)
+        values = list(struct.unpack(f"<{n}{form}", self.bytes_at(to, n * struct.calcsize(form))))
+        for block in (to, where):
+            self._call("free", block)
+        return values
+
+    def set(self, kind: str, references: Sequence[int], values: Sequence[Any]) -> None:
+        """Set variables of a type."""
+        n = len(references)
+        given = [self.text(v) for v in values] if kind == "String" else values
+        data, where = (
+            self.block(struct.pack(f"<{n}{_FORMATS[kind]}", *given)),
+            self.block(struct.pack(f"<{n}I", *references)),
+        )
+        self.fmi(f"fmi2Set{kind}", where, n, data)
+        for block in (data, where):
+            self._call("free", block)
+
+    def getReal(self, references: Sequence[int]) -> list[float]:
+        return self.get("Real", references)
+
+    def getInteger(self, references: Sequence[int]) -> list[int]:
+        return self.get("Integer", references)
+
+    def setReal(self, references: Sequence[int], values: Sequence[float]) -> None:
+        self.set("Real", references, values)
+
+    def setInteger(self, references: Sequence[int], values: Sequence[int]) -> None:
+        self.set("Integer", references, values)
+
+    def setString(self, references: Sequence[int], values: Sequence[str]) -> None:
+        self.set("String", references, values)
+
+    def _pointer(self, name: str, *arguments: Any, value: int = 0) -> int:
+        self._memory.write(self._store, struct.pack("<I", value), self._room)
+        self.fmi(name, *arguments, self._room)
+        return int(struct.unpack("<I", self.bytes_at(self._room, 4))[0])
+
+    def getFMUState(self) -> int:
+        return self._pointer("fmi2GetFMUstate")
+
+    def setFMUState(self, state: int) -> None:
+        self.fmi("fmi2SetFMUstate", state)
+
+    def freeFMUState(self, state: int) -> None:
+        self._pointer("fmi2FreeFMUstate", value=state)
+
+    def serializeFMUState(self, state: int) -> bytes:
+        size = self._pointer("fmi2SerializedFMUstateSize", state)
+        to = self.block(bytes(size))
+        self.fmi("fmi2SerializeFMUstate", state, to, size)
+        data = self.bytes_at(to, size)
+        self._call("free", to)
+        return data
+
+    def deserializeFMUState(self, data: bytes) -> int:
+        block = self.block(data)
+        try:
+            return self._pointer("fmi2DeSerializeFMUstate", block, len(data))
+        finally:
+            self._call("free", block)

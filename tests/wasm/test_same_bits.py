@@ -1,0 +1,133 @@
+"""Whole drives as WebAssembly: every output after every step and the states have the bits of the native library."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from wasm_hosts import Driven, Fmu, Plan, native, node, wasmtime
+
+from hosts.fmu import described
+from hosts.options import Wishes
+from hosts.settings import settings_of
+from hosts.variables import Variables
+
+H = 0.002
+HOSTS = [pytest.param(wasmtime, id="wasmtime"), pytest.param(node, id="node")]
+
+
+def drive(steps: int, start: dict[str, Any], every: int = 250, h: float = H) -> Plan:
+    """A start from rest, a slalom on the throttle, then the brakes."""
+    inputs = []
+    for k in range(steps):
+        t, part = k * h, k / steps
+        steering = 0.4 * np.sin(3.0 * t) if part > 0.2 else 0.0
+        throttle, brake = (0.7, 0.0) if part < 0.7 else (0.0, 0.8)
+        inputs.append([float(steering), throttle, brake])
+    made = [{"h": h, "inputs": given, "save": (k + 1) % every == 0} for k, given in enumerate(inputs)]
+    return Plan(start, ["steering", "throttle", "brake"], made)
+
+
+def assert_same(found: Driven, expected: Driven, fmu: Fmu, plan: Plan) -> None:
+    assert found.refusals == expected.refusals
+    differ = found.rows.view(np.int64) != expected.rows.view(np.int64)
+    if differ.any():
+        k, i = np.argwhere(differ)[0]
+        name, values = fmu.outputs(plan)[i], (found.rows[k, i], expected.rows[k, i])
+        pytest.fail(f"{differ.sum()} values differ, first '{name}' after step {k}: {values[0]!r} and {values[1]!r}")
+    assert found.states == expected.states
+
+
+def moved(driven: Driven) -> int:
+    """Outputs that changed: a drive that stands still compares nothing."""
+    return int((np.ptp(driven.rows, axis=0) > 1e-6).sum())
+
+
+@pytest.fixture(scope="module")
+def expected() -> Callable[[Fmu, str, Plan], Driven]:
+    """What the native library gives, driven once a plan."""
+    made: dict[str, Driven] = {}
+
+    def get(fmu: Fmu, name: str, plan: Plan) -> Driven:
+        if name not in made:
+            made[name] = native(fmu, plan)
+        return made[name]
+
+    return get
+
+
+PLANS = {
+    "rigid": (1500, {"initial.speed": 5.0}),
+    "road file": (600, {"initial.speed": 12.0, "road.file": "own.road"}),
+    "load paths": (250, {"initial.speed": 10.0, "fidelity": 2}),
+}
+
+
+@pytest.mark.parametrize("name", PLANS)
+@pytest.mark.parametrize("host", HOSTS)
+def test_the_prototype(prototype: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], Driven]) -> None:
+    steps, start = PLANS[name]
+    plan = drive(steps, dict(start))
+    compared = expected(prototype, name, plan)
+    assert len(compared.states) == steps // 250
+    assert moved(compared) > 70
+    assert_same(host(prototype, plan), compared, prototype, plan)
+
+
+@pytest.mark.parametrize("name", ["rigid", "load paths"])
+@pytest.mark.parametrize("host", HOSTS)
+def test_the_hatchback(hatchback: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], Driven]) -> None:
+    steps, start = PLANS[name]
+    if "fidelity" in start and "fidelity" not in hatchback.kinds:
+        pytest.skip("the hatchback has one fidelity")
+    plan = drive(steps // 2, dict(start), every=125)
+    compared = expected(hatchback, f"hatchback {name}", plan)
+    assert moved(compared) > 70
+    assert_same(host(hatchback, plan), compared, hatchback, plan)
+
+
+@pytest.mark.parametrize("host", HOSTS)
+def test_a_parameter_set(prototype: Fmu, host: Callable[[Fmu, Plan], Driven], tmp_path: Path) -> None:
+    file = tmp_path / "softer.ssv"
+    file.write_text(SSV)
+    settings = settings_of(Variables(described(prototype.path)), Wishes([file], []))
+    assert settings.start == {"front.spring.stiffness": 18500.0, "road.friction": 0.7, "payload.passenger.mass": 80.0}
+    plan = drive(200, {"initial.speed": 15.0, **settings.start}, every=100)
+    compared = native(prototype, plan)
+    usual = native(prototype, drive(200, {"initial.speed": 15.0}, every=100))
+    assert np.abs(compared.rows - usual.rows).max() > 1.0
+    assert_same(host(prototype, plan), compared, prototype, plan)
+
+
+@pytest.mark.parametrize("host", HOSTS)
+def test_steps_that_are_refused(small: Callable[[str], Fmu], host: Callable[[Fmu, Plan], Driven]) -> None:
+    fmu = small("reach")
+    steps = [{"h": 0.01, "inputs": [0.1], "save": True}] * 3
+    steps += [{"h": 2.0, "inputs": [10.0], "save": True}] * 3  # beyond its reach: discard twice, then an error
+    steps += [{"h": 0.01, "inputs": [0.05], "save": True}] * 20
+    plan = Plan({}, ["pull"], steps)
+    compared = native(fmu, plan)
+    assert compared.refusals == [(3, "discard"), (4, "discard"), (5, "error")]
+    assert np.array_equal(compared.rows[3], compared.rows[6])
+    assert moved(compared) > 0
+    assert_same(host(fmu, plan), compared, fmu, plan)
+
+
+SSV = """<?xml version="1.0" encoding="UTF-8"?>
+<ssv:ParameterSet xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues"
+  xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon" version="1.0" name="softer">
+  <ssv:Parameters>
+    <ssv:Parameter name="front.spring.stiffness"><ssv:Real value="18.5" unit="kN/m"/></ssv:Parameter>
+    <ssv:Parameter name="road.friction"><ssv:Real value="0.7" unit="1"/></ssv:Parameter>
+    <ssv:Parameter name="payload.passenger.mass"><ssv:Real value="80" unit="kg"/></ssv:Parameter>
+  </ssv:Parameters>
+  <ssv:Units>
+    <ssc:Unit name="kN/m"><ssc:BaseUnit kg="1" s="-2" factor="1000"/></ssc:Unit>
+    <ssc:Unit name="1"><ssc:BaseUnit/></ssc:Unit>
+    <ssc:Unit name="kg"><ssc:BaseUnit kg="1"/></ssc:Unit>
+  </ssv:Units>
+</ssv:ParameterSet>
+"""
