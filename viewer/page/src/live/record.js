@@ -85,7 +85,7 @@ export class Record {
 
   /**
    * The run as a table that `ali3 drive --manoeuvre`, `ali3 run --input` and `ali3 view` read.
-   * @param {string[]} comments - Lines before the heading, without their mark.
+   * @param {string[]} comments - Lines behind the numbers, where programs that know no comments do not meet them.
    * @param {string[]} [kept] - Of what is set, which columns; by default all.
    * @param {string[]} [outputs] - Names of columns of outputs; by default all.
    * @returns {string[]} Parts of the text.
@@ -93,7 +93,7 @@ export class Record {
   csv(comments, kept = this.held, outputs = this.outputs) {
     const columns = [...kept, ...outputs].map((name) => this.column(name));
     const names = ["time", ...kept, ...outputs];
-    const parts = [comments.map((line) => `# ${line}\n`).join(""), `${names.map((name) => `"${name}"`).join(",")}\n`];
+    const parts = [`${names.map((name) => `"${name}"`).join(",")}\n`];
     for (let begin = this.first; begin < this.end; begin += ROWS) {
       let text = "";
       for (let k = begin; k < Math.min(begin + ROWS, this.end); k++) {
@@ -104,6 +104,7 @@ export class Record {
       }
       parts.push(text);
     }
+    parts.push(comments.map((line) => `# ${line}\n`).join(""));
     return parts;
   }
 
