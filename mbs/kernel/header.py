@@ -407,6 +407,7 @@ class ElementType(IntEnum):
     LIFT = 15
     COORDINATE_FRICTION = 16
     TORSION_BAR = 17
+    SPIN_ANGLE = 18
 
 
 class SettingsFields(Structure):
