@@ -60,10 +60,10 @@ def _page(options: argparse.Namespace) -> int:
     check_writable(file)
     titles = _titles(fmus, options.name)
     title = options.title if options.title is not None else ", ".join(titles)
-    page = {"fmus": [], "options": {"name": file.stem, **_page_options(fmus, options)}}
-    page["fmus"] = [fmu.record(words) for fmu, words in zip(map(with_binary, fmus), titles, strict=True)]
+    start = {"name": file.stem, **_page_options(fmus, options)}
+    parts = [with_binary(fmu).record(words) for fmu, words in zip(fmus, titles, strict=True)]
     with told_when_long("making the page"):
-        text = html_document(title, page, "ALi3Viewer.drive")
+        text = html_document(title, {"fmus": parts, "options": start}, "ALi3Viewer.drive")
     with whole_file(file) as made:
         made.write_text(text, encoding="utf-8", newline="\n")
     for fmu in fmus:

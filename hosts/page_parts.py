@@ -173,4 +173,3 @@ def _variable(v: Variable, reference: int) -> dict[str, Any]:
         "items": v.items or None,
     }
     return {key: value for key, value in record.items() if value is not None}
-

@@ -1,7 +1,8 @@
 // The bar below the picture: start, stop, single steps, slow motion, going back.
 import { el } from "./dom.js";
 
-const SPEEDS = [[1, "real time"], [0.5, "× 1/2"], [0.25, "× 1/4"], [0.1, "× 1/10"], [0.02, "× 1/50"], [2, "× 2"], [5, "× 5"]];
+const SLOW = [0.5, 0.25, 0.1, 0.02].map((rate) => [rate, `slow motion × 1/${1 / rate}`]);
+const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
 
 /** The bar; it calls `act` of the page and shows what it is told. */
 export class Bar {
@@ -24,17 +25,17 @@ export class Bar {
       });
       return made;
     };
-    this._play = button("play", "▶", "run or pause (P)", act.toggle);
+    this._play = button("play", "Run", "run or pause (P)", act.toggle);
     this._line = el("input", { type: "range", min: 0, max: 1, step: "any", title: "go back, then drive on from there", data: "timeline" });
     this._line.addEventListener("input", () => act.scrub(Number(this._line.value)));
     this._time = el("span.a3-clock", { data: "clock" });
     this.element = el(
       "div.a3-bar",
       {},
-      button("reset", "⏮", "begin anew (Home)", act.reset),
-      button("back", "−2 s", "two seconds back (Backspace)", act.back),
+      button("reset", "Reset", "begin anew (Home)", act.reset),
+      button("back", "2 s back", "two seconds back (Backspace)", act.back),
       this._play,
-      button("step", "+1", "one communication step (.)", act.step),
+      button("step", "Step", "one communication step (.)", act.step),
       select("rate", "how fast time runs", SPEEDS, (v) => act.speed(Number(v)), 1),
       this._line,
       this._time,
@@ -42,7 +43,7 @@ export class Bar {
     );
     if (cameras.length) this.element.append(select("camera", "camera", cameras.map((c) => [c, c]), act.camera));
     for (const { data, text, title, work } of views) this.element.append(button(data, text, title, work));
-    this.element.append(button("csv", "⤓ CSV", "inputs and outputs of the run as a table", act.csv));
+    this.element.append(button("csv", "Save CSV", "inputs and outputs of the run as a table", act.csv));
   }
 
   /**
@@ -54,8 +55,7 @@ export class Bar {
    * @param {boolean} now.scrubbed - Whether the picture is one of before.
    */
   show({ running, oldest, time, end, scrubbed }) {
-    this._play.textContent = running ? "⏸" : scrubbed ? "▶ from here" : "▶";
-    this._play.setAttribute("aria-label", running ? "pause" : "run");
+    this._play.textContent = running ? "Pause" : scrubbed ? "Run from here" : "Run";
     this._line.min = oldest;
     this._line.max = Math.max(end, oldest + 1e-6);
     if (document.activeElement !== this._line || running) this._line.value = time;

@@ -16,9 +16,8 @@ export function control(variable, { change, note = "", texts = [] }) {
   const make = variable.type === "String" ? chooser : variable.type === "Boolean" ? toggle : number;
   const { body, show, range = "" } = make(variable, change, texts);
   const title = [variable.description, range].filter(Boolean).join(" ");
-  const head = el("div.a3-name", { title }, variable.name, note ? el("em", {}, ` ${note}`) : "");
+  const head = el("div.a3-name", { title }, variable.name, el("em", {}, [note, range].filter(Boolean).join(" · ")));
   const element = el("div.a3-control", { data: `control ${variable.name}` }, head, ...body);
-  if (range) element.append(el("div.a3-range", {}, range));
   show(variable.start ?? 0);
   return { element, show };
 }
@@ -53,7 +52,7 @@ function number(variable, change) {
     change(value);
   });
   const ends = `${short(range.low)} to ${short(range.high)}${unit}`;
-  const words = range.guessed ? `no range given; the slider goes from ${ends}` : ends;
+  const words = range.guessed ? `no range given, guessed: ${ends}` : ends;
   return { body: [slider, field, el("span.a3-unit", {}, unit)], show, range: words };
 }
 

@@ -4,7 +4,7 @@ import { el } from "./dom.js";
 import { BACK } from "./engine.js";
 import { Gamepad } from "./gamepad.js";
 import { HELP, Keyboard } from "./keyboard.js";
-import { gamepadPanel, inputPanel, parameterPanel } from "./panel.js";
+import { gamepadPanel, inputPanel, parameterPanel, picturePanel } from "./panel.js";
 import { Plots } from "./plots.js";
 import { Session } from "./session.js";
 import { Stage } from "./stage.js";
@@ -73,6 +73,16 @@ class Drive {
   seek(time) {
     this.session.scrub(time);
     this.draw();
+  }
+
+  /** Choose a camera of all pictures. @returns {string} A sentence if there is none of this name. */
+  camera(name) {
+    if (!this.view.cameraNames.includes(name)) {
+      return `There is no camera '${name}'; there are ${this.view.cameraNames.join(", ")}.`;
+    }
+    for (const part of this.stage.parts) if (part.view.cameraNames.includes(name)) part.view.camera(name);
+    this.stage.dirty = true;
+    return "";
   }
 
   /** Let time run. @param {number} [speed] - Simulated seconds per second of the clock. */
@@ -171,6 +181,7 @@ class Drive {
     this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep });
     this._layOut(fmus[0]);
     this.stage.open();
+    this.problem = this.stage.problem;
     this._cameras();
     await this.session.ready;
     this.plots.open();
@@ -217,7 +228,7 @@ class Drive {
     const views = [];
     if (this.isCar) {
       const work = () => this.root.classList.toggle("a3-touching");
-      views.push({ data: "touch levers", text: "✋", title: "levers for fingers", work });
+      views.push({ data: "touch levers", text: "Levers", title: "levers for fingers over the picture", work });
     }
     const act = {
       reset: () => this.reset(),
@@ -226,13 +237,19 @@ class Drive {
       back: () => this.back(),
       speed: (speed) => (session.running ? this.run(speed) : (session.speed = speed)),
       scrub: (time) => this.seek(time),
-      camera: (name) => this.stage.parts.forEach((part) => part.view.camera(name)) ?? (this.stage.dirty = true),
+      camera: (name) => this.camera(name),
       stepSize: (step) => this._stepSize(step),
       csv: () => this._download(),
     };
     this.act = act;
     this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views });
     this.root.append(this.bar.element);
+    const set = (wishes) => {
+      for (const part of this.stage.parts) part.view.set?.(wishes);
+      this.stage.dirty = true;
+    };
+    const shown = picturePanel(this.stage.parts.map((part) => part.view.has ?? {}), set);
+    if (shown) this.plots.element.before(shown);
   }
 
   /** Another communication step; the inner one is not longer than it. */

@@ -102,3 +102,32 @@ export function gamepadPanel(gamepad, inputs) {
     },
   };
 }
+
+/**
+ * What the pictures show beside shapes.
+ * @param {{arrows?: boolean, stress?: boolean, deformation?: boolean}[]} has - What each picture can.
+ * @param {(wishes: object) => void} set - Told what a person wants, as `SceneView.set` has it.
+ * @returns {HTMLElement | null} Nothing where there is nothing to choose.
+ */
+export function picturePanel(has, set) {
+  const can = (what) => has.some((one) => one[what]);
+  const lines = [];
+  for (const [what, words] of [["arrows", "forces as arrows"], ["stress", "colours of stress"]]) {
+    if (!can(what)) continue;
+    const box = el("input", { type: "checkbox", checked: what === "stress", data: `show ${what}` });
+    box.addEventListener("change", () => set({ [what]: box.checked }));
+    lines.push(el("label.a3-control", {}, box, words));
+    set({ [what]: box.checked });
+  }
+  if (can("deformation")) {
+    const slider = el("input", { type: "range", min: 0, max: 200, value: 1, data: "deformation" });
+    const words = el("span", {}, "× 1");
+    slider.addEventListener("input", () => {
+      words.textContent = `× ${slider.value}`;
+      set({ deformation: Number(slider.value) });
+    });
+    lines.push(el("label.a3-control", {}, "deformation ", slider, words));
+    set({ deformation: 1 });
+  }
+  return lines.length ? section("Picture", true, ...lines) : null;
+}

@@ -34,7 +34,7 @@ export function fromSlider(range, x) {
   if (x <= 0) return low;
   if (x >= 1) return high;
   const value = log ? low * (high / low) ** x : low + x * (high - low);
-  if (whole) return Math.round(value);
+  if (whole) return Math.round(value) || 0;
   const digits = 10 ** (Math.floor(Math.log10(log ? value : high - low)) - 3);
   return Math.max(low, Math.min(high, Number((Math.round(value / digits) * digits).toPrecision(12))));
 }
