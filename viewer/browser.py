@@ -160,6 +160,13 @@ def launch_arguments() -> list[str]:
     return [*_ARGUMENTS, *(["--no-sandbox"] if root else [])]
 
 
+def _places() -> Iterator[Path]:
+    yield from map(Path, _PLACES)
+    for folder in ("PROGRAMFILES", "PROGRAMFILES(X86)", "LOCALAPPDATA"):
+        if os.environ.get(folder):
+            yield from (Path(os.environ[folder], *place.split("\\")) for place in _WINDOWS)
+
+
 def _pictures(view: Page, file: Path, times: Iterable[float], camera: str | None) -> Iterator[bytes]:
     view.goto(file.resolve().as_uri())
     view.wait_for_function("window.player && window.player.ready", timeout=60_000)

@@ -179,5 +179,5 @@ def notes_of(recordings: Sequence[Recording]) -> list[str]:
     for recording in recordings:
         head = f"{recording.name}: " if len(recordings) > 1 else ""
         found += [head + note for note in recording.notes]
-        found += [f"{head}{item['name']} is not drawn: {item['why']}" for item in recording.missing]
+        found += [f"{head}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
     return found

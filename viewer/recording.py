@@ -148,17 +148,29 @@ class Recording:
 
         def fault(name: str) -> str | None:
             if name not in self.columns:
-                return f"the result has no column '{name}'."
-            return f"the column '{name}' holds no number." if name in empty else None
+                return f"the result has no column '{name}'"
+            return f"the column '{name}' holds no number" if name in empty else None
 
         drawn, why = drawable(scene, fault)
         self.missing = [dict(item) for item in scene.get("missing", [])]
         self.missing += [{"name": name, "why": reason} for name, reason in why.items()]
-        self.scene = drawn | {"missing": self.missing}
+        frames = {key: self._started(frame) for key, frame in drawn["frames"].items()}
+        self.scene = drawn | {"frames": frames, "missing": self.missing}
         self._note_gaps(name for name in pose_columns(drawn))
         for frame in drawn["frames"].values():
             if "angle" in frame:
                 self._unwrap(frame["angle"])
+
+    def _started(self, frame: dict[str, Any]) -> dict[str, Any]:
+        """A frame with a pose as drawn: where the scene has none, the first that was recorded."""
+        if "start" in frame or "position" not in frame:
+            return frame
+        names = [*frame["position"], *frame["quaternion"]]
+        good = np.logical_and.reduce([np.isfinite(self.columns[name]) for name in names])
+        if not good.any():
+            return frame
+        first = [float(self.columns[name][good.argmax()]) for name in names]
+        return frame | {"start": [first[:3], first[3:]]}
 
     def _note_gaps(self, names: Any) -> None:
         for name in names:
@@ -191,7 +203,9 @@ def _times(t: ArrayLike) -> NDArray[np.float64]:
     except (TypeError, ValueError):
         raise ViewerError("The times of a recording are no numbers.") from None
     if times.ndim != 1 or len(times) == 0:
-        raise ViewerError(f"The times of a recording have the shape {times.shape}; it must be (n,) with n of 1 or more.")
+        raise ViewerError(
+            f"The times of a recording have the shape {times.shape}; it must be (n,) with n of 1 or more."
+        )
     if not np.isfinite(times).all():
         k = int((~np.isfinite(times)).argmax())
         raise ViewerError(f"The times of a recording must be numbers; time {k} (from 0 on) is {times[k]}.")
@@ -207,7 +221,9 @@ def _column(name: str, values: ArrayLike, count: int) -> NDArray[np.float64]:
     if found.dtype.kind not in "fiub":
         raise ViewerError(f"The column {name!r} holds no numbers, but {found.dtype}.")
     if found.shape != (count,):
-        raise ViewerError(f"The column {name!r} has the shape {found.shape}; there are {count} times, so it must be ({count},).")
+        raise ViewerError(
+            f"The column {name!r} has the shape {found.shape}; there are {count} times, so it must be ({count},)."
+        )
     return found.astype(np.float64, copy=False)
 
 

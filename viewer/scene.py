@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from ali3.files import reason
 from viewer.errors import SceneError
 from viewer.scene_relations import relation_errors
-from viewer.scene_sentences import sentences
+from viewer.scene_sentences import sentences, value_words
 from viewer.scene_types import Scene
 
 SCHEMA_FILE = Path(__file__).with_name("scene.schema.json")
@@ -35,9 +35,9 @@ def scene_errors(scene: Any) -> list[str]:
     if not isinstance(scene, Mapping):
         return ["A scene is a table with the keys format, version, name, extent, frames and shapes."]
     if "format" in scene and scene["format"] != "ALi3 scene":
-        return [f"format is {str(scene['format'])[:40]!r}; it must be 'ALi3 scene'."]
+        return [f"format is {value_words(scene['format'])}; it must be 'ALi3 scene'."]
     if "version" in scene and scene["version"] != 1:
-        return [f"version is {str(scene['version'])[:40]}; this viewer reads version 1."]
+        return [f"version is {value_words(scene['version'])}; this viewer reads version 1."]
     plain = plain_scene(scene)
     try:
         Scene.model_validate(plain)
@@ -118,14 +118,13 @@ def json_schema() -> dict[str, Any]:
         "$comment": "Written by python -m viewer.scene from viewer/scene_types.py.",
     }
     schema = {key: value for key, value in made.items() if key != "title"}
-    return head | _without_nulls(schema)
+    plain: dict[str, Any] = _without_nulls(schema)
+    return head | plain
 
 
 def schema_text() -> str:
     """The schema as the file in the package has it."""
     return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
-
-
 
 
 def _plain(value: Any, by_name: bool) -> Any:

@@ -104,7 +104,7 @@ def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
             yield from _direction(frame["start"][1], (*path, "start", 1))
         if "points" in frame:
             a, b, c = (np.array(p, float) for p in frame["points"])
-            if np.linalg.norm(np.cross(b - a, c - a)) <= 1e-9 * max(np.linalg.norm(b - a), 1e-12) ** 2:
+            if np.linalg.norm(np.cross(b - a, c - a)) <= 1e-9 * max(float(np.linalg.norm(b - a)), 1e-12) ** 2:
                 yield f"{place((*path, 'points'))} lie on a line; three points of a plane are needed."
     if good:
         yield from _circles(scene)
@@ -169,7 +169,10 @@ def _array(text: str, kind: str, path: tuple[str | int, ...], size: int | None =
 
 
 def _mesh(mesh: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
-    faults = [*_array(mesh["positions"], "f", (*path, "positions")), *_array(mesh["triangles"], "u", (*path, "triangles"))]
+    faults = [
+        *_array(mesh["positions"], "f", (*path, "positions")),
+        *_array(mesh["triangles"], "u", (*path, "triangles")),
+    ]
     yield from faults
     if faults:
         return
@@ -187,6 +190,9 @@ def _mesh(mesh: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]
 def _flexible(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
     yield from _users(scene, part, path)
     nodes, beams, modes = len(part["nodes"]), len(part["beams"]), len(part["amplitudes"])
+    for key, count in (("names", nodes), ("start", modes)):
+        if part.get(key) is not None and len(part[key]) != count:
+            yield f"{place((*path, key))} has {len(part[key])} entries where {count} belong."
     yield from _array(part["modes"], "f", (*path, "modes"), nodes * 3 * modes)
     if len(part["radii"]) != beams:
         yield f"{place((*path, 'radii'))} has {len(part['radii'])} entries where there are {beams} beams."
@@ -195,6 +201,8 @@ def _flexible(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str
             yield f"{place((*path, 'beams', k))} names node {max(beam)}; there are {nodes} from 0 on."
     stress = part.get("stress")
     if stress is not None:
+        if stress.get("rule") == "round" and stress["fibres"] != 3:
+            yield f"{place((*path, 'stress', 'fibres'))} is {stress['fibres']}; the rule 'round' has 3."
         count = beams * 2 * stress["fibres"]
         yield from _array(stress["rows"], "f", (*path, "stress", "rows"), count * modes)
         if stress.get("constant") is not None:
@@ -206,6 +214,15 @@ def _arrow(scene: Mapping[str, Any], arrow: Mapping[str, Any], path: tuple[str |
 
 
 def _road(road: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
+    for key in ("normal", "direction"):
+        if key in road:
+            yield from _direction(road[key], (*path, key))
+    if road["kind"] == "profile":
+        stations, heights = road["stations"], road["heights"]
+        if len(stations) != len(heights):
+            yield f"{place((*path, 'heights'))} has {len(heights)} entries where there are {len(stations)} stations."
+        if not (np.diff(stations) > 0.0).all():
+            yield f"{place((*path, 'stations'))} must rise."
     if road["kind"] == "grid":
         size = road["shape"][0] * road["shape"][1]
         yield from _array(road["heights"], "f", (*path, "heights"), size)

@@ -20,9 +20,7 @@ _KINDS: dict[str, type[BaseModel]] = {
     if isinstance(model, type) and issubclass(model, types.Part) and "kind" in model.model_fields
 }
 _MODELS: dict[str, type[BaseModel]] = {
-    name: model
-    for name, model in vars(types).items()
-    if isinstance(model, type) and issubclass(model, types.Part)
+    name: model for name, model in vars(types).items() if isinstance(model, type) and issubclass(model, types.Part)
 }
 # The tables of a key, where no tag names them.
 _OF_KEY: dict[str, type[BaseModel]] = {
@@ -31,6 +29,11 @@ _OF_KEY: dict[str, type[BaseModel]] = {
     "missing": types.Missing,
     "stress": types.Stress,
     "tyre": types.Tyre,
+}
+# What a table that could be of several types must have.
+_CHOICES: dict[tuple[str | int, ...], str] = {
+    ("frames",): "the keys 'position' and 'quaternion', 'parent', 'axis' and 'angle', or 'points' and 'on'",
+    ("arrows",): "the keys 'value' and 'between', 'vector' and 'at', or 'tyre'",
 }
 
 
@@ -45,6 +48,11 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
         What pydantic found in it.
     """
     items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
+    lengths: dict[tuple[str | int, ...], int] = {}
+    for item in items:
+        if item["type"] == MISSING and isinstance(item["loc"][-1], int):
+            path = _path(scene, item["loc"])[:-1]
+            lengths[path] = max(lengths.get(path, 0), item["loc"][-1] + 1)
     lost = {_path(scene, item["loc"]) for item in items if item["type"] == MISSING}
     found: list[str] = []
     for item in items:
@@ -59,7 +67,7 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
                 known = ", ".join(_keys(item["loc"]))
                 found.append(f"{place(path)} is not known; the keys of {place(path[:-1])} are {known}.")
         elif item["type"] != MISSING or path in lost:
-            found.append(_sentence(scene, item, path))
+            found.append(_sentence(scene, item, path, lengths))
     return list(dict.fromkeys(found))
 
 
@@ -94,11 +102,20 @@ def _cut(text: str) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
 
-def _sentence(scene: Mapping[str, Any], item: Any, path: tuple[str | int, ...]) -> str:
+def _sentence(
+    scene: Mapping[str, Any], item: Any, path: tuple[str | int, ...], lengths: Mapping[tuple[str | int, ...], int]
+) -> str:
     kind, message = item["type"], str(item["msg"])
     if kind == MISSING and isinstance(path[-1], str):
         why = _description(item["loc"])
         return f"{place(path)} is missing{f': {why}' if why else ''}."
+    if path[:1] in _CHOICES and kind == "union_tag_not_found":
+        given = item["input"]
+        if not isinstance(given, Mapping):
+            return f"{place(path)} is {value_words(given)}; it must be a table."
+        unknown = [f"'{_cut(str(key))}' is not known" for key in given if key not in ("name", "unit", "start")]
+        hint = f" ({unknown[0]})" if unknown else ""
+        return f"{place(path)} must have {_CHOICES[path[:1]]}{hint}."
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         known = item.get("ctx", {}).get("expected_tags") or ", ".join(repr(k) for k in _kinds_at(path))
         if not isinstance(item["input"], Mapping):
@@ -113,7 +130,7 @@ def _sentence(scene: Mapping[str, Any], item: Any, path: tuple[str | int, ...]) 
         path = path[:-1] if kind == MISSING else path
         whole = _at(scene, path)
         limit = item.get("ctx", {})
-        wanted = limit.get("max_length", limit.get("min_length"))
+        wanted = limit.get("max_length", limit.get("min_length", lengths.get(path)))
         many = f"; it must have {'at least ' if kind == 'too_short' and 'min_length' in limit else ''}{wanted}"
         return f"{place(path)} has {len(whole)} entries{many if wanted is not None else ', too few'}."
     if kind == "string_pattern_mismatch":

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0.0)]
 Share = Annotated[Number, Field(ge=0.0, le=1.0)]
-Whole = Annotated[int, Field(strict=True, ge=0)]
+Whole = Annotated[int, Field(strict=True, ge=0, lt=2**32)]
 Text = Annotated[str, Field(strict=True)]
 Name = Annotated[str, Field(strict=True, min_length=1)]
 Vector = tuple[Number, Number, Number]
@@ -65,7 +65,7 @@ class CarriedFrame(Part):
     """Pose as drawn, for pictures without a run."""
 
 
-def _frame_kind(value: Any) -> str:
+def _frame_kind(value: Any) -> str | None:
     keys = set(value) if isinstance(value, dict) else set()
     if isinstance(value, Part):
         keys = set(type(value).model_fields)
@@ -74,7 +74,8 @@ def _frame_kind(value: Any) -> str:
         "CarriedFrame": len(keys & {"points", "on"}),
         "MovingFrame": len(keys & {"position", "quaternion"}),
     }
-    return max(reversed(count), key=lambda kind: count[kind])
+    best = max(reversed(count), key=lambda kind: count[kind])
+    return best if count[best] else None
 
 
 Frame = Annotated[
@@ -205,17 +206,23 @@ class Mesh(Part):
 
 
 class Stress(Part):
-    """Stress of beams by the amplitudes: a beam end shows the largest of its fibres."""
+    """Stress of beam ends by the amplitudes."""
 
-    fibres: Annotated[int, Field(strict=True, gt=0)]
-    """Of a beam end."""
+    rule: Literal["fibres", "round"] = "fibres"
+    """fibres: the largest size of the rows of a beam end; round: of three rows |a| + sqrt(b² + c²)."""
+    fibres: Annotated[int, Field(strict=True, gt=0, le=1000)]
+    """Rows of a beam end."""
     rows: Floats
     """(beams, 2, fibres, modes)."""
     constant: Floats | None = None
     """(beams, 2, fibres)."""
     unit: Text = "Pa"
-    limit: Positive
-    """Stress of the last colour."""
+    range: Positive | None = None
+    """Stress of the last colour; by default the largest of the run."""
+    limit: Positive | None = None
+    """A mark in the legend."""
+    limit_name: Text | None = None
+    """What the limit is, such as yield stress."""
 
 
 class Flexible(Part):
@@ -224,14 +231,22 @@ class Flexible(Part):
     frame: Name
     name: Text | None = None
     nodes: Annotated[list[Vector], Field(min_length=1)]
+    names: list[Text] | None = None
+    """Of the nodes."""
     beams: list[tuple[Whole, Whole]]
     """Indices of their nodes."""
     radii: list[Positive]
     """Of the beams, m."""
     amplitudes: list[Name]
     """Columns, one a mode."""
+    computed: Name | None = None
+    """Column that is 0 where the part is not computed."""
+    start: list[Number] | None = None
+    """Amplitudes as drawn, for pictures without a run."""
     modes: Floats
     """(nodes, 3, modes)."""
+    note: Text | None = None
+    """A sentence to be shown."""
     stress: Stress | None = None
 
 
@@ -273,13 +288,15 @@ class TyreArrow(Arrow):
     tyre: Tyre
 
 
-def _arrow_kind(value: Any) -> str:
+def _arrow_kind(value: Any) -> str | None:
     keys = set(value) if isinstance(value, dict) else set()
     if isinstance(value, Part):
         keys = set(type(value).model_fields)
     if "tyre" in keys:
         return "TyreArrow"
-    return "VectorArrow" if keys & {"vector", "at", "axes"} else "LineArrow"
+    if keys & {"vector", "at", "axes"}:
+        return "VectorArrow"
+    return "LineArrow" if keys & {"value", "between", "sign"} else None
 
 
 AnyArrow = Annotated[
@@ -297,6 +314,28 @@ class FlatRoad(Part):
     height: Number = 0.0
 
 
+class PlaneRoad(Part):
+    """A plane road."""
+
+    kind: Literal["plane"]
+    point: Vector
+    """On the plane, m."""
+    normal: Vector
+
+
+class ProfileRoad(Part):
+    """Heights along a line, the same across, level before and behind."""
+
+    kind: Literal["profile"]
+    stations: Annotated[list[Number], Field(min_length=2)]
+    """Places along the direction, m, rising."""
+    heights: Annotated[list[Number], Field(min_length=2)]
+    """At the stations, m."""
+    direction: Vector = (1.0, 0.0, 0.0)
+    origin: Vector = (0.0, 0.0, 0.0)
+    width: Positive | None = None
+
+
 class GridRoad(Part):
     """Heights on a grid, linear between."""
 
@@ -306,6 +345,8 @@ class GridRoad(Part):
     shape: tuple[Annotated[Whole, Field(ge=2)], Annotated[Whole, Field(ge=2)]]
     heights: Floats
     frictions: Floats | None = None
+    axes: tuple[Vector, Vector] | Axes | None = None
+    """Of its x and y in earth axes."""
 
 
 class FileRoad(Part):
@@ -317,7 +358,7 @@ class FileRoad(Part):
     path: Text | None = None
 
 
-AnyRoad = Annotated[FlatRoad | GridRoad | FileRoad, Field(discriminator="kind")]
+AnyRoad = Annotated[FlatRoad | PlaneRoad | ProfileRoad | GridRoad | FileRoad, Field(discriminator="kind")]
 
 
 class Missing(Part):
@@ -328,7 +369,7 @@ class Missing(Part):
 
 
 class Scene(Part):
-    """A scene: frames that columns move, shapes in them, arrows and roads. SI units, earth axes as the model has them."""
+    """A scene: frames that columns move, shapes in them, arrows and roads; SI units, the earth axes of the model."""
 
     format: Literal["ALi3 scene"]
     version: Literal[1]

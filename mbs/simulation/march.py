@@ -153,7 +153,7 @@ def _trajectory(
         simulation.settings,
         wall,
         accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
-        notices=notices_of(simulation.system, t, values),
+        notices=[*notices_of(simulation.system, t, values), *filter(None, [report.capped_text])],
         branch_change=simulation.branch_change,
     )
 
