@@ -46,6 +46,7 @@ def start(page, out):
         stderr=subprocess.PIPE,
         text=True,
         encoding="utf-8",
+        start_new_session=True,
     )
 
 
