@@ -37,7 +37,7 @@ export class SceneView {
     this.up = unit(scene.up ?? [0, 0, 1]) ?? [0, 0, 1];
     this.#measure();
     const { renderer, software, problem } = makeRenderer(container, {
-      antialias: options.quality === "high" ? true : undefined,
+      antialias: options.quality === "high" || scene.planar ? true : undefined,
       keep: options.keep,
     });
     if (problem !== undefined) {
@@ -95,7 +95,10 @@ export class SceneView {
       const [low, high] = parts.bounds() ?? this.bounds;
       box = box ? [low.map((a, k) => Math.min(a, box[0][k])), high.map((a, k) => Math.max(a, box[1][k]))] : [low, high];
     }
-    if (box !== null) this.#fit(box);
+    if (box !== null) {
+      this.#fit(box);
+      this.resize();
+    }
     this.update(count > 0 ? lookupAt(0) : null);
   }
 
@@ -236,12 +239,16 @@ export class SceneView {
     this.extent = this.scene.extent > 0 ? this.scene.extent : size;
     this.parts.arrows.extent = this.extent;
     this.#fit(bounds);
+    this.reach = [this.extent, this.extent];
   }
 
   /** Centre and floor of a box of the earth. @param {number[][]} bounds low and high corner */
   #fit(bounds) {
     this.bounds = bounds;
     const [low, high] = bounds;
+    const sides = subtract(high, low);
+    this.reach = [Math.max(sides[0], 0.3 * this.extent), Math.max(sides[1], 0.3 * this.extent)];
+    this.radius = Math.max(Math.hypot(...sides), 0.5 * this.extent) / 2;
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     const centre = middle(low, high);
     this.floor = Math.min(...[low, high].map((corner) => dot(corner, this.up))) - 0.002 * this.extent;
