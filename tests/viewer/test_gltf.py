@@ -334,6 +334,8 @@ def test_roads_face_up_and_have_their_heights(up, kind):
     expected = {"flat": 0.2 + 0 * at, "plane": 0.2 - 0.1 * at, "grid": 0.2 + 0 * at}
     expected["profile"] = np.where(at <= 1.0, 0.2, np.where(at > 2.0, 0.3, heights))
     assert np.abs(heights - expected[kind]).max() < 1e-6
+    far, _ = road_solid(roads["profile"] | {"kind": "profile", "origin": [1e6, 0, 0]}, up, np.zeros(3), 20.0)
+    assert np.abs(far.positions).max() < 21.0
     if kind == "profile":
         assert set(heights[np.isclose(at, 2.0)].round(9)) == {0.5, 0.3}
 
