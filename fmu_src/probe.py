@@ -69,7 +69,7 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
     outputs = [i for i, v in enumerate(table) if v.causality == "output"]
     tries = _Tries(table, outputs)
     for system in systems:
-        tries.system(system, Instance(LoadedSystem(system.to_bytes())))
+        tries.system(system, Instance(LoadedSystem(system.to_bytes(drawing=False))))
     tries.close(systems)
     return Dependencies(
         {i: tuple(sorted(tries.step[i])) for i in outputs},

@@ -205,9 +205,10 @@ ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
 ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
 /* steps: inputs is (n_steps x nu) row major, one row per step, or NULL (keep); every k-th state's sensors go to out
-   (n_steps/every x ns). *done is the number of accepted steps. */
+   (n_steps/every x ns), its coordinates to positions (n_steps/every x nq) unless they are NULL. *done is the number of
+   accepted steps. */
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
-                              double *out, int64_t *done);
+                              double *out, double *positions, int64_t *done);
 /* Steps of any length by step doubling, so that their errors add up to the tolerance over the span (error per unit
  * step). Errors of positions are in parts of `length`, those of velocities in parts of length * rate or of the present
  * speed. What is given comes first; the counts start at 0 and go on from call to call. */

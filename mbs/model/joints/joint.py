@@ -18,6 +18,7 @@ from mbs.model.reactions import Turning
 if TYPE_CHECKING:
     from mbs.model.body import Body
     from mbs.model.ends import PointPair
+    from mbs.model.spin import Spin
     from mbs.model.switches import Switch
 
 FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
@@ -105,6 +106,18 @@ class JointEnds:
     rod: bool = False
 
 
+@dataclass(frozen=True)
+class Rolling:
+    """A wheel that rolls on a level plane: a body with centre and axis as drawn, or a spin."""
+
+    radius: float
+    level: float
+    body: Body | None = None
+    spin: Spin | None = None
+    centre: Vector | None = None
+    axis: Vector | None = None
+
+
 class Joint:
     """A constraint of the model.
 
@@ -131,6 +144,8 @@ class Joint:
         Of a relative angle.
     ends : JointEnds or None
         Of joints that can be part of a closed loop.
+    rolls : Rolling or None
+        Of a wheel that rolls.
     """
 
     def __init__(
@@ -157,6 +172,7 @@ class Joint:
         self.switch: Switch | None = None
         self.ends: JointEnds | None = None
         self.drawing: Drawing | None = None
+        self.rolls: Rolling | None = None
 
     @property
     def turns(self) -> bool:

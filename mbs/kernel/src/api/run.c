@@ -107,11 +107,17 @@ static ali3_status give_up(ali3_instance *in, ali3_status status, bool unobserve
   return status;
 }
 
+static void record(const ali3_instance *in, int64_t row, double *out, double *positions) {
+  const ali3_sizes *size = &in->system->size;
+  if (out != NULL) ali3_sensors_evaluate(in, out + row * size->ns);
+  if (positions != NULL) memcpy(positions + row * size->nq, in->now.q, (size_t)size->nq * sizeof *positions);
+}
+
 ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every, double *out,
-                     int64_t *done) {
+                     double *positions, int64_t *done) {
   if (done != NULL) *done = 0;
   if (in == NULL || n_steps < 0 || every < 1 || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
-  const int32_t nu = in->system->size.nu, ns = in->system->size.ns;
+  const int32_t nu = in->system->size.nu;
   const ali3_status method = ali3_check_method(in);
   if (method != ALI3_OK) return method;
   bool unobserved = false, sampled = false; /* the last good step */
@@ -121,7 +127,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
         const ali3_status status = ali3_set_input(in, i, inputs[n * nu + i]);
         if (status != ALI3_OK) return give_up(in, status, unobserved, sampled);
       }
-    const bool recorded = out != NULL && (n + 1) % every == 0;
+    const bool recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
     in->unobserved = !recorded && n + 1 < n_steps;
     in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h);
@@ -129,7 +135,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
     unobserved = in->unobserved;
     sampled = in->sampled;
     if (done != NULL) *done = n + 1;
-    if (recorded) ali3_sensors_evaluate(in, out + ((n + 1) / every - 1) * ns);
+    if (recorded) record(in, (n + 1) / every - 1, out, positions);
   }
   return ALI3_OK;
 }
