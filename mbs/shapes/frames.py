@@ -17,6 +17,7 @@ from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.model import Model
 from mbs.model.shapes import Owner, Turning, in_space, origin_of
+from mbs.model.sliding_shapes import Sliding
 from mbs.model.spin import Spin
 
 Anchor = tuple[str, list[float]]
@@ -99,11 +100,12 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
     for turn in [*model.spins, *model.turnings]:
         carrier = turn.carrier if isinstance(turn, Spin) else turn.body
         axis = turn.axis_reference if isinstance(turn, Spin) else turn.axis
+        along, value = ("direction", "way") if isinstance(turn, Sliding) else ("axis", "angle")
         frames[names.turns[turn.name]] = {
             "parent": names.of_body(carrier),
             "at": numbers(origin_of(turn) - origin_of(carrier)),
-            "axis": numbers(axis),
-            "angle": _angle_column(turn, names),
+            along: numbers(axis),
+            value: _angle_column(turn, names),
         }
     return frames
 
