@@ -166,7 +166,7 @@ def _trajectory(
         simulation.settings,
         wall,
         accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
-        notices=notices_of(simulation.system, t, values),
+        notices=[*notices_of(simulation.system, t, values), *filter(None, [report.capped_text])],
         branch_change=simulation.branch_change,
         poses=record.poses(t),
         scene=None if record.drawing is None else record.drawing.scene,

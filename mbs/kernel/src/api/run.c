@@ -1,4 +1,5 @@
 /* The calls of ali3.h around the algorithms: start, step, run; the clock; what a refused call leaves behind. */
+#include <math.h>
 #include <string.h>
 
 #include "../algebra/finite.h"
@@ -68,6 +69,8 @@ static ali3_status step(ali3_instance *in, double h) {
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const ali3_report before = in->report;
   ali3_roads_forgive(in);
+  in->capped = false;
+  in->capped_residual = 0.0;
   in->backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
   in->t_now = ali3_time(in);
   ali3_branch_before(in);
@@ -82,6 +85,10 @@ static ali3_status step(ali3_instance *in, double h) {
     return status;
   }
   in->report.steps++;
+  if (in->capped) {
+    in->report.capped++;
+    in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);
+  }
   in->t_base = t_base;
   in->h_last = h;
   in->count = count;
