@@ -50,7 +50,7 @@ class Poses(Mapping[str, Array]):
     def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str) or name not in self._columns:
             known = ", ".join(self.bodies) or "none"
-            raise KeyError(f"There is no pose {shown(name)}; of each body there are .x to .qz, the bodies are: {known}.")
+            raise KeyError(f"There is no pose {shown(name)}; each body has .x to .qz, the bodies are: {known}.")
         kind, number, part = self._columns[name]
         if kind == "body":
             return self._pose(number)[:, part]
@@ -140,7 +140,8 @@ class Poses(Mapping[str, Array]):
         p = self._places
         found = {f"{b.name}.{part}": ("body", k, i) for k, b in enumerate(p.bodies) for i, part in enumerate(POSE)}
         found |= {f"{turn.name}.angle": ("turn", k, 0) for k, turn in enumerate(p.turns)}
-        return found | {f"{a.body}.{m}": ("mode", k, i) for k, a in enumerate(p.amplitudes) for i, m in enumerate(a.modes)}
+        modes = [(k, i, f"{a.body}.{mode}") for k, a in enumerate(p.amplitudes) for i, mode in enumerate(a.modes)]
+        return found | {name: ("mode", k, i) for k, i, name in modes}
 
     def _number(self, body: str) -> int:
         if body not in self.bodies:

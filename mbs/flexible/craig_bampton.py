@@ -99,6 +99,7 @@ def craig_bampton(
         interfaces=_interface_modes(fixed, origin),
         n_static=n_static,
         frequencies=hertz,
+        frame=model.frame,
     )
 
 

@@ -192,7 +192,7 @@ class Frame:
             points = nodal_mass_points(self.positions, nodal, dof[:, :3], 6 * n)
         else:
             points = points.merged(nodal_mass_points(self.positions, self.masses, dof[:, :3], 6 * n))
-        model = FiniteElementModel(self.positions, self.names, dof, K, points)
+        model = FiniteElementModel(self.positions, self.names, dof, K, points, self)
         check_units(model)
         check_free(model)
         return model

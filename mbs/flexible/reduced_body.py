@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mbs.checks import shown
 from mbs.errors import ModelError
+from mbs.flexible.sparse import Sparse
+
+if TYPE_CHECKING:
+    from mbs.flexible.frame import Frame
 
 
 @dataclass(frozen=True)
@@ -65,6 +70,8 @@ class ReducedBody:
         The first modes are the static ones.
     frequencies : ndarray, shape (m - n_static,)
         Fixed-interface frequencies of the dynamic modes, Hz.
+    frame : Frame, optional
+        Beams of the finite-element model, with its nodes; None where it was given as matrices.
     """
 
     origin: np.ndarray
@@ -83,6 +90,7 @@ class ReducedBody:
     interfaces: Mapping[str, InterfaceModes]
     n_static: int
     frequencies: np.ndarray
+    frame: Frame | None = None
 
     @property
     def n_modes(self) -> int:
@@ -151,7 +159,7 @@ class ReducedBody:
         """
         return np.asarray(self.node_rotations[self.interface(name).node])
 
-    def recovery(self, rows: np.ndarray) -> np.ndarray:
+    def recovery(self, rows: np.ndarray | Sparse) -> np.ndarray:
         """Outputs per unit amplitude from outputs per nodal displacement.
 
         Parameters

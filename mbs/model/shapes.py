@@ -12,7 +12,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import Affine
-from mbs.checks import LARGEST, Vector, array, capital, direction, is_number, number, one_of, positive, shown, text, whole
+from mbs.checks import (
+    LARGEST,
+    Vector,
+    array,
+    capital,
+    direction,
+    is_number,
+    number,
+    one_of,
+    positive,
+    shown,
+    text,
+    whole,
+)
 from mbs.errors import ModelError
 from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
@@ -58,17 +71,20 @@ class Turning:
     Attributes
     ----------
     name : str
-    body : Body
-    centre, axis : ndarray, shape (3,)
-        From the origin of the body, along the earth axes as drawn.
+    carrier : Body
+        On which it turns.
+    centre : ndarray, shape (3,)
+        From the origin of the carrier, along the earth axes as drawn, m.
+    axis_reference : tuple of float
+        Unit vector, earth axes as drawn.
     angle : Affine or str
         Angle of the turn, rad: an expression of coordinates, or the name of a sensor.
     """
 
     name: str
-    body: Body
+    carrier: Body
     centre: Vector
-    axis: Vector
+    axis_reference: tuple[float, ...]
     angle: Affine | str
 
 
@@ -165,8 +181,8 @@ class ShapeVocabulary(BodyVocabulary):
         size : array_like, shape (3,)
             Lengths of the edges, m; in the plane two will do.
         axes : array_like, shape (3, 3), optional
-            Columns: axes of the box or the mesh in earth axes as drawn; by default these. In the plane shape (2, 2) will
-            do.
+            Columns: axes of the box or the mesh in earth axes as drawn; by default these. In the plane shape (2, 2)
+            will do.
         axis : array_like, shape (3,), optional
             Of a wheel: its axle, of any length; by default that of the spin, else y, in the plane z.
         ends, points : sequence of array_like, or of (body, array_like)
@@ -268,7 +284,7 @@ class ShapeVocabulary(BodyVocabulary):
             turned: Affine | str = angle
         else:
             turned = self.expression(angle, f"The {what}")
-        made = Turning(name, owner, centre, unit, turned)
+        made = Turning(name, owner, centre, tuple(unit.tolist()), turned)
         self.turnings.append(made)
         return made
 
@@ -315,9 +331,7 @@ class ShapeVocabulary(BodyVocabulary):
                 found.append((owner, self._local(owner, place, f"a point of {what}")))
         return found
 
-    def _made(
-        self, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]
-    ) -> Shape:
+    def _made(self, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]) -> Shape:
         fields = dict(looks)
         anchors: list[tuple[Owner, Vector]] = []
         for key in ("radius", "thickness", "width", "rim", "wire", "scale"):
@@ -355,17 +369,15 @@ class ShapeVocabulary(BodyVocabulary):
     def _axle(self, owner: Owner, axis: ArrayLike | None, what: str) -> Vector:
         if axis is not None:
             return direction(axis, 3, f"the axis of {what}")
-        if isinstance(owner, Spin):
+        if not isinstance(owner, Body):
             return np.array(owner.axis_reference)
-        if isinstance(owner, Turning):
-            return owner.axis
         return np.array([0.0, 1.0, 0.0]) if self.dimension == 3 else np.array([0.0, 0.0, 1.0])
 
 
 def origin_of(owner: Owner) -> Vector:
     """Origin of the frame of a body, a spin or a turning as drawn, earth axes, three components, m."""
     if isinstance(owner, Turning):
-        return np.asarray(origin_of(owner.body) + owner.centre)
+        return np.asarray(origin_of(owner.carrier) + owner.centre)
     if isinstance(owner, Spin):
         carrier = owner.carrier
         rows = [[owner.centre[k].terms.get(carrier.start + 3 * (m + 1) + k, 0.0) for m in range(3)] for k in range(3)]
@@ -429,7 +441,7 @@ def _size(size: object, dimension: int, what: str) -> Vector:
 
 
 def _axes(axes: object, dimension: int, what: str) -> NDArray[np.float64]:
-    small = dimension == 2 and np.shape(axes) == (2, 2)  # type: ignore[arg-type]
+    small = dimension == 2 and isinstance(axes, (list, tuple, np.ndarray)) and len(axes) == 2
     given = array(axes, (2, 2) if small else (3, 3), f"the axes of {what}")
     R = np.eye(3)
     R[: len(given), : len(given)] = given

@@ -20,7 +20,7 @@ class Sliding(Turning):
 
     Attributes
     ----------
-    axis : ndarray, shape (3,)
+    axis_reference : tuple of float
         Direction of the line.
     angle : str
         The sensor of the way along it, m.
@@ -59,7 +59,7 @@ class SlidingVocabulary(ShapeVocabulary):
         if not isinstance(way, str):
             raise ModelError(f"The way of the sliding '{name}' must be the name of a sensor, not {shown(way)}.")
         made = self.turning(name, body, at=at, axis=direction, angle=way)
-        slides = Sliding(made.name, made.body, made.centre, made.axis, way)
+        slides = Sliding(made.name, made.carrier, made.centre, made.axis_reference, way)
         self.turnings[-1] = slides
         return slides
 

@@ -12,8 +12,9 @@ import numpy as np
 from mbs.checks import Vector
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.joints.joint import RollingBody, RollingSpin
 from mbs.model.model import Model
-from mbs.model.shapes import in_space, origin_of
+from mbs.model.shapes import origin_of
 from mbs.shapes.frames import FrameNames, numbers
 from mbs.shapes.joint_points import SAME, Line, Pivot, Slide, Touched, apart, sensed_points
 
@@ -22,6 +23,8 @@ GROUND, RAIL, SPRING, ROD = "#4a4e57", "#8b9099", "#d9a441", "#aeb4bd"
 TUBE, LONGEST_TUBE = 0.014, 0.09
 """Radius of a tube in parts of the extent, and of the length of its body at most."""
 SLENDER = 0.2  # height of a triangle over its longest side below which it is drawn as tubes
+
+BEYOND = 0.1  # parts of a tube's length by which a centre of mass may be beyond its ends
 
 Shape = dict[str, Any]
 
@@ -74,19 +77,19 @@ class Defaults:
     def _body(self, body: Body, frame: str) -> list[Shape]:
         if isinstance(body, FlexibleBody):
             return []  # its beams are drawn
-        wheels = [j.rolls for j in self.model.joints if j.rolls is not None and j.rolls.body is body]
-        if wheels:
+        discs = [j.rolls for j in self.model.joints if isinstance(j.rolls, RollingBody) and j.rolls.body is body]
+        if discs:
             return [
                 {
                     "kind": "wheel",
                     "frame": frame,
-                    "at": numbers(in_space(w.centre) - origin_of(body)),
-                    "axis": numbers(w.axis),
-                    "radius": w.radius,
-                    "width": 0.15 * w.radius,
-                    "rim": 0.85 * w.radius,
+                    "at": numbers(disc.centre - origin_of(body)),
+                    "axis": numbers(disc.axis),
+                    "radius": disc.radius,
+                    "width": 0.15 * disc.radius,
+                    "rim": 0.85 * disc.radius,
                 }
-                for w in wheels
+                for disc in discs
             ]
         if body.is_point:
             return [{"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.5 * self.tube}]
@@ -99,15 +102,21 @@ class Defaults:
             if not ends:
                 return [self._lump(body, frame)]
             if len(points) == 1:
-                ball = {"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.2 * self.tube}
-                return [*self._tubes(frame, [*points, com], com), ball]
+                return [*self._tubes(frame, [*points, com], com), self._ball(frame)]
         shapes = self._plate(frame, points, com) or self._tubes(frame, points, com)
+        if len(points) > 2:
+            return shapes
+        if _beyond(com, points[0], points[1]):
+            shapes = [*self._tubes(frame, [*points, com], com), self._ball(frame)]
         block = [
             self._block(frame, com, slide)
             for slide in self.touched.slides
             if self.names.of_body(slide.bodies[0]) == frame
         ]
         return shapes + block
+
+    def _ball(self, frame: str) -> Shape:
+        return {"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.2 * self.tube}
 
     def _tubes(self, frame: str, points: Sequence[Vector], com: Vector) -> list[Shape]:
         """Tubes along the shortest tree through the points."""
@@ -157,7 +166,9 @@ class Defaults:
     def _wheel(self, name: str) -> Shape:
         """The wheel of a spin: as large as its tyre or its rolling joint says."""
         spin = next(s for s in self.model.spins if s.name == name)
-        rolling = [j.rolls.radius for j in self.model.joints if j.rolls is not None and j.rolls.spin is spin]
+        rolling = [
+            j.rolls.radius for j in self.model.joints if isinstance(j.rolls, RollingSpin) and j.rolls.spin is spin
+        ]
         tyres = [
             dict(zip(r.real_names, r.real, strict=False)).get("radius")
             for r in self.model.elements
@@ -227,6 +238,12 @@ def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
         pairs.append((i, j))
         inside.append(j)
     return pairs
+
+
+def _beyond(com: Vector, a: Vector, b: Vector) -> bool:
+    """Whether a centre of mass lies beyond the ends of a tube from a to b."""
+    share = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
+    return not -BEYOND <= share <= 1.0 + BEYOND
 
 
 def _axes_along(axis: Vector) -> Vector:

@@ -52,10 +52,10 @@ class FrameNames:
         """Names that are unique among the frames, and columns that are no sensors."""
         bodies = {b.number: "body ground" if b.name == "ground" else b.name for b in model.bodies}
         used = {*bodies.values(), "ground"}
-        turns = {t.name: f"wheel {t.name}" if t.name in used else t.name for t in [*model.spins, *model.turnings]}
+        turns = {t.name: f"wheel {t.name}" if t.name in used else t.name for t in turns_of(model)}
         sensors, columns = {sensor.name for sensor in model.sensors}, {}
         names = [(b.name, part) for b in model.bodies for part in POSE]
-        names += [(t.name, "angle") for t in [*model.spins, *model.turnings]]
+        names += [(t.name, "angle") for t in turns_of(model)]
         names += [(b.name, mode) for b in model.bodies if isinstance(b, FlexibleBody) for mode in modes_of(b)]
         for name, part in names:
             columns[f"{name}.{part}"] = f"{name}.pose.{part}" if f"{name}.{part}" in sensors else f"{name}.{part}"
@@ -70,7 +70,9 @@ class FrameNames:
         """The body of the model that has the coordinates of this one."""
         if body.is_ground or body.number >= 0:
             return body
-        return body.owner if isinstance(body, Interface) else next(b for b in body.model.bodies if b.start == body.start)
+        return (
+            body.owner if isinstance(body, Interface) else next(b for b in body.model.bodies if b.start == body.start)
+        )
 
     def of_owner(self, owner: Owner) -> str:
         """Frame of what has a shape."""
@@ -80,6 +82,11 @@ class FrameNames:
         """A place of the drawing, m, as an anchor of a body."""
         origin = np.zeros(3) if body.is_ground else origin_of(self.owner(body))
         return self.of_body(body), numbers(in_space(place) - origin)
+
+
+def turns_of(model: Model) -> list[Spin | Turning]:
+    """What turns about an axis of a body."""
+    return [*model.spins, *model.turnings]
 
 
 def modes_of(body: FlexibleBody) -> tuple[str, ...]:
@@ -97,14 +104,12 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
             "quaternion": list(place.columns[3:]),
             "start": [numbers(pose[:3]), numbers(pose[3:])],
         }
-    for turn in [*model.spins, *model.turnings]:
-        carrier = turn.carrier if isinstance(turn, Spin) else turn.body
-        axis = turn.axis_reference if isinstance(turn, Spin) else turn.axis
+    for turn in turns_of(model):
         along, value = ("direction", "way") if isinstance(turn, Sliding) else ("axis", "angle")
         frames[names.turns[turn.name]] = {
-            "parent": names.of_body(carrier),
-            "at": numbers(origin_of(turn) - origin_of(carrier)),
-            along: numbers(axis),
+            "parent": names.of_body(turn.carrier),
+            "at": numbers(origin_of(turn) - origin_of(turn.carrier)),
+            along: numbers(turn.axis_reference),
             value: _angle_column(turn, names),
         }
     return frames
@@ -141,7 +146,7 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
             part, modes = slice(body.start + 12, body.start + body.size), modes_of(body)
             columns = tuple(names.columns[f"{body.name}.{m}"] for m in modes)
             amplitudes.append(AmplitudePlace(body.name, modes, add(T[part], constant[part]), columns))
-    for turn in [*model.spins, *model.turnings]:
+    for turn in turns_of(model):
         angle = turn.affine if isinstance(turn, Spin) else turn.angle
         if isinstance(angle, str):
             continue
@@ -149,15 +154,12 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
             (list(angle.terms.values()), ([0] * len(angle.terms), list(angle.terms))), shape=(1, len(constant))
         )
         row = add((weights @ T).tocsr(), np.asarray(weights @ constant) + angle.constant)
-        carrier = turn.carrier if isinstance(turn, Spin) else turn.body
-        axis = turn.axis_reference if isinstance(turn, Spin) else turn.axis
         column = names.columns[f"{turn.name}.angle"]
-        turns.append(TurnPlace(turn.name, row, names.owner(carrier).name, tuple(numbers(axis)), isinstance(turn, Spin), column))
+        carrier, axis = names.owner(turn.carrier).name, tuple(numbers(turn.axis_reference))
+        turns.append(TurnPlace(turn.name, row, carrier, axis, isinstance(turn, Spin), column))
     matrix = sparse.vstack(rows).tocsr() if rows else sparse.csr_matrix((0, T.shape[1]))
     matrix.sort_indices()
-    return Places(
-        matrix, np.concatenate([*constants, np.zeros(0)]), tuple(bodies), tuple(turns), tuple(amplitudes)
-    )
+    return Places(matrix, np.concatenate([*constants, np.zeros(0)]), tuple(bodies), tuple(turns), tuple(amplitudes))
 
 
 def anchors_of_difference(model: Model, names: FrameNames, gap: Sequence[Affine]) -> tuple[Anchor, Anchor] | None:
@@ -175,10 +177,7 @@ def anchors_of_difference(model: Model, names: FrameNames, gap: Sequence[Affine]
             continue
         own = set(range(body.start, body.start + body.size))
         own |= {
-            i
-            for a in gap
-            for i in a.terms
-            if i not in own and model.coordinates[i].name.startswith(f"{body.name}.")
+            i for a in gap for i in a.terms if i not in own and model.coordinates[i].name.startswith(f"{body.name}.")
         }
         part = [sum(c * drawn[i] for i, c in a.terms.items() if i in own) for a in gap[:d]]
         found[sign] = names.anchor(body, sign * np.array(part))

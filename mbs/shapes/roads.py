@@ -38,7 +38,11 @@ def _plane(road: PlaneRoad) -> dict[str, Any]:
     if road.grade_x == 0.0 and road.grade_y == 0.0:
         return {"kind": "flat", "height": float(road.height)}
     normal = np.array([-road.grade_x, -road.grade_y, 1.0])
-    return {"kind": "plane", "point": [0.0, 0.0, float(road.height)], "normal": numbers(normal / np.linalg.norm(normal))}
+    return {
+        "kind": "plane",
+        "point": [0.0, 0.0, float(road.height)],
+        "normal": numbers(normal / np.linalg.norm(normal)),
+    }
 
 
 def _kerb(road: KerbRoad) -> dict[str, Any]:

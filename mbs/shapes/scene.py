@@ -59,7 +59,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "frames": frames,
         "shapes": shapes,
         "meshes": meshes,
-        "flexible": _flexible(model, names),
+        "flexible": [],
         "arrows": arrows_of(model, names, found.lines),
         "roads": roads_of(model),
         "missing": [],
@@ -93,21 +93,24 @@ def rebound(scene: Mapping[str, Any], binding: Binding) -> Scene:
     for name in [n for n, frame in frames.items() if frame.get("parent") in lost]:
         lost[name] = lost[frames.pop(name)["parent"]]
     here = {"ground", *frames}
-    kept = {
-        key: [part for part in scene[key] if frames_used(part) <= here] for key in ("shapes", "flexible", "arrows")
-    }
+    kept = {key: [part for part in scene[key] if frames_used(part) <= here] for key in ("shapes", "flexible", "arrows")}
     used = {shape["mesh"] for shape in kept["shapes"] if shape["kind"] == "mesh"}
-    return dict(scene) | kept | {
-        "frames": frames,
-        "meshes": {name: mesh for name, mesh in scene["meshes"].items() if name in used},
-        "focus": scene["focus"] if scene["focus"] in frames else "",
-        "missing": [*scene["missing"], *({"name": name, "why": why} for name, why in lost.items())],
-    }
+    return (
+        dict(scene)
+        | kept
+        | {
+            "frames": frames,
+            "meshes": {name: mesh for name, mesh in scene["meshes"].items() if name in used},
+            "focus": scene["focus"] if scene["focus"] in frames else "",
+            "missing": [*scene["missing"], *({"name": name, "why": why} for name, why in lost.items())],
+        }
+    )
 
 
 def frames_used(part: Mapping[str, Any]) -> set[str]:
     """Frames that a shape, an arrow or a flexible part lies on."""
-    anchors = [*part.get("points", ()), *(part.get("ends", ()) if "frame" not in part else ()), *part.get("between", ())]
+    ends = () if "frame" in part else part.get("ends", ())
+    anchors = [*part.get("points", ()), *ends, *part.get("between", ())]
     found = {anchor[0] for anchor in anchors} | ({part["frame"]} if "frame" in part else set())
     return found | ({part["at"][0], part["axes"]} if "vector" in part else set())
 
@@ -155,12 +158,6 @@ def _fill(shape: Scene, defaults: Defaults) -> None:
         shape.setdefault("radius", tube * {"tube": 1.0, "spring": 2.0, "damper": 1.0}[shape["kind"]])
     if shape["kind"] == "plate":
         shape.setdefault("thickness", tube)
-
-
-def _flexible(model: Model, names: FrameNames) -> list[Scene]:
-    """What bends, of frames whose beams are known."""
-    del names
-    return [] if not any(isinstance(b, FlexibleBody) for b in model.bodies) else []
 
 
 def _up(model: Model) -> list[float]:

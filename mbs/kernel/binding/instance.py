@@ -227,9 +227,7 @@ class Instance:
         if status:
             self._check(status)
 
-    def run(
-        self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None, positions: Any = None
-    ) -> int:
+    def run(self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None, positions: Any = None) -> int:
         """`n` steps of `h` seconds.
 
         Parameters

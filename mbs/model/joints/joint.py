@@ -107,15 +107,23 @@ class JointEnds:
 
 
 @dataclass(frozen=True)
-class Rolling:
-    """A wheel that rolls on a level plane: a body with centre and axis as drawn, or a spin."""
+class RollingBody:
+    """A body that rolls on a level plane as a wheel: its centre and axis as drawn."""
 
     radius: float
     level: float
-    body: Body | None = None
-    spin: Spin | None = None
-    centre: Vector | None = None
-    axis: Vector | None = None
+    body: Body
+    centre: Vector
+    axis: Vector
+
+
+@dataclass(frozen=True)
+class RollingSpin:
+    """A spin that rolls on a level plane."""
+
+    radius: float
+    level: float
+    spin: Spin
 
 
 class Joint:
@@ -144,7 +152,7 @@ class Joint:
         Of a relative angle.
     ends : JointEnds or None
         Of joints that can be part of a closed loop.
-    rolls : Rolling or None
+    rolls : RollingBody, RollingSpin or None
         Of a wheel that rolls.
     """
 
@@ -172,7 +180,7 @@ class Joint:
         self.switch: Switch | None = None
         self.ends: JointEnds | None = None
         self.drawing: Drawing | None = None
-        self.rolls: Rolling | None = None
+        self.rolls: RollingBody | RollingSpin | None = None
 
     @property
     def turns(self) -> bool:

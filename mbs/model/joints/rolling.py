@@ -23,7 +23,7 @@ from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.equation import Equation
-from mbs.model.joints.joint import Joint, Rolling
+from mbs.model.joints.joint import Joint, RollingBody, RollingSpin
 from mbs.model.perpendicular import perpendicular
 from mbs.model.spin import Spin
 from mbs.model.switches import new_switch
@@ -77,9 +77,9 @@ def rolling(
         ]
     joint = Joint(name, "rolling", equations)
     if isinstance(wheel, Spin):
-        joint.rolls = Rolling(R, z, spin=wheel)
+        joint.rolls = RollingSpin(R, z, wheel)
     else:
-        joint.rolls = Rolling(R, z, body, centre=_at_reference(model, c), axis=_at_reference(model, n))
+        joint.rolls = RollingBody(R, z, body, _at_reference(model, c), _at_reference(model, n))
     return joint
 
 

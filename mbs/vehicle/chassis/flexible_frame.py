@@ -166,7 +166,10 @@ class FlexibleFrame:
     @cached_property
     def _relief_with_stretch(self) -> tuple[InertiaRelief, np.ndarray, int]:
         """From loads to the gauges and to the stretch between pivots; forces per axial force; number of gauge rows."""
-        model, outputs = self.model, self.gauge_rows
+        return self._with_stretch(self.gauge_rows)
+
+    def _with_stretch(self, outputs: np.ndarray) -> tuple[InertiaRelief, np.ndarray, int]:
+        model = self.model
         stretch = np.zeros((len(self.stiff_pairs), model.n_dof))
         pairs = np.zeros((3 * len(self.interfaces), len(self.stiff_pairs)))
         for k, pair in enumerate(self.stiff_pairs):
@@ -183,20 +186,60 @@ class FlexibleFrame:
     @cached_property
     def quasi_static(self) -> InertiaRelief:
         """From interface forces and motion to the moments and half-bridges; wishbones keep their pivots apart."""
-        relief, pairs, n = self._relief_with_stretch
-        # forces of each wishbone along its axis that undo the stretch
-        undo = -relief.forces[:n] @ pairs @ np.linalg.inv(relief.forces[n:] @ pairs)
+        return _settled(*self._relief_with_stretch)
 
-        def mixed(part: np.ndarray) -> np.ndarray:
-            return np.asarray(part[:n] + undo @ part[n:])
+    @cached_property
+    def drawn(self) -> ReducedBody:
+        """The modes in which pictures show the frame at every fidelity: those of DYNAMIC."""
+        return self.reduced(Fidelity.DYNAMIC)
 
-        return InertiaRelief(
-            mixed(relief.forces),
-            mixed(relief.acceleration),
-            mixed(relief.rotation),
-            mixed(relief.balanced),
-            relief.acceleration_of_forces,
-        )
+    @cached_property
+    def quasi_static_amplitudes(self) -> InertiaRelief:
+        """From interface forces and motion to the amplitudes of `drawn`.
+
+        They solve the static equations of these modes, which contain the deformation under every interface force and
+        rigid acceleration; only of the deformation by the speed of rotation a part is left out.
+        """
+        return _settled(*self._with_stretch(self._amplitudes_of_displacements))
+
+    def drawn_amplitudes(self, body: ReducedBody) -> np.ndarray:
+        """Amplitudes of `drawn` per unit amplitude of another reduction of the frame, nearest in the energy norm.
+
+        Parameters
+        ----------
+        body : ReducedBody
+            Of this frame, with the same reference.
+
+        Returns
+        -------
+        ndarray, shape (n_modes of `drawn`, n_modes)
+            The identity for `drawn` itself.
+        """
+        if body is self.drawn:
+            return np.eye(body.n_modes)
+        return np.asarray(self._amplitudes_of_displacements @ body.modes)
+
+    @cached_property
+    def _amplitudes_of_displacements(self) -> np.ndarray:
+        """Amplitudes of `drawn` whose deformation is nearest to displacements; a rigid motion has none."""
+        drawn = self.drawn
+        return np.linalg.solve(drawn.K, np.asarray((self.model.K @ drawn.modes).T))
+
+
+def _settled(relief: InertiaRelief, pairs: np.ndarray, n: int) -> InertiaRelief:
+    """The first n outputs, with the forces of each wishbone along its axis that undo the stretch."""
+    undo = -relief.forces[:n] @ pairs @ np.linalg.inv(relief.forces[n:] @ pairs)
+
+    def mixed(part: np.ndarray) -> np.ndarray:
+        return np.asarray(part[:n] + undo @ part[n:])
+
+    return InertiaRelief(
+        mixed(relief.forces),
+        mixed(relief.acceleration),
+        mixed(relief.rotation),
+        mixed(relief.balanced),
+        relief.acceleration_of_forces,
+    )
 
 
 def _at_hard_points(model: FiniteElementModel, joints: FrameJoints) -> FiniteElementModel:

@@ -50,7 +50,8 @@ class TubularFrame:
     @property
     def material(self) -> Material:
         """Of all tubes."""
-        return Material(self.section.material.E, self.section.material.nu, self.section.material.rho)
+        given = self.section.material
+        return Material(given.E, given.nu, given.rho, given.yield_strength)
 
     @property
     def tube_sections(self) -> dict[str, Section]:

@@ -12,7 +12,7 @@ from mbs.vehicle.chassis.gauges.reading import in_order
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
 from mbs.vehicle.chassis.tubular_frame import TubularFrame
 from mbs.vehicle.names import Name
-from mbs.vehicle.quantities import Length, MaterialDensity, PoissonsRatio, Thickness, YoungsModulus
+from mbs.vehicle.quantities import Length, MaterialDensity, PoissonsRatio, Thickness, YieldStrength, YoungsModulus
 from mbs.vehicle.section import Section
 
 
@@ -25,6 +25,8 @@ class MaterialSection(Section):
     """Poisson's ratio."""
     rho: MaterialDensity
     """Density."""
+    yield_strength: YieldStrength | None = None
+    """Yield strength, a mark in pictures of stresses; no result depends on it."""
 
 
 class TubeSection(Section):

@@ -1,0 +1,172 @@
+"""A flexible body as the part `flexible` of a scene: nodes, beams, mode shapes and rows of stress."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.errors import ModelError
+from mbs.flexible.frame import Beam, Frame
+from mbs.flexible.recovery import fibre_stresses, section_force_field
+from mbs.flexible.reduced_body import ReducedBody
+from mbs.flexible.section import Section
+
+Array = NDArray[np.float64]
+MOST_POINTS = 4000
+"""Nodes of a model without beams that a scene takes; of more every second, third and so on."""
+
+
+def flexible_parts(
+    body: ReducedBody,
+    frame: str,
+    amplitudes: Sequence[str],
+    *,
+    axes: ArrayLike | None = None,
+    origin: ArrayLike = (0.0, 0.0, 0.0),
+    start: ArrayLike | None = None,
+    computed: str = "",
+    full_scale: float | None = None,
+) -> list[dict[str, Any]]:
+    """Entries of the list `flexible` of a scene, whose numbers are linear in the amplitudes.
+
+    A node is drawn at its place plus ``modes . amplitudes``, in the axes of its frame. A beam end of a round tube has
+    three rows per mode, the axial stress and the bending stresses about two axes: the largest normal stress round it is
+    ``|axial| + hypot(bending, bending)`` (rule "round"). Of other sections the stress of each of their fibres is a row,
+    and the largest counts (rule "fibres"). A body with both has two entries; one that came as matrices has nodes only,
+    and its stresses are not known.
+
+    Parameters
+    ----------
+    body : ReducedBody
+        Modes, and the beams of its frame.
+    frame : str
+        Name of the frame of the scene that carries it.
+    amplitudes : sequence of str
+        One column of the recording per mode.
+    axes : array_like, shape (3, 3), optional
+        Columns are the axes of the finite-element model in those of the scene's frame; by default they are the same.
+    origin : array_like, shape (3,)
+        Origin of the floating frame in those of the scene's frame, m.
+    start : array_like, shape (n_modes,), optional
+        Amplitudes of a picture without a run, by default 0.
+    computed : str
+        Column that is 0 where the amplitudes are not computed; by default they always are.
+    full_scale : float, optional
+        Stress where the colours end, Pa; by default whoever draws chooses.
+
+    Returns
+    -------
+    list of dict
+        Ready for JSON; arrays as base64 of little-endian float32.
+
+    Raises
+    ------
+    ModelError
+        There is not one name, or one amplitude at the start, for each mode.
+    """
+    if len(amplitudes) != body.n_modes:
+        raise ModelError(f"There are {len(amplitudes)} names for the amplitudes of {body.n_modes} modes.")
+    if start is not None and np.shape(start) != (body.n_modes,):
+        raise ModelError(f"The amplitudes at the start have shape {np.shape(start)}; there are {body.n_modes} modes.")
+    turn = np.eye(3) if axes is None else np.asarray(axes, float)
+
+    def entry(nodes: NDArray[np.int64], more: dict[str, Any]) -> dict[str, Any]:
+        places = np.asarray(origin, float) + body.node_positions[nodes] @ turn.T
+        return {
+            "frame": frame,
+            "nodes": np.round(places, 9).tolist(),
+            "names": [body.node_names[k] for k in nodes],
+            "beams": [],
+            "radii": [],
+            "amplitudes": list(amplitudes),
+            "modes": packed(np.einsum("ab,nbm->nam", turn, body.node_translations[nodes])),
+            **({} if start is None else {"start": np.asarray(start, float).tolist()}),
+            **({"computed": computed} if computed else {}),
+            **more,
+        }
+
+    if body.frame is None:
+        return [entry(*_points(len(body.node_names)))]
+    kinds = np.array([is_round(beam.section) for beam in body.frame.beams])
+    groups = [(np.flatnonzero(kinds), "round"), (np.flatnonzero(~kinds), "fibres")]
+    return [_beams(body, body.frame, group, rule, entry, full_scale) for group, rule in groups if len(group)]
+
+
+def is_round(section: Section) -> bool:
+    """Whether a section is a round tube or bar.
+
+    Parameters
+    ----------
+    section : Section
+        Of a beam.
+    """
+    return bool(np.isclose(section.Iy, section.Iz) and np.isclose(section.J, section.Iy + section.Iz))
+
+
+def packed(values: ArrayLike) -> str:
+    """Base64 of the numbers as little-endian float32, row by row.
+
+    Parameters
+    ----------
+    values : array_like
+        Of any shape.
+    """
+    return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode("ascii")
+
+
+def _points(count: int) -> tuple[NDArray[np.int64], dict[str, Any]]:
+    every = -(-count // MOST_POINTS)
+    note = f"one of {every} of the {count} nodes is drawn" if every > 1 else "nodes are drawn"
+    return np.arange(0, count, every), {"note": f"a finite-element model without beams: {note}, stresses are not known"}
+
+
+def _beams(
+    body: ReducedBody, frame: Frame, group: NDArray[np.int64], rule: str, entry: Any, scale: float | None
+) -> dict[str, Any]:
+    beams = [frame.beams[k] for k in group]
+    nodes, ends = np.unique([[beam.i, beam.j] for beam in beams], return_inverse=True)
+    rows = _round_rows(body, frame, group) if rule == "round" else _fibre_rows(body, frame, group)
+    stress = {"rule": rule, "fibres": rows.shape[2], "rows": packed(rows), "unit": "Pa"}
+    strengths = [beam.material.yield_strength for beam in beams]
+    known = [strength for strength in strengths if strength is not None]
+    if len(known) == len(strengths):
+        stress |= {"limit": min(known), "limit_name": "yield strength"}
+    if scale is not None:
+        stress["range"] = scale
+    more = {
+        "beams": ends.reshape(-1, 2).tolist(),
+        "radii": [round(_radius(beam), 6) for beam in beams],
+        "stress": stress,
+    }
+    part: dict[str, Any] = entry(nodes, more)
+    return part
+
+
+def _radius(beam: Beam) -> float:
+    """Half the diameter, or half the side of the square that a box round the fibres has the area of."""
+    half = np.abs(np.array(beam.section.fibres)).max(axis=0)
+    return float(np.sqrt(half[0] * half[1]))
+
+
+def _round_rows(body: ReducedBody, frame: Frame, group: NDArray[np.int64]) -> Array:
+    """Axial stress and two bending stresses per mode, shape (beams, 2, 3, modes)."""
+    forces = body.recovery(section_force_field(frame)).reshape(len(frame.beams), 2, 6, body.n_modes)[group]
+    sections = [frame.beams[k].section for k in group]
+    area, second, radius = np.array([(s.area, s.Iy, s.fibres[0][1]) for s in sections]).T[:, :, None, None]
+    bending = radius / second
+    return np.stack([forces[:, :, 0] / area, forces[:, :, 4] * bending, forces[:, :, 5] * bending], axis=2)
+
+
+def _fibre_rows(body: ReducedBody, frame: Frame, group: NDArray[np.int64]) -> Array:
+    """Stress of each fibre per mode, shape (beams, 2, fibres, modes); a section with fewer fibres repeats its first."""
+    most = max(len(frame.beams[k].section.fibres) for k in group)
+    rows = np.empty((len(group), 2, most, body.n_modes))
+    for number, element in enumerate(group):
+        for end in (0, 1):
+            stress = body.recovery(fibre_stresses(frame, int(element), float(end)))
+            rows[number, end] = stress[[*range(len(stress)), *[0] * (most - len(stress))]]
+    return rows

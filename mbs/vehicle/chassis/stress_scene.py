@@ -1,0 +1,67 @@
+"""The part `flexible` of a car's scene: its frame, deformed and coloured by stress at any fidelity."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mbs.compiler import compile
+from mbs.flexible.recovery import peak_tube_stress, section_force_field
+from mbs.flexible.scene_part import flexible_parts
+from mbs.simulation import Simulation
+from mbs.vehicle.chassis.amplitudes import COMPUTED, amplitude_names
+from mbs.vehicle.fidelity import Fidelity
+
+if TYPE_CHECKING:
+    from mbs.vehicle.car import Car
+
+OVER_REST = 2.0
+"""Colours end at the largest stress of the standing car times this, rounded up: kerbs and lane changes stay below."""
+
+
+def flexible_part(car: Car) -> list[dict[str, Any]]:
+    """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`; empty without a frame.
+
+    Parameters
+    ----------
+    car : Car
+        Of a file. Its chassis is the frame "chassis" of the scene, with the origin at `vehicle.reference_point` and
+        the axes of the car.
+
+    Raises
+    ------
+    ModelError
+        The car has a frame that does not fit it.
+    """
+    if car.chassis.frame is None:
+        return []
+    flexible = car.flexible_frame
+    body, start, full_scale = flexible.drawn, _standing(car), None
+    if body.frame is not None:
+        largest = float(peak_tube_stress(body.frame, body.recovery(section_force_field(body.frame)) @ start).max())
+        full_scale = _rounded_up(OVER_REST * largest) if largest > 0.0 else None
+    return flexible_parts(
+        body,
+        "chassis",
+        amplitude_names(flexible),
+        origin=body.origin - np.array(car.vehicle.reference_point),
+        start=start,
+        computed=COMPUTED,
+        full_scale=full_scale,
+    )
+
+
+def _standing(car: Car) -> np.ndarray:
+    """Amplitudes of the car as it stands at the start."""
+    system = compile(car.model(fidelity=Fidelity.DYNAMIC))
+    names = list(system.meta["coordinates"])
+    state = Simulation(system).state
+    return np.array([state.q[names.index(f"chassis.{mode}")] for mode in car.flexible_frame.drawn.mode_names])
+
+
+def _rounded_up(value: float) -> float:
+    """To one digit and a half: 1, 1.5, 2, 2.5 and so on."""
+    step = 0.5 * 10.0 ** math.floor(math.log10(value))
+    return math.ceil(value / step) * step

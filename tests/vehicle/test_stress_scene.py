@@ -1,0 +1,114 @@
+"""Deformation and stress of a car, computed from its scene and its outputs alone, against the engine's own."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+import mbs.vehicle.car
+from benchmarks.car.stress_picture import motion_of
+from mbs import Simulation, Trajectory, compile
+from mbs.model.flexible import FlexibleBody
+from mbs.scenes import kerb_test, prototype_car
+from mbs.vehicle.chassis.amplitudes import amplitude_outputs
+from mbs.vehicle.chassis.build import stress_outputs
+from mbs.vehicle.chassis.stress_scene import flexible_part
+from tests.scene_numbers import amplitudes, places, rows_of_stress, stress, turned
+
+NODES = ("TFL", "D3c", "S2R", "B3L")
+STRESS = 1e-6  # of the largest: the scene has 24 bits
+PLACE = 1e-9  # m
+
+
+@pytest.fixture(scope="module")
+def part() -> dict[str, Any]:
+    (found,) = json.loads(json.dumps(flexible_part(prototype_car.car())))
+    return dict(found)
+
+
+def kerb_run(fidelity: int, monkeypatch: pytest.MonkeyPatch) -> Trajectory:
+    """Down the kerb with both axles."""
+
+    def outputs(m: Any, mount: Any, flexible: Any, which: Any) -> None:
+        stress_outputs(m, mount, flexible, which)
+        amplitude_outputs(m, mount, flexible)
+        if isinstance(mount.body, FlexibleBody):
+            for node in NODES:
+                for c in "xyz":
+                    m.sense_position(f"node.{node}.{c}", mount.body.interface(node), component=c)
+
+    monkeypatch.setattr(mbs.vehicle.car, "stress_outputs", outputs)
+    return Simulation(compile(kerb_test.build(fidelity))).run(8.9, kerb_test.STEP)
+
+
+def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
+    """Half-bridge on top of a tube, from the bending stresses at both ends of its element."""
+    _, tubes = prototype_car.car().tubular_frame.frame()
+    (found,) = [g for g in prototype_car.car().tubular_frame.strain_gauges(tubes) if g.name == name]
+    y, z = np.array(found.fibre) / np.hypot(*found.fibre)
+    _, about_y, about_z = np.moveaxis(rows_of_stress(part, eta)[:, found.element], -1, 0)
+    ends = z * about_y - y * about_z
+    return np.asarray(2.0 * ((1.0 - found.xi) * ends[:, 0] + found.xi * ends[:, 1]))
+
+
+def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
+    part: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = kerb_run(3, monkeypatch)
+    eta = amplitudes(part, run)
+    frame, _ = prototype_car.car().tubular_frame.frame()
+    motion = motion_of(frame, prototype_car.car().flexible_frame.reduced(3), run.t, eta, 1.0)
+    assert motion.stress.max() > 36e6
+    np.testing.assert_allclose(stress(part, eta), motion.stress, rtol=0, atol=STRESS * motion.stress.max())
+    moved = places(part, eta)
+    drawn = moved + prototype_car.car().vehicle.reference_point
+    np.testing.assert_allclose(drawn, motion.places, rtol=0, atol=PLACE)
+    in_the_earth = turned(run, "chassis", moved)
+    for node in NODES:
+        expected = np.column_stack([run[f"node.{node}.{c}"] for c in "xyz"])
+        found = in_the_earth[:, part["names"].index(node)]
+        np.testing.assert_allclose(found, expected, rtol=0, atol=PLACE, err_msg=node)
+        undeformed = turned(run, "chassis", np.array(part["nodes"])[None, part["names"].index(node)])
+        assert np.abs(undeformed[:, 0] - expected).max() > 1e-4, "the node moves against the frame"
+    for name in ("SG1", "SG2", "SG3", "SG4"):
+        largest = np.abs(run[f"stress.{name}"]).max()
+        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=STRESS * largest)
+
+
+@pytest.mark.parametrize(("fidelity", "tolerance"), [(2, STRESS), (1, 3e-3)])
+def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
+    fidelity: int, tolerance: float, part: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = kerb_run(fidelity, monkeypatch)
+    eta = amplitudes(part, run)
+    assert run["stress.computed"].min() == 1.0
+    for name in ("SG1", "SG2", "SG3", "SG4"):
+        largest = np.abs(run[f"stress.{name}"]).max()
+        assert largest > 4e6
+        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=tolerance * largest)
+
+
+def test_a_rigid_chassis_has_the_same_outputs_and_says_that_nothing_is_computed(
+    part: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = kerb_run(0, monkeypatch)
+    assert part["computed"] == "stress.computed"
+    assert run["stress.computed"].max() == 0.0
+    assert not amplitudes(part, run).any()
+
+
+def test_colours_end_at_twice_the_stress_of_the_standing_car_and_the_yield_strength_is_marked(
+    part: dict[str, Any],
+) -> None:
+    at_rest = stress(part, np.array([part["start"]])).max()
+    assert at_rest == pytest.approx(26.5e6, abs=0.1e6)
+    assert part["stress"]["range"] == 55e6
+    assert part["stress"]["limit"] == 235e6
+
+
+def test_a_car_without_a_frame_has_no_flexible_part() -> None:
+    car = prototype_car.car()
+    assert flexible_part(car.model_copy(update={"chassis": car.chassis.model_copy(update={"frame": None})})) == []
