@@ -196,6 +196,7 @@ class Wheel(Placed):
     width: Positive
     rim: Positive | None = None
     """Radius of the rim, m."""
+    at: Vector = (0.0, 0.0, 0.0)
     axis: Vector = (0.0, 1.0, 0.0)
 
 
@@ -204,6 +205,7 @@ class SteeringWheel(Placed):
 
     kind: Literal["steering_wheel"]
     radius: Positive
+    at: Vector = (0.0, 0.0, 0.0)
     axis: Vector | None = None
 
 
@@ -323,23 +325,13 @@ AnyArrow = Annotated[
 ]
 
 
-class RoadVariables(Part):
-    """Parameters of an FMU that move a road or exchange it."""
-
-    kerb_x: Name | None = None
-    """x of the edge of a kerb, m."""
-    kerb_height: Name | None = None
-    """Its height, m."""
-    file: Name | None = None
-    """File of a road in place of this one; empty: none."""
-
-
 class Road(Part):
     """What all roads have."""
 
-    variables: RoadVariables | None = None
+    variables: dict[Literal["file", "kerb_x", "kerb_height"], Name] | None = None
+    """Parameters of the FMU by what they set; a host applies them before it draws."""
     note: Text | None = None
-    """A sentence on what is not drawn as it is."""
+    """A sentence to be shown."""
 
 
 class FlatRoad(Road):
