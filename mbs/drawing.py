@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -169,13 +170,22 @@ class Drawing:
 
     Parameters
     ----------
-    scene : mapping
-        In the format of `docs/animation.md`.
+    base : mapping
+        The scene in the format of `docs/animation.md`, without what is made late.
     places : Places
+    late : tuple of callable
+        Each makes entries of the scene's ``flexible``, which takes as long as compiling a model and is not always
+        wanted.
     """
 
-    scene: Mapping[str, Any]
+    base: Mapping[str, Any]
     places: Places
+    late: tuple[Callable[[], list[dict[str, Any]]], ...] = ()
+
+    @cached_property
+    def scene(self) -> dict[str, Any]:
+        """The scene."""
+        return {**self.base, "flexible": [*self.base["flexible"], *(part for make in self.late for part in make())]}
 
     def to_bytes(self) -> bytes:
         """The array `drawing` of a System file: JSON, UTF-8."""

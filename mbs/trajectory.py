@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from ali3.files import whole_file
 from mbs.accuracy import Accuracy
 from mbs.checks import shown, whole
 from mbs.control import Control
+from mbs.drawing import Drawing
 from mbs.poses import Poses
 from mbs.run_report import Report
 from mbs.settings import Settings
@@ -56,7 +57,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         How method and steps were chosen, where `simulate` chose them.
     poses : Poses, optional
         Of all bodies.
-    scene : mapping, optional
+    drawing : Drawing, optional
         What `mbs.animate` draws.
     """
 
@@ -74,7 +75,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         branch_change: str = "",
         control: Control | None = None,
         poses: Poses | None = None,
-        scene: Mapping[str, Any] | None = None,
+        drawing: Drawing | None = None,
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
@@ -85,7 +86,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.notices = tuple(notices)
         self.branch_change = branch_change
         self.control = control
-        self.scene = scene
+        self.drawing = drawing
         self._poses = poses
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
@@ -142,7 +143,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         names, units = list(self.units), list(self.units.values())
         rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
         poses = None if self._poses is None else self._poses.thinned(every)
-        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.scene)
+        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.drawing)
 
     @property
     def realtime_factor(self) -> float:

@@ -176,6 +176,7 @@ class Wheel(Placed):
     """A wheel with tyre and rim, about `axis` of its frame."""
 
     kind: Literal["wheel"]
+    at: Vector = (0.0, 0.0, 0.0)
     radius: Positive
     width: Positive
     rim: Positive | None = None
@@ -187,6 +188,7 @@ class SteeringWheel(Placed):
     """A steering wheel, about the axis of its frame."""
 
     kind: Literal["steering_wheel"]
+    at: Vector = (0.0, 0.0, 0.0)
     radius: Positive
     axis: Vector | None = None
 
