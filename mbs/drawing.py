@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
 """Parts of a pose: position, m, and quaternion, scalar first and not negative."""
 POSE_UNITS = ("m", "m", "m", "1", "1", "1", "1")
-_SIZES = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2}
+_SIZES = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2, "pose": 7}
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class BodyPlace:
     ----------
     name : str
         Of the body.
-    kind : {"rigid", "planar", "point", "planar point"}
-        What its full coordinates are: position, then axes.
+    kind : {"rigid", "planar", "point", "planar point", "pose"}
+        What its full coordinates are: position, then axes; or the seven parts of the pose themselves.
     row : int
         First of them.
     columns : sequence of str
@@ -118,6 +118,8 @@ class Places:
     def pose(self, q: Array, body: BodyPlace) -> Array:
         """Positions and quaternions of a body, shape (n, 7), at coordinates (n, nq)."""
         full = self.rows(q, body.row, _SIZES[body.kind])
+        if body.kind == "pose":
+            return full
         found = np.zeros((len(q), 7))
         found[:, 3] = 1.0
         d = 2 if body.kind.startswith("planar") else 3

@@ -13,6 +13,7 @@ from mbs.model.model import Model
 from mbs.shapes.frames import numbers
 
 EDGE = 1e-3  # m, along which the step of a kerb is drawn
+FAR = 1e5  # m, where nobody sees a kerb
 
 
 def base64_of(values: ArrayLike, kind: str = "<f4") -> str:
@@ -48,6 +49,8 @@ def _plane(road: PlaneRoad) -> dict[str, Any]:
 def _kerb(road: KerbRoad) -> dict[str, Any]:
     low, high = float(road.lower_height), float(road.lower_height + road.step)
     before, after = (high, low) if road.upper == "before" else (low, high)
+    if abs(road.position) > FAR:
+        return {"kind": "flat", "height": before if road.position > 0.0 else after}
     return {
         "kind": "profile",
         "stations": [-0.5 * EDGE, 0.5 * EDGE],
