@@ -18,6 +18,9 @@ _VECTORS = (
     (("ax", "ay", "az"), "acceleration"),
     (("Fx", "Fy", "Fz"), "force"),
     (("Mx", "My", "Mz"), "moment"),
+    (("axis_x", "axis_y", "axis_z"), "axis"),
+    (("contact_x", "contact_y", "contact_z"), "contact"),
+    (("normal_x", "normal_y", "normal_z"), "normal"),
 )
 _NUMBERED = re.compile(r"(.+)_(\d+)((?:\.\w+)?)")
 

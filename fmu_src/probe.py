@@ -18,7 +18,7 @@ import mbs
 from fmu_src.parameter_groups import parameter_groups
 from fmu_src.variables import Variable
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
-from mbs.kernel.header import SENSOR_READS, SensorReads, SensorType
+from mbs.kernel.header import SENSOR_READS, ElementType, SensorReads, SensorType
 
 _SEED = 20_261_120
 _INITIAL_TRIES = 6
@@ -30,6 +30,7 @@ _OPEN_RANGE = 10.0
 _SHARES = (1.0, 0.1, 0.01)
 # Types of sensors, see docs/system_file.md.
 _WITH_ORDER, _SECOND = (SensorType.COMPONENT, SensorType.DIRECTION), 2  # second rates need accelerations
+_ON_ROAD = (ElementType.TYRE, ElementType.CONTACT_POINTS)
 _ECHO, _MOTION, _FORCE = "echo", "motion", "force"
 
 
@@ -68,7 +69,7 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
     outputs = [i for i, v in enumerate(table) if v.causality == "output"]
     tries = _Tries(table, outputs)
     for system in systems:
-        tries.system(system, Instance(LoadedSystem(system.to_bytes())))
+        tries.system(system, Instance(LoadedSystem(system.to_bytes(drawing=False))))
     tries.close(systems)
     return Dependencies(
         {i: tuple(sorted(tries.step[i])) for i in outputs},
@@ -132,7 +133,11 @@ class _Tries:
         kind = {i: next(k for k in (_FORCE, _MOTION, _ECHO) if k in found) for i, found in kinds.items()}
         acting = {k for i in self.sensed if kind[i] != _ECHO for k in self.step[i]}
         placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
+        forced = {k for i in self.sensed if kind[i] == _FORCE for k in self.initial[i]}
+        on_road = {i for i in self.sensed if any(_meets_road(system, self.table[i].index) for system in systems)}
         for i in self.outputs:
+            if i in on_road:  # constant on level ground, such as its normal, but not on a kerb that no wheel stands on
+                self.initial[i] |= placed | forced
             if kind.get(i) == _FORCE:
                 self.step[i] |= acting
                 self.initial[i] |= placed if self.initial[i] else set()
@@ -221,6 +226,14 @@ def _kind(system: mbs.System, sensor: int) -> str:
         return _ECHO
     second = kind in _WITH_ORDER and int(system.arrays["sen_int"][first]) == _SECOND
     return _MOTION if reads in (SensorReads.MOTION, SensorReads.SOLVER) and not second else _FORCE
+
+
+def _meets_road(system: mbs.System, sensor: int) -> bool:
+    """Whether a sensor reads an output of an element on a road."""
+    if SensorType(system.arrays["sen_type"][sensor]) != SensorType.ELEMENT_OUTPUT:
+        return False
+    element = int(system.arrays["sen_int"][int(system.arrays["sen_int_ptr"][sensor])])
+    return ElementType(system.arrays["el_type"][element]) in _ON_ROAD
 
 
 def with_nominal(table: Sequence[Variable], reach: Dependencies) -> tuple[Variable, ...]:

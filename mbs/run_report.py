@@ -45,6 +45,10 @@ class Report:
     branch_kind : int
         Of the first one: 1 a loop went through a dead centre, or another position, into a mode that is not its own; 2 a
         step jumped.
+    capped : int
+        Steps that ended at `Settings.step_iterations`.
+    capped_residual : float
+        The largest that one of them left of `residual` or `violation`, m: about as far its positions may be off.
     """
 
     steps: int
@@ -70,6 +74,8 @@ class Report:
     branch_changes: int = 0
     branch_time: float = 0.0
     branch_kind: int = 0
+    capped: int = 0
+    capped_residual: float = 0.0
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:
@@ -87,9 +93,18 @@ class Report:
         size = self.kinetic_peak + self.work
         return abs(self.energy_error) / size if size > 0.0 else 0.0
 
+    @property
+    def capped_text(self) -> str:
+        """A sentence about the steps that ended at `Settings.step_iterations`; empty where none did."""
+        if self.capped == 0:
+            return ""
+        left = f"they left at most {1e3 * self.capped_residual:.2g} mm"
+        return f"{self.capped} of {self.steps} steps ended at the limit of their iterations; {left}."
+
     def __str__(self) -> str:
-        return (
+        text = (
             f"{self.steps} steps, {self.mean_iterations:.2f} Newton iterations each "
             f"(at most {self.max_iterations} a try), {self.factorizations} factorizations, {self.halvings} halvings; "
             f"last step: residual {self.residual:.1e} m, violation {self.violation:.1e} m"
         )
+        return f"{text}; {self.capped_text.rstrip('.')}" if self.capped else text

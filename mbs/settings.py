@@ -12,6 +12,8 @@ UPDATES = tuple(update.name.lower() for update in Update)
 PREDICTORS = tuple(predictor.name.lower() for predictor in Predictor)
 METHODS = {name: method.kernel_fields for name, method in METHOD_TABLE.items()}
 """Names of the methods and what each sets in the kernel."""
+LIMITED = ("ali3p", "ali3p_no_projection", "ali3p_generalised_alpha")
+"""Methods whose steps may be limited to `Settings.step_iterations`."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,10 @@ class Settings:
     predictor : {"parabola", "acceleration"}
         Start value of a step of ALi3-P: accelerations and multipliers of past steps go on along a parabola where they
         are smooth, or the present ones stay, as in the paper. The first needs fewer iterations.
+    step_iterations : int
+        Of ALi3-P and generalised-alpha: most Newton iterations of a step, so that its work is bounded. The iterate that
+        is reached then is accepted as it is, steps are not halved, and `Report.capped` and `Report.capped_residual` say
+        how often and what was left, m. 0, the default: no such limit.
     rho_infinity : float
         Of generalised-alpha: spectral radius at infinite frequency, 0 to 1.
 
@@ -79,6 +85,7 @@ class Settings:
     geometric: bool = True
     method: str = "ali3p"
     predictor: str = "parabola"
+    step_iterations: int = 0
     rho_infinity: float = 0.8
 
     def __post_init__(self) -> None:
@@ -97,7 +104,7 @@ class Settings:
         for name in ("eps_rel", "tolerance_r", "tolerance_phi"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"Setting {name!r} is {getattr(self, name)}; it must be positive.")
-        for name, least, most in (("max_iterations", 1, 1000), ("max_halvings", 0, 16)):
+        for name, least, most in (("max_iterations", 1, 1000), ("max_halvings", 0, 16), ("step_iterations", 0, 1000)):
             value = getattr(self, name)
             object.__setattr__(self, name, whole(value, f"Setting {name!r}", least, most, ValueError))
         for name, words in (("update", UPDATES), ("predictor", PREDICTORS), ("method", tuple(METHODS))):
@@ -106,6 +113,11 @@ class Settings:
                 raise ValueError(
                     f"Setting {name!r} is {shown(value)}; it must be one of {', '.join(map(repr, words))}."
                 )
+        if self.step_iterations > 0 and self.method not in LIMITED:
+            raise ValueError(
+                f"Setting 'step_iterations' is {self.step_iterations} with the method {self.method!r}; "
+                f"only {', '.join(map(repr, LIMITED))} can accept a step that has not converged."
+            )
         if not 0.0 <= self.rho_infinity <= 1.0:
             raise ValueError(f"Setting 'rho_infinity' is {self.rho_infinity}; it must lie between 0 and 1.")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import struct
 import zlib
@@ -15,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ali3.files import whole_file
 from mbs.checks import instance_of
+from mbs.drawing import Drawing
 from mbs.frames import Frames
 from mbs.kernel.header import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS, SYSTEM_VERSION
 from mbs.meta_check import problem_of
@@ -25,6 +27,7 @@ VERSION = SYSTEM_VERSION
 HEADER = struct.Struct("<8sIIQII")
 ENTRY = struct.Struct("<40sIIQQ")
 INT32, FLOAT64, BYTES = 1, 2, 3
+TEXTS = ("meta", "drawing")
 
 FLOATS, INTEGERS, OPTIONAL = frozenset(FLOAT_ARRAYS), frozenset(INTEGER_ARRAYS), frozenset(OPTIONAL_ARRAYS)
 """Names of the arrays; the optional ones may be missing: then nothing is known of assembly modes or of a start in
@@ -46,9 +49,17 @@ class System:
         Names, units and the report.
     frames : Frames or None
         Points and axes of the bodies among the coordinates; None where the System was read from a file.
+    drawing : Drawing or None
+        What is drawn and how the coordinates move it; None where the file had none.
     """
 
-    def __init__(self, arrays: Mapping[str, ArrayLike], meta: Mapping[str, Any], frames: Frames | None = None) -> None:
+    def __init__(
+        self,
+        arrays: Mapping[str, ArrayLike],
+        meta: Mapping[str, Any],
+        frames: Frames | None = None,
+        drawing: Drawing | None = None,
+    ) -> None:
         names = set(arrays)
         if names | OPTIONAL != FLOATS | INTEGERS:
             wrong = sorted((names | OPTIONAL) ^ (FLOATS | INTEGERS))
@@ -60,6 +71,7 @@ class System:
             frozen[name] = values
         self.arrays: Mapping[str, NDArray[Any]] = MappingProxyType(frozen)
         self.frames = frames
+        self.drawing = drawing
         self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
     @property
@@ -93,8 +105,27 @@ class System:
         meta = self.meta
         return system_text(meta["name"], meta["dimension"], meta["report"])
 
-    def to_bytes(self) -> bytes:
+    @property
+    def scene(self) -> dict[str, Any]:
+        """What is drawn: frames, shapes, arrows and roads in the format of `docs/animation.md`; a fresh copy.
+
+        Raises
+        ------
+        ValueError
+            The System comes from a file without a drawing.
+        """
+        if self.drawing is None:
+            raise ValueError(f"The System '{self.name}' carries no drawing; compile its model again.")
+        found: dict[str, Any] = copy.deepcopy(dict(self.drawing.scene))
+        return found
+
+    def to_bytes(self, drawing: bool = True) -> bytes:
         """The System file; equal Systems give equal bytes.
+
+        Parameters
+        ----------
+        drawing : bool
+            Whether with what is drawn, which the kernel does not read.
 
         Returns
         -------
@@ -107,6 +138,9 @@ class System:
             items.append((name, kind, values.astype(values.dtype.newbyteorder("<")).tobytes(), len(values)))
         text = self._meta_text.encode()
         items.append(("meta", BYTES, text, len(text)))
+        if drawing and self.drawing is not None:
+            drawn = self.drawing.to_bytes()
+            items.append(("drawing", BYTES, drawn, len(drawn)))
         offset = HEADER.size + ENTRY.size * len(items)
         directory, data = [], []
         for name, kind, raw, count in items:
@@ -151,7 +185,8 @@ class System:
             problem = problem_of(meta, {name: len(values) for name, values in found.items()})
             if problem:
                 raise SystemFileError(f"The names in the System file were altered: {problem}.")
-            system = cls(found, meta)
+            drawn = found.pop("drawing", None)
+            system = cls(found, meta, None, None if drawn is None else Drawing.from_bytes(drawn, len(found["q0"])))
             str(system)
         except SystemFileError:
             raise
@@ -223,7 +258,7 @@ def _parse(data: bytes) -> dict[str, Any]:
     for k in range(count):
         raw, kind, _, offset, items = ENTRY.unpack_from(data, HEADER.size + k * ENTRY.size)
         name = raw.rstrip(b"\0").decode("ascii", "replace")
-        expected = FLOAT64 if name in FLOATS else INT32 if name in INTEGERS else BYTES if name == "meta" else 0
+        expected = FLOAT64 if name in FLOATS else INT32 if name in INTEGERS else BYTES if name in TEXTS else 0
         if kind != expected or name in found:
             raise SystemFileError(f"The System file holds an unknown, repeated or mistyped array '{name}'.")
         dtype = types[kind]

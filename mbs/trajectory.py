@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from ali3.files import whole_file
 from mbs.accuracy import Accuracy
 from mbs.checks import shown, whole
 from mbs.control import Control
+from mbs.poses import Poses
 from mbs.run_report import Report
 from mbs.settings import Settings
 
@@ -53,6 +54,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
     control : Control, optional
         How method and steps were chosen, where `simulate` chose them.
+    poses : Poses, optional
+        Of all bodies.
+    scene : mapping, optional
+        What `mbs.animate` draws.
     """
 
     def __init__(
@@ -68,6 +73,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         notices: Sequence[str] = (),
         branch_change: str = "",
         control: Control | None = None,
+        poses: Poses | None = None,
+        scene: Mapping[str, Any] | None = None,
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
@@ -78,6 +85,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.notices = tuple(notices)
         self.branch_change = branch_change
         self.control = control
+        self.scene = scene
+        self._poses = poses
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
@@ -91,6 +100,22 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __len__(self) -> int:
         return len(self._columns)
+
+    @property
+    def poses(self) -> Poses:
+        """Poses of all bodies, ``run.poses["rod.x"]``; they have times of their own, `Poses.t`.
+
+        Raises
+        ------
+        ValueError
+            There are none: the System came from a file without a drawing, or the results from one without poses.
+        """
+        if self._poses is None:
+            raise ValueError(
+                "This trajectory has no poses; runs of compiled models have them, and files that "
+                "to_csv(..., poses=True) wrote."
+            )
+        return self._poses
 
     def thinned(self, every: int) -> Trajectory:
         """Every so many samples, the first one among them, with the same report, settings and accuracy.
@@ -116,7 +141,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))
         names, units = list(self.units), list(self.units.values())
         rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
-        return Trajectory(self.t[::every], values[::every], names, units, *rest)
+        poses = None if self._poses is None else self._poses.thinned(every)
+        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.scene)
 
     @property
     def realtime_factor(self) -> float:

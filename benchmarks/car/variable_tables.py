@@ -30,7 +30,8 @@ _WORDS = {
     "stress": "stresses at the gauges, and whether they are computed",
     "used": "inputs after clamping to their ranges",
     "vehicle": "constants: dimensions of the car and of its steering",
-    "wheel": "steer, inclination, spin, travel, forces, aligning moment, slips, deflection, brake torque",
+    "wheel": "steer, inclination, spin, travel, forces, aligning moment, slips, deflection, brake torque; centre, "
+    "axis, angle on the carrier, quaternion of the carrier, contact point and normal of the road",
 }
 
 

@@ -100,7 +100,8 @@ class NativeContents:
     @property
     def resources(self) -> dict[str, bytes]:
         """Systems and roads as they lie in the FMU, and what they were made from."""
-        systems = {f"resources/system_{k}.ali3": system.to_bytes() for k, system in enumerate(self.systems)}
+        contents = [system.to_bytes(drawing=False) for system in self.systems]
+        systems = {f"resources/system_{k}.ali3": content for k, content in enumerate(contents)}
         return systems | road_resources(self.system.meta) | dict(self.origin)
 
     @property

@@ -12,6 +12,7 @@ from mbs.checks import flag, instance_of, is_number, mapping, shown
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
+from mbs.compiler.drawing import drawing
 from mbs.compiler.equilibrium import equilibrium, start_arrays
 from mbs.compiler.extent import coordinate_lengths, model_length, unit_vectors
 from mbs.compiler.flexible import (
@@ -178,14 +179,15 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     length = model_length(model)
     lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [remaining[k] for k in order]), length)
     report["length"], report["length_stated"] = length, model.length is not None
-    system = System(tables, metadata(model, [c.name for c in info], rows, report, lengths), frames)
+    meta = metadata(model, [c.name for c in info], rows, report, lengths)
     if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return system
+        return System(tables, meta, frames, drawing(model, frames.T, z0, q))
     parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
-    q = equilibrium(system, parameters)
-    tables.update(start_arrays(system, parameters))
+    resting = System(tables, meta, frames)
+    q = equilibrium(resting, parameters)
+    tables.update(start_arrays(resting, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return System(tables, system.meta, frames)
+    return System(tables, meta, frames, drawing(model, frames.T, z0, q))
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

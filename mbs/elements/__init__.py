@@ -14,6 +14,7 @@ from mbs.elements.lift import Lift
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.elements.spin_angle import SpinAngle
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.spring_damper_table import SpringDamperTable
@@ -42,6 +43,7 @@ __all__ = [
     "PlaneRoad",
     "Road",
     "ScalarSpringDamper",
+    "SpinAngle",
     "SpinTorque",
     "SpringDamper",
     "SpringDamperTable",

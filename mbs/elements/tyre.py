@@ -143,10 +143,19 @@ class Tyre:
                 Output("slip_angle", "rad", "direction of travel from the wheel's heading, positive to the left"),
                 Output("deflection", "m", "radial deflection"),
                 Output("loaded_radius", "m", "distance of the contact patch from the centre"),
-                Output("contact_x", "m", "contact point, earth axes"),
-                Output("contact_y", "m", "contact point, earth axes"),
-                Output("contact_z", "m", "contact point, earth axes"),
+                *(
+                    Output(
+                        f"contact_{c}",
+                        "m",
+                        f"{c} of the contact point, earth; in the air of the road's nearest point in the wheel plane",
+                    )
+                    for c in "xyz"
+                ),
                 Output("inclination", "rad", "of the wheel plane from the road's normal, positive with the top right"),
+                *(
+                    Output(f"normal_{c}", "1", f"{c} of the road's unit normal at the contact point, earth, upwards")
+                    for c in "xyz"
+                ),
             ),
             tuple(key for key, _ in named),
             tuple(_check_of(key) for key, _ in named),

@@ -407,6 +407,7 @@ class ElementType(IntEnum):
     LIFT = 15
     COORDINATE_FRICTION = 16
     TORSION_BAR = 17
+    SPIN_ANGLE = 18
 
 
 class SettingsFields(Structure):
@@ -425,6 +426,7 @@ class SettingsFields(Structure):
         ("geometric", c_int32),
         ("method", c_int32),
         ("predictor", c_int32),
+        ("step_iterations", c_int32),
     )
 
 
@@ -462,6 +464,8 @@ class ReportFields(Structure):
         ("branch_kind", c_int32),
         ("branch_loop", c_int32),
         ("branch_triad", c_int32),
+        ("capped", c_int64),
+        ("capped_residual", c_double),
     )
 
 

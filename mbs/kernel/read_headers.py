@@ -201,7 +201,13 @@ def header() -> str:
     for kind, names_of in kinds.items():
         arrays = [name for of_kind, _, name in required + optional if of_kind == kind]
         parts.append(_names(names_of, arrays, f"Arrays of a System of type {kind}."))
-    parts.append(_names("OPTIONAL_ARRAYS", [name for _, _, name in optional], "Those that a System need not have."))
+    parts.append(
+        _names(
+            "OPTIONAL_ARRAYS",
+            [name for of_kind, _, name in optional if of_kind in kinds],
+            "Those that a System need not have.",
+        )
+    )
     for name, (file, first, prefix, text) in ENUMERATIONS.items():
         values = (f"{item} = {value}" for item, value in enumeration(file, first, prefix).items())
         parts.append(_class(name, "IntEnum", text, values))

@@ -25,6 +25,7 @@ from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import Parameter, Target, new_parameter
+from mbs.model.shapes import ShapeVocabulary
 from mbs.model.slide import SlidingPoint
 from mbs.model.spin import Spin, spin
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
@@ -38,6 +39,7 @@ class Model(
     ForceSensorVocabulary,
     JointSensorVocabulary,
     ChannelSensorVocabulary,
+    ShapeVocabulary,
 ):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 
@@ -66,6 +68,8 @@ class Model(
         Set it to start in the static equilibrium instead of as drawn.
     stop_time, step : float
         What an FMU of the System proposes as its stop time and its step, s.
+    default_shapes : bool
+        Set it to False to draw nothing but what `shape` says.
 
     Raises
     ------

@@ -7,11 +7,13 @@ from numpy.typing import ArrayLike
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import number, shown
+from mbs.elements.spin_angle import SpinAngle
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
 from mbs.model.core import Coordinate
 from mbs.model.sensors import RATE_UNITS, SIGNALS, Sensor, SensorBase, component_number, order_number, spatial
+from mbs.model.spin import Spin
 
 
 class MotionSensorVocabulary(SensorBase):
@@ -214,6 +216,45 @@ class MotionSensorVocabulary(SensorBase):
         unit = self._unit(unit, RATE_UNITS[coordinate.unit][k] if isinstance(coordinate, Coordinate) else "1")
         factor = number(scale, f"The scale of sensor '{name}'")
         return self._sense(name, unit, description, SIGNALS[k], [expression], reals=[factor], display_unit=display_unit)
+
+    def sense_spin_angle(self, name: str, spin: Spin, unit: str = "rad", description: str = "") -> Sensor:
+        """Angle by which a wheel of `Model.spin` has turned on its carrier since the start, rad, not wrapped.
+
+        0 at the start, positive as the rate of the spin counts. The wheel is oriented like its carrier after a turn by
+        the angle about the axis. The coordinate of the spin is not that angle: its rate is the absolute one. The first
+        call for a spin adds an element without force, whose states sum the angle over the steps; methods for Systems
+        without states then do not apply.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the sensors.
+        spin : Spin
+            Of this model.
+        unit, description : str
+            For files, plots and hosts.
+
+        Returns
+        -------
+        Sensor
+            As it stands in the System.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, or the spin is not one of this model.
+        """
+        if not isinstance(spin, Spin):
+            raise ModelError(f"The sensor '{name}' needs a spin, got {shown(spin)}.")
+        self.owned_coordinate(spin, f"The sensor '{name}'")
+        element = f"{spin.name}.angle"
+        known = [record.name for record in self.elements]
+        if element not in known:
+            self.add(SpinAngle().record(element, spin.f, spin.g, spin.affine))
+            known.append(element)
+        return self._sense(
+            name, unit, description, SensorType.ELEMENT_OUTPUT, integers=[known.index(element), 0], reals=[1.0]
+        )
 
     def sense_norm(
         self, name: str, vector: AffineVector, order: int = 0, unit: str = "", description: str = ""

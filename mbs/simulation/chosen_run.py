@@ -23,6 +23,7 @@ from mbs.simulation.arguments import check_end, check_record, count_steps
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.march import notices_of
 from mbs.simulation.method_choice import choose
+from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.refusal import refusal
 from mbs.simulation.step_choice import StepChoice, choose_step
@@ -63,7 +64,8 @@ def to_tolerance(
     first = start()
     t0, t_end = float(times[0]), float(times[-1])
     if t_end <= t0:
-        return _trajectory(first, times, np.array([list(first.instance.sensors())]), None, 0.0, settings)
+        values = np.array([list(first.instance.sensors())])
+        return _trajectory(first, times, values, None, 0.0, settings, first.state.q[None])
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, inputs)
@@ -111,8 +113,10 @@ def to_tolerance(
     for t, q in zip(run.task.times, run.positions, strict=True):
         run.simulation.bending.look(float(t), np.asarray(q))
     run.simulation.bending.warn(stacklevel=4)
-    values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(grid, times[1:])]])
-    return _trajectory(run.simulation, times, values, control, wall, run.settings)
+    recorded = np.searchsorted(grid, times[1:])
+    values = np.vstack([list(first.instance.sensors()), run.values[recorded]])
+    positions = np.vstack([first.state.q, run.positions[recorded]])
+    return _trajectory(run.simulation, times, values, control, wall, run.settings, positions)
 
 
 def equal_steps(
@@ -195,8 +199,10 @@ def _whole(
 def _so_far(run: ControlledRun, times: Array, first: Simulation) -> Trajectory:
     done = run.task.times[: run.done]
     good = times[1:][times[1:] <= (done[-1] if len(done) else run.task.t0)]
-    values = np.vstack([list(first.instance.sensors()), run.values[np.searchsorted(run.task.times, good)]])
-    return _trajectory(run.simulation, times[: len(good) + 1], values, None, run.wall, run.settings)
+    recorded = np.searchsorted(run.task.times, good)
+    values = np.vstack([list(first.instance.sensors()), run.values[recorded]])
+    positions = np.vstack([first.state.q, run.positions[recorded]])
+    return _trajectory(run.simulation, times[: len(good) + 1], values, None, run.wall, run.settings, positions)
 
 
 def _run_at(run: ControlledRun, wanted: float) -> str:
@@ -243,11 +249,21 @@ def _warn(control: Control) -> None:
 
 
 def _trajectory(
-    ended: Simulation, times: Array, values: Array, control: Control | None, wall: float, settings: Settings
+    ended: Simulation,
+    times: Array,
+    values: Array,
+    control: Control | None,
+    wall: float,
+    settings: Settings,
+    positions: Array,
 ) -> Trajectory:
     sensors = prepared(ended.system)[1]["sensors"]
     names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
     notices = notices_of(ended.system, times, values)
+    record = PositionRecord(ended.system, positions[0], len(times))
+    record.fill(positions)
+    scene = None if record.drawing is None else record.drawing.scene
     return Trajectory(
-        times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control
-    )
+        times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control,
+        record.poses(times), scene,
+    )  # fmt: skip

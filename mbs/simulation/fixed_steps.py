@@ -35,11 +35,12 @@ def fixed_step_run(
     def march_from_start(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
         simulation = start(step)
         made.append(simulation)
-        return march(simulation, t_end, step, inputs, every, progress, look)
+        return march(simulation, t_end, step, inputs, every, progress, look, wanted)
 
     checked = estimate_error is not False
     look = checked and not accuracy.has_motion_sensor(system)
     often = accuracy.recorded_every(every, count_steps(t0, t_end, h)) if checked else every
+    wanted = every // often
     try:
         with progress_for(progress) as bar:
             first = 1.0 / 3.0 if estimate_error else 1.0

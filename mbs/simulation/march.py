@@ -23,6 +23,7 @@ from mbs.simulation.arguments import (
     check_values,
     count_steps,
 )
+from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
 from mbs.system import System
@@ -43,8 +44,9 @@ def march(
     every: int,
     progress: bool | Callable[[float], None] | None,
     look: bool = False,
+    wanted: int = 1,
 ) -> tuple[Trajectory, list[Array]]:
-    """The steps of `Simulation.run`.
+    """The steps of `Simulation.run`; poses are kept of one of `wanted` samples at most.
 
     Returns
     -------
@@ -64,24 +66,29 @@ def march(
     instants = [int(k) * every for k in accuracy.instants(len(values))]
     looks = instants if look or simulation.bending.watches else []
     seen = [simulation.state.q] if look else []
+    record = PositionRecord(simulation.system, simulation.state.q, len(values), wanted)
     done, wall, chunk, before = 0, 0.0, every, simulation.report
     with progress_for(progress) as bar, _inputs(simulation, signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
         while done < steps:
             ahead = [k - done for k in looks if k > done]
             n = min(chunk, steps - done, *ahead[:1])
             table = table_of(t0 + h * np.arange(done + 1, done + n + 1, dtype=float))
-            part = values[done // every + 1 : (done + n) // every + 1]
+            row = done // every + 1
+            part = values[row : (done + n) // every + 1]
+            places = record.rows(row, len(part))
             begin = time.perf_counter()
             try:
-                instance.run(h, n, table, every, part)
+                instance.run(h, n, table, every, part, places)
             except KernelError as error:
                 good = round((simulation.time - t0) / h) // every + 1
                 wall += time.perf_counter() - begin
-                recorded = _trajectory(simulation, t0, h * every, values[:good], wall, before)
+                record.take(row, places)
+                recorded = _trajectory(simulation, t0, h * every, values[:good], wall, before, record)
                 what = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
                 raise refusal(simulation, what, error, recorded) from error
             spent = time.perf_counter() - begin
             wall += spent
+            record.take(row, places)
             done += n
             if ahead and n == ahead[0]:
                 q = simulation.state.q
@@ -90,7 +97,7 @@ def march(
                     seen.append(q)
             bar.update(done / steps)
             chunk = _next_chunk(chunk, spent, every)
-    return _trajectory(simulation, t0, h * every, values, wall, before), seen
+    return _trajectory(simulation, t0, h * every, values, wall, before, record), seen
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
@@ -139,7 +146,13 @@ def _input_table(simulation: Simulation, signals: InputSignals, t: Array, tolera
 
 
 def _trajectory(
-    simulation: Simulation, t0: float, interval: float, values: Array, wall: float, before: Report
+    simulation: Simulation,
+    t0: float,
+    interval: float,
+    values: Array,
+    wall: float,
+    before: Report,
+    record: PositionRecord,
 ) -> Trajectory:
     """What was recorded, with the counters since `before`."""
     sensors, report = prepared(simulation.system)[1]["sensors"], simulation.report
@@ -153,8 +166,10 @@ def _trajectory(
         simulation.settings,
         wall,
         accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
-        notices=notices_of(simulation.system, t, values),
+        notices=[*notices_of(simulation.system, t, values), *filter(None, [report.capped_text])],
         branch_change=simulation.branch_change,
+        poses=record.poses(t),
+        scene=None if record.drawing is None else record.drawing.scene,
     )
 
 

@@ -104,7 +104,8 @@ def simulate(
     Raises
     ------
     ArgumentTypeError, ValueError
-        An argument is not what it must be, such as a Model in place of a System, or a step longer than the run.
+        An argument is not what it must be, such as a Model in place of a System, a step longer than the run, or a
+        tolerance with `Settings.step_iterations`.
     SimulationError
         When a step fails; its `trajectory` holds what was recorded.
 
@@ -131,6 +132,11 @@ def simulate(
         raise ValueError("times need a tolerance: equal steps are recorded where they end.")
     wanted = None if tolerance is None else checked_tolerance(tolerance)
     settings = check_settings(settings)
+    if wanted is not None and settings.step_iterations > 0:
+        raise ValueError(
+            f"step_iterations = {settings.step_iterations} with a tolerance: steps that are accepted as they are keep "
+            "none; give a step h, or leave the limit out."
+        )
     check_values(parameters, "The parameters")
     named = method is not None or settings.method != Settings().method
     chosen = method if method is not None else settings.method if named or wanted is None else "auto"

@@ -37,7 +37,7 @@ from mbs.vehicle.drives import Drive
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 from mbs.vehicle.names import CarName, Name, Text
-from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, work_outputs
+from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, wheel_poses, work_outputs
 from mbs.vehicle.payload import Payload
 from mbs.vehicle.quantities import Length, Mass, Point
 from mbs.vehicle.road import RoadSection, level_within
@@ -342,3 +342,5 @@ class Car(Section):
         work_outputs(m)
         vehicle_constants(b)
         steered.torque_outputs()
+        for name, spin in spins.items():
+            wheel_poses(b, spin, name)

@@ -143,6 +143,44 @@ def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
     m.sense_element(f"spring_{w}.force", f"spring {w}", "force")
 
 
+def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
+    """Where one wheel and its carrier are and how they are turned, and where the wheel meets the road.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The car so far.
+    spin : Spin
+        Of the wheel.
+    w : str
+        Its name.
+    """
+    m = b.m
+    for k, c in enumerate("xyz"):
+        text = f"{c} of the centre of the wheel, earth"
+        m.sense_coordinate(f"wheel_{w}.{c}", spin.centre[k], unit="m", description=text)
+    for k, c in enumerate("xyz"):
+        text = f"{c} of the spin axis, earth; the unit vector points to the left"
+        m.sense_coordinate(f"wheel_{w}.axis_{c}", spin.axis[k], unit="1", description=text)
+    m.sense_spin_angle(
+        f"wheel_{w}.angle",
+        spin,
+        description="angle by which the wheel has turned on its carrier since the start, about its axis, so positive "
+        "forward; not wrapped",
+    )
+    for c in "wxyz":
+        m.sense_quaternion(
+            f"wheel_{w}.q{c}",
+            spin.carrier,
+            c,
+            description=f"q{c} of the orientation of the wheel's carrier, which does not spin, scalar first (qw), from "
+            "drawing to earth axes",
+        )
+    for name in ("contact", "normal"):
+        for c in "xyz":
+            m.sense_element(f"wheel_{w}.{name}_{c}", f"tyre {w}", f"{name}_{c}")
+
+
 WORKS = {  # what works on the car: first words of the names of its elements, description
     "drive": (("drive",), "the drive on the car"),
     "brakes": (("brake ",), "the brakes"),

@@ -113,4 +113,4 @@ def test_damaged_names_are_refused(data):
 
 
 def test_the_file_has_the_arrays_of_its_description(data):
-    assert set(directory(data)) == FLOATS | INTEGERS | {"meta"}
+    assert set(directory(data)) == FLOATS | INTEGERS | {"meta", "drawing"}

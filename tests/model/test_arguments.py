@@ -228,6 +228,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "sense_pitch": lambda b: seen(b, body=b.arm),
     "sense_roll": lambda b: seen(b, body=b.arm),
     "sense_quaternion": lambda b: seen(b, body=b.arm, component="w"),
+    "sense_spin_angle": lambda b: seen(b, spin=b.wheel),
     "sense_norm": lambda b: seen(b, vector=b.arm.point(X), order=1),
     "sense_direction": lambda b: seen(b, point=b.arm.point(X), axis_1=b.arm.vector(X), axis_2=b.arm.vector(Y), order=1),
     "sense_angle_between": lambda b: seen(b, a=b.arm.vector(X), b=b.box.vector(X), c=b.box.vector(Z)),

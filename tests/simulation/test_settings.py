@@ -22,6 +22,7 @@ from tests.simulation.scenes import pendulum
         ("max_iterations", 0, "'max_iterations' is 0; it must be a whole number from 1 to 1000"),
         ("max_iterations", 2.5, "'max_iterations' is 2.5; it must be a whole number from 1 to 1000"),
         ("max_halvings", -1, "'max_halvings' is -1; it must be a whole number from 0 to 16"),
+        ("step_iterations", -1, "'step_iterations' is -1; it must be a whole number from 0 to 1000"),
         ("alpha", "1", "'alpha' is '1'; it must be a finite number"),
         ("rho_infinity", None, "'rho_infinity' is None; it must be a finite number"),
         ("project", "no", "'project' is 'no'; it must be True or False"),
@@ -57,8 +58,9 @@ def test_every_field_reaches_the_kernel():
         project=False,
         update="paper",
         geometric=False,
-        method="energy_momentum",
+        method="ali3p_generalised_alpha",
         predictor="acceleration",
+        step_iterations=4,
         rho_infinity=0.5,
     )
     changed = other.kernel_fields()

@@ -70,7 +70,7 @@ static ali3_status advance(slave *s, int64_t n, double h) {
   ali3_status status = apply_pending(s);
   if (status != ALI3_OK) return status;
   if (!any_slope(s))
-    return n == 1 ? ali3_step(s->fidelity.kernel, h) : ali3_run(s->fidelity.kernel, h, n, NULL, 1, NULL, NULL);
+    return n == 1 ? ali3_step(s->fidelity.kernel, h) : ali3_run(s->fidelity.kernel, h, n, NULL, 1, NULL, NULL, NULL);
   for (int64_t k = 0; k < n && status == ALI3_OK; k++) {
     status = follow_slopes(s, (double)(k + 1) * h);
     if (status == ALI3_OK) status = ali3_step(s->fidelity.kernel, h);

@@ -227,7 +227,7 @@ class Instance:
         if status:
             self._check(status)
 
-    def run(self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None) -> int:
+    def run(self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None, positions: Any = None) -> int:
         """`n` steps of `h` seconds.
 
         Parameters
@@ -242,6 +242,8 @@ class Instance:
             Sensors are recorded after every so many steps.
         out : writable buffer of float64, shape (n // every, ns), optional
             Takes the sensor values.
+        positions : writable buffer of float64, shape (n // every, nq), optional
+            Takes the coordinates at the same states.
 
         Returns
         -------
@@ -251,8 +253,9 @@ class Instance:
         sizes = self.system.sizes
         given = buffer(inputs, n * sizes.nu, "inputs", writable=False)
         taken = buffer(out, n // every * sizes.ns if every > 0 else 0, "out", writable=True)
+        places = buffer(positions, n // every * sizes.nq if every > 0 else 0, "positions", writable=True)
         done = c_int64()
-        self._check(self._library.ali3_run(self._handle, h, n, given, every, taken, byref(done)))
+        self._check(self._library.ali3_run(self._handle, h, n, given, every, taken, places, byref(done)))
         return done.value
 
     def control_run(

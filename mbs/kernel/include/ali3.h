@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 4
+#define ALI3_STATE_VERSION 5
 
 typedef enum {
   ALI3_OK = 0,
@@ -87,6 +87,8 @@ typedef struct {
   int32_t geometric; /* 1: exact geometric term sum lam_k H_k in the tangent */
   int32_t method; /* ALI3_METHOD_* */
   int32_t predictor; /* ALI3_PREDICTOR_*: start value of a step of ALi3-P */
+  int32_t step_iterations; /* of ALi3-P and generalised-alpha: most iterations of a step, whose iterate is then accepted
+                              as it is; 0: no such limit */
 } ali3_settings;
 
 typedef struct {
@@ -110,6 +112,8 @@ typedef struct {
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
+  int64_t capped; /* steps that ended at settings.step_iterations */
+  double capped_residual; /* the largest they left: max |r_i|/m_i or max |Phi|, m */
 } ali3_report;
 
 enum { ALI3_BRANCH_NONE = 0, ALI3_BRANCH_LEFT, ALI3_BRANCH_JUMP }; /* ali3_report.branch_kind */
@@ -205,9 +209,10 @@ ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
 ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
 /* steps: inputs is (n_steps x nu) row major, one row per step, or NULL (keep); every k-th state's sensors go to out
-   (n_steps/every x ns). *done is the number of accepted steps. */
+   (n_steps/every x ns), its coordinates to positions (n_steps/every x nq) unless they are NULL. *done is the number of
+   accepted steps. */
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
-                              double *out, int64_t *done);
+                              double *out, double *positions, int64_t *done);
 /* Steps of any length by step doubling, so that their errors add up to the tolerance over the span (error per unit
  * step). Errors of positions are in parts of `length`, those of velocities in parts of length * rate or of the present
  * speed. What is given comes first; the counts start at 0 and go on from call to call. */

@@ -52,6 +52,8 @@ struct ali3_instance {
   ali3_vectors now, next, start, whole, direction;
   ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
   ali3_rule rule;
+  bool capped; /* the present step ends at settings.step_iterations, */
+  double capped_residual; /* and leaves this, m */
   bool backed_up; /* in->start holds the state before the step */
   bool discrete, unobserved; /* forces by discrete gradients; the state of this step will not be read */
   bool sampled; /* only sensors will read it */

@@ -7,9 +7,10 @@
 
 /* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
  * is known of assembly modes or of a start in equilibrium, no guide has two inputs, all parameters are tunable and
- * without offset, and there are no payloads. */
+ * without offset, and there are no payloads. `drawing` is for those who draw: the kernel does not read it. */
 /* clang-format off */
 #define ALI3_OPTIONAL_ARRAYS(X) \
+  X(unsigned char, 3, drawing) \
   X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
   X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
   X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(double, 2, static_q) \

@@ -18,6 +18,7 @@ from mbs.model.reactions import Turning
 if TYPE_CHECKING:
     from mbs.model.body import Body
     from mbs.model.ends import PointPair
+    from mbs.model.spin import Spin
     from mbs.model.switches import Switch
 
 FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
@@ -105,6 +106,26 @@ class JointEnds:
     rod: bool = False
 
 
+@dataclass(frozen=True)
+class RollingBody:
+    """A body that rolls on a level plane as a wheel: its centre and axis as drawn."""
+
+    radius: float
+    level: float
+    body: Body
+    centre: Vector
+    axis: Vector
+
+
+@dataclass(frozen=True)
+class RollingSpin:
+    """A spin that rolls on a level plane."""
+
+    radius: float
+    level: float
+    spin: Spin
+
+
 class Joint:
     """A constraint of the model.
 
@@ -131,6 +152,8 @@ class Joint:
         Of a relative angle.
     ends : JointEnds or None
         Of joints that can be part of a closed loop.
+    rolls : RollingBody, RollingSpin or None
+        Of a wheel that rolls.
     """
 
     def __init__(
@@ -157,6 +180,7 @@ class Joint:
         self.switch: Switch | None = None
         self.ends: JointEnds | None = None
         self.drawing: Drawing | None = None
+        self.rolls: RollingBody | RollingSpin | None = None
 
     @property
     def turns(self) -> bool:

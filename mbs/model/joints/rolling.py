@@ -23,7 +23,7 @@ from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.equation import Equation
-from mbs.model.joints.joint import Joint
+from mbs.model.joints.joint import Joint, RollingBody, RollingSpin
 from mbs.model.perpendicular import perpendicular
 from mbs.model.spin import Spin
 from mbs.model.switches import new_switch
@@ -75,7 +75,12 @@ def rolling(
         equations += [
             Equation(name, "roll", rates=[(1.0 / R, height, c[i]), (-R, f[2], f[i]), (-R, g[2], g[i])]) for i in (0, 1)
         ]
-    return Joint(name, "rolling", equations)
+    joint = Joint(name, "rolling", equations)
+    if isinstance(wheel, Spin):
+        joint.rolls = RollingSpin(R, z, wheel)
+    else:
+        joint.rolls = RollingBody(R, z, body, _at_reference(model, c), _at_reference(model, n))
+    return joint
 
 
 def skate(

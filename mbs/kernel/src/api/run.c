@@ -1,4 +1,5 @@
 /* The calls of ali3.h around the algorithms: start, step, run; the clock; what a refused call leaves behind. */
+#include <math.h>
 #include <string.h>
 
 #include "../algebra/finite.h"
@@ -68,6 +69,8 @@ static ali3_status step(ali3_instance *in, double h) {
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const ali3_report before = in->report;
   ali3_roads_forgive(in);
+  in->capped = false;
+  in->capped_residual = 0.0;
   in->backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
   in->t_now = ali3_time(in);
   ali3_branch_before(in);
@@ -82,6 +85,10 @@ static ali3_status step(ali3_instance *in, double h) {
     return status;
   }
   in->report.steps++;
+  if (in->capped) {
+    in->report.capped++;
+    in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);
+  }
   in->t_base = t_base;
   in->h_last = h;
   in->count = count;
@@ -107,11 +114,17 @@ static ali3_status give_up(ali3_instance *in, ali3_status status, bool unobserve
   return status;
 }
 
+static void record(const ali3_instance *in, int64_t row, double *out, double *positions) {
+  const ali3_sizes *size = &in->system->size;
+  if (out != NULL) ali3_sensors_evaluate(in, out + row * size->ns);
+  if (positions != NULL) memcpy(positions + row * size->nq, in->now.q, (size_t)size->nq * sizeof *positions);
+}
+
 ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every, double *out,
-                     int64_t *done) {
+                     double *positions, int64_t *done) {
   if (done != NULL) *done = 0;
   if (in == NULL || n_steps < 0 || every < 1 || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
-  const int32_t nu = in->system->size.nu, ns = in->system->size.ns;
+  const int32_t nu = in->system->size.nu;
   const ali3_status method = ali3_check_method(in);
   if (method != ALI3_OK) return method;
   bool unobserved = false, sampled = false; /* the last good step */
@@ -121,7 +134,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
         const ali3_status status = ali3_set_input(in, i, inputs[n * nu + i]);
         if (status != ALI3_OK) return give_up(in, status, unobserved, sampled);
       }
-    const bool recorded = out != NULL && (n + 1) % every == 0;
+    const bool recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
     in->unobserved = !recorded && n + 1 < n_steps;
     in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h);
@@ -129,7 +142,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
     unobserved = in->unobserved;
     sampled = in->sampled;
     if (done != NULL) *done = n + 1;
-    if (recorded) ali3_sensors_evaluate(in, out + ((n + 1) / every - 1) * ns);
+    if (recorded) record(in, (n + 1) / every - 1, out, positions);
   }
   return ALI3_OK;
 }

@@ -22,6 +22,7 @@
   X(14, spring_damper_table) \
   X(15, lift) \
   X(16, coordinate_friction) \
-  X(17, torsion_bar)
+  X(17, torsion_bar) \
+  X(18, spin_angle)
 /* clang-format on */
 #endif

@@ -4,7 +4,8 @@
  * Signals: wheel centre r (3), unit spin axis e pointing left (3), chi with chi' = Omega the absolute rate about e
  * (> 0 rolling forward).
  * Integers: road. States: carcass deflections x, y and their rates. Outputs: Fx, Fy, Fz, Mz, slip, slip angle,
- * deflection, loaded radius, contact point (3), inclination.
+ * deflection, loaded radius, contact point (3), inclination, normal of the road there (3). Of two contacts these are the
+ * means by load; in the air they are the point of the road that is nearest within the wheel plane, and its normal.
  *
  * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the
  * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power
@@ -44,7 +45,8 @@ enum {
   FRICTION_FACTOR,
   REALS
 };
-enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, INCLINATION = CONTACT_X + 3, OUTPUTS };
+enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, INCLINATION = CONTACT_X + 3, NORMAL_X };
+enum { OUTPUTS = NORMAL_X + 3 };
 
 #define TOUCH_DEPTH 0.005 /* m, over which the radial damping sets in */
 #define SLOW_SPEED 1e-5 /* m/s, added to the transport speed; small so that a parked car creeps by micrometres only */
@@ -56,6 +58,7 @@ enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, I
 typedef struct {
   double load, friction; /* sums or load-weighted means of the contacts */
   double normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
+  double near_normal[3], near_rho[3]; /* of the nearest contact, also in the air */
 } patch;
 
 /* Radial forces of all contacts: adds to f, S and potential, returns the mean patch. */
@@ -63,6 +66,7 @@ static patch radial(ali3_element_args *a, const double e[3]) {
   const double *p = a->real;
   ali3_contact contact[2];
   patch mean = {0};
+  double deepest = -INFINITY;
   const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, p[RADIUS], contact);
   for (int k = 0; k < count; k++) {
     const ali3_contact *c = &contact[k];
@@ -73,7 +77,11 @@ static patch radial(ali3_element_args *a, const double e[3]) {
       b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth */
       b[3 + i] = -lean * rho[i] / c->cosine * c->leaning;
     }
-    if (k == 0) { /* what a wheel in the air reports */
+    if (depth > deepest) {
+      deepest = depth;
+      for (int i = 0; i < 3; i++) mean.near_normal[i] = c->normal[i], mean.near_rho[i] = rho[i];
+    }
+    if (k == 0) { /* what slips of a wheel in the air refer to */
       mean.friction = c->friction;
       for (int i = 0; i < 3; i++) mean.normal[i] = c->normal[i], mean.rho[i] = rho[i];
     }
@@ -240,7 +248,8 @@ static void evaluate(ali3_element_args *a) {
   const double slip = -v[0] / fastest, slip_angle = ali3_atan2(v[1], ali3_hypot(travel[0], 0.01));
   const double out[] = {F[0], F[1], contact.load, moment, slip, slip_angle, deflection, p[RADIUS] - deflection};
   for (int i = 0; i < CONTACT_X; i++) a->out[i] = out[i];
-  for (int i = 0; i < 3; i++) a->out[CONTACT_X + i] = a->u[i] + rho[i];
+  const double *at = contact.load > 0.0 ? rho : contact.near_rho, *up = contact.load > 0.0 ? n : contact.near_normal;
+  for (int i = 0; i < 3; i++) a->out[CONTACT_X + i] = a->u[i] + at[i], a->out[NORMAL_X + i] = up[i];
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, n), upright);
 }
 

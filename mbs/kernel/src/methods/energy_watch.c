@@ -62,7 +62,9 @@ ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double 
     size += 0.5 * (h * h * in->Q[i] * in->Q[i] * in->mass_floor_inverse[i] + left * left * in->mass_floor[i]);
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
   const bool driven = S->n_gterm_row > 0; /* a guide whose rate jumps adds energy instantly */
-  if (!driven && !(worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size)) return ALI3_UNRESOLVED;
+  const bool resolved = driven || worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size;
+  if (!resolved && in->settings.step_iterations == 0) return ALI3_UNRESOLVED;
+  in->capped |= !resolved; /* no halves: the balance and the count say it */
   ali3_balance_energy(in, error, end);
   in->report.open_power = open;
   return ALI3_OK;

@@ -5,7 +5,6 @@
 #include "../rows/violation.h"
 #include "newton.h"
 
-static const double LOST = 1.0; /* m or so: rows this far open belong to an iteration that diverged */
 static const double MOST_STIFF = 100.0; /* a higher penalty would only bring round-off */
 
 /* The rows are mass-normalised, so alpha is a squared frequency and alpha h^2 a pure number. Where flexible bodies
@@ -35,7 +34,7 @@ bool ali3_judge(ali3_instance *in, const double *r) {
 
 /* A correction could not be computed; where the iterates are far from the rows the tangent is not the cause. */
 ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status) {
-  return status == ALI3_SINGULAR && in->report.violation > LOST ? ALI3_NOT_CONVERGED : status;
+  return status == ALI3_SINGULAR && in->report.violation > ALI3_LOST ? ALI3_NOT_CONVERGED : status;
 }
 
 /* One step has made its iterations; `before` it there were so many. */

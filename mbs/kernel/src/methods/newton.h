@@ -3,6 +3,8 @@
 #define ALI3_NEWTON_H
 #include "../instance.h"
 
+#define ALI3_LOST 1.0 /* m or so: rows this far open belong to an iteration that diverged */
+
 double ali3_penalty(const ali3_instance *in, double h);
 bool ali3_judge(ali3_instance *in, const double *r);
 ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status);

@@ -91,11 +91,23 @@ static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration) {
   return ALI3_OK;
 }
 
-static ali3_status newton(ali3_instance *in, double h, double alpha) {
+/* The last iterate is as good as the limit lets it be; one that is far from the rows is none. */
+static ali3_status capped(ali3_instance *in) {
+  const double left = fmax(in->report.residual, in->report.violation);
+  if (left > ALI3_LOST) return ALI3_NOT_CONVERGED;
+  in->capped = true;
+  in->capped_residual = left;
+  return ALI3_OK;
+}
+
+/* With a limit of a whole step, `made` iterations of it are used. */
+static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t made) {
   const ali3_settings *settings = &in->settings;
+  const bool limited = settings->step_iterations > 0;
+  const int32_t most = limited ? settings->step_iterations - made : settings->max_iterations;
   evaluate(in, h, true);
   in->report.last_iterations = 0;
-  while (in->report.last_iterations < settings->max_iterations) {
+  while (in->report.last_iterations < most) {
     const ali3_status status = correct(in, alpha, in->report.last_iterations);
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     in->report.iterations++;
@@ -111,7 +123,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
     if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
       return ALI3_OK;
   }
-  return ALI3_NOT_CONVERGED;
+  return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
 }
 
 /* Trapezoidal rule (17), (18). */
@@ -142,10 +154,10 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
   /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
-  ali3_status status = newton(in, h, alpha);
+  ali3_status status = newton(in, h, alpha, 0);
   if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
     ali3_predict(in, h, false);
-    status = newton(in, h, alpha);
+    status = newton(in, h, alpha, in->report.last_iterations);
   }
   if (status != ALI3_OK) return status;
   for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;

@@ -1,0 +1,218 @@
+"""What a System carries for those who draw it: its scene, and how its coordinates place the frames of the scene."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.spatial.transform import Rotation
+
+Array = NDArray[np.float64]
+POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
+"""Parts of a pose: position, m, and quaternion, scalar first and not negative."""
+POSE_UNITS = ("m", "m", "m", "1", "1", "1", "1")
+_SIZES = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2}
+
+
+@dataclass(frozen=True)
+class BodyPlace:
+    """Where a body is among the rows of `Places`.
+
+    Parameters
+    ----------
+    name : str
+        Of the body.
+    kind : {"rigid", "planar", "point", "planar point"}
+        What its full coordinates are: position, then axes.
+    row : int
+        First of them.
+    columns : sequence of str
+        Names of the seven parts of its pose in recordings.
+    """
+
+    name: str
+    kind: str
+    row: int
+    columns: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class TurnPlace:
+    """An angle by which a frame turns about an axis of a body.
+
+    Parameters
+    ----------
+    name : str
+        Of the wheel, or of what turns.
+    row : int
+        The coordinate.
+    carrier : str
+        Body on which it turns.
+    axis : sequence of float
+        Unit vector of the carrier.
+    absolute : bool
+        Whether the coordinate counts from the earth, as that of a spin, so that the turning of the carrier about the
+        axis is taken off.
+    column : str
+        Name in recordings.
+    """
+
+    name: str
+    row: int
+    carrier: str
+    axis: tuple[float, ...]
+    absolute: bool
+    column: str
+
+
+@dataclass(frozen=True)
+class AmplitudePlace:
+    """Amplitudes of a flexible body.
+
+    Parameters
+    ----------
+    body : str
+    modes : sequence of str
+        Names of the modes.
+    row : int
+        The first amplitude; the others follow.
+    columns : sequence of str
+        Names in recordings.
+    """
+
+    body: str
+    modes: tuple[str, ...]
+    row: int
+    columns: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Places:
+    """Full coordinates ``matrix q + constant`` that place bodies.
+
+    Parameters
+    ----------
+    matrix : sparse array of shape (rows, nq)
+    constant : array of shape (rows,)
+    bodies, turns, amplitudes : tuple
+        What the rows are.
+    """
+
+    matrix: sparse.csr_matrix
+    constant: Array
+    bodies: tuple[BodyPlace, ...]
+    turns: tuple[TurnPlace, ...] = ()
+    amplitudes: tuple[AmplitudePlace, ...] = ()
+
+    def rows(self, q: Array, first: int, count: int) -> Array:
+        """Full coordinates from `first` on, shape (n, count), of coordinates (n, nq)."""
+        part = slice(first, first + count)
+        return np.asarray((self.matrix[part] @ q.T).T + self.constant[part])
+
+    def pose(self, q: Array, body: BodyPlace) -> Array:
+        """Positions and quaternions of a body, shape (n, 7), at coordinates (n, nq)."""
+        full = self.rows(q, body.row, _SIZES[body.kind])
+        found = np.zeros((len(q), 7))
+        found[:, 3] = 1.0
+        d = 2 if body.kind.startswith("planar") else 3
+        found[:, :d] = full[:, :d]
+        if body.kind == "planar":
+            half = 0.5 * np.arctan2(full[:, 3], full[:, 2])  # from -pi/2 to pi/2: the scalar part is not negative
+            found[:, 3], found[:, 6] = np.cos(half), np.sin(half)
+        elif body.kind == "rigid" and len(q):
+            found[:, 3:] = quaternions(full[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1))
+        return found
+
+    def to_json(self) -> dict[str, Any]:
+        """For the System file."""
+        m = self.matrix
+        return {
+            "shape": [int(n) for n in m.shape],
+            "ptr": m.indptr.tolist(),
+            "col": m.indices.tolist(),
+            "val": m.data.tolist(),
+            "constant": self.constant.tolist(),
+            "bodies": [asdict(b) for b in self.bodies],
+            "turns": [asdict(t) for t in self.turns],
+            "amplitudes": [asdict(a) for a in self.amplitudes],
+        }
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, Any]) -> Places:
+        """What `to_json` gave."""
+        matrix = sparse.csr_matrix((data["val"], data["col"], data["ptr"]), shape=tuple(data["shape"]), dtype=float)
+        constant = np.array(data["constant"], float)
+        if matrix.shape[0] != len(constant):
+            raise ValueError("places and constants of the drawing differ in number")
+        found = cls(
+            matrix,
+            constant,
+            tuple(BodyPlace(**b | {"columns": tuple(b["columns"])}) for b in data["bodies"]),
+            tuple(TurnPlace(**t | {"axis": tuple(t["axis"])}) for t in data["turns"]),
+            tuple(AmplitudePlace(**a | {k: tuple(a[k]) for k in ("modes", "columns")}) for a in data["amplitudes"]),
+        )
+        ends = [b.row + _SIZES[b.kind] for b in found.bodies] + [t.row + 1 for t in found.turns]
+        ends += [a.row + len(a.modes) for a in found.amplitudes]
+        if max(ends, default=0) > len(constant):
+            raise ValueError("the drawing names coordinates that it does not have")
+        return found
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A scene and the places of its frames.
+
+    Parameters
+    ----------
+    scene : mapping
+        In the format of `docs/animation.md`.
+    places : Places
+    """
+
+    scene: Mapping[str, Any]
+    places: Places
+
+    def to_bytes(self) -> bytes:
+        """The array `drawing` of a System file: JSON, UTF-8."""
+        content = {"scene": self.scene, "places": self.places.to_json()}
+        return json.dumps(content, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
+
+    @classmethod
+    def from_bytes(cls, data: bytes, nq: int) -> Drawing:
+        """What `to_bytes` gave, of a System with `nq` coordinates.
+
+        Raises
+        ------
+        ValueError, KeyError, TypeError
+            It is something else.
+        """
+        content = json.loads(data)
+        places = Places.from_json(content["places"])
+        if places.matrix.shape[1] != nq:
+            raise ValueError(f"the drawing is of {places.matrix.shape[1]} coordinates, the System has {nq}")
+        return cls(dict(content["scene"]), places)
+
+
+def quaternions(matrices: Array) -> Array:
+    """Quaternions (n, 4), scalar first and not negative, of rotation matrices (n, 3, 3)."""
+    found = Rotation.from_matrix(matrices).as_quat()[:, [3, 0, 1, 2]]
+    return np.asarray(np.where(found[:, :1] < 0.0, -found, found))
+
+
+def matrices(quaternions: Array) -> Array:
+    """Rotation matrices (n, 3, 3) of quaternions (n, 4), scalar first."""
+    return np.asarray(Rotation.from_quat(quaternions[:, [1, 2, 3, 0]]).as_matrix())
+
+
+def twist(quaternions: Array, axis: Array) -> Array:
+    """Angle by which a body has turned about an axis of its own, shape (n,), from its quaternions (n, 4)."""
+    if len(quaternions) < 2:
+        return np.zeros(len(quaternions))
+    turns = Rotation.from_quat(quaternions[:, [1, 2, 3, 0]])
+    steps = (turns[:-1].inv() * turns[1:]).as_rotvec() @ np.asarray(axis, float)
+    return np.concatenate([[0.0], np.cumsum(steps)])

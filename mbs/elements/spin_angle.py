@@ -1,0 +1,54 @@
+"""Angle by which a wheel that is reduced to one coordinate has turned on its carrier."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbs.affine import Affine, AffineVector
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.record_checks import size
+from mbs.kernel.header import ElementType
+
+
+@dataclass(frozen=True)
+class SpinAngle:
+    """Angle of an axisymmetric wheel on its carrier since the start, summed over the steps; it has no force.
+
+    The coordinate of a spin is the integral of the absolute rate about its axis; where the carrier turns about that
+    axis too, or the axis itself is turned around, the angle between wheel and carrier is another.
+    """
+
+    def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
+        """The element.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the elements of a model.
+        f, g : AffineVector
+            Orthonormal vectors of the carrier, f x g along the axis.
+        spin : Affine
+            Absolute spin of the wheel, rad.
+
+        Returns
+        -------
+        ElementRecord
+            For `Model.add`; its output `angle`, rad, is 0 at the start and positive for a wheel that turns as `spin`
+            counts, without wrapping.
+
+        Raises
+        ------
+        ModelError
+            A vector has not three components.
+        """
+        what = f"the angle of the spinning wheel '{name}'"
+        size(f, (3,), f"The vector f of {what}")
+        size(g, (3,), f"The vector g of {what}")
+        return ElementRecord(
+            name,
+            ElementType.SPIN_ANGLE,
+            (*f.components, *g.components, spin),
+            states=(0.0,) * 7,
+            outputs=(Output("angle", "rad", "angle of the wheel on its carrier since the start"),),
+            tangent=False,
+        )

@@ -1,0 +1,53 @@
+/* Angle by which an axisymmetric wheel, reduced to one coordinate on its carrier, has turned on it since the start.
+ * Signals: f (3), g (3) orthonormal on the carrier with f x g = e along the axis; chi with chi' = Omega the absolute
+ * rate about it. States: turn, and f, g at the end of the last step. Outputs: angle = chi + turn. It has no force.
+ *
+ * The angle's rate is Omega - e . w with w the angular velocity of the carrier, and turn = -(chi at the start) minus the
+ * integral of e . w. That integral is no function of the position, so it is summed over the steps: the frame of the last
+ * step is taken along by the smallest rotation that brings its axis to the present one, P v = v - (e1 . v)/(1 + e0 . e1)
+ * (e0 + e1) for v across e0, and the angle from P f to the present f is added. A carrier that turns about an axis at rest
+ * is followed without error; else a step leaves out the small area between the way of the axis and a great circle. */
+#include "../algebra/elementary.h"
+#include "element.h"
+#include "element_math.h"
+
+enum { TURN, F, G = F + 3, STATES = G + 3 };
+#define OPPOSITE 1e-9 /* of 1 + e0 . e1: an axis turned over within a step leaves the angle open */
+
+/* Angle about the axis that the carrier makes from the last step to the present one. */
+static double turned(const double *last, const double *f, const double *g) {
+  double e0[3], e1[3], along[3];
+  ali3_cross(last + F, last + G, e0);
+  ali3_cross(f, g, e1);
+  const double apart = 1.0 + ali3_dot(e0, e1), share = ali3_dot(e1, last + F) / (apart > OPPOSITE ? apart : OPPOSITE);
+  for (int i = 0; i < 3; i++) along[i] = last[F + i] - share * (e0[i] + e1[i]);
+  return ali3_atan2(-ali3_dot(along, g), ali3_dot(along, f));
+}
+
+static void evaluate(ali3_element_args *a) {
+  const double *f = a->u, *g = a->u + 3;
+  for (int i = 0; i < STATES; i++) a->y_new[i] = a->y_old[i];
+  if (a->h != 0.0) {
+    a->y_new[TURN] -= turned(a->y_old, f, g);
+    for (int i = 0; i < 3; i++) a->y_new[F + i] = f[i], a->y_new[G + i] = g[i];
+  }
+  a->out[0] = a->u[6] + a->y_new[TURN];
+  a->potential = 0.0;
+  a->idle = 1;
+}
+
+/* A start: the wheel has not turned yet. */
+static void accept(ali3_element_args *a) {
+  if (a->h != 0.0) return;
+  a->y_new[TURN] = -a->u[6];
+  for (int i = 0; i < 6; i++) a->y_new[F + i] = a->u[i];
+}
+
+const ali3_element_type ali3_spin_angle = {
+    .evaluate = evaluate,
+    .accept = accept,
+    .conservative = true,
+    .nsig = 7,
+    .nstate = STATES,
+    .nout = 1,
+};

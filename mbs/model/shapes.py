@@ -1,0 +1,450 @@
+"""What bodies look like: shapes on bodies and between points of several bodies. They take no part in the motion."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.affine import Affine
+from mbs.checks import (
+    LARGEST,
+    Vector,
+    array,
+    capital,
+    direction,
+    is_number,
+    number,
+    one_of,
+    positive,
+    shown,
+    text,
+    whole,
+)
+from mbs.errors import ModelError
+from mbs.model.bodies import ROTATION, BodyVocabulary
+from mbs.model.body import Body
+from mbs.model.core import Coordinate
+from mbs.model.flexible import Interface
+from mbs.model.ports import PortedBody
+from mbs.model.spin import Spin
+
+Kind: TypeAlias = Literal[
+    "box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper", "wheel", "steering_wheel", "none"
+]
+MATERIALS = ("steel", "paint", "dark_paint", "rubber", "rim", "glass", "plastic", "chrome")
+_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """What a kind of shape needs and what it may have."""
+
+    needs: tuple[str, ...]
+    takes: tuple[str, ...] = ()
+
+
+KINDS: Mapping[str, _Kind] = {
+    "box": _Kind(("size",), ("at", "axes")),
+    "sphere": _Kind(("radius",), ("at",)),
+    "cylinder": _Kind(("ends", "radius")),
+    "tube": _Kind(("points",), ("radius",)),
+    "plate": _Kind(("points",), ("thickness",)),
+    "mesh": _Kind(("file",), ("at", "axes", "scale")),
+    "spring": _Kind(("ends",), ("radius", "wire", "coils")),
+    "damper": _Kind(("ends",), ("radius",)),
+    "wheel": _Kind(("radius", "width"), ("at", "axis", "rim")),
+    "steering_wheel": _Kind(("radius",), ("at", "axis")),
+    "none": _Kind(()),
+}
+
+
+@dataclass(frozen=True)
+class Turning:
+    """Something that turns about an axis of a body without being one itself, such as a steering wheel.
+
+    Attributes
+    ----------
+    name : str
+    carrier : Body
+        On which it turns.
+    centre : ndarray, shape (3,)
+        From the origin of the carrier, along the earth axes as drawn, m.
+    axis_reference : tuple of float
+        Unit vector, earth axes as drawn.
+    angle : Affine or str
+        Angle of the turn, rad: an expression of coordinates, or the name of a sensor.
+    """
+
+    name: str
+    carrier: Body
+    centre: Vector
+    axis_reference: tuple[float, ...]
+    angle: Affine | str
+
+
+Owner: TypeAlias = "Body | Spin | Turning"
+Place: TypeAlias = "ArrayLike | tuple[Owner, ArrayLike]"
+"""A point of the body of a shape, or (body, point) on another one; earth axes in the reference configuration, m."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A shape as `Model.shape` checked it.
+
+    Attributes
+    ----------
+    kind : str
+    owner : Body, Spin or Turning
+        What it is of.
+    fields : mapping
+        Numbers and texts of the shape; places are from the origin of the owner, along the earth axes as drawn.
+    anchors : sequence of (owner, ndarray)
+        Points of tubes, plates, springs and dampers: of what, and where from its origin, m.
+    """
+
+    kind: str
+    owner: Owner
+    fields: Mapping[str, Any] = field(default_factory=dict)
+    anchors: Sequence[tuple[Owner, Vector]] = ()
+
+    @property
+    def name(self) -> str:
+        """Its name; empty where it has none."""
+        return str(self.fields.get("name", ""))
+
+
+class ShapeVocabulary(BodyVocabulary):
+    """The looks of a model.
+
+    Parameters
+    ----------
+    name, dimension, gravity, length
+        See `Model`.
+    """
+
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
+        super().__init__(name, dimension, gravity, length=length)
+        self.shapes: list[Shape] = []
+        self.turnings: list[Turning] = []
+        self.default_shapes = True
+
+    def shape(
+        self,
+        body: Owner,
+        kind: Kind,
+        *,
+        at: ArrayLike | None = None,
+        size: ArrayLike | None = None,
+        axes: ArrayLike | None = None,
+        axis: ArrayLike | None = None,
+        ends: tuple[Place, Place] | None = None,
+        points: Sequence[Place] | None = None,
+        radius: float | None = None,
+        thickness: float | None = None,
+        width: float | None = None,
+        rim: float | None = None,
+        wire: float | None = None,
+        coils: int | None = None,
+        file: str | Path | None = None,
+        scale: float | None = None,
+        name: str = "",
+        color: str | None = None,
+        material: str | None = None,
+        opacity: float = 1.0,
+    ) -> Shape:
+        """What a body looks like; a body may have several shapes. It does not change its motion.
+
+        A body without shapes is drawn by its joints: tubes, plates, wheels. The first shape of a body takes the place
+        of that, "none" leaves it away. A spring, a damper or a rod is drawn unless a shape has its name.
+
+        Parameters
+        ----------
+        body : Body, Spin or Turning
+            A body, a point mass, the ground, a flexible body (its floating frame), a spin, or a result of `turning`.
+        kind : str
+            box (`size`, `at`, `axes`), sphere (`radius`, `at`), cylinder (`ends`, `radius`), tube (`points`, `radius`),
+            plate (`points`, `thickness`), mesh (`file`, `at`, `axes`, `scale`), spring (`ends`, `radius`, `wire`,
+            `coils`), damper (`ends`, `radius`), wheel (`radius`, `width`, `at`, `axis`, `rim`), steering_wheel
+            (`radius`, `at`, `axis`) or none.
+        at : array_like, shape (dimension,), optional
+            Middle of the shape, of a mesh its origin, m; by default the centre of mass, of a mesh the origin of the
+            drawing. All places are in earth axes in the reference configuration, like those of joints; in the plane two
+            numbers or three.
+        size : array_like, shape (3,)
+            Lengths of the edges, m; in the plane two will do.
+        axes : array_like, shape (3, 3), optional
+            Columns: axes of the box or the mesh in earth axes as drawn; by default these. In the plane shape (2, 2)
+            will do.
+        axis : array_like, shape (3,), optional
+            Of a wheel: its axle, of any length; by default that of the spin, else y, in the plane z.
+        ends, points : sequence of array_like, or of (body, array_like)
+            Places on the body, or with another body: a tube through points of several bodies follows all of them, a
+            spring is compressed. A tube has two points or more, a plate three or more.
+        radius : float
+            Of sphere, cylinder, tube, coil or wheel, m; that of tubes, springs and dampers follows the size of the
+            drawing where it is left out.
+        thickness : float, optional
+            Of a plate, m.
+        width, rim : float
+            Of a wheel: width of its tyre and radius of its rim, m.
+        wire : float, optional
+            Diameter of the wire of a spring, m.
+        coils : int, optional
+            Of a spring.
+        file : path
+            Of a mesh: STL, OBJ, PLY, OFF or glTF. It is read at once.
+        scale : float, optional
+            Metres of a unit of the file, 0.001 for millimetres.
+        name : str
+            For the list of shapes; that of a spring or rod takes the place of its default.
+        color : str, optional
+            ``"#rrggbb"``.
+        material : str, optional
+            steel, paint, dark_paint, rubber, rim, glass, plastic or chrome.
+        opacity : float
+            From 0 to 1.
+
+        Returns
+        -------
+        Shape
+            As it stands in the model.
+
+        Raises
+        ------
+        ModelError
+            The body is none of this model, the kind does not exist, lacks a number or does not take one, or a number is
+            not what it must be.
+        viewer.errors.ViewerError
+            The mesh file cannot be read.
+        """
+        given = {
+            name_: value
+            for name_, value in {
+                "at": at, "size": size, "axes": axes, "axis": axis, "ends": ends, "points": points, "radius": radius,
+                "thickness": thickness, "width": width, "rim": rim, "wire": wire, "coils": coils, "file": file,
+                "scale": scale,
+            }.items()
+            if value is not None
+        }  # fmt: skip
+        one_of(kind, tuple(KINDS), "The kind of a shape")
+        what = f"shape '{name}'" if isinstance(name, str) and name else f"{kind} of {_owner_text(body)}"
+        owner = self._owner(body, what)
+        _check_arguments(kind, given, what)
+        looks = {"name": name} if text(name, f"The name of {what}") else {}
+        made = self._made(kind, owner, given, what, looks | _looks(color, material, opacity, what))
+        self.shapes.append(made)
+        return made
+
+    def turning(
+        self, name: str, body: Body, *, at: ArrayLike, axis: ArrayLike, angle: Coordinate | Affine | str
+    ) -> Turning:
+        """Something that only its looks turn about an axis of a body, such as a steering wheel or a motor's pulley.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the bodies and the spins.
+        body : Body
+            What it turns on.
+        at : array_like, shape (dimension,)
+            A point of the axis, earth axes in the reference configuration, m.
+        axis : array_like, shape (3,)
+            Of any length; the turn is right-handed about it. In the plane (0, 0, 1).
+        angle : Coordinate, Affine or str
+            Its angle, rad: a coordinate or an expression, or the name of a sensor.
+
+        Returns
+        -------
+        Turning
+            For `shape`.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, body or angle are not of this model, or a number is not one.
+        """
+        self.unique("spin", self.unique("body", name))
+        what = f"turning '{name}'"
+        owner = self._owner(body, what)
+        if not isinstance(owner, Body):
+            raise ModelError(f"The {what} needs a body to turn on, not {shown(body)}.")
+        centre = self._local(owner, at, f"the point of {what}")
+        unit = direction(axis, 3, f"the axis of {what}")
+        if isinstance(angle, str):
+            if angle not in [sensor.name for sensor in self.sensors]:
+                raise ModelError(f"The {what} follows the sensor {shown(angle)}, which the model does not have.")
+            turned: Affine | str = angle
+        else:
+            turned = self.expression(angle, f"The {what}")
+        made = Turning(name, owner, centre, tuple(unit.tolist()), turned)
+        self.turnings.append(made)
+        return made
+
+    def _owner(self, owner: object, what: str) -> Owner:
+        """The body whose frame carries a shape, or the spin or turning."""
+        if isinstance(owner, Spin):
+            self.owned_coordinate(owner, f"The {what}")
+            return owner
+        if isinstance(owner, Turning):
+            if not any(owner is turning for turning in self.turnings):
+                raise ModelError(f"The {what}: '{owner.name}' turns in another model than '{self.name}'.")
+            return owner
+        body = self.owned(owner, f"The {what}")  # type: ignore[arg-type]
+        if isinstance(body, Interface):
+            return body.owner
+        if isinstance(body, PortedBody):
+            return next(b for b in self.bodies if b.start == body.start and not b.is_point)
+        return body if body.is_ground or body in self.bodies else self._member(body)
+
+    def _member(self, body: Body) -> Body:
+        """The body of the model that has the coordinates of another one, such as the frame of a flexible body."""
+        return next(b for b in self.bodies if b.start == body.start)
+
+    def _local(self, owner: Owner, place: ArrayLike, what: str) -> Vector:
+        """A place from the origin of its owner, three components."""
+        origin = origin_of(owner)
+        given = place_of(place, self.dimension, what)
+        return np.asarray(given - origin)
+
+    def _anchors(self, owner: Owner, places: object, count: tuple[int, int], what: str) -> list[tuple[Owner, Vector]]:
+        least, most = count
+        words = f"{least} points" if least == most else f"{least} points or more"
+        if not isinstance(places, (list, tuple, np.ndarray)) or not least <= len(places) <= most:
+            raise ModelError(f"The {what} needs {words}, not {shown(places)}.")
+        found = []
+        for place in places:
+            if isinstance(place, (tuple, list)) and len(place) == 2 and not is_number(place[0]):
+                of = self._owner(place[0], what)
+                found.append((of, self._local(of, place[1], f"a point of {what}")))
+            elif isinstance(place, Body):
+                of = self._owner(place, what)
+                found.append((of, np.zeros(3)))
+            else:
+                found.append((owner, self._local(owner, place, f"a point of {what}")))
+        return found
+
+    def _made(self, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]) -> Shape:
+        fields = dict(looks)
+        anchors: list[tuple[Owner, Vector]] = []
+        for key in ("radius", "thickness", "width", "rim", "wire", "scale"):
+            if key in given:
+                fields[key] = positive(given[key], f"The {key} of {what}")
+        if "coils" in given:
+            fields["coils"] = whole(given["coils"], f"The coils of {what}", 1, 1000)
+        if "points" in given:
+            anchors = self._anchors(owner, given["points"], (3 if kind == "plate" else 2, 10_000), what)
+        if "ends" in given:
+            anchors = self._anchors(owner, given["ends"], (2, 2), what)
+        if kind == "cylinder" and any(of is not owner for of, _ in anchors):
+            raise ModelError(f"The {what} is of one body; through points of several bodies goes a tube.")
+        if kind in ("box", "sphere", "mesh", "wheel", "steering_wheel"):
+            default = np.zeros(3) - origin_of(owner) if kind == "mesh" else np.zeros(3)
+            fields["at"] = self._local(owner, given["at"], f"the middle of {what}") if "at" in given else default
+        if "size" in given:
+            fields["size"] = _size(given["size"], self.dimension, what)
+        if "axes" in given:
+            fields["axes"] = _axes(given["axes"], self.dimension, what)
+        if kind in ("wheel", "steering_wheel"):
+            fields["axis"] = self._axle(owner, given.get("axis"), what)
+        if "rim" in fields and not fields["rim"] < fields["radius"]:
+            raise ModelError(
+                f"The rim {fields['rim']:g} m of {what} must be smaller than its radius {fields['radius']:g} m."
+            )
+        if kind == "mesh":
+            from viewer.mesh_file import read_mesh
+
+            scale = fields.pop("scale", 1.0)
+            fields["positions"], fields["triangles"] = read_mesh(given["file"], scale)
+            fields["file"] = Path(given["file"]).name
+        return Shape(kind, owner, fields, anchors)
+
+    def _axle(self, owner: Owner, axis: ArrayLike | None, what: str) -> Vector:
+        if axis is not None:
+            return direction(axis, 3, f"the axis of {what}")
+        if not isinstance(owner, Body):
+            return np.array(owner.axis_reference)
+        return np.array([0.0, 1.0, 0.0]) if self.dimension == 3 else np.array([0.0, 0.0, 1.0])
+
+
+def origin_of(owner: Owner) -> Vector:
+    """Origin of the frame of a body, a spin or a turning as drawn, earth axes, three components, m."""
+    if isinstance(owner, Turning):
+        return np.asarray(origin_of(owner.carrier) + owner.centre)
+    if isinstance(owner, Spin):
+        carrier = owner.carrier
+        rows = [[owner.centre[k].terms.get(carrier.start + 3 * (m + 1) + k, 0.0) for m in range(3)] for k in range(3)]
+        return np.asarray(carrier.com + np.array(rows[0]))
+    return in_space(owner.com)
+
+
+def in_space(place: Vector) -> Vector:
+    """Three components of two or three."""
+    found = np.zeros(3)
+    found[: len(place)] = place
+    return found
+
+
+def place_of(place: ArrayLike, dimension: int, what: str) -> Vector:
+    """A place of the drawing, three components; in the plane two numbers or three."""
+    length = len(place) if dimension == 2 and isinstance(place, (list, tuple, np.ndarray)) else 0
+    return in_space(array(place, (3 if length == 3 else dimension,), what))
+
+
+def _owner_text(owner: object) -> str:
+    name = getattr(owner, "name", None)
+    return f"'{name}'" if isinstance(name, str) else shown(owner)
+
+
+def _check_arguments(kind: str, given: Mapping[str, Any], what: str) -> None:
+    known = KINDS[kind]
+    for key in known.needs:
+        if key not in given:
+            raise ModelError(f"The {what} needs {key}=...; a {kind} has {_listed(known)}.")
+    for key in given:
+        if key not in known.needs + known.takes:
+            raise ModelError(f"The {what} takes no {key}; a {kind} has {_listed(known)}.")
+
+
+def _listed(kind: _Kind) -> str:
+    names = [*kind.needs, *kind.takes]
+    return ", ".join(names) if names else "nothing to say"
+
+
+def _looks(color: object, material: object, opacity: object, what: str) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    if color is not None:
+        if not isinstance(color, str) or not _COLOUR.fullmatch(color):
+            raise ModelError(f"The color of {what} is {shown(color)}; it must read '#rrggbb', such as '#c03020'.")
+        found["color"] = color.lower()
+    if material is not None:
+        found["material"] = one_of(material, MATERIALS, f"The material of {what}")
+    share = number(opacity, f"The opacity of {what}")
+    if not 0.0 <= share <= 1.0:
+        raise ModelError(f"The opacity of {what} is {share:g}; it must be from 0 to 1.")
+    return found | ({"opacity": share} if share < 1.0 else {})
+
+
+def _size(size: object, dimension: int, what: str) -> Vector:
+    length = len(size) if dimension == 2 and isinstance(size, (list, tuple, np.ndarray)) else 3
+    found = array(size, (2 if length == 2 else 3,), f"the size of {what}")
+    if not np.all(found > 1.0 / LARGEST):
+        raise ModelError(f"The size of {what} is {found.tolist()}; all edges must be greater than zero.")
+    return found if len(found) == 3 else np.array([*found, 0.5 * float(np.min(found))])
+
+
+def _axes(axes: object, dimension: int, what: str) -> NDArray[np.float64]:
+    small = dimension == 2 and isinstance(axes, (list, tuple, np.ndarray)) and len(axes) == 2
+    given = array(axes, (2, 2) if small else (3, 3), f"the axes of {what}")
+    R = np.eye(3)
+    R[: len(given), : len(given)] = given
+    if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
+        raise ModelError(f"{capital(f'the axes of {what}')} must be the columns of a rotation matrix.")
+    return R

@@ -1,0 +1,66 @@
+"""Arrows of a scene: forces that sensors of the model read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from mbs.kernel.header import SensorType
+from mbs.model.model import Model
+from mbs.model.sensors import Sensor
+from mbs.shapes.frames import FrameNames, place_drawn
+from mbs.shapes.joint_points import Line
+
+Arrow = dict[str, Any]
+
+
+def arrows_of(model: Model, names: FrameNames, lines: Sequence[Line]) -> list[Arrow]:
+    """Forces of springs and rods along their lines, tension pulling the ends together, and of joints on their first
+    bodies, of which sensors read all components.
+    """
+    return [*_along_lines(model, lines), *_of_joints(model, names)]
+
+
+def _along_lines(model: Model, lines: Sequence[Line]) -> list[Arrow]:
+    found: dict[str, Arrow] = {}
+    by_name = {line.name: line for line in lines}
+    for sensor in model.sensors:
+        name, tension = _tension(model, sensor)
+        if name in by_name and name not in found and tension:
+            ends = [list(end) for end in by_name[name].ends]
+            sign = -1 if tension > 0.0 else 1
+            found[name] = {"name": name, "unit": "N", "value": sensor.name, "between": ends, "sign": sign}
+    return list(found.values())
+
+
+def _tension(model: Model, sensor: Sensor) -> tuple[str, float]:
+    """Spring or rod whose force a sensor reads, and its factor on the tension."""
+    if sensor.unit != "N":
+        return "", 0.0
+    if sensor.type == SensorType.ELEMENT_OUTPUT:
+        record = model.elements[sensor.integers[0]]
+        return record.name, sensor.reals[0] if record.outputs[sensor.integers[1]].name == "force" else 0.0
+    if sensor.type == SensorType.REACTION and sensor.joint is not None and sensor.joint.type == "distance":
+        return sensor.joint.name, sensor.reals[0]
+    return "", 0.0
+
+
+def _of_joints(model: Model, names: FrameNames) -> list[Arrow]:
+    components: dict[str, dict[int, str]] = {}
+    joints = {joint.name: joint for joint in model.joints}
+    for sensor in model.sensors:
+        joint = sensor.joint
+        if sensor.type != SensorType.REACTION or joint is None or joint.normals or not joint.rows_weight:
+            continue
+        rows = joint.force_equations
+        if len(rows) == model.dimension and len(sensor.integers) == 1 and sensor.reals[0] == -joint.rows_weight:
+            components.setdefault(joint.name, {}).setdefault(rows.index(sensor.integers[0]), sensor.name)
+    found = []
+    for name, read in components.items():
+        ends = joints[name].ends
+        if len(read) < model.dimension or ends is None:
+            continue
+        vector = [read.get(k) for k in range(3)]
+        at = list(names.anchor(ends.bodies[0], place_drawn(model, ends.points[0])))
+        found.append({"name": name, "unit": "N", "vector": vector, "axes": "ground", "at": at})
+    return found

@@ -1,0 +1,255 @@
+"""Shapes of bodies that have none: tubes and plates through their joints, wheels, springs, rails and pins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from mbs.checks import Vector
+from mbs.model.body import Body
+from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.joints.joint import RollingBody, RollingSpin
+from mbs.model.model import Model
+from mbs.model.shapes import origin_of
+from mbs.shapes.frames import FrameNames, numbers
+from mbs.shapes.joint_points import SAME, Line, Pivot, Slide, Touched, apart, sensed_points
+
+COLORS = ("#c8553d", "#3d7ea6", "#6a994e", "#e09f3e", "#7d5ba6", "#2a9d8f", "#b56576", "#8d99ae")
+GROUND, RAIL, SPRING, ROD = "#4a4e57", "#8b9099", "#d9a441", "#aeb4bd"
+TUBE, LONGEST_TUBE = 0.014, 0.09
+"""Radius of a tube in parts of the extent, and of the length of its body at most."""
+SLENDER = 0.2  # height of a triangle over its longest side below which it is drawn as tubes
+
+BEYOND = 0.1  # parts of a tube's length by which a centre of mass may be beyond its ends
+
+Shape = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Defaults:
+    """Makes the default shapes of a model.
+
+    Parameters
+    ----------
+    model : Model
+    names : FrameNames
+    touched : Touched
+    extent : float
+        Size of the drawing, m.
+    """
+
+    model: Model
+    names: FrameNames
+    touched: Touched
+    extent: float
+
+    @property
+    def tube(self) -> float:
+        """Radius of tubes, m."""
+        return TUBE * self.extent
+
+    def all(self, drawn: set[str], named: set[str]) -> list[Shape]:
+        """Shapes of all frames and lines but those that are drawn by the user, by frame and by name."""
+        found: list[Shape] = []
+        for body in self.model.bodies:
+            frame = self.names.of_body(body)
+            if frame not in drawn:
+                color = COLORS[body.number % len(COLORS)]
+                found += [s | {"body": body.name, "color": s.get("color", color)} for s in self._body(body, frame)]
+        for spin in self.model.spins:
+            if self.names.turns[spin.name] not in drawn:
+                found.append(self._wheel(spin.name) | {"body": spin.name})
+        for line in self.touched.lines:
+            if line.name not in named:
+                found += self._line(line)
+        for pivot in self.touched.pivots:
+            if pivot.joint.name not in named:
+                found += self._pivot(pivot, drawn)
+        for slide in self.touched.slides:
+            if slide.joint.name not in named:
+                found += self._rail(slide, drawn)
+        return found
+
+    def _body(self, body: Body, frame: str) -> list[Shape]:
+        if isinstance(body, FlexibleBody):
+            return []  # its beams are drawn
+        discs = [j.rolls for j in self.model.joints if isinstance(j.rolls, RollingBody) and j.rolls.body is body]
+        if discs:
+            return [
+                {
+                    "kind": "wheel",
+                    "frame": frame,
+                    "at": numbers(disc.centre - origin_of(body)),
+                    "axis": numbers(disc.axis),
+                    "radius": disc.radius,
+                    "width": 0.15 * disc.radius,
+                    "rim": 0.85 * disc.radius,
+                }
+                for disc in discs
+            ]
+        if body.is_point:
+            return [{"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.5 * self.tube}]
+        least = SAME * self.extent
+        com = origin_of(body)
+        points = apart(self.touched.points.get(frame, []), least)
+        if len(points) < 2:
+            points = apart([*points, *sensed_points(self.model, body)], least)
+            ends = [p for p in points if np.linalg.norm(p - com) > least]
+            if not ends:
+                return [self._lump(body, frame)]
+            if len(points) == 1:
+                return [*self._tubes(frame, [*points, com], com), self._ball(frame)]
+        shapes = self._plate(frame, points, com) or self._tubes(frame, points, com)
+        if len(points) > 2:
+            return shapes
+        if _beyond(com, points[0], points[1]):
+            shapes = [*self._tubes(frame, [*points, com], com), self._ball(frame)]
+        block = [
+            self._block(frame, com, slide)
+            for slide in self.touched.slides
+            if self.names.of_body(slide.bodies[0]) == frame
+        ]
+        return shapes + block
+
+    def _ball(self, frame: str) -> Shape:
+        return {"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.2 * self.tube}
+
+    def _tubes(self, frame: str, points: Sequence[Vector], com: Vector) -> list[Shape]:
+        """Tubes along the shortest tree through the points."""
+        radius = min(self.tube, LONGEST_TUBE * float(np.linalg.norm(np.ptp(points, axis=0))))
+        return [
+            {"kind": "tube", "points": [[frame, numbers(p - com)] for p in (points[i], points[j])], "radius": radius}
+            for i, j in _shortest_tree(points)
+        ]
+
+    def _plate(self, frame: str, points: Sequence[Vector], com: Vector) -> list[Shape]:
+        """A plate where the points are the corners of a triangle that is not slender."""
+        if len(points) != 3:
+            return []
+        sides = [float(np.linalg.norm(a - b)) for a, b in combinations(points, 2)]
+        height = float(np.linalg.norm(np.cross(points[1] - points[0], points[2] - points[0]))) / max(sides)
+        if height < SLENDER * max(sides):
+            return []
+        thickness = min(self.tube, LONGEST_TUBE * max(sides))
+        return [{"kind": "plate", "points": [[frame, numbers(p - com)] for p in points], "thickness": thickness}]
+
+    def _lump(self, body: Body, frame: str) -> Shape:
+        """A box with the inertia of a body that nothing but its centre of mass places; a slider lies along its rail."""
+        J = body.second_moment / body.mass
+        if self.model.dimension == 2:
+            J = J + np.diag([0.0, 0.0, 0.25 * J[0, 0]])
+        values, axes = np.linalg.eigh(J)
+        axes = axes * (1.0 if np.linalg.det(axes) > 0.0 else -1.0)
+        edges = np.sqrt(12.0 * np.clip(values, 0.0, None))
+        least = 0.02 * max(float(edges.max()), self.tube)
+        size = np.clip(edges, least, 0.35 * self.extent if len(self.model.bodies) > 1 else None)
+        shape: Shape = {"kind": "box", "frame": frame, "at": [0.0, 0.0, 0.0], "size": numbers(size)}
+        if not np.allclose(J, np.diag(np.diag(J)), atol=1e-9 * float(np.abs(J).max())):
+            return shape | {"axes": [numbers(column) for column in axes.T]}
+        return shape | {"size": numbers(np.clip(np.sqrt(12.0 * np.clip(np.diag(J), 0.0, None)), least, size.max()))}
+
+    def _block(self, frame: str, com: Vector, slide: Slide) -> Shape:
+        edge = 4.0 * self.tube
+        axes = _axes_along(slide.axis)
+        return {
+            "kind": "box",
+            "frame": frame,
+            "at": numbers(slide.place - com),
+            "size": [1.6 * edge, edge, edge],
+            "axes": [numbers(column) for column in axes.T],
+        }
+
+    def _wheel(self, name: str) -> Shape:
+        """The wheel of a spin: as large as its tyre or its rolling joint says."""
+        spin = next(s for s in self.model.spins if s.name == name)
+        rolling = [
+            j.rolls.radius for j in self.model.joints if isinstance(j.rolls, RollingSpin) and j.rolls.spin is spin
+        ]
+        tyres = [
+            dict(zip(r.real_names, r.real, strict=False)).get("radius")
+            for r in self.model.elements
+            if r.signals and spin.index in r.signals[-1].terms and "radius" in r.real_names
+        ]
+        thin = bool(rolling)
+        radius = next((float(r) for r in [*tyres, *rolling, spin.rolling_radius] if r), 0.1 * self.extent)
+        return {
+            "kind": "wheel",
+            "frame": self.names.turns[name],
+            "axis": numbers(spin.axis_reference),
+            "radius": radius,
+            "width": (0.1 if thin else 0.6) * radius,
+            "rim": (0.88 if thin else 0.62) * radius,
+        }
+
+    def _line(self, line: Line) -> list[Shape]:
+        ends = [list(end) for end in line.ends]
+        if line.record is None:
+            return [{"kind": "tube", "points": ends, "radius": 0.6 * self.tube, "color": ROD, "name": line.name}]
+        real = dict(zip(line.record.real_names, line.record.real, strict=False))
+        spring = {"kind": "spring", "ends": ends, "radius": 2.0 * self.tube, "wire": 0.7 * self.tube, "coils": 8}
+        damper = {"kind": "damper", "ends": ends, "radius": 1.0 * self.tube}
+        both = "stiffness" not in real
+        shapes = [s for s, key in ((spring, "stiffness"), (damper, "damping")) if both or real.get(key, 0.0) > 0.0]
+        return [s | {"color": SPRING if s is spring else ROD, "name": line.name} for s in shapes]
+
+    def _pivot(self, pivot: Pivot, drawn: set[str]) -> list[Shape]:
+        """A pin through a revolute joint, a ball in the others; larger and darker on the ground."""
+        bodies = sorted(pivot.bodies, key=lambda b: not b.is_ground)
+        if any(isinstance(b, (FlexibleBody, Interface)) for b in bodies) and not bodies[0].is_ground:
+            return []
+        if not bodies[0].is_ground and self.names.of_body(bodies[0]) in drawn:
+            return []
+        grounded = bodies[0].is_ground
+        frame, local = self.names.anchor(bodies[0], pivot.place)
+        radius = (1.7 if grounded else 1.25) * self.tube
+        looks: Shape = {"color": GROUND if grounded else RAIL, "name": pivot.joint.name}
+        if pivot.axis is None:
+            return [{"kind": "sphere", "frame": frame, "at": local, "radius": 1.2 * radius} | looks]
+        half = (1.8 if grounded else 1.5) * self.tube * pivot.axis / np.linalg.norm(pivot.axis)
+        ends = [numbers(np.array(local) - half), numbers(np.array(local) + half)]
+        return [{"kind": "cylinder", "frame": frame, "ends": ends, "radius": radius} | looks]
+
+    def _rail(self, slide: Slide, drawn: set[str]) -> list[Shape]:
+        """The line along which a body slides, on the body that has it."""
+        base = slide.bodies[1]
+        frame, local = self.names.anchor(base, slide.place)
+        if not base.is_ground and (frame in drawn or len(self.touched.points.get(frame, [])) > 2):
+            return []
+        half = (0.5 if base.is_ground else 0.25) * self.extent * slide.axis / np.linalg.norm(slide.axis)
+        ends = [numbers(np.array(local) - half), numbers(np.array(local) + half)]
+        return [
+            {"kind": "cylinder", "frame": frame, "ends": ends, "radius": 0.4 * self.tube}
+            | {"color": RAIL, "name": slide.joint.name}
+        ]
+
+
+def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
+    """Pairs of points that join all of them with the least length."""
+    inside, pairs = [0], []
+    while len(inside) < len(points):
+        outside = [k for k in range(len(points)) if k not in inside]
+        i, j = min(
+            ((i, j) for i in inside for j in outside), key=lambda p: float(np.linalg.norm(points[p[0]] - points[p[1]]))
+        )
+        pairs.append((i, j))
+        inside.append(j)
+    return pairs
+
+
+def _beyond(com: Vector, a: Vector, b: Vector) -> bool:
+    """Whether a centre of mass lies beyond the ends of a tube from a to b."""
+    share = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
+    return not -BEYOND <= share <= 1.0 + BEYOND
+
+
+def _axes_along(axis: Vector) -> Vector:
+    """Axes (3, 3), columns, of which the first goes along an axis."""
+    x = axis / np.linalg.norm(axis)
+    other = np.eye(3)[int(np.argmin(np.abs(x)))]
+    y = np.cross(other, x)
+    y = y / np.linalg.norm(y)
+    return np.column_stack([x, y, np.cross(x, y)])

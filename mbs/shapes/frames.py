@@ -1,0 +1,194 @@
+"""Frames of a scene: one for each body, wheel and turning of a model, with the columns that move them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from mbs.affine import Affine, AffineVector
+from mbs.checks import Vector
+from mbs.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace
+from mbs.model.body import Body
+from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.model import Model
+from mbs.model.shapes import Owner, Turning, in_space, origin_of
+from mbs.model.spin import Spin
+
+Anchor = tuple[str, list[float]]
+"""Frame and place in it, m."""
+
+
+def numbers(v: NDArray[np.float64] | Sequence[float]) -> list[float]:
+    """Plain numbers of a vector, negative zeros made positive."""
+    return [float(x) + 0.0 for x in v]
+
+
+@dataclass(frozen=True)
+class FrameNames:
+    """Names of the frames and of their columns in recordings.
+
+    Parameters
+    ----------
+    bodies : mapping of int to str
+        Frame by number of the body.
+    turns : mapping of str to str
+        Frame by name of the spin or turning.
+    columns : mapping of str to str
+        Column by name as `Poses` has it: sensors of that name go first.
+    """
+
+    bodies: Mapping[int, str]
+    turns: Mapping[str, str]
+    columns: Mapping[str, str]
+
+    @classmethod
+    def of(cls, model: Model) -> FrameNames:
+        """Names that are unique among the frames, and columns that are no sensors."""
+        bodies = {b.number: "body ground" if b.name == "ground" else b.name for b in model.bodies}
+        used = {*bodies.values(), "ground"}
+        turns = {t.name: f"wheel {t.name}" if t.name in used else t.name for t in turns_of(model)}
+        sensors, columns = {sensor.name for sensor in model.sensors}, {}
+        names = [(b.name, part) for b in model.bodies for part in POSE]
+        names += [(t.name, "angle") for t in turns_of(model)]
+        names += [(b.name, mode) for b in model.bodies if isinstance(b, FlexibleBody) for mode in modes_of(b)]
+        for name, part in names:
+            columns[f"{name}.{part}"] = f"{name}.pose.{part}" if f"{name}.{part}" in sensors else f"{name}.{part}"
+        return cls(bodies, turns, columns)
+
+    def of_body(self, body: Body) -> str:
+        """Frame of a body, of the node of a flexible one or of a body with ports."""
+        return "ground" if body.is_ground else self.bodies[self.owner(body).number]
+
+    @staticmethod
+    def owner(body: Body) -> Body:
+        """The body of the model that has the coordinates of this one."""
+        if body.is_ground or body.number >= 0:
+            return body
+        return (
+            body.owner if isinstance(body, Interface) else next(b for b in body.model.bodies if b.start == body.start)
+        )
+
+    def of_owner(self, owner: Owner) -> str:
+        """Frame of what has a shape."""
+        return self.of_body(owner) if isinstance(owner, Body) else self.turns[owner.name]
+
+    def anchor(self, body: Body, place: Vector) -> Anchor:
+        """A place of the drawing, m, as an anchor of a body."""
+        origin = np.zeros(3) if body.is_ground else origin_of(self.owner(body))
+        return self.of_body(body), numbers(in_space(place) - origin)
+
+
+def turns_of(model: Model) -> list[Spin | Turning]:
+    """What turns about an axis of a body."""
+    return [*model.spins, *model.turnings]
+
+
+def modes_of(body: FlexibleBody) -> tuple[str, ...]:
+    """Names of the amplitudes of a body among the columns."""
+    return tuple(f"mode_{k + 1}" for k in range(body.n_modes))
+
+
+def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]) -> dict[str, Any]:
+    """The frames of the scene; poses at the start are those of the coordinates `q` (nq,)."""
+    frames: dict[str, Any] = {}
+    for body, place in zip(model.bodies, places.bodies, strict=True):
+        pose = places.pose(q[None], place)[0]
+        frames[names.bodies[body.number]] = {
+            "position": list(place.columns[:3]),
+            "quaternion": list(place.columns[3:]),
+            "start": [numbers(pose[:3]), numbers(pose[3:])],
+        }
+    for turn in turns_of(model):
+        frames[names.turns[turn.name]] = {
+            "parent": names.of_body(turn.carrier),
+            "at": numbers(origin_of(turn) - origin_of(turn.carrier)),
+            "axis": numbers(turn.axis_reference),
+            "angle": _angle_column(turn, names),
+        }
+    return frames
+
+
+def _angle_column(turn: Spin | Turning, names: FrameNames) -> str:
+    if isinstance(turn, Turning) and isinstance(turn.angle, str):
+        return turn.angle
+    return names.columns[f"{turn.name}.angle"]
+
+
+def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64], names: FrameNames) -> Places:
+    """Where the bodies are, of a model whose full coordinates are ``T q + constant``."""
+    rows: list[sparse.csr_matrix] = []
+    constants: list[NDArray[np.float64]] = []
+    count = 0
+    bodies, turns, amplitudes = [], [], []
+
+    def add(part: sparse.csr_matrix, fixed: NDArray[np.float64]) -> int:
+        nonlocal count
+        rows.append(part)
+        constants.append(fixed)
+        count += part.shape[0]
+        return count - part.shape[0]
+
+    for body in model.bodies:
+        kind = ("planar " if model.dimension == 2 else "") + "point" if body.is_point else ""
+        kind = kind or ("planar" if model.dimension == 2 else "rigid")
+        size = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2}[kind]
+        part = slice(body.start, body.start + size)
+        columns = tuple(names.columns[f"{body.name}.{p}"] for p in POSE)
+        bodies.append(BodyPlace(body.name, kind, add(T[part], constant[part]), columns))
+        if isinstance(body, FlexibleBody):
+            part, modes = slice(body.start + 12, body.start + body.size), modes_of(body)
+            columns = tuple(names.columns[f"{body.name}.{m}"] for m in modes)
+            amplitudes.append(AmplitudePlace(body.name, modes, add(T[part], constant[part]), columns))
+    for turn in turns_of(model):
+        angle = turn.affine if isinstance(turn, Spin) else turn.angle
+        if isinstance(angle, str):
+            continue
+        weights = sparse.csr_matrix(
+            (list(angle.terms.values()), ([0] * len(angle.terms), list(angle.terms))), shape=(1, len(constant))
+        )
+        row = add((weights @ T).tocsr(), np.asarray(weights @ constant) + angle.constant)
+        column = names.columns[f"{turn.name}.angle"]
+        carrier, axis = names.owner(turn.carrier).name, tuple(numbers(turn.axis_reference))
+        turns.append(TurnPlace(turn.name, row, carrier, axis, isinstance(turn, Spin), column))
+    matrix = sparse.vstack(rows).tocsr() if rows else sparse.csr_matrix((0, T.shape[1]))
+    matrix.sort_indices()
+    return Places(matrix, np.concatenate([*constants, np.zeros(0)]), tuple(bodies), tuple(turns), tuple(amplitudes))
+
+
+def anchors_of_difference(model: Model, names: FrameNames, gap: Sequence[Affine]) -> tuple[Anchor, Anchor] | None:
+    """Both ends of a difference ``p2 - p1`` of points of two bodies; None where it is not one.
+
+    The coefficient of the position of a body says which end it has, those of its axes where; coordinates of a node or a
+    port count as drawn.
+    """
+    d, drawn = model.dimension, model.drawn()
+    found: dict[float, Anchor] = {}
+    used: set[int] = set()
+    for body in model.bodies:
+        sign = gap[0].terms.get(body.start, 0.0)
+        if abs(sign) != 1.0 or sign in found or any(gap[k].terms.get(body.start + k) != sign for k in range(d)):
+            continue
+        own = set(range(body.start, body.start + body.size))
+        own |= {
+            i for a in gap for i in a.terms if i not in own and model.coordinates[i].name.startswith(f"{body.name}.")
+        }
+        part = [sum(c * drawn[i] for i, c in a.terms.items() if i in own) for a in gap[:d]]
+        found[sign] = names.anchor(body, sign * np.array(part))
+        used |= own
+    rest = {i for a in gap for i in a.terms} - used
+    if rest or not found:
+        return None
+    if len(found) == 1:
+        sign = next(iter(found))
+        found[-sign] = "ground", numbers(in_space(-sign * np.array([a.constant for a in gap[:d]])))
+    return found[-1.0], found[1.0]
+
+
+def place_drawn(model: Model, point: AffineVector) -> Vector:
+    """A point as drawn, three components, m."""
+    return in_space(point.value(model.drawn()))

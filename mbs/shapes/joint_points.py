@@ -1,0 +1,138 @@
+"""What the default shapes of a model are made from: where its joints, wheels and springs touch its bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mbs.affine import Affine
+from mbs.checks import Vector
+from mbs.elements.record import ElementRecord
+from mbs.kernel.header import ElementType, SensorType
+from mbs.model.body import Body
+from mbs.model.joints.joint import Joint
+from mbs.model.model import Model
+from mbs.model.shapes import in_space, origin_of
+from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, place_drawn
+
+SAME = 1e-6  # parts of the extent: nearer points are one
+LINES = (ElementType.SPRING_DAMPER, ElementType.SPRING_DAMPER_TABLE)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A spring, damper or rod between two anchors."""
+
+    name: str
+    ends: tuple[Anchor, Anchor]
+    record: ElementRecord | None = None
+
+
+@dataclass(frozen=True)
+class Pivot:
+    """A joint that turns, with the two bodies, its place and its axis as drawn (None: in every direction)."""
+
+    joint: Joint
+    bodies: tuple[Body, Body]
+    place: Vector
+    axis: Vector | None
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A point of the first body that slides along an axis of the second; as drawn."""
+
+    joint: Joint
+    bodies: tuple[Body, Body]
+    place: Vector
+    axis: Vector
+
+
+@dataclass
+class Touched:
+    """Where the bodies of a model are touched.
+
+    Parameters
+    ----------
+    points : dict of str to list of ndarray
+        Places by frame, earth axes as drawn, m.
+    pivots, slides, lines : list
+    """
+
+    points: dict[str, list[Vector]] = field(default_factory=dict)
+    pivots: list[Pivot] = field(default_factory=list)
+    slides: list[Slide] = field(default_factory=list)
+    lines: list[Line] = field(default_factory=list)
+
+
+def touched(model: Model, names: FrameNames) -> Touched:
+    """Joints, springs and wheels of a model, with the points at which they touch its bodies."""
+    found = Touched()
+    for joint in model.joints:
+        if joint.ends is None:
+            continue
+        bodies = joint.ends.bodies
+        places = [place_drawn(model, p) for p in joint.ends.points]
+        if joint.ends.rod:
+            ends = (names.anchor(bodies[0], places[0]), names.anchor(bodies[1], places[1]))
+            found.lines.append(Line(joint.name, ends))
+        elif joint.ends.slides and joint.ends.axis is not None:
+            axis = in_space(joint.ends.axis.value(model.drawn()))
+            found.slides.append(Slide(joint, bodies, places[0], axis))
+        elif joint.type in ("revolute", "spherical", "universal"):
+            found.pivots.append(Pivot(joint, bodies, places[0], _axis(model, joint)))
+        for body, place in zip(bodies, places, strict=True):
+            found.points.setdefault(names.of_body(body), []).append(place)
+    origins = {names.of_body(b): origin_of(b) for b in model.bodies} | {"ground": np.zeros(3)}
+    for record in model.elements:
+        if record.type in LINES and (ends_ := anchors_of_difference(model, names, record.signals)) is not None:
+            found.lines.append(Line(record.name, ends_, record))
+            for frame, local in ends_:
+                found.points.setdefault(frame, []).append(origins[frame] + np.array(local))
+    for spin in model.spins:
+        found.points.setdefault(names.of_body(spin.carrier), []).append(origin_of(spin))
+    return found
+
+
+def _axis(model: Model, joint: Joint) -> Vector | None:
+    if joint.type != "revolute":
+        return None
+    if model.dimension == 2:
+        return np.array([0.0, 0.0, 1.0])
+    return None if joint.ends is None or joint.ends.axis is None else in_space(joint.ends.axis.value(model.drawn()))
+
+
+def sensed_points(model: Model, body: Body) -> Iterator[Vector]:
+    """Places of a rigid body whose position a sensor reads, earth axes as drawn, m."""
+    for sensor in model.sensors:
+        if sensor.type != SensorType.SIGNAL or len(sensor.signals) != 1 or list(sensor.reals) != [1.0]:
+            continue
+        local = _local(body, sensor.signals[0])
+        if local is not None:
+            yield in_space(body.com) + local
+
+
+def _local(body: Body, signal: Affine) -> Vector | None:
+    """The place in a rigid body of which a signal is a component."""
+    d, s = body.dimension, body.start
+    terms = dict(signal.terms)
+    k = next((k for k in range(d) if terms.pop(s + k, None) == 1.0), -1)
+    if k < 0 or signal.constant != 0.0:
+        return None
+    if d == 3:
+        local = np.array([terms.pop(s + 3 * (m + 1) + k, 0.0) for m in range(3)])
+    else:
+        x, y = terms.pop(s + 2 + k, 0.0), terms.pop(s + 3 - k, 0.0)
+        local = np.array([x, -y if k == 0 else y, 0.0])
+    return None if terms else local
+
+
+def apart(points: Sequence[Vector], least: float) -> list[Vector]:
+    """Points without those that are nearer than `least` to an earlier one."""
+    kept: list[Vector] = []
+    for p in points:
+        if all(np.linalg.norm(p - q) > least for q in kept):
+            kept.append(p)
+    return kept

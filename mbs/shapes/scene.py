@@ -1,0 +1,219 @@
+"""The scene of a model: what draws needs to know beside the columns of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.checks import Vector
+from mbs.drawing import Drawing, Places, matrices
+from mbs.model.flexible import FlexibleBody
+from mbs.model.model import Model
+from mbs.model.shapes import Shape
+from mbs.shapes.arrows import arrows_of
+from mbs.shapes.default_shapes import Defaults
+from mbs.shapes.frames import FrameNames, frames_of, numbers
+from mbs.shapes.joint_points import touched
+from mbs.shapes.roads import base64_of, roads_of
+
+Scene = dict[str, Any]
+Binding = Callable[[str, Mapping[str, Any]], "Mapping[str, Any] | str"]
+"""``binding(name, frame)`` gives a frame with other columns, or in a few words why there are none."""
+
+
+def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
+    """The scene of a model and the places of its frames.
+
+    Parameters
+    ----------
+    model : Model
+    places : Places
+        Of its bodies among the coordinates.
+    names : FrameNames
+    q : ndarray, shape (nq,)
+        Coordinates at the start.
+    """
+    found = touched(model, names)
+    meshes: dict[str, Any] = {}
+    shapes = [s for shape in model.shapes if (s := _drawn(shape, names, meshes)) is not None]
+    extent = _extent([*_places_of_bodies(model), *(p for ps in found.points.values() for p in ps)])
+    defaults = Defaults(model, names, found, extent)
+    for shape in shapes:
+        _fill(shape, defaults)
+    if model.default_shapes:
+        owned = {names.of_owner(s.owner) for s in model.shapes}
+        shapes += defaults.all(owned, {s.name for s in model.shapes} - {""})
+    frames = frames_of(model, names, places, q)
+    scene: Scene = {
+        "format": "ALi3 scene",
+        "version": 1,
+        "name": model.name,
+        "description": "",
+        "up": _up(model),
+        "planar": model.dimension == 2,
+        "extent": _extent(_places_of_shapes(shapes, frames)) if shapes else extent,
+        "focus": _focus(model, names),
+        "frames": frames,
+        "shapes": shapes,
+        "meshes": meshes,
+        "flexible": [],
+        "arrows": arrows_of(model, names, found.lines),
+        "roads": roads_of(model),
+        "missing": [],
+    }
+    return Drawing(scene, places)
+
+
+def rebound(scene: Mapping[str, Any], binding: Binding) -> Scene:
+    """A scene whose frames have other columns, such as the variables of an FMU.
+
+    Parameters
+    ----------
+    scene : mapping
+        Of a System.
+    binding : callable
+        ``binding(name, frame)`` gives the frame with its new columns, or in a few words why it has none: what it
+        carries is then not drawn and stands in `missing`.
+
+    Returns
+    -------
+    dict
+        A new scene.
+    """
+    frames, lost = {}, {}
+    for name, frame in scene["frames"].items():
+        bound = binding(name, frame)
+        if isinstance(bound, str):
+            lost[name] = bound
+        else:
+            frames[name] = dict(bound)
+    for name in [n for n, frame in frames.items() if frame.get("parent") in lost]:
+        lost[name] = lost[frames.pop(name)["parent"]]
+    here = {"ground", *frames}
+    kept = {key: [part for part in scene[key] if frames_used(part) <= here] for key in ("shapes", "flexible", "arrows")}
+    used = {shape["mesh"] for shape in kept["shapes"] if shape["kind"] == "mesh"}
+    return (
+        dict(scene)
+        | kept
+        | {
+            "frames": frames,
+            "meshes": {name: mesh for name, mesh in scene["meshes"].items() if name in used},
+            "focus": scene["focus"] if scene["focus"] in frames else "",
+            "missing": [*scene["missing"], *({"name": name, "why": why} for name, why in lost.items())],
+        }
+    )
+
+
+def frames_used(part: Mapping[str, Any]) -> set[str]:
+    """Frames that a shape, an arrow or a flexible part lies on."""
+    ends = () if "frame" in part else part.get("ends", ())
+    anchors = [*part.get("points", ()), *ends, *part.get("between", ())]
+    found = {anchor[0] for anchor in anchors} | ({part["frame"]} if "frame" in part else set())
+    return found | ({part["at"][0], part["axes"]} if "vector" in part else set())
+
+
+def _drawn(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | None:
+    """A shape of the user as the scene has it; None of one that is left away."""
+    if shape.kind == "none":
+        return None
+    found: Scene = {"kind": shape.kind}
+    frame, fields = names.of_owner(shape.owner), dict(shape.fields)
+    anchors = [[names.of_owner(of), numbers(place)] for of, place in shape.anchors]
+    if shape.kind in ("tube", "plate"):
+        found["points"] = anchors
+    elif shape.kind in ("spring", "damper"):
+        found["ends"] = anchors
+    else:
+        found["frame"] = frame
+        if shape.kind == "cylinder":
+            found["ends"] = [place for _, place in anchors]
+    if shape.kind == "mesh":
+        name = _mesh_name(fields.pop("file"), meshes)
+        meshes[name] = {
+            "positions": base64_of(fields.pop("positions")),
+            "triangles": base64_of(fields.pop("triangles"), "<u4"),
+        }
+        found["mesh"] = name
+    if "axes" in fields:
+        found["axes"] = [numbers(column) for column in np.asarray(fields.pop("axes")).T]
+    plain = {k: numbers(v) if isinstance(v, np.ndarray) else v for k, v in fields.items()}
+    owner = getattr(shape.owner, "name", "")
+    return found | plain | ({"body": owner} if owner else {})
+
+
+def _mesh_name(file: str, meshes: Mapping[str, Any]) -> str:
+    name, k = file, 2
+    while name in meshes:
+        name, k = f"{file} ({k})", k + 1
+    return name
+
+
+def _fill(shape: Scene, defaults: Defaults) -> None:
+    """Sizes that the user left to the drawing."""
+    tube = defaults.tube
+    if shape["kind"] in ("tube", "spring", "damper"):
+        shape.setdefault("radius", tube * {"tube": 1.0, "spring": 2.0, "damper": 1.0}[shape["kind"]])
+    if shape["kind"] == "plate":
+        shape.setdefault("thickness", tube)
+
+
+def _up(model: Model) -> list[float]:
+    """Against gravity; of planar models y."""
+    if model.dimension == 2:
+        return [0.0, 1.0, 0.0]
+    size = float(np.linalg.norm(model.gravity))
+    return numbers(-model.gravity / size) if size > 0.0 else [0.0, 0.0, 1.0]
+
+
+def _focus(model: Model, names: FrameNames) -> str:
+    """The heaviest body of what nothing ties to the ground."""
+    if model.grounded and not model.floating:
+        return ""
+    return names.of_body(max(model.bodies, key=lambda body: body.mass))
+
+
+def _places_of_bodies(model: Model) -> list[Vector]:
+    found: list[Vector] = []
+    for body in model.bodies:
+        nodes = body.node_positions if isinstance(body, FlexibleBody) else [body.com]
+        found += [np.pad(np.asarray(p, float), (0, 3 - len(p))) for p in nodes]
+    if len(found) == 1 and not isinstance(model.bodies[0], FlexibleBody) and not model.bodies[0].is_point:
+        body = model.bodies[0]
+        radius = float(np.sqrt(np.trace(body.second_moment) / body.mass))
+        found += [found[0] - radius, found[0] + radius]
+    return found
+
+
+def _extent(places: list[Vector]) -> float:
+    """Diagonal of the box around all places, m; 1 m where they are one."""
+    size = float(np.linalg.norm(np.ptp(places, axis=0))) if places else 0.0
+    return size if size > 0.0 else 1.0
+
+
+def _places_of_shapes(shapes: list[Scene], frames: Mapping[str, Any]) -> list[Vector]:
+    """Places of all shapes at the start, earth axes, m."""
+    found: list[Vector] = []
+    for shape in shapes:
+        anchors = [*shape.get("points", ()), *(shape.get("ends", ()) if "frame" not in shape else ())]
+        if "frame" in shape:
+            local = shape.get("ends") or [shape.get("at", [0.0, 0.0, 0.0])]
+            anchors = [[shape["frame"], p] for p in local]
+        reach = shape["radius"] if shape["kind"] in ("sphere", "wheel") else 0.5 * max(shape.get("size", [0.0]))
+        for frame, p in anchors:
+            place = _at_start(frames, frame, np.array(p))
+            found += [place - reach, place + reach]
+    return found
+
+
+def _at_start(frames: Mapping[str, Any], name: str, local: Vector) -> Vector:
+    """A place of a frame at the start, earth axes, m."""
+    if name == "ground":
+        return local
+    frame = frames[name]
+    if "parent" in frame:  # the turn at the start changes no size
+        return _at_start(frames, frame["parent"], np.array(frame["at"]) + local)
+    origin, quaternion = frame["start"]
+    return np.asarray(np.array(origin) + matrices(np.array([quaternion]))[0] @ local)

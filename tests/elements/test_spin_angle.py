@@ -1,0 +1,98 @@
+"""The angle of a wheel on its carrier, step by step: against closed forms of carriers that turn about several axes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from mbs.elements import SpinAngle
+from tests.elements.harness import Array, Element, vectors
+
+H = 0.01
+ROUND_OFF = 1e-12
+
+
+def element() -> Element:
+    f, g, chi = vectors(3, 3, 1)
+    return Element(SpinAngle().record("angle", f, g, chi[0]))
+
+
+def signals(carrier: Rotation, chi: float) -> Array:
+    """f along z, g along x: the axis along y."""
+    return np.concatenate([carrier.apply([0.0, 0.0, 1.0]), carrier.apply([1.0, 0.0, 0.0]), [chi]])
+
+
+def angle_at_the_end(carriers: list[Rotation], chis: Array) -> float:
+    """After a start at the first of them."""
+    one, rest = element(), np.zeros(7)
+    y = one(signals(carriers[0], chis[0]), rest, accept=True).y
+    out = one(signals(carriers[0], chis[0]), rest, y).out["angle"]
+    assert out == 0.0
+    for carrier, chi in zip(carriers[1:], chis[1:], strict=True):
+        result = one(signals(carrier, chi), rest, y, H)
+        y, out = result.y, result.out["angle"]
+    return float(out)
+
+
+def test_on_a_carrier_at_rest_it_is_the_coordinate_since_the_start() -> None:
+    still = [Rotation.from_euler("xyz", [0.3, -0.2, 0.9])] * 4
+    assert angle_at_the_end(still, np.array([7.0, 9.0, 12.0, 250.0])) == pytest.approx(243.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("turn", [0.4, -2.5, 3.0])
+def test_a_carrier_that_turns_about_the_axis_takes_its_angle_away(turn: float) -> None:
+    """One step is exact, however far it goes, as long as it is less than half a turn."""
+    at = Rotation.from_euler("xyz", [0.3, -0.2, 0.9])
+    carriers = [at, at * Rotation.from_euler("y", turn)]
+    assert angle_at_the_end(carriers, np.array([1.0, 6.0])) == pytest.approx(5.0 - turn, abs=ROUND_OFF)
+
+
+def cone(tilt: float, n: int) -> list[Rotation]:
+    """Carriers turned once about the vertical by `n` steps, with the axis up by `tilt` from the horizontal."""
+    return [Rotation.from_euler("z", psi) * Rotation.from_euler("x", tilt) for psi in np.linspace(0.0, 2.0 * np.pi, n)]
+
+
+def test_an_axis_around_a_cone_gives_the_angle_that_no_position_tells() -> None:
+    """Once about the vertical: e . w = psi' sin(tilt), so -2 pi sin(tilt), and the error of steps falls with h^2."""
+    for tilt in (0.02, 0.5, -0.9):
+        error = [
+            abs(angle_at_the_end(cone(tilt, n), np.zeros(n)) + 2.0 * np.pi * np.sin(tilt)) for n in (101, 201, 401)
+        ]
+        assert error[-1] < 1e-4
+        assert error[0] / error[1] == pytest.approx(4.0, rel=0.01)
+        assert error[1] / error[2] == pytest.approx(4.0, rel=0.01)
+
+
+def test_the_wheel_is_where_small_turns_bring_it() -> None:
+    """Carrier and angle together against the product of small turns by the wheel's own angular velocity."""
+    n, rng = 4001, np.random.default_rng(3)
+    t = np.linspace(0.0, 2.0, n)
+    amplitude, rate = rng.normal(size=(3, 1)), np.array([[5.0], [3.0], [4.0]])
+    carriers = [Rotation.from_euler("xyz", e) for e in (amplitude * np.sin(rate * t)).T]
+    omega = 20.0 + 8.0 * np.sin(6.0 * t)
+    chi = 20.0 * t + 8.0 / 6.0 * (1.0 - np.cos(6.0 * t))
+    wheel = carriers[0]
+    for k in range(n - 1):  # w = w_carrier + (Omega - e . w_carrier) e in the middle of the step
+        middle = (carriers[k + 1] * carriers[k].inv()).as_rotvec() / (t[1] - t[0])
+        half = Rotation.from_rotvec(0.5 * (t[1] - t[0]) * middle) * carriers[k]
+        e = half.apply([0.0, 1.0, 0.0])
+        w = middle + (0.5 * (omega[k] + omega[k + 1]) - e @ middle) * e
+        wheel = Rotation.from_rotvec((t[1] - t[0]) * w) * wheel
+    drawn = carriers[-1] * Rotation.from_euler("y", angle_at_the_end(carriers, chi))
+    assert (drawn * wheel.inv()).magnitude() < 1e-4  # h^2, of both
+    assert abs(chi[-1] - angle_at_the_end(carriers, chi)) > 0.1, "the carrier must matter"
+
+
+def test_axis_turned_over_within_a_step_leaves_a_number() -> None:
+    at = Rotation.from_euler("xyz", [0.3, -0.2, 0.9])
+    assert np.isfinite(angle_at_the_end([at, at * Rotation.from_euler("x", np.pi)], np.array([0.0, 1.0])))
+
+
+def test_evaluated_without_a_step_nothing_changes() -> None:
+    one, at = element(), Rotation.from_euler("xyz", [0.3, -0.2, 0.9])
+    y = one(signals(at, 2.0), np.zeros(7), accept=True).y
+    other = one(signals(Rotation.identity(), 5.0), np.zeros(7), y)
+    assert np.array_equal(other.y, y)
+    assert other.out["angle"] == 3.0
+    assert not np.any(other.f)

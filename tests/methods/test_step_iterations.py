@@ -1,0 +1,143 @@
+"""Steps whose Newton iterations are limited: bounded work, a state that stays good, and what was left is said."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.elements import GridRoad
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.scenes import double_four_bar, prototype_car
+from mbs.settings import LIMITED, Settings
+
+H = 0.005
+DEEP = 30
+
+
+@pytest.fixture(scope="module")
+def rough():
+    """Kerbs of 0.1 m and holes on the way of a car at 15 m/s."""
+    heights = np.zeros((200, 40))
+    for k, i in enumerate(range(20, 200, 9)):
+        heights[i : i + 4, (k % 3) * 8 : (k % 3) * 8 + 24] = 0.1 if k % 2 else -0.1
+    road = GridRoad((-5.0, -10.0), (0.5, 0.5), heights)
+    return LoadedSystem(mbs.compile(prototype_car.build(road=road)).to_bytes())
+
+
+def started(loaded, **settings):
+    instance = Instance(loaded)
+    instance.set_settings(**settings)
+    instance.set_pose(0.0, 0.0, 0.3, 0.0, 15.0)
+    instance.initialise()
+    return instance
+
+
+def stepped(instance, steps, h=H):
+    """Iterations of each step."""
+    made = [instance.report()["iterations"]]
+    for _ in range(steps):
+        instance.run(h, 1)
+        made.append(instance.report()["iterations"])
+    return np.diff(made)
+
+
+def test_a_limit_that_is_not_reached_changes_nothing(rough):
+    free, limited = started(rough), started(rough, step_iterations=DEEP)
+    assert stepped(free, 400).max() <= DEEP
+    stepped(limited, 400)
+    assert free.report()["halvings"] == 0
+    assert list(map(list, free.get_state())) == list(map(list, limited.get_state()))
+    assert limited.report()["capped"] == 0
+    assert limited.report()["capped_residual"] == 0.0
+
+
+@pytest.mark.parametrize("limit", [2, 3, 5])
+def test_no_step_makes_more_iterations_and_none_fails(rough, limit):
+    instance = started(rough, step_iterations=limit)
+    made = stepped(instance, 600)
+    report = instance.report()
+    assert made.max() == limit
+    assert report["failures"] == report["halvings"] == 0
+    assert 0 < report["capped"] <= (made == limit).sum()
+    assert 0.0 < report["capped_residual"] < 0.05
+    assert np.isfinite(instance.get_state()[0]).all()
+
+
+def test_what_is_left_bounds_how_far_the_positions_are_off(rough):
+    """One step from the same state, solved and not: the tangent holds more than the mass matrix alone."""
+    exact, apart = started(rough), 0
+    for _ in range(300):
+        limited = started(rough, step_iterations=2)
+        limited.restore(exact.save())
+        limited.set_settings(step_iterations=2)
+        before = limited.report()["capped_residual"]
+        limited.run(H, 1)
+        exact.run(H, 1)
+        off = np.abs(np.array(limited.get_state()[0]) - np.array(exact.get_state()[0])).max()
+        left = limited.report()["capped_residual"]
+        if left > max(before, 1e-6):
+            apart += 1
+            assert off < 1.5 * left
+    assert apart > 10
+
+
+def test_the_state_stays_good(rough):
+    """After the rough part the rows are closed, and the motion is that of steps that were solved."""
+    free, limited = started(rough), started(rough, step_iterations=4)
+    stepped(free, 300)
+    stepped(limited, 300)
+    assert limited.report()["capped"] > 10
+    assert limited.report()["violation"] < 1e-6
+    assert limited.report()["velocity_violation"] < 1e-6
+    apart = np.abs(np.array(limited.get_state()[0]) - np.array(free.get_state()[0])).max()
+    assert apart < 0.05
+
+
+def test_a_saved_state_goes_on_bit_for_bit(rough):
+    first = started(rough, step_iterations=3)
+    stepped(first, 100)
+    second = Instance(rough)
+    second.restore(first.save())
+    stepped(first, 100)
+    stepped(second, 100)
+    assert first.save() == second.save()
+    assert first.report() == second.report()
+
+
+def test_iterates_that_diverge_are_refused():
+    loaded = LoadedSystem(mbs.compile(double_four_bar.build()).to_bytes())
+    instance = Instance(loaded)
+    instance.set_settings(step_iterations=1)
+    instance.initialise()
+    before = list(map(list, instance.get_state()))
+    with pytest.raises(KernelError) as refused:
+        instance.run(2.0, 1)
+    assert refused.value.status in (Status.NOT_CONVERGED, Status.SINGULAR, Status.NOT_FINITE)
+    assert list(map(list, instance.get_state())) == before
+    assert instance.report()["capped"] == 0
+
+
+@pytest.mark.parametrize("method", sorted({"energy_momentum", "runge_kutta_8", "radau_5", "semi_recursive"}))
+def test_other_methods_have_no_such_limit(rough, method):
+    with pytest.raises(ValueError, match=f"'step_iterations' is 5 with the method '{method}'; only 'ali3p'"):
+        Settings(method=method, step_iterations=5)
+    assert method not in LIMITED
+    fields = Settings(method=method).kernel_fields() | {"step_iterations": 5}
+    with pytest.raises(KernelError):
+        Instance(rough).set_settings(**fields)
+
+
+def test_a_run_says_it(rough):
+    system = mbs.compile(double_four_bar.build())
+    run = mbs.simulate(system, 2.0, 0.02, settings=Settings(step_iterations=2), estimate_error=False)
+    text = f"{run.report.capped} of 100 steps ended at the limit of their iterations; they left at most"
+    assert run.report.capped > 0
+    assert text in repr(run)
+    assert text in str(run.report)
+    with pytest.raises(ValueError, match="step_iterations = 2 with a tolerance"):
+        mbs.simulate(system, 2.0, tolerance=1e-3, settings=Settings(step_iterations=2))
+    free = mbs.simulate(system, 2.0, 0.02, settings=replace(Settings(), step_iterations=0), estimate_error=False)
+    assert "limit" not in repr(free)

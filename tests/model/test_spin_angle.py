@@ -1,0 +1,93 @@
+"""The angle of a reduced wheel on its carrier: against the same wheel as a full body on a bearing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from mbs import Model, ModelError, Simulation, compile
+from tests.model.test_spin import AXIS, CENTRE, I_DIAMETRAL, I_SPIN, MASS, SPEED
+
+RIM = CENTRE + 0.2 * np.array([0.0, 0.0, 1.0])
+
+
+def gyroscope(reduced: bool) -> Model:
+    m = Model("gyroscope")
+    carrier = m.body("carrier", mass=0.5, com=(0.15, 0.0, 0.0), inertia=(0.004, 0.006, 0.007))
+    m.spherical("ball", m.ground, carrier, point=(0, 0, 0))
+    m.initial_velocity(carrier)
+    if reduced:
+        wheel = m.spin(
+            "wheel",
+            carrier=carrier,
+            centre=CENTRE,
+            axis=AXIS,
+            mass=MASS,
+            spin_inertia=I_SPIN,
+            diametral_inertia=I_DIAMETRAL,
+        )
+        m.initial_rate(wheel, SPEED)
+        m.sense_spin_angle("angle", wheel)
+        m.sense_coordinate("chi", wheel)
+        for c in "xyz":
+            m.sense_position(f"centre.{c}", carrier, CENTRE, c)
+        for c in "xyzw":
+            m.sense_quaternion(f"q{c}", carrier, c)
+    else:
+        inertia = I_DIAMETRAL * np.eye(3) + (I_SPIN - I_DIAMETRAL) * np.outer(AXIS, AXIS)
+        full = m.body("wheel", mass=MASS, com=CENTRE, inertia=inertia)
+        m.revolute("bearing", carrier, full, point=CENTRE, axis=AXIS)
+        m.initial_velocity(full, angular=SPEED * AXIS)
+        for c in "xyz":
+            m.sense_position(f"rim.{c}", full, RIM, c)
+    return m
+
+
+def rim(reduced: bool, h: float) -> np.ndarray:
+    t = Simulation(compile(gyroscope(reduced))).run(0.8, h)
+    every = round(0.016 / h)
+    if not reduced:
+        return np.array([t[f"rim.{c}"][::every] for c in "xyz"]).T
+    centre = np.array([t[f"centre.{c}"][::every] for c in "xyz"]).T
+    carrier = Rotation.from_quat(np.array([t[f"q{c}"][::every] for c in "xyzw"]).T)
+    turned = Rotation.from_rotvec(t["angle"][::every, None] * AXIS)
+    return centre + (carrier * turned).apply(RIM - CENTRE)
+
+
+def test_carrier_axis_and_angle_draw_the_wheel_where_a_full_one_is() -> None:
+    errors = [float(np.max(np.abs(rim(True, h) - rim(False, h)))) for h in (0.002, 0.001, 0.0005)]
+    ratios = np.array(errors[:-1]) / errors[1:]
+    assert np.all((ratios > 3.4) & (ratios < 4.6)), errors
+    assert errors[-1] < 1e-3
+
+
+def test_the_coordinate_of_the_spin_is_another_angle() -> None:
+    t = Simulation(compile(gyroscope(True))).run(0.8, 0.001)
+    assert t["angle"][0] == 0.0
+    assert np.max(np.abs(t["angle"] - (t["chi"] - t["chi"][0]))) > 0.1
+
+
+def test_a_state_is_restored_with_its_angle_and_a_new_start_begins_at_zero() -> None:
+    simulation = Simulation(compile(gyroscope(True)))
+    simulation.run(0.1, 0.001)
+    saved = simulation.save()
+    ahead = simulation.run(0.15, 0.001)["angle"][-1]
+    simulation.restore(saved)
+    assert simulation.run(0.15, 0.001)["angle"][-1] == ahead
+    assert Simulation(compile(gyroscope(True))).run(0.01, 0.001)["angle"][0] == 0.0
+
+
+def test_two_sensors_share_one_sum() -> None:
+    m = gyroscope(True)
+    before = len(m.elements)
+    m.sense_spin_angle("again", m.spins[0])
+    assert len(m.elements) == before
+    t = Simulation(compile(m)).run(0.05, 0.001)
+    assert np.array_equal(t["again"], t["angle"])
+
+
+def test_what_is_no_spin_is_refused() -> None:
+    m = gyroscope(True)
+    with pytest.raises(ModelError, match="needs a spin"):
+        m.sense_spin_angle("wrong", m.bodies[0])  # type: ignore[arg-type]

@@ -1,0 +1,366 @@
+"""glTF files: nothing for the validator of Khronos to say, and the poses of the recording for another reader."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+import struct
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from scipy.spatial.transform import Rotation
+
+from ali3.errors import FileError
+from tests.viewer import hand_scenes, moving_car
+from viewer import bundle
+from viewer.errors import ViewerError
+from viewer.gltf import write_gltf
+from viewer.gltf.flexible import stress_colors
+from viewer.gltf.materials import KINDS, linear
+from viewer.gltf.roads import road_solid
+from viewer.recording import Recording
+
+PAGE = Path(bundle.__file__).parent / "page"
+T = np.linspace(0.0, 2.0, 201)
+TO_EARTH = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # from glTF's axes, y up
+
+
+def run_node(script, *arguments):
+    try:
+        bundle.packages(PAGE)
+        node = bundle.node()[0]
+    except RuntimeError as error:
+        pytest.skip(str(error))
+    command = [node, str(PAGE / "test" / script), *map(str, arguments)]
+    result = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+    assert result.returncode == 0, result.stderr
+    return [json.loads(line) for line in result.stdout.splitlines()]
+
+
+def content(path):
+    """JSON and bytes of a file, read by hand."""
+    data = path.read_bytes()
+    if path.suffix == ".gltf":
+        made = json.loads(data)
+        return made, base64.b64decode(made["buffers"][0]["uri"].partition(",")[2])
+    length = struct.unpack_from("<I", data, 12)[0]
+    return json.loads(data[20 : 20 + length]), data[28 + length :]
+
+
+def accessor(path, index):
+    made, raw = content(path)
+    found = made["accessors"][index]
+    kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[found["componentType"]]
+    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[found["type"]]
+    start = made["bufferViews"][found["bufferView"]].get("byteOffset", 0)
+    return np.frombuffer(raw, kind, found["count"] * width, start).reshape(-1, width).astype(float)
+
+
+def world(path, times, name):
+    """Earth matrices of the node of a name as three.js has them at times, (n, 4, 4)."""
+    answer = run_node("read_gltf.mjs", path, *times)[0]
+    index = [str(k) for k, node in enumerate(content(path)[0]["nodes"]) if node["name"] == name]
+    assert len(index) == 1
+    made = np.array([row[index[0]]["matrix"] for row in answer]).reshape(-1, 4, 4).transpose(0, 2, 1)
+    turn = np.eye(4)
+    turn[:3, :3] = TO_EARTH
+    return turn @ made
+
+
+def still():
+    scene = moving_car.scene(False)
+    t = np.array([1.0])
+    return Recording(scene, t, moving_car.recording(t, False).columns)
+
+
+def with_gaps_and_steps():
+    made = moving_car.recording(np.sort(np.append(T, [1.0, 1.0, 1.0 + 1e-9])))
+    values = made.columns["carrier.x"].copy()
+    values[:5] = values[50:60] = np.nan
+    made.columns["carrier.x"] = values
+    return made
+
+
+def everything():
+    t = np.linspace(5.0, 6.0, 51)
+    scene = hand_scenes.everything()
+    zero = np.zeros(len(t))
+    columns = {"body.x": t, "body.y": zero, "body.z": zero + 1.0, "angle": 3 * t, "body.mode_1": np.sin(t)}
+    columns |= {"body.qw": zero + 1.0, "body.qx": zero, "body.qy": zero, "body.qz": 0.1 * t}
+    others = ["spring.force", "pin", "contact", "normal", "axis"]
+    columns[others[0]] = zero
+    columns |= {f"{name}.{c}": zero for name in others[1:] for c in "xyz"}
+    columns |= {f"tyre.F{c}": zero for c in "xyz"}
+    return Recording(scene, t, columns)
+
+
+RECORDINGS = {
+    "corner": lambda: moving_car.recording(T),
+    "planar": lambda: hand_scenes.crank(T),
+    "still": still,
+    "gaps and steps": with_gaps_and_steps,
+    "everything": everything,
+    "coarse": lambda: moving_car.recording(np.linspace(0.0, 2.0, 11)),
+}
+
+
+@pytest.fixture(scope="module")
+def corner(tmp_path_factory):
+    path = tmp_path_factory.mktemp("gltf") / "corner.glb"
+    write_gltf(path, moving_car.recording(T), rate=240.0)
+    return path
+
+
+@pytest.mark.filterwarnings("error")
+def test_the_validator_finds_nothing(tmp_path):
+    files = []
+    for number, make in enumerate(RECORDINGS.values()):
+        for suffix in (".glb", ".gltf"):
+            files.append(tmp_path / f"{number}{suffix}")
+            write_gltf(files[-1], make())
+    reports = run_node("validate_gltf.mjs", *files)
+    assert len(reports) == len(files)
+    for report in reports:
+        assert report["issues"]["messages"] == []
+        assert report["info"]["drawCallCount"] > 2
+    assert [report["info"]["animationCount"] for report in reports] == [1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1]
+
+
+def test_the_validator_finds_what_is_wrong(corner, tmp_path):
+    data = bytearray(corner.read_bytes())
+    length = struct.unpack_from("<I", data, 12)[0]
+    data[20 : 20 + length] = data[20 : 20 + length].replace(b'"VEC4"', b'"VEC5"')
+    (tmp_path / "wrong.glb").write_bytes(data)
+    assert run_node("validate_gltf.mjs", tmp_path / "wrong.glb")[0]["issues"]["numErrors"] > 0
+
+
+@pytest.mark.parametrize("name", ["chassis", "carrier", "arm", "wheel"])
+def test_another_reader_finds_the_poses_of_the_recording(corner, name):
+    times = T[::8]
+    found = world(corner, times, name)
+    position, rotation = moving_car.pose(name, times)
+    assert np.abs(found[:, :3, 3] - position).max() < 1e-5
+    assert np.abs(found[:, :3, :3] - rotation.as_matrix()).max() < 1e-5 if name != "wheel" else 1e-4
+
+
+def test_a_wheel_that_turns_fast_turns_the_right_way_between_the_times(corner):
+    times = T[:20] + 0.0037
+    found = world(corner, times, "wheel")
+    turn = moving_car.pose("wheel", times)[1].as_matrix()
+    assert np.abs(found[:, :3, :3] - turn).max() < 2e-3  # of the carrier's turn between its times
+    times = accessor(corner, rotation_sampler(corner, "wheel")["input"]).ravel()
+    assert np.diff(times).max() * moving_car.SPIN < 1.501
+
+
+def rotation_sampler(path, name):
+    made = content(path)[0]
+    animation = made["animations"][0]
+    for channel in animation["channels"]:
+        node = made["nodes"][channel["target"]["node"]]
+        if node["name"] == name and channel["target"]["path"] == "rotation":
+            return animation["samplers"][channel["sampler"]]
+    raise AssertionError(name)
+
+
+@pytest.mark.parametrize("name", ["chassis", "carrier", "arm", "wheel"])
+def test_quaternions_are_unit_and_of_continuous_sign(corner, name):
+    q = accessor(corner, rotation_sampler(corner, name)["output"])
+    assert np.abs(np.linalg.norm(q, axis=1) - 1.0).max() < 2e-7
+    assert np.einsum("ni,ni->n", q[1:], q[:-1]).min() > 0.0
+
+
+def test_a_spring_reaches_from_anchor_to_anchor(corner):
+    times = T[::20]
+    found = world(corner, times, "spring")
+    length = np.linalg.norm(
+        moving_car.place("chassis", moving_car.TOP, T) - moving_car.place("carrier", moving_car.HUB, T), axis=1
+    )
+    top, hub = (found @ [0.0, y, 0.0, 1.0] for y in (0.0, length[0]))
+    assert np.abs(top[:, :3] - moving_car.place("chassis", moving_car.TOP, times)).max() < 1e-5
+    assert np.abs(hub[:, :3] - moving_car.place("carrier", moving_car.HUB, times)).max() < 1e-5
+    assert np.ptp(length) > 0.01
+    across = np.linalg.norm(found[:, :3, 0], axis=1)
+    assert np.abs(across - 1.0).max() < 1e-5  # only its length changes
+
+
+def flexible_points(path, times):
+    answer = run_node("read_gltf.mjs", path, *times)[0]
+    index = next(str(k) for k, node in enumerate(content(path)[0]["nodes"]) if node["name"] == "frame")
+    return np.array([row[index]["points"] for row in answer])
+
+
+@pytest.mark.parametrize("deformation", [1.0, 10.0])
+def test_a_flexible_part_bends_by_its_modes(tmp_path, deformation):
+    path = tmp_path / "frame.glb"
+    written = write_gltf(path, moving_car.recording(T), rate=240.0, deformation=deformation)
+    times = np.array([0.0, 0.31, 1.2, 2.0])
+    points = flexible_points(path, times)
+    exact = np.einsum("njm,tm->tnj", moving_car.modes(), moving_car.amplitudes(times))
+    rest = points[0] - points[0]
+    for k, beam in enumerate(moving_car.BEAMS):
+        ring = slice(24 * k, 24 * k + 24)
+        rest = points[0, ring]  # every amplitude is 0 at the start
+        ends = np.linalg.norm(rest - np.array(moving_car.NODES[beam[0]]), axis=1) > 0.1
+        for row in range(len(times)):
+            moved = points[row, ring] - rest
+            for end in (0, 1):
+                wrong = np.abs(moved[ends == bool(end)] - deformation * exact[row, beam[end]]).max()
+                assert wrong < written.position_error / 1000.0 + 1e-6
+    assert np.abs(exact).max() > 0.02
+    assert written.position_error < 4.0 * deformation  # 12 modes by 8 targets
+
+
+def test_colours_are_those_of_the_largest_stress(tmp_path):
+    recording = moving_car.recording(T)
+    path = tmp_path / "frame.glb"
+    written = write_gltf(path, recording)
+    part = recording.scene["flexible"][0]
+    rows = np.frombuffer(base64.b64decode(part["stress"]["rows"]), "<f4").reshape(3, 2, 4, 12)
+    stress = np.abs(np.einsum("befm,tm->tbef", rows, moving_car.amplitudes(T))).max(axis=3)
+    peak = int(stress.max(axis=(1, 2)).argmax())
+    note = next(note for note in written.notes if "colours" in note)
+    assert float(re.search(r"largest stress, ([\d.e+]+) Pa", note)[1]) == pytest.approx(stress.max(), rel=5e-3)
+    assert float(re.search(r"at ([\d.]+) s", note)[1]) == pytest.approx(T[peak], abs=5e-3)
+    made = content(path)[0]
+    mesh = next(m for m in made["meshes"] if m["name"] == "frame")
+    colors = accessor(path, mesh["primitives"][0]["attributes"]["COLOR_0"])
+    expected = stress_colors(stress[peak] / 2.5e8)
+    for beam in range(3):
+        found = np.unique(colors[24 * beam : 24 * beam + 24].round(6), axis=0)
+        assert np.abs(found - np.unique(expected[beam].round(6), axis=0)).max() < 1e-5
+
+
+def test_what_thinning_costs_is_said(tmp_path):
+    """A point at radius r that turns by a between two times is off by r (1 - cos(a/2)) between them."""
+    t = np.arange(2001) / 1000.0
+    turn = {
+        "qw": np.ones_like(t),
+        "qx": 0 * t,
+        "qy": 0 * t,
+        "qz": 0 * t,
+        "x": np.cos(9 * t),
+        "y": np.sin(9 * t),
+        "z": 0 * t,
+    }
+    scene = hand_scenes.everything() | {"frames": {"p": hand_scenes.moving("p")}, "focus": "p", "meshes": {}}
+    scene |= {"flexible": [], "arrows": [], "roads": [], "missing": []}
+    scene["shapes"] = [{"kind": "sphere", "frame": "p", "radius": 0.1}]
+    recording = Recording(scene, t, {f"p.{name}": values for name, values in turn.items()})
+    for rate in (10.0, 50.0):
+        written = write_gltf(tmp_path / "p.glb", recording, rate=rate)
+        assert written.times == 2 * rate + 1
+        assert written.position_error == pytest.approx(1000.0 * (1.0 - np.cos(4.5 / rate)), rel=0.05)
+        assert written.angle_error < 1e-6
+
+
+def test_a_million_times_are_thinned(tmp_path):
+    t = np.linspace(0.0, 100.0, 1_000_001)
+    written = write_gltf(tmp_path / "long.glb", hand_scenes.crank(t))
+    assert written.times == 6001
+    assert written.size < 1_000_000
+
+
+def test_up_is_y_and_trimesh_reads_the_shapes(corner):
+    scene = trimesh.load_scene(corner)
+    assert len(scene.geometry) > 10
+    low, high = scene.bounds
+    assert low[1] == pytest.approx(0.0, abs=0.1)
+    assert 1.4 < high[1] < 1.7
+
+
+def test_materials_are_those_of_the_page():
+    text = (PAGE / "src" / "looks" / "materials.js").read_text(encoding="utf-8")
+    table = text.partition("const KINDS = {")[2].partition("\n};")[0]
+    found = dict(re.findall(r"^\s+(\w+): \{(.*)\},$", table, re.MULTILINE))
+    assert found.keys() == KINDS.keys()
+    for name, line in found.items():
+        numbers = {key: float(value) for key, value in re.findall(r"(\w+): ([\d.]+)", line)}
+        kind = KINDS[name]
+        assert re.search(r'color: "(#\w{6})"', line)[1] == kind.color
+        assert (numbers["metalness"], numbers["roughness"]) == (kind.metalness, kind.roughness)
+        assert numbers.get("opacity", 1.0) == kind.opacity
+        coat = (numbers["clearcoat"], numbers["clearcoatRoughness"]) if "clearcoat" in numbers else None
+        assert coat == kind.clearcoat
+    assert linear("#ffffff") == (1.0, 1.0, 1.0)
+    assert linear("#808080")[0] == pytest.approx(0.2158605, abs=1e-6)
+
+
+@pytest.mark.parametrize("up", [[0.0, 0, 1], [0, 1, 0]])
+@pytest.mark.parametrize("kind", ["flat", "plane", "profile", "grid"])
+def test_roads_face_up_and_have_their_heights(up, kind):
+    up = np.array(up)
+    roads = {
+        "flat": {"height": 0.2},
+        "plane": {"point": (0.2 * up).tolist(), "normal": (up + np.array([0.1, 0.0, 0.0])).tolist()},
+        "profile": {"stations": [1.0, 2.0, 2.0], "heights": [0.2, 0.5, 0.3]},
+        "grid": {
+            "origin": [-1, -1],
+            "spacing": [0.5, 0.25],
+            "shape": [5, 9],
+            "heights": hand_scenes.floats([0.2] * 45),
+        },
+    }
+    solid, _ = road_solid(roads[kind] | {"kind": kind}, up, np.array([0.5, 0.0, 0.0]), 20.0)
+    a, b, c = (solid.positions[solid.triangles[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    assert np.linalg.norm(normals, axis=1).min() > 0.0
+    assert (normals @ up).min() >= -1e-9
+    heights = solid.positions @ up
+    at = solid.positions[:, 0]
+    expected = {"flat": 0.2 + 0 * at, "plane": 0.2 - 0.1 * at, "grid": 0.2 + 0 * at}
+    expected["profile"] = np.where(at <= 1.0, 0.2, np.where(at > 2.0, 0.3, heights))
+    assert np.abs(heights - expected[kind]).max() < 1e-6
+    if kind == "profile":
+        assert set(heights[np.isclose(at, 2.0)].round(9)) == {0.5, 0.3}
+
+
+def test_a_second_writing_gives_the_same_bytes(tmp_path):
+    for name in ("a.glb", "b.glb"):
+        write_gltf(tmp_path / name, moving_car.recording(T))
+    assert (tmp_path / "a.glb").read_bytes() == (tmp_path / "b.glb").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"path": "a.obj"}, r"must end with \.glb or \.gltf\.$"),
+        ({"rate": 0.0}, r"^The rate is 0\.0; it must be a number from 1 to 240\.$"),
+        ({"rate": "fast"}, r"^The rate is 'fast'; it must be a number from 1 to 240\.$"),
+        ({"rate": float("nan")}, r"^The rate is nan; "),
+        ({"deformation": -1}, r"^The deformation is -1; it must be a number from 0 to 1e\+06\.$"),
+        ({"recording": 3}, r"^A recording is needed; this is an object of type int\.$"),
+        ({"recording": Recording(None, T, {"a": T}, name="plots")}, r"^'plots' has no scene: "),
+        (
+            {"recording": Recording(hand_scenes.crank(T).scene, T, {})},
+            r"^'crank' has no shape that can be drawn",
+        ),
+    ],
+)
+def test_what_cannot_be_written_is_one_sentence(tmp_path, arguments, words):
+    path = tmp_path / arguments.pop("path", "a.glb")
+    recording = arguments.pop("recording", None) or hand_scenes.crank(T)
+    with pytest.raises(ViewerError, match=words):
+        write_gltf(path, recording, **arguments)
+    assert not path.exists()
+
+
+def test_a_folder_that_cannot_be_made(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileError, match=r"cannot be made"):
+        write_gltf(tmp_path / "file" / "a.glb", hand_scenes.crank(T))
+
+
+def test_what_is_not_drawn_is_said(tmp_path):
+    notes = " ".join(write_gltf(tmp_path / "a.glb", everything()).notes)
+    assert "lower arm is not drawn" in notes
+    assert "arrows" in notes
+    assert "The road of a file is not drawn." in notes
+    assert "Time 0 of the file is 5 s" in notes
+
+
+def test_rotation_of_the_world():
+    assert np.abs(Rotation.from_matrix(TO_EARTH).apply([0.0, 1.0, 0.0]) - [0, 0, 1]).max() < 1e-15

@@ -1,0 +1,165 @@
+"""Recordings: what is checked, what is taken out and said, and how they are thinned."""
+
+from __future__ import annotations
+
+import tracemalloc
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.viewer.hand_scenes import crank, everything
+from viewer.errors import ViewerError
+from viewer.recording import Recording
+from viewer.scene_columns import all_columns
+
+TIMES = np.linspace(0.0, 2.0, 21)
+
+
+def full(**changed: Any) -> Recording:
+    columns = {name: np.ones(21) for name in all_columns(everything())} | changed
+    return Recording(everything(), TIMES, {name: x for name, x in columns.items() if x is not None})
+
+
+def test_a_whole_recording_draws_all() -> None:
+    recording = full()
+    assert recording.missing == [{"name": "lower arm", "why": "no output gives its motion"}]
+    assert recording.scene is not None
+    assert len(recording.scene["shapes"]) == len(everything()["shapes"])
+    assert recording.notes == []
+
+
+@pytest.mark.parametrize(
+    ("t", "sentence"),
+    [
+        ([], r"shape \(0,\)"),
+        ([[0.0]], r"shape \(1, 1\)"),
+        (["a"], "no numbers"),
+        ([0.0, np.nan], "time 1 .* is nan"),
+        ([0.0, 2.0, 1.0], "go back from 2 s to 1 s"),
+    ],
+)
+def test_times_that_are_none(t: Any, sentence: str) -> None:
+    with pytest.raises(ViewerError, match=sentence):
+        Recording(None, t, {})
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        (np.ones(20), r"'x' has the shape \(20,\); there are 21 times"),
+        (np.ones((21, 1)), r"shape \(21, 1\)"),
+        (["a"] * 21, "holds no numbers"),
+        (np.ones(21, complex), "complex128"),
+    ],
+)
+def test_columns_that_are_none(values: Any, sentence: str) -> None:
+    with pytest.raises(ViewerError, match=sentence):
+        Recording(None, TIMES, {"x": values})
+
+
+def test_what_the_columns_do_not_move_is_taken_out_with_all_that_stands_on_it() -> None:
+    recording = full(**{"body.y": None})
+    assert recording.scene is not None
+    assert recording.scene["frames"] == {}
+    assert recording.scene["shapes"] == []
+    assert recording.scene["focus"] == ""
+    why = {item["name"]: item["why"] for item in recording.missing}
+    assert why["body"] == why["spinning wheel"] == why["arm"] == "the result has no column 'body.y'"
+
+
+def test_one_column_takes_no_more_than_what_needs_it() -> None:
+    recording = full(angle=None, **{"spring.force": None, "body.mode_1": None})
+    assert recording.scene is not None
+    assert set(recording.scene["frames"]) == {"body", "arm"}
+    assert [shape["kind"] for shape in recording.scene["shapes"]] == [
+        *("box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper"),
+    ]
+    assert [arrow["name"] for arrow in recording.scene["arrows"]] == ["pin", "tyre"]
+    assert recording.scene["flexible"] == []
+    names = [item["name"] for item in recording.missing]
+    assert names == ["lower arm", "spinning wheel", "deformation of frame", "arrow spring"]
+
+
+def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_told() -> None:
+    gaps = np.where((TIMES > 0.5) & (TIMES < 1.0), np.nan, 1.0)
+    recording = full(angle=np.full(21, np.nan), **{"body.x": gaps})
+    assert {"name": "spinning wheel", "why": "the column 'angle' holds no number"} in recording.missing
+    assert recording.notes == [
+        "The column 'body.x' has 4 of 21 values that are no numbers, the first at 0.6 s; there is nothing drawn for "
+        "them."
+    ]
+
+
+def test_an_angle_within_one_turn_becomes_continuous() -> None:
+    angle = 10.0 * TIMES
+    wrapped = (angle + np.pi) % (2.0 * np.pi) - np.pi
+    recording = full(angle=wrapped)
+    np.testing.assert_allclose(recording.columns["angle"], angle, atol=1e-12)
+    assert "'angle' was given within one turn" in recording.notes[0]
+    other = full(angle=angle)
+    np.testing.assert_array_equal(other.columns["angle"], angle)
+    assert other.notes == []
+
+
+def test_a_pose_as_drawn_is_added_where_there_is_none() -> None:
+    recording = crank(TIMES)
+    assert recording.scene is not None
+    assert recording.scene["frames"]["slider"]["start"] == [[1.5, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
+
+
+def test_thinning_is_uniform_in_time_and_said() -> None:
+    t = np.concatenate([np.linspace(0.0, 1.0, 90_001), np.linspace(1.0, 10.0, 10_001)[1:]])
+    recording = crank(t)
+    shown = recording.thinned(1000)
+    assert len(shown.t) <= 1000
+    assert (shown.t[0], shown.t[-1]) == (0.0, 10.0)
+    assert np.diff(shown.t).max() < 1.2 * np.diff(shown.t).min()
+    np.testing.assert_allclose(shown.columns["angle"], 2.0 * shown.t)
+    assert shown.notes[0].startswith(f"{len(shown.t)} of 100001 times are shown, one every 0.01 s.")
+    assert recording.thinned(200_000) is recording
+    assert recording.notes == []
+
+
+def test_thinning_says_how_far_the_motion_between_is_from_the_record() -> None:
+    rate, step = 30.0, 0.05
+    shown = crank(np.linspace(0.0, 10.0, 20_001), rate).thinned(201)
+    note = shown.notes[0]
+    # Between orientations the arc is exact at a constant rate: nothing is said of the crank. The slider's place is a
+    # chord: its sagitta is the largest acceleration, (r + r²/l) w² at the outer dead centre, times h² / 8.
+    assert "direction" not in note
+    far = float(note.split("'slider' by up to ")[1].split(" m")[0])
+    assert far == pytest.approx((0.5 + 0.25) * rate**2 * step**2 / 8.0, rel=0.15)
+
+
+def test_a_turn_that_thinning_loses_is_said() -> None:
+    shown = crank(np.linspace(0.0, 10.0, 20_001), 100.0).thinned(101)
+    assert "the direction of 'crank' by up to" in shown.notes[0]
+
+
+def test_a_million_times_in_bounded_memory() -> None:
+    recording = crank(np.linspace(0.0, 1000.0, 1_000_001))
+    tracemalloc.start()
+    shown = recording.thinned()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(shown.t) == 5000
+    assert peak < 100e6  # the record itself has 160 MB
+
+
+@pytest.mark.parametrize("most", [1, 0, -3, 2.5, True, "many"])
+def test_a_number_of_times_that_is_none(most: Any) -> None:
+    with pytest.raises(ViewerError, match="whole number from 2 on"):
+        crank(TIMES).thinned(most)
+
+
+def test_a_part_of_the_time() -> None:
+    part = crank(TIMES).between(0.5, 1.0)
+    np.testing.assert_allclose(part.t, np.linspace(0.5, 1.0, 6))
+    np.testing.assert_allclose(part.columns["angle"], 2.0 * part.t)
+    with pytest.raises(ViewerError, match="no time from 3 s to 4 s in 'crank'; it was recorded from 0 s to 2 s"):
+        crank(TIMES).between(3.0, 4.0)
+
+
+def test_one_time_is_a_recording() -> None:
+    assert len(crank(np.zeros(1)).thinned().t) == 1

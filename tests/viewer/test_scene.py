@@ -1,0 +1,192 @@
+"""The format of scenes: what is wrong is said in one sentence with the place; the JSON Schema says the same."""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from tests.viewer.hand_scenes import everything, floats
+from viewer.errors import SceneError
+from viewer.scene import SCHEMA_FILE, check_scene, json_schema, read_scene, scene_errors, schema_text
+
+VALIDATOR = jsonschema.Draft202012Validator(json_schema())
+
+
+def keys(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], str]]:
+    """Every key of a scene with the path of its table."""
+    for key, value in node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ():
+        if isinstance(node, dict):
+            yield path, key
+        yield from keys(value, (*path, key))
+
+
+def at(scene: Any, path: tuple[Any, ...]) -> Any:
+    for part in path:
+        scene = scene[part]
+    return scene
+
+
+PLACES = [place for place in keys(everything()) if place[0] not in (("frames",), ("meshes",))]
+OPTIONAL = {
+    *("description", "up", "planar", "focus", "start", "at", "name", "body", "axes", "material", "color", "opacity"),
+    *("wire", "coils", "rim", "axis", "normals", "stress", "constant", "unit", "limit", "sign", "frictions", "height"),
+    *("flexible", "arrows", "roads", "missing", "variable", "path", "rule", "computed", "limit_name"),
+    *("names", "note", "range", "direction", "origin", "width"),
+}
+NEEDED = {(("roads", 1), "origin"), (("shapes", 8), "width"), (("frames", "spinning wheel"), "axis")}
+NEEDED |= {(("missing", 0), "name"), (("arrows", 1), "at")}
+NEEDED |= {(("arrows", k), "name") for k in range(3)} | {((), "name"), (("arrows", 2, "tyre"), "axis")}
+
+
+def test_a_scene_with_one_of_each_is_good_and_the_schema_says_so() -> None:
+    assert scene_errors(everything()) == []
+    VALIDATOR.validate(everything())
+
+
+def test_the_schema_in_the_package_is_that_of_the_types() -> None:
+    assert SCHEMA_FILE.read_text(encoding="utf-8") == schema_text()
+
+
+@pytest.mark.parametrize("place", PLACES, ids=str)
+def test_a_key_that_is_not_there(place: tuple[tuple[Any, ...], str]) -> None:
+    scene = everything()
+    path, key = place
+    del at(scene, path)[key]
+    errors = scene_errors(scene)
+    if key in OPTIONAL and place not in NEEDED:
+        assert errors == []
+        VALIDATOR.validate(scene)
+    elif place == ((), "meshes"):
+        assert errors == ['shapes[5].mesh is "triangle", which is no mesh; there are none.']
+    elif place == (("arrows", 2), "tyre"):
+        assert errors == ["arrows[2] must have the keys 'value' and 'between', 'vector' and 'at', or 'tyre'."]
+    else:
+        assert len(errors) == 1
+        assert key in errors[0]
+        assert "is missing" in errors[0]
+        assert not VALIDATOR.is_valid(scene)
+
+
+@pytest.mark.parametrize("place", PLACES, ids=str)
+def test_a_key_that_is_misspelt(place: tuple[tuple[Any, ...], str]) -> None:
+    scene = everything()
+    path, key = place
+    table = at(scene, path)
+    table[f"{key}x"] = table.pop(key)
+    errors = scene_errors(scene)
+    assert len(errors) == 1
+    assert f"{key}x" in errors[0]
+    assert f"'{key}'" in errors[0] or f"{key} is missing" in errors[0] or "or 'tyre'" in errors[0]
+    assert "\n" not in errors[0]
+
+
+@pytest.mark.parametrize("value", [-1, [], {}, [1, 2], True, float("nan"), float("inf"), "</script>\n" * 99, 10**400])
+@pytest.mark.parametrize("place", PLACES, ids=str)
+def test_any_value_is_good_or_has_one_sentence(place: tuple[tuple[Any, ...], str], value: Any) -> None:
+    scene = everything()
+    path, key = place
+    at(scene, path)[key] = value
+    for sentence in scene_errors(scene):
+        assert sentence.endswith(".")
+        assert "\n" not in sentence
+        assert len(sentence) < 400
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "sentence"),
+    [
+        (("shapes", 1, "radius"), -0.1, "shapes[1].radius is -0.1; it must be above 0."),
+        (("shapes", 1, "radius"), "1", 'shapes[1].radius is "1"; it must be a number.'),
+        (("shapes", 1, "at"), [0, 0], "shapes[1].at has 2 entries; it must have 3."),
+        (("shapes", 1, "at"), [0, 0, 0, 0], "shapes[1].at has 4 entries; it must have 3."),
+        (("shapes", 3, "points"), [["ground", [0, 0, 0]]], "shapes[3].points has 1 entries; it must have at least 2."),
+        (("shapes", 0, "color"), "red", "shapes[0].color is \"red\"; it must be a colour such as '#3366cc'."),
+        (("shapes", 0, "axes"), [[1, 0, 0], [1, 0, 0], [0, 0, 1]], "shapes[0].axes must be three unit vectors"),
+        (("shapes", 0, "axes"), [[1, 0, 0], [0, 1, 0], [0, 0, -1]], "shapes[0].axes must be three unit vectors"),
+        (("shapes", 8, "rim"), 0.4, "shapes[8].rim is 0.4; it must be below the radius, 0.3."),
+        (("shapes", 8, "axis"), [0, 0, 0], "shapes[8].axis is [0, 0, 0]; it must not be zero."),
+        (("shapes", 2, "frame"), "arms", "shapes[2].frame is \"arms\", which is no frame; there are 'ground', 'body'"),
+        (
+            ("frames", "spinning wheel", "parent"),
+            "rim",
+            "frames['spinning wheel'].parent is \"rim\", which is no frame",
+        ),
+        (("frames", "spinning wheel", "parent"), "spinning wheel", "frames['spinning wheel'] stands on itself"),
+        (("frames", "arm", "points"), [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "frames.arm.points lie on a line"),
+        (("frames", "body", "start"), [[0, 0, 0], [0, 0, 0, 0]], "frames.body.start[1] is [0, 0, 0, 0]; it must not"),
+        (("meshes", "triangle", "positions"), "!", "meshes.triangle.positions is not base64."),
+        (("meshes", "triangle", "positions"), floats([1, 2, 3, 4]), "meshes.triangle.normals has 9 numbers where 4"),
+        (
+            ("meshes", "triangle", "positions"),
+            floats([0] * 8 + [float("nan")]),
+            "meshes.triangle.positions holds 1 val",
+        ),
+        (
+            ("meshes", "triangle", "triangles"),
+            "AAAAAAEAAAADAAAA",
+            "meshes.triangle.triangles names corner 3; there are 3",
+        ),
+        (("flexible", 0, "modes"), floats([1, 2]), "flexible[0].modes has 2 numbers where 6 belong."),
+        (("flexible", 0, "beams"), [[0, 2]], "flexible[0].beams[0] names node 2; there are 2 from 0 on."),
+        (("flexible", 0, "radii"), [], "flexible[0].radii has 0 entries where there are 1 beams."),
+        (("flexible", 0, "stress", "rows"), floats([1]), "flexible[0].stress.rows has 1 numbers where 2 belong."),
+        (("flexible", 0, "stress", "rule"), "round", "flexible[0].stress.fibres is 1; the rule 'round' has 3."),
+        (("arrows", 1, "axes"), "wing", 'arrows[1].axes is "wing", which is no frame'),
+        (("arrows", 0, "sign"), 2, "arrows[0].sign is 2; it must be 1 or -1."),
+        (("roads", 1, "shape"), [2, 3], "roads[1].heights has 4 numbers where 6 belong."),
+        (("up",), [0, 0, 0], "up is [0, 0, 0]; it must have a direction."),
+        (
+            ("focus",),
+            "moon",
+            "focus is \"moon\", which is no frame; there are 'ground', 'body', 'spinning wheel', 'arm'.",
+        ),
+        (("version",), 2, "version is 2; this viewer reads version 1."),
+        (("format",), "glTF", "format is \"glTF\"; it must be 'ALi3 scene'."),
+        (("frames", "body"), None, "frames.body is null; it must be a table."),
+        (("frames", "body"), {"start": 1}, "frames.body must have the keys 'position' and 'quaternion', 'parent'"),
+    ],
+)
+def test_sentences(path: tuple[Any, ...], value: Any, sentence: str) -> None:
+    scene = everything()
+    at(scene, path[:-1])[path[-1]] = value
+    errors = scene_errors(scene)
+    assert errors[0].startswith(sentence), errors[0]
+    with pytest.raises(SceneError, match=r"^car\.json: "):
+        check_scene(scene, "car.json")
+
+
+def test_null_stands_for_a_key_that_is_left_out() -> None:
+    scene = everything()
+    scene["shapes"][0]["color"] = None
+    assert scene_errors(scene) == []
+    scene["shapes"][0]["size"] = None
+    assert scene_errors(scene) == ["shapes[0].size is missing."]
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"\xff\xfe", b"[1]", b"[" * 100_000, b'"scene"'])
+def test_a_file_that_is_no_scene(content: bytes, tmp_path: Path) -> None:
+    (tmp_path / "scene.json").write_bytes(content)
+    with pytest.raises(SceneError, match=r"scene\.json") as error:
+        read_scene(tmp_path / "scene.json")
+    assert "\n" not in str(error.value)
+
+
+def test_a_file_of_a_scene_is_read_and_one_that_is_not_there_is_named(tmp_path: Path) -> None:
+    (tmp_path / "scene.json").write_text(json.dumps(everything()))
+    assert read_scene(tmp_path / "scene.json") == everything()
+    assert read_scene(json.dumps(everything()).encode()) == everything()
+    with pytest.raises(SceneError, match=r"none\.json cannot be read: no such file"):
+        read_scene(tmp_path / "none.json")
+
+
+def test_checking_changes_nothing() -> None:
+    scene = everything()
+    before = copy.deepcopy(scene)
+    check_scene(scene)
+    assert scene == before

@@ -1,0 +1,182 @@
+"""Browsers: the user's, which shows a page, and a Chromium without a window, which makes pictures of it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import webbrowser
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ali3.errors import UserError
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+VARIABLE = "ALI3_BROWSER"
+_NAMES = (
+    *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "chrome-headless-shell"),
+    *("microsoft-edge", "microsoft-edge-stable", "msedge", "brave-browser"),
+)
+_PLACES = (
+    "/usr/lib/chromium/chromium",
+    "/snap/bin/chromium",
+    "/opt/google/chrome/chrome",
+    "/opt/microsoft/msedge/msedge",
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    "/Applications/Microsoft Edge.app/Contents/MacOS/Microsoft Edge",
+)
+_WINDOWS = (
+    r"Google\Chrome\Application\chrome.exe",
+    r"Chromium\Application\chrome.exe",
+    r"Microsoft\Edge\Application\msedge.exe",
+)
+# A picture is the same on every machine: drawn by the processor. As root, Chromium has no sandbox.
+_ARGUMENTS = (
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--hide-scrollbars",
+    "--force-color-profile=srgb",
+)
+
+
+class BrowserError(UserError, RuntimeError):
+    """There is no browser for a picture, or it does not run; the message says what would help."""
+
+
+def find_chromium() -> Path:
+    """A Chromium, Chrome or Edge of this machine.
+
+    The environment variable ``ALI3_BROWSER`` names one; else it is looked for on the search path and in the usual
+    places of Linux, macOS and Windows.
+
+    Raises
+    ------
+    BrowserError
+        There is none, or the variable names no program.
+    """
+    named = os.environ.get(VARIABLE)
+    if named:
+        found = shutil.which(named)
+        if found is None:
+            raise BrowserError(f"The environment variable {VARIABLE} names {named}, which is no program.")
+        return Path(found)
+    for name in _NAMES:
+        found = shutil.which(name)
+        if found is not None:
+            return Path(found)
+    for place in _places():
+        if place.is_file() and os.access(place, os.X_OK):
+            return place
+    raise BrowserError(
+        "There is no Chromium, Chrome or Edge on this machine, which pictures need; install one, or name its program "
+        f"in the environment variable {VARIABLE}."
+    )
+
+
+def open_in_browser(path: str | os.PathLike[str]) -> bool:
+    """Show a page in the user's browser.
+
+    Parameters
+    ----------
+    path : path
+        The HTML file.
+
+    Returns
+    -------
+    bool
+        Whether there is one: on a machine without a screen there is none.
+    """
+    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        return False  # a browser in the terminal would draw nothing
+    try:
+        return webbrowser.open(Path(path).resolve().as_uri())
+    except webbrowser.Error:
+        return False
+
+
+def screenshot(
+    page: str | os.PathLike[str], times: Iterable[float], size: tuple[int, int] = (1280, 720), camera: str | None = None
+) -> Iterator[bytes]:
+    """Pictures of a page that `viewer.page_file.write_page` wrote, one after the other.
+
+    Parameters
+    ----------
+    page : path
+        The HTML file; with the option ``controls`` false there is the drawing only.
+    times : iterable of float
+        s.
+    size : (int, int)
+        Pixels.
+    camera : str, optional
+        Its name; by default the one that the page starts with.
+
+    Yields
+    ------
+    bytes
+        A PNG file.
+
+    Raises
+    ------
+    BrowserError
+        There is no browser, or no package playwright, or the page cannot be drawn.
+    """
+    file = Path(page)
+    if not file.is_file():
+        raise BrowserError(f"There is no page {page}.")
+    width, height = size
+    if not (16 <= width <= 8192 and 16 <= height <= 8192):
+        raise BrowserError(f"The picture has {width} x {height} pixels; each side must be from 16 to 8192.")
+    executable = find_chromium()
+    try:
+        from playwright.sync_api import Error, sync_playwright
+    except ModuleNotFoundError:
+        raise BrowserError(
+            'The package playwright is not installed; run: python -m pip install "ali3[pictures]"'
+        ) from None
+    with sync_playwright() as play:
+        try:
+            browser = play.chromium.launch(executable_path=executable, args=launch_arguments(), timeout=60_000)
+        except Error as error:
+            words = str(error).strip().splitlines()[0]
+            raise BrowserError(f"{executable} does not start: {words}") from None
+        try:
+            view = browser.new_page(viewport={"width": width, "height": height})
+            view.set_default_timeout(120_000)
+            yield from _pictures(view, file, times, camera)
+        except Error as error:
+            words = str(error).strip().splitlines()[0]
+            raise BrowserError(f"{page} cannot be drawn by {executable}: {words}") from None
+        finally:
+            browser.close()
+
+
+def launch_arguments() -> list[str]:
+    """Arguments of a Chromium that makes pictures."""
+    root = hasattr(os, "geteuid") and os.geteuid() == 0
+    return [*_ARGUMENTS, *(["--no-sandbox"] if root else [])]
+
+
+def _places() -> Iterator[Path]:
+    yield from map(Path, _PLACES)
+    for folder in ("PROGRAMFILES", "PROGRAMFILES(X86)", "LOCALAPPDATA"):
+        if os.environ.get(folder):
+            yield from (Path(os.environ[folder], *place.split("\\")) for place in _WINDOWS)
+
+
+def _pictures(view: Page, file: Path, times: Iterable[float], camera: str | None) -> Iterator[bytes]:
+    view.goto(file.resolve().as_uri())
+    view.wait_for_function("window.player && window.player.ready", timeout=60_000)
+    problem = view.evaluate("async () => { await window.player.ready; return window.player.problem || ''; }")
+    if problem:
+        raise BrowserError(f"{file} cannot be drawn: {problem}")
+    if camera is not None:
+        wrong = view.evaluate("name => window.player.camera(name)", camera)
+        if wrong:
+            raise BrowserError(str(wrong))
+    for time in times:
+        view.evaluate("t => window.player.seek(t)", float(time))
+        yield view.screenshot(animations="disabled")

@@ -1,0 +1,139 @@
+"""Flexible parts in glTF: tubes whose corners move by morph targets, coloured by the stress at its largest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viewer.gltf.materials import linear
+from viewer.poses import Vectors
+from viewer.scene_relations import decoded
+from viewer.solids import Solid, along, joined, lathe
+
+MOST_TARGETS = 8
+"""Morph targets that every reader animates."""
+VIRIDIS = (
+    *("440154", "48186a", "472d7b", "424086", "3b528b", "33638d", "2c728e", "26828e", "21918c"),
+    *("1fa088", "28ae80", "3fbc73", "5ec962", "84d44b", "addc30", "d8e219", "fde725"),
+)
+"""At 17 places from 0 to 1 (Smith, van der Walt, Firing; public domain)."""
+_SAMPLES = 400  # times at which the largest displacement and stress are looked for
+
+
+@dataclass(frozen=True)
+class FlexiblePart:
+    """A part that bends.
+
+    Parameters
+    ----------
+    solid : Solid
+        At rest.
+    targets : list of array of shape (n, 3)
+        Displacements of its positions, m.
+    weights : array of shape (times, targets)
+        By which they are multiplied.
+    colors : array of shape (n, 3) or None
+        Linear.
+    reduction_error : float
+        Largest distance of a node from where all modes put it, m.
+    peak : (time index, stress) or None
+        Of the colours.
+    """
+
+    solid: Solid
+    targets: list[Vectors]
+    weights: Vectors
+    colors: Vectors | None
+    reduction_error: float
+    peak: tuple[int, float] | None
+
+
+def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], deformation: float) -> FlexiblePart:
+    """Tubes of a flexible part of a scene.
+
+    Parameters
+    ----------
+    part : mapping
+        Of the scene.
+    columns : mapping of str to array of shape (n,)
+        With its amplitudes.
+    deformation : float
+        Factor of the drawn deformation.
+    """
+    nodes = np.array(part["nodes"], dtype=float)
+    beams = np.array(part["beams"], dtype=np.int64).reshape(-1, 2)
+    count = len(part["amplitudes"])
+    modes = decoded(part["modes"], "f").reshape(len(nodes), 3, count).astype(float)
+    amplitudes = np.column_stack([np.nan_to_num(np.asarray(columns[c], dtype=float)) for c in part["amplitudes"]])
+    computed = np.ones(len(amplitudes), dtype=bool)
+    if part.get("computed"):
+        computed = np.nan_to_num(np.asarray(columns[part["computed"]], dtype=float)) != 0.0
+        amplitudes = amplitudes * computed[:, None]
+    solid, owner, ends = _tubes(nodes, beams, np.array(part["radii"], dtype=float))
+    shapes, weights = _few_targets(modes.reshape(-1, count), amplitudes)
+    made = shapes.reshape(len(nodes), 3, -1)
+    looked = np.unique(np.linspace(0, len(amplitudes) - 1, min(len(amplitudes), _SAMPLES)).astype(np.intp))
+    full = amplitudes[looked] @ modes.reshape(-1, count).T
+    kept = weights[looked] @ shapes.T
+    error = float(np.linalg.norm((full - kept).reshape(len(looked), -1, 3), axis=2).max())
+    colors, peak = None, None
+    if part.get("stress") and computed.any():
+        stress = computed[looked, None, None] * _stress(part["stress"], amplitudes[looked], len(beams))
+        time = int(stress.max(axis=(1, 2)).argmax())
+        limit = float(part["stress"].get("limit") or stress.max() or 1.0)
+        colors = stress_colors(stress[time] / limit)[owner, ends]
+        peak = int(looked[time]), float(stress[time].max())
+    corner = beams[owner, ends]
+    targets = [deformation * made[corner, :, k] for k in range(made.shape[2])]
+    return FlexiblePart(solid, targets, weights, colors, deformation * error, peak)
+
+
+def stress_colors(share: Vectors) -> Vectors:
+    """Linear colours of stresses as shares of the limit: the map viridis, as in the page."""
+    table = np.array([linear(f"#{stop}") for stop in VIRIDIS])
+    at = np.linspace(0.0, 1.0, len(table))
+    return np.stack([np.interp(share, at, table[:, k]) for k in range(3)], axis=-1)
+
+
+def _tubes(nodes: Vectors, beams: NDArray[np.int64], radii: Vectors) -> tuple[Solid, Any, Any]:
+    """Tubes of all beams, and for each position its beam and which end of it."""
+    made, owner, ends = [], [], []
+    for k, ((i, j), radius) in enumerate(zip(beams, radii, strict=True)):
+        to = nodes[j] - nodes[i]
+        length = float(np.linalg.norm(to))
+        if length <= 0.0:
+            continue
+        tube = lathe([(radius, 0.0), (radius, length)], 12)
+        owner.append(np.full(len(tube.positions), k))
+        ends.append((tube.positions[:, 1] > 0.5 * length).astype(int))
+        made.append(tube.placed(along(to / length), nodes[i]))
+    return joined(made), np.concatenate(owner), np.concatenate(ends)
+
+
+def _few_targets(modes: Vectors, amplitudes: Vectors) -> tuple[Vectors, Vectors]:
+    """Displacement shapes and their weights, within -1 and 1: the modes, or what moves most of their combinations."""
+    if modes.shape[1] > MOST_TARGETS:
+        q, r = np.linalg.qr(modes)
+        u, s, v = np.linalg.svd(amplitudes @ r.T, full_matrices=False)
+        modes, amplitudes = q @ v[:MOST_TARGETS].T, u[:, :MOST_TARGETS] * s[:MOST_TARGETS]
+    largest = np.abs(amplitudes).max(axis=0)
+    moves = largest > 0.0
+    return modes[:, moves] * largest[moves], amplitudes[:, moves] / largest[moves]
+
+
+def _stress(stress: Mapping[str, Any], amplitudes: Vectors, beams: int) -> Vectors:
+    """Largest stress around each end of a beam, of shape (times, beams, 2)."""
+    round_rows = stress.get("rule") == "round"
+    fibres = 3 if round_rows else int(stress["fibres"])
+    rows = decoded(stress["rows"], "f").reshape(beams * 2 * fibres, -1).astype(float)
+    made = amplitudes @ rows.T
+    if stress.get("constant"):
+        made += decoded(stress["constant"], "f").astype(float)
+    made = np.abs(made).reshape(len(amplitudes), beams, 2, fibres)
+    if round_rows:  # axial, and bending about two axes, of a round tube
+        return np.asarray(made[..., 0] + np.hypot(made[..., 1], made[..., 2]))
+    return np.asarray(made.max(axis=3))

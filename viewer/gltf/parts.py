@@ -1,0 +1,256 @@
+"""What a scene shows: solids that stand in frames, and solids that move between them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from viewer import solids
+from viewer.gltf.materials import Look, look
+from viewer.gltf.motion import Motion, between
+from viewer.poses import FramePoses, Vectors, axes_of_points, conjugate, from_matrices, held, rotated
+from viewer.scene_relations import decoded
+from viewer.solids import Solid, along, joined
+
+Meshes = list[tuple[Solid, Look]]
+
+_CONSTANT = 1e-5  # of a length: what does not change more is rigid
+_TUBE = 0.6  # length of a damper's tube, as a share of the damper as drawn
+_SPOKES = 5
+
+
+@dataclass
+class Parts:
+    """Solids of a scene.
+
+    Parameters
+    ----------
+    poses : FramePoses
+        Of the frames.
+    scene : mapping
+        That was checked.
+    fixed : list of (frame, name, solids)
+        What moves with a frame.
+    free : list of (name, motion, solids)
+        What moves between frames, relative to the earth.
+    notes : list of str
+        Sentences on what differs from the scene.
+    """
+
+    poses: FramePoses
+    scene: Mapping[str, Any]
+    fixed: list[tuple[str, str, Meshes]] = field(default_factory=list)
+    free: list[tuple[str, Motion, Meshes]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def add(self, shape: Mapping[str, Any]) -> None:
+        """Add a shape of the scene."""
+        name = shape.get("name") or shape.get("body") or shape["kind"]
+        _MAKERS[shape["kind"]](self, shape, name)
+
+
+def _axes(shape: Mapping[str, Any]) -> Vectors:
+    return np.array(shape["axes"], dtype=float).T if shape.get("axes") else np.eye(3)
+
+
+def _at(shape: Mapping[str, Any]) -> Sequence[float]:
+    return shape.get("at") or (0.0, 0.0, 0.0)
+
+
+def _box(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    made = solids.box(shape["size"]).placed(_axes(shape), _at(shape))
+    parts.fixed.append((shape["frame"], name, [(made, look(shape))]))
+
+
+def _sphere(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    made = solids.sphere(shape["radius"]).placed(np.eye(3), _at(shape))
+    parts.fixed.append((shape["frame"], name, [(made, look(shape))]))
+
+
+def _cylinder(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    made = _rod(np.array(shape["ends"], dtype=float), shape["radius"])
+    parts.fixed.append((shape["frame"], name, [(made, look(shape))]))
+
+
+def _mesh(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    mesh = parts.scene["meshes"][shape["mesh"]]
+    positions = decoded(mesh["positions"], "f").reshape(-1, 3).astype(float)
+    triangles = decoded(mesh["triangles"], "u").reshape(-1, 3).astype(np.int64)
+    normals = None
+    if mesh.get("normals"):
+        normals = decoded(mesh["normals"], "f").reshape(-1, 3).astype(float)
+        length = np.linalg.norm(normals, axis=1)[:, None]
+        normals = normals / length if (length > 0.0).all() else None
+    a, b, c = triangles.T
+    proper = triangles[(a != b) & (b != c) & (c != a)]
+    if len(proper):
+        made = Solid(positions, normals, proper).placed(_axes(shape), _at(shape))
+        parts.fixed.append((shape["frame"], name, [(made, look(shape))]))
+
+
+def _tube(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    points, radius = shape["points"], shape["radius"]
+    surface = look(shape, "steel")
+    frame = points[0][0]
+    if all(anchor[0] == frame for anchor in points):
+        local = np.array([anchor[1] for anchor in points], dtype=float)
+        rods = [_rod(local[i : i + 2], radius) for i in range(len(local) - 1) if (local[i] != local[i + 1]).any()]
+        made = joined([*rods, *(solids.sphere(radius, 8).placed(np.eye(3), p) for p in local)])
+        parts.fixed.append((frame, name, [(made, surface)]))
+        return
+    for k in range(len(points) - 1):
+        a, b = (parts.poses.points(anchor) for anchor in points[k : k + 2])
+        _link(parts, name, a, b, surface, lambda length: solids.cylinder(radius, 0.0, length))
+    for anchor in points:
+        _ball(parts, anchor, radius, name, surface)
+
+
+def _plate(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    points, thickness = shape["points"], shape["thickness"]
+    surface = look(shape, "steel", double=True)
+    frame = points[0][0]
+    if all(anchor[0] == frame for anchor in points):
+        made = solids.plate(np.array([anchor[1] for anchor in points], dtype=float), thickness)
+        parts.fixed.append((frame, name, [(made, surface)]))
+        return
+    earth = np.stack([parts.poses.points(anchor) for anchor in points], axis=1)
+    pose = held(earth[:, 0], from_matrices(axes_of_points(earth[:, 0], earth[:, 1], earth[:, 2])))
+    if not pose.shown.any():
+        parts.notes.append(f"The plate {name!r} is left out: its first three points lie on a line.")
+        return
+    inverse = conjugate(pose.quaternion)
+    local = np.stack([rotated(inverse, earth[:, k] - pose.position) for k in range(len(points))], axis=1)
+    start = int(pose.shown.argmax())
+    bent = float(np.linalg.norm(local[pose.shown] - local[start], axis=2).max())
+    if bent > 1e-3:
+        parts.notes.append(
+            f"The plate {name!r} changes its form; it keeps that of the start, and a corner is off by "
+            f"{1000.0 * bent:.2g} mm at most."
+        )
+    motion = Motion(pose.position, pose.quaternion)
+    parts.free.append((name, motion, [(solids.plate(local[start], thickness), surface)]))
+
+
+def _spring(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    radius, coils = shape["radius"], shape.get("coils") or 6.0
+    wire = shape.get("wire") or radius / 5.0
+    a, b = (parts.poses.points(anchor) for anchor in shape["ends"])
+    surface = look(shape, "paint", "#d9a21b", double=True)
+    _link(parts, name, a, b, surface, lambda length: solids.helix(radius, wire, length, coils))
+
+
+def _damper(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    radius, ends = shape["radius"], shape["ends"]
+    a, b = (parts.poses.points(anchor) for anchor in ends)
+    length = np.linalg.norm(b - a, axis=1)
+    part = min(_TUBE * float(length[0]), 0.97 * float(length.min()))
+    if part <= 0.0:
+        parts.notes.append(f"The damper {name!r} is left out: its length becomes zero.")
+        return
+    tube, rod = solids.cylinder(radius, min(radius, part / 4.0), part), solids.cylinder(0.42 * radius, 0.0, part)
+    for start, end, solid, surface in (
+        (a, b, tube, look(shape, "dark_paint")),
+        (b, a, rod, look({}, "chrome")),
+    ):
+        position, quaternion, _ = between(start, end)
+        parts.free.append((name, Motion(position, quaternion), [(solid, surface)]))
+    for anchor in ends:
+        _ball(parts, anchor, 0.75 * radius, name, look({}, "steel"))
+
+
+def _wheel(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    radius, width = shape["radius"], shape["width"]
+    rim = shape.get("rim") or 0.65 * radius
+    turn = along(_unit(shape.get("axis") or (0.0, 1.0, 0.0)))
+    half, side = 0.5 * width, radius - rim
+    bead = [(rim, 0.8), (rim + 0.1 * side, 0.92), (rim + 0.45 * side, 1.0), (rim + 0.75 * side, 0.96)]
+    half_profile = [(r, y * half) for r, y in [*bead, (radius - 0.08 * side, 0.82), (radius, 0.6)]]
+    profile = [*((r, -y) for r, y in half_profile), *half_profile[::-1], (rim, -0.8 * half)]
+    ring = [(0.9 * rim, -0.7 * half), (rim, -0.78 * half), (rim, 0.78 * half), (0.9 * rim, 0.7 * half)]
+    metal = [solids.lathe([*ring, ring[0]], 48), solids.cylinder(0.2 * rim, -0.5 * half, 0.5 * half)]
+    spoke = solids.box((0.75 * rim, 0.2 * width, 0.16 * rim))
+    for k in range(_SPOKES):
+        metal.append(
+            spoke.placed(_about_y(2.0 * np.pi * k / _SPOKES), _about_y(2.0 * np.pi * k / _SPOKES)[:, 0] * 0.55 * rim)
+        )
+    valve = joined(
+        [solids.sphere(0.06 * rim, 8).placed(np.eye(3), (0.8 * rim, s * 0.12 * width, 0.0)) for s in (1.0, -1.0)]
+    )
+    made = [
+        (solids.lathe(profile, 64), look({}, "rubber")),
+        (joined(metal), look({}, "rim")),
+        (valve, look({}, "plastic", "#d8412f")),
+    ]
+    parts.fixed.append((shape["frame"], name, [(s.placed(turn, _at(shape)), surface) for s, surface in made]))
+
+
+def _steering_wheel(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    radius, frame = shape["radius"], shape["frame"]
+    axis = _unit(shape.get("axis") or parts.scene["frames"].get(frame, {}).get("axis") or (0.0, 0.0, 1.0))
+    pose = parts.poses.of(frame)
+    up = rotated(conjugate(pose.quaternion[:1]), np.asarray(parts.scene.get("up") or (0.0, 0.0, 1.0), dtype=float))[0]
+    top = up - (up @ axis) * axis
+    z = _unit(top) if np.linalg.norm(top) > 1e-6 else along(axis)[:, 0]
+    turn = np.column_stack([np.cross(axis, z), axis, z])
+    rim = 0.09 * radius
+    spokes = [
+        solids.box((0.72 * radius, 0.07 * radius, 0.16 * radius)).placed(m, m[:, 0] * 0.55 * radius)
+        for m in (_about_y(angle) for angle in (0.0, np.pi, 0.5 * np.pi))
+    ]
+    dark = joined([solids.torus(radius - rim, rim), solids.cylinder(0.28 * radius, -0.1 * radius, 0.1 * radius)])
+    mark = solids.sphere(1.25 * rim, 8).placed(np.eye(3), (0.0, 0.0, radius - rim))
+    made = [
+        (dark, look(shape, "plastic", "#1c1e20")),
+        (joined(spokes), look({}, "steel")),
+        (mark, look({}, "plastic", "#d8412f")),
+    ]
+    parts.fixed.append((frame, name, [(s.placed(turn, _at(shape)), surface) for s, surface in made]))
+
+
+_MAKERS: dict[str, Callable[[Parts, Mapping[str, Any], str], None]] = {
+    "box": _box,
+    "sphere": _sphere,
+    "cylinder": _cylinder,
+    "mesh": _mesh,
+    "tube": _tube,
+    "plate": _plate,
+    "spring": _spring,
+    "damper": _damper,
+    "wheel": _wheel,
+    "steering_wheel": _steering_wheel,
+}
+
+
+def _link(parts: Parts, name: str, a: Vectors, b: Vectors, surface: Look, make: Callable[[float], Solid]) -> None:
+    """A solid along y from points a to points b, as long as at the start and scaled from there."""
+    position, quaternion, length = between(a, b)
+    size = float(length[0]) if length[0] > 0.0 else float(length.max())
+    if size <= 0.0:
+        return
+    scale = None
+    if float(np.abs(length - size).max()) > _CONSTANT * size:
+        scale = np.column_stack([np.ones(len(length)), length / size, np.ones(len(length))])
+    parts.free.append((name, Motion(position, quaternion, scale), [(make(size), surface)]))
+
+
+def _ball(parts: Parts, anchor: Sequence[Any], radius: float, name: str, surface: Look) -> None:
+    parts.fixed.append((anchor[0], name, [(solids.sphere(radius, 8).placed(np.eye(3), anchor[1]), surface)]))
+
+
+def _rod(ends: Vectors, radius: float) -> Solid:
+    to = ends[1] - ends[0]
+    length = float(np.linalg.norm(to))
+    return solids.cylinder(radius, 0.0, length).placed(along(to / length), ends[0])
+
+
+def _unit(vector: Any) -> Vectors:
+    made = np.asarray(vector, dtype=float)
+    return np.asarray(made / np.linalg.norm(made))
+
+
+def _about_y(angle: float) -> Vectors:
+    c, s = float(np.cos(angle)), float(np.sin(angle))
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])

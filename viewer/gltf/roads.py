@@ -1,0 +1,83 @@
+"""Roads of a scene as triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from viewer.poses import Vectors
+from viewer.scene_relations import decoded
+from viewer.solids import Solid
+
+_MOST = 200  # points of a grid in each direction
+
+
+def road_solid(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: float) -> tuple[Solid, int] | None:
+    """Triangles of a road, and of how many points in a row one is drawn; None for one that stands in a file.
+
+    Parameters
+    ----------
+    road : mapping
+        Of the scene.
+    up : array of shape (3,)
+        Unit.
+    centre : array of shape (3,)
+        Of the motion: roads without an end are drawn about it.
+    half : float
+        Half the side of what is drawn of them, m.
+    """
+    kind = road["kind"]
+    if kind == "flat":
+        return _square(float(road.get("height", 0.0)) * up, up, centre, half), 1
+    if kind == "plane":
+        normal = np.asarray(road.get("normal") or up, dtype=float)
+        point = np.asarray(road.get("point") or (0.0, 0.0, 0.0), dtype=float)
+        return _square(point, normal / np.linalg.norm(normal), centre, half), 1
+    if kind == "profile":
+        return _profile(road, up, centre, half), 1
+    return _grid(road, up) if kind == "grid" else None
+
+
+def _square(point: Vectors, normal: Vectors, centre: Vectors, half: float) -> Solid:
+    middle = centre - normal * float(normal @ (centre - point))
+    x = np.cross(np.eye(3)[int(np.argmin(np.abs(normal)))], normal)
+    x /= np.linalg.norm(x)
+    y = np.cross(normal, x)
+    corners = np.array([middle + half * (a * x + b * y) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    return Solid(corners, np.tile(normal, (4, 1)), np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def _profile(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: float) -> Solid:
+    """Heights along a direction, level before and behind."""
+    forward = np.asarray(road.get("direction") or (1.0, 0.0, 0.0), dtype=float)
+    forward = forward / np.linalg.norm(forward)
+    origin = np.asarray(road.get("origin") or (0.0, 0.0, 0.0), dtype=float)
+    side = np.cross(up, forward)
+    stations, heights = np.asarray(road["stations"], dtype=float), np.asarray(road["heights"], dtype=float)
+    here = float(forward @ (centre - origin))
+    ends = min(stations[0], here - half) - 1.0, max(stations[-1], here + half) + 1.0
+    stations, heights = np.array([ends[0], *stations, ends[1]]), np.array([heights[0], *heights, heights[-1]])
+    wide = 0.5 * float(road["width"]) if road.get("width") else half
+    line = origin + stations[:, None] * forward + heights[:, None] * up
+    points = np.stack([line - wide * side, line + wide * side], axis=1).reshape(-1, 3)
+    a = 2 * np.flatnonzero(np.hypot(np.diff(stations), np.diff(heights)) > 0.0)
+    return Solid(points, None, np.vstack([np.column_stack([a, a + 2, a + 3]), np.column_stack([a, a + 3, a + 1])]))
+
+
+def _grid(road: Mapping[str, Any], up: Vectors) -> tuple[Solid, int]:
+    nx, ny = road["shape"]
+    heights = decoded(road["heights"], "f").reshape(nx, ny).astype(float)
+    every = max(1, -(-max(nx, ny) // _MOST))
+    i, j = (np.unique([*range(0, n, every), n - 1]) for n in (nx, ny))
+    x = road["origin"][0] + road["spacing"][0] * i
+    y = road["origin"][1] + road["spacing"][1] * j
+    axes = np.array(
+        road.get("axes") or ([[1, 0, 0], [0, 1, 0]] if abs(up[2]) > 0.5 else [[1, 0, 0], [0, 0, -1]]), float
+    )
+    across = x[:, None, None] * axes[0] + y[None, :, None] * axes[1]
+    points = (across + heights[np.ix_(i, j)][:, :, None] * up).reshape(-1, 3)
+    a = (np.arange(len(i) - 1)[:, None] * len(j) + np.arange(len(j) - 1)).ravel()
+    b = a + len(j)
+    return Solid(points, None, np.vstack([np.column_stack([a, b, b + 1]), np.column_stack([a, b + 1, a + 1])])), every

@@ -1,0 +1,304 @@
+"""Writes a recording as a glTF 2.0 animation."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.files import check_writable, whole_file
+from ali3.running import missing_package
+from viewer.errors import ViewerError
+from viewer.gltf.flexible import flexible_part
+from viewer.gltf.materials import Look
+from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned
+from viewer.gltf.parts import Parts
+from viewer.gltf.roads import road_solid
+from viewer.poses import GROUND, FramePoses, Vectors, about_axis, shortest_turns
+from viewer.recording import Recording
+
+if TYPE_CHECKING:
+    from viewer.gltf.document import Document
+
+SUFFIXES = (".glb", ".gltf")
+MOST_RATE = 240.0
+_LOOKED_AT = 20_000  # times of a recording that errors are found at, at least two for each that is written
+_ROAD = Look("road", (0.08, 0.08, 0.085, 1.0), 0.0, 0.9)
+_WHITE = Look("stress", (1.0, 1.0, 1.0, 1.0), 0.1, 0.6)
+_FRAME = Look("steel", (0.27, 0.31, 0.34, 1.0), 0.85, 0.42)
+
+
+class WrittenGltf(NamedTuple):
+    """A glTF file that was written.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    size : int
+        Bytes.
+    times : int
+        Of the recording that were kept.
+    position_error : float
+        Largest distance of a drawn point between the kept times from where it was recorded, mm.
+    angle_error : float
+        The same for the orientation, degrees.
+    notes : list of str
+        Sentences: what is not drawn, or drawn in another way.
+    """
+
+    path: Path
+    size: int
+    times: int
+    position_error: float
+    angle_error: float
+    notes: list[str]
+
+
+def write_gltf(
+    path: str | os.PathLike[str],
+    recording: Recording,
+    *,
+    rate: float = 60.0,
+    deformation: float = 1.0,
+    road: bool = True,
+) -> WrittenGltf:
+    """Write the motion of a recording as a glTF 2.0 file with shapes, materials and one animation.
+
+    Lengths are in metres and y is up, as glTF has it. The node of a frame has its name and moves with it; time 0 is the
+    first of the recording. Motion is linear between the times, rotations go along great arcs. Flexible parts move by
+    morph targets and have the colours of their stress at the time when it is largest, because glTF has no colours over
+    time. Arrows, plots, ghosts and cameras are not in the file.
+
+    Parameters
+    ----------
+    path : path
+        ``.glb``, one binary file, or ``.gltf``, one text file; an older one is replaced when the new one is whole.
+    recording : Recording
+        With a scene.
+    rate : float
+        Times a second that are kept at most, 1 to 240 Hz; a part that turns far between two of them has more.
+    deformation : float
+        Factor of the drawn deformation.
+    road : bool
+        Whether roads are drawn.
+
+    Returns
+    -------
+    WrittenGltf
+        Where it is, how large, and what was lost by thinning.
+
+    Raises
+    ------
+    ViewerError
+        The recording has no scene, nothing of it can be drawn, or an argument is wrong.
+    FileError
+        The file cannot be written; an older one is then unchanged.
+    """
+    target = Path(path)
+    scene = _checked(target, recording, rate, deformation)
+    check_writable(path)
+    writer = _Writer(scene, recording, rate)
+    writer.add_shapes(deformation)
+    if not (writer.parts.fixed or writer.parts.free or writer.flexible):
+        raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
+    if road:
+        writer.add_roads()
+    writer.write_nodes()
+    with whole_file(path) as made:
+        writer.document.save(made)
+        size = made.stat().st_size
+    notes = list(recording.notes)
+    notes += [f"{item['name']} is not drawn: {item['why']}" for item in recording.missing]
+    notes += writer.notes()
+    return WrittenGltf(target, size, writer.times, 1000.0 * writer.error[0], math.degrees(writer.error[1]), notes)
+
+
+def _checked(target: Path, recording: Recording, rate: float, deformation: float) -> dict[str, Any]:
+    if target.suffix.lower() not in SUFFIXES:
+        raise ViewerError(f"{target} must end with .glb or .gltf.")
+    if not isinstance(recording, Recording):
+        raise ViewerError(f"A recording is needed; this is an object of type {type(recording).__name__}.")
+    if recording.scene is None:
+        raise ViewerError(f"{recording.name!r} has no scene: there are no shapes to write to {target}.")
+    for name, value, low, high in (("rate", rate, 1.0, MOST_RATE), ("deformation", deformation, 0.0, 1e6)):
+        good = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+        if not good or not low <= value <= high:
+            raise ViewerError(f"The {name} is {value!r}; it must be a number from {low:g} to {high:g}.")
+    return dict(recording.scene)
+
+
+def _document(name: str) -> Document:
+    try:
+        from viewer.gltf.document import Document
+    except ModuleNotFoundError:
+        raise ViewerError(f"A glTF file cannot be written. {missing_package('pygltflib')}") from None
+    return Document(name)
+
+
+class _Writer:
+    """Collects shapes, then writes nodes, frames before what hangs on them."""
+
+    def __init__(self, scene: dict[str, Any], recording: Recording, rate: float) -> None:
+        self.document = _document(recording.name)
+        self._scene = scene
+        self._rate = rate
+        t = recording.t
+        span = float(t[-1] - t[0])
+        looked = kept_times(t, max(2.0 * rate, min(8.0 * rate, _LOOKED_AT / span)) if span > 0.0 else rate)
+        self._t: Vectors = t[looked] - t[0]
+        self._columns: Mapping[str, NDArray[Any]] = {name: values[looked] for name, values in recording.columns.items()}
+        self.parts = Parts(FramePoses(scene, self._columns, len(self._t)), scene)
+        self.flexible: list[tuple[dict[str, Any], float]] = []
+        self.times = len(kept_times(self._t, rate))
+        self.error = (0.0, 0.0)
+        self._nodes: dict[str, int] = {}
+        self._frame_errors: dict[str, tuple[float, float]] = {GROUND: (0.0, 0.0)}
+        up = np.array(scene.get("up") or (0.0, 0.0, 1.0), dtype=float)
+        self._up: Vectors = up / np.linalg.norm(up)
+        turn = shortest_turns(self._up[None], np.array([[0.0, 1.0, 0.0]]))[0]
+        self._root = self.document.node(recording.name, None)
+        self.document.place(self._root, "rotation", turn)
+        self._begin = float(t[0])
+
+    def add_shapes(self, deformation: float) -> None:
+        for shape in self._scene["shapes"]:
+            self.parts.add(shape)
+        self.flexible = [(part, deformation) for part in self._scene.get("flexible") or []]
+
+    def add_roads(self) -> None:
+        """Roads without an end reach as far as the frames go, and twice the size of the scene beyond."""
+        frames = self._scene["frames"]
+        places = np.vstack([self.parts.poses.of(name).position for name in frames] or [np.zeros((1, 3))])
+        low, high = places.min(axis=0), places.max(axis=0)
+        half = 0.5 * float(np.linalg.norm(high - low)) + 2.0 * float(self._scene["extent"])
+        for road in self._scene.get("roads") or []:
+            made = road_solid(road, self._up, 0.5 * (low + high), half)
+            if made is None:
+                self.parts.notes.append("The road of a file is not drawn.")
+                continue
+            self.parts.fixed.append((GROUND, "road", [(made[0], _ROAD)]))
+            if made[1] > 1:
+                self.parts.notes.append(f"Of the grid of the road every {made[1]}th point is drawn in each direction.")
+
+    def write_nodes(self) -> None:
+        """Frames first, so that they have their names."""
+        for name in [*(frame for frame, _, _ in self.parts.fixed), *(part["frame"] for part, _ in self.flexible)]:
+            self._frame(name)
+        for name, motion, meshes in self.parts.free:
+            node = self.document.node(name, self._root, self.document.mesh(name, meshes))
+            motion.reach = _corners([solid.positions for solid, _ in meshes])
+            self._count(self._animate(node, motion))
+        for frame, name, meshes in self.parts.fixed:
+            self.document.node(name, self._frame(frame), self.document.mesh(name, meshes))
+        for part, deformation in self.flexible:
+            self._write_flexible(part, deformation)
+
+    def notes(self) -> list[str]:
+        """What there is to say of the file."""
+        made = list(self.parts.notes)
+        if self._begin != 0.0:
+            made.append(f"Time 0 of the file is {self._begin:g} s of the recording.")
+        for name in self._nodes:
+            shown = self.parts.poses.of(name).shown
+            if not shown.all():
+                made.append(f"{name} stands still while its columns hold no numbers, {int((~shown).sum())} times.")
+        if self._scene.get("arrows"):
+            made.append("The arrows of forces are not in a glTF file.")
+        return made
+
+    def _frame(self, name: str) -> int:
+        """The node of a frame; it and those that it hangs on are made when they are first needed."""
+        if name in self._nodes:
+            return self._nodes[name]
+        frame = self._scene["frames"].get(name, {})
+        pose = self.parts.poses.of(name)
+        parent, before = self._root, (0.0, 0.0)
+        motion = Motion(pose.position, pose.quaternion)
+        if "parent" in frame:
+            parent = self._frame(frame["parent"])
+            before = self._frame_errors[frame["parent"]]
+            self._relative(motion, frame)
+        reach = [s.positions for frame_name, _, meshes in self.parts.fixed if frame_name == name for s, _ in meshes]
+        reach += [np.array(part["nodes"], dtype=float) for part, _ in self.flexible if part["frame"] == name]
+        motion.reach = _corners(reach) if reach else motion.reach
+        self._nodes[name] = node = self.document.node(name, parent)
+        if name != GROUND:
+            off = self._animate(node, motion)
+            self._frame_errors[name] = before[0] + off[0], before[1] + off[1]
+            self._count(self._frame_errors[name])
+        return node
+
+    def _relative(self, motion: Motion, frame: dict[str, Any]) -> None:
+        """The motion of a frame that turns or slides in its parent."""
+        motion.position = np.tile(np.array(frame.get("at") or (0.0, 0.0, 0.0), dtype=float), (len(self._t), 1))
+        motion.quaternion = np.tile([1.0, 0.0, 0.0, 0.0], (len(self._t), 1))
+        if "way" in frame:
+            way = _filled(np.asarray(self._columns[frame["way"]], dtype=float))
+            motion.position += way[:, None] * np.asarray(frame["direction"], dtype=float)
+        else:
+            angle = _filled(np.asarray(self._columns[frame["angle"]], dtype=float))
+            motion.angle = np.asarray(frame["axis"], dtype=float), angle
+            motion.quaternion = about_axis(frame["axis"], angle)
+
+    def _animate(self, node: int, motion: Motion) -> tuple[float, float]:
+        """Give a node its motion; what does not change is written once. Its largest errors, m and rad."""
+        track = thinned(motion, self._t, self._rate)
+        self._write_track(node, track)
+        return largest_errors(motion, track, self._t)
+
+    def _write_track(self, node: int, track: Track) -> None:
+        for path, values in (("translation", track.position), ("rotation", track.quaternion), ("scale", track.scale)):
+            if values is None:
+                continue
+            self.document.place(node, path, values[0])  # for readers that do not animate
+            if (np.float32(values) != np.float32(values[0])).any():
+                self.document.channel(node, path, track.times, values)
+
+    def _write_flexible(self, part: dict[str, Any], deformation: float) -> None:
+        name = part.get("name") or f"flexible {part['frame']}"
+        if not part["beams"]:
+            self.parts.notes.append(f"The deformation of {name} is not drawn: it has no beams.")
+            return
+        made = flexible_part(part, self._columns, deformation)
+        look = _FRAME if made.colors is None else _WHITE
+        mesh = self.document.mesh(name, [(made.solid, look)], made.targets, made.colors)
+        node = self.document.node(name, self._frame(part["frame"]), mesh)
+        if made.targets:
+            kept = kept_times(self._t, self._rate)
+            if len(kept) > 1:
+                self.document.channel(node, "weights", self._t[kept], made.weights[kept])
+            else:
+                self.document.set_weights(mesh, made.weights[0])
+        off = made.reduction_error
+        self._count((self._frame_errors[part["frame"]][0] + off, 0.0))
+        if made.peak is not None:
+            time, stress = made.peak
+            unit = part["stress"].get("unit", "Pa")
+            self.parts.notes.append(
+                f"The colours of {name} are those of its largest stress, {stress:.3g} {unit}, at "
+                f"{self._t[time] + self._begin:.3g} s."
+            )
+
+    def _count(self, off: tuple[float, float]) -> None:
+        self.error = max(self.error[0], off[0]), max(self.error[1], off[1])
+
+
+def _corners(positions: list[Vectors]) -> Vectors:
+    """Corners of the box about points."""
+    points = np.vstack(positions)
+    low, high = points.min(axis=0), points.max(axis=0)
+    return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+
+
+def _filled(values: Vectors) -> Vectors:
+    """Values with those that are no numbers as the one before."""
+    good = np.isfinite(values)
+    source = np.maximum.accumulate(np.where(good, np.arange(len(values)), -1))
+    source[source < 0] = int(good.argmax())
+    return values[source]

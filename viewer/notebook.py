@@ -1,0 +1,52 @@
+"""Recordings in a notebook: the page in a frame of the cell."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from viewer.errors import ViewerError
+from viewer.page_file import notes_of, page_html, thinned
+from viewer.recording import MOST_TIMES, Recording
+
+
+def html_of(
+    recordings: Recording | Sequence[Recording],
+    height: int = 480,
+    options: Mapping[str, Any] | None = None,
+    most: int = MOST_TIMES,
+) -> str:
+    """HTML for ``_repr_html_`` of an object, which shows recordings in a notebook.
+
+    Parameters
+    ----------
+    recordings : Recording or sequence of Recording
+        As `viewer.page_file.write_page` takes them.
+    height : int
+        Of the frame, pixels.
+    options : mapping, optional
+        Of the player.
+    most : int
+        Times that a recording is thinned to.
+
+    Returns
+    -------
+    str
+        A frame that holds the whole page, and a line that says how large it is, since it is saved in the notebook.
+
+    Raises
+    ------
+    ViewerError
+        As `viewer.page_file.write_page`; or the height is no whole number of pixels from 200 to 4000.
+    """
+    if not isinstance(height, int) or isinstance(height, bool) or not 200 <= height <= 4000:
+        raise ViewerError(f"The height of the frame is {height!r}; it must be a whole number of pixels, 200 to 4000.")
+    shown = thinned(recordings, most)
+    page = page_html(shown, None, options)
+    told = [f"This animation takes {1e-6 * len(page.encode('utf-8')):.1f} MB of the notebook.", *notes_of(shown)]
+    return (
+        f'<iframe srcdoc="{html.escape(page, quote=True)}" style="width:100%;height:{height}px;border:0" '
+        'allow="fullscreen" allowfullscreen sandbox="allow-scripts allow-downloads"></iframe>'
+        f'<div style="font-size:smaller;opacity:0.7">{html.escape(" ".join(told))}</div>'
+    )

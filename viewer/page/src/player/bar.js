@@ -1,0 +1,88 @@
+// The bar below the picture: slider, buttons, speed, camera, and a panel of settings.
+import { SPEEDS } from "./clock.js";
+import { element, icon } from "./elements.js";
+
+/** The bar; it asks the player and tells it. */
+export class Bar {
+  /** @param {HTMLElement} parent @param {object} player */
+  constructor(parent, player) {
+    this.player = player;
+    const { clock } = player;
+    this.digits = digitsOf(clock.end - clock.begin);
+    const button = (name, title, onclick) => element("button", { title, "aria-label": title, onclick }, [icon(name)]);
+    this.playing = button("play", "play or pause (space)", () => player.toggle());
+    this.slide = element("input", {
+      class: "ali3-slide",
+      type: "range",
+      "aria-label": "time",
+      min: clock.begin,
+      max: clock.end,
+      step: "any",
+      oninput: () => player.seek(Number(this.slide.value)),
+    });
+    this.time = element("span", { class: "ali3-time" });
+    this.rate = element("span", { class: "ali3-rate", role: "status" });
+    this.speed = element("select", { title: "speed (up and down)", "aria-label": "speed", onchange: () => player.speed(Number(this.speed.value)) });
+    this.speeds(clock.speed);
+    const moves = clock.end > clock.begin;
+    this.slide.disabled = !moves;
+    parent.append(
+      element("div", { class: "ali3-group" }, [
+        button("back", "one step back (left)", () => player.step(-1)),
+        this.playing,
+        button("forward", "one step on (right)", () => player.step(1)),
+      ]),
+      this.slide,
+      this.time,
+      element("div", { class: "ali3-group" }, [this.speed, this.rate]),
+      element("div", { class: "ali3-group" }, this.#views()),
+    );
+    for (const control of [...parent.querySelectorAll(".ali3-group:first-child button"), this.speed]) control.disabled = !moves;
+    this.now();
+  }
+
+  #views() {
+    const { player } = this;
+    const made = [];
+    if (player.cameras.length > 1) {
+      this.camera = element("select", { title: "camera (c)", "aria-label": "camera", onchange: () => player.camera(this.camera.value) });
+      this.camera.append(...player.cameras.map((name) => element("option", { value: name, text: name })));
+      made.push(this.camera);
+    }
+    this.signals = element("button", { text: "signals", title: "diagrams beside the picture (s)", onclick: () => player.side(!player.sideOpen) });
+    this.settings = element("button", { text: "settings", "aria-haspopup": "true", onclick: () => player.settings.toggle() });
+    made.push(this.signals, this.settings);
+    if (document.fullscreenEnabled) {
+      const full = element("button", { title: "full screen (f)", "aria-label": "full screen", onclick: () => player.fullScreen() }, [icon("full")]);
+      made.push(full);
+    }
+    return made;
+  }
+
+  /** @param {number} chosen speed, which may be another than those of the list */
+  speeds(chosen) {
+    const all = [...new Set([...SPEEDS, chosen])].sort((a, b) => a - b);
+    this.speed.replaceChildren(...all.map((speed) => element("option", { value: speed, text: `${speed}×` })));
+    this.speed.value = String(chosen);
+  }
+
+  /** Show the time and how it passes. */
+  now() {
+    const { clock } = this.player;
+    this.slide.value = String(clock.time);
+    this.time.textContent = `${clock.time.toFixed(this.digits)} / ${clock.end.toFixed(this.digits)} s`;
+    if (this.shown !== clock.playing) {
+      this.shown = clock.playing;
+      this.playing.replaceChildren(icon(clock.playing ? "pause" : "play"));
+    }
+    const { rate, behind } = clock;
+    const text = rate === null ? "" : behind ? `only ${rate.toFixed(2)}×: drawing is slow here` : `${rate.toFixed(2)}×`;
+    if (this.rate.textContent !== text) this.rate.textContent = text;
+    this.rate.classList.toggle("ali3-behind", behind);
+  }
+}
+
+/** Digits of a time so that a thousandth of the run shows. @param {number} span s */
+export function digitsOf(span) {
+  return span > 0 ? Math.min(9, Math.max(0, Math.ceil(3 - Math.log10(span)))) : 3;
+}

@@ -1,0 +1,178 @@
+// One diagram: the signals of one unit over time, of all runs, with a line at the time that is shown.
+import uPlot from "uplot";
+import { element } from "./elements.js";
+import { linear, place } from "./sampler.js";
+import { resampled, values } from "./series.js";
+
+// Okabe and Ito's palette: distinguishable with any colour vision.
+const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#8a8f94"];
+const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
+const NULL_RETAIN = 1; // of uPlot.join: a gap of a run stays one
+
+/** @param {number} value @returns {string} */
+export const shownNumber = (value) => (Number.isFinite(value) ? Number(value.toPrecision(5)).toString() : "–");
+
+/** A diagram. */
+export class Chart {
+  #quiet = false;
+
+  /**
+   * @param {HTMLElement} parent
+   * @param {{unit: string, names: string[], runs: object[], colours: (name: string) => string, player: object,
+   *   zoomed: (chart: Chart, range: [number, number]) => void, difference: boolean,
+   *   compare: (unit: string, on: boolean) => void}} options
+   */
+  constructor(parent, options) {
+    Object.assign(this, options);
+    this.curves = this.#curves();
+    this.legend = this.#legend();
+    this.box = element("div", { class: "ali3-chart" }, [this.legend]);
+    parent.append(this.box);
+    this.plot = new uPlot(this.#settings(), this.#data(), this.box);
+    this.line = element("div", { class: "ali3-now" });
+    this.plot.over.append(this.line);
+    this.plot.over.addEventListener("click", (event) => this.#clicked(event));
+  }
+
+  /** What is drawn: {label, colour, dash, t, data}. */
+  #curves() {
+    const [first, ...others] = this.runs;
+    const made = [];
+    for (const name of this.names) {
+      const colour = this.colours(name);
+      if (this.difference) {
+        for (const [k, run] of others.entries()) {
+          if (!(name in run.columns) || !(name in first.columns)) continue;
+          const other = resampled(run.t, run.columns[name].data, first.t);
+          const data = Array.from(first.columns[name].data, (v, i) => (other[i] === null || !Number.isFinite(v) ? null : other[i] - v));
+          made.push({ label: `${name}: ${run.name} - ${first.name}`, colour, dash: DASHES[k % 4], t: first.t, data });
+        }
+        continue;
+      }
+      for (const [k, run] of this.runs.entries()) {
+        if (!(name in run.columns)) continue;
+        const label = this.runs.length > 1 ? `${name}, ${run.name}` : name;
+        made.push({ label, colour, dash: DASHES[k % 4], t: run.t, data: values(run.columns[name].data) });
+      }
+    }
+    return made;
+  }
+
+  #data() {
+    if (this.curves.length === 0) return [[this.player.clock.begin, this.player.clock.end]];
+    const tables = new Map();
+    for (const { t, data } of this.curves) tables.set(t, [...(tables.get(t) ?? [Array.from(t)]), data]);
+    const lists = [...tables.values()];
+    if (lists.length === 1) return lists[0];
+    // The order of the curves, which joining would change to that of the runs.
+    const joined = uPlot.join(lists, lists.map((list) => list.map(() => NULL_RETAIN)));
+    const at = new Map();
+    let column = 1;
+    for (const list of lists) for (const data of list.slice(1)) at.set(data, joined[column++]);
+    return [joined[0], ...this.curves.map(({ data }) => at.get(data))];
+  }
+
+  #settings() {
+    const ink = () => getComputedStyle(this.box).getPropertyValue("--soft").trim() || "#555";
+    const grid = () => getComputedStyle(this.box).getPropertyValue("--grid").trim() || "#ddd";
+    const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1 }, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", labelSize: 16 };
+    const { begin, end } = this.player.clock;
+    return {
+      width: 300,
+      height: 140,
+      legend: { show: false },
+      padding: [6, 8, 0, 0],
+      scales: { x: { time: false, range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min: begin, max: end } },
+      axes: [
+        { ...axis, label: "time, s", size: 26 },
+        { ...axis, label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
+      ],
+      series: [
+        {},
+        ...this.curves.map(({ label, colour, dash, t }) => ({
+          label,
+          stroke: colour,
+          dash,
+          width: 1.5,
+          points: { show: t.length === 1 ? true : undefined },
+        })),
+      ],
+      cursor: { sync: { key: `ali3-${this.player.id}` }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
+      hooks: {
+        setScale: [(plot, key) => key === "x" && !this.#quiet && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
+        draw: [() => this.now()],
+      },
+    };
+  }
+
+  #legend() {
+    const entries = this.curves.map((curve) => {
+      curve.output = element("output");
+      const swatch = element("span", { class: "ali3-swatch", style: `background:${curve.colour}` });
+      return element("span", {}, [swatch, curve.label, curve.output]);
+    });
+    const legend = element("div", { class: "ali3-legend" }, entries);
+    if (this.runs.length > 1) {
+      const press = () => this.compare(this.unit, !this.difference);
+      const title = "show the difference to the first run";
+      legend.append(element("button", { text: "difference", title, "aria-pressed": String(this.difference), onclick: press }));
+    }
+    return legend;
+  }
+
+  #clicked(event) {
+    const { select, over } = this.plot;
+    if (select.width > 0) return; // the end of a drag, which is a zoom
+    const left = event.clientX - over.getBoundingClientRect().left;
+    this.player.seek(this.plot.posToVal(left, "x"));
+  }
+
+  /** The line and the values at the time that is shown. */
+  now() {
+    if (!this.line) return;
+    const { time } = this.player.clock;
+    const left = this.plot.valToPos(time, "x");
+    const seen = left >= 0 && left <= this.plot.over.clientWidth;
+    this.line.style.display = seen ? "" : "none";
+    this.line.style.transform = `translateX(${left}px)`;
+    for (const { t, data, output } of this.curves) {
+      const inside = time >= t[0] && time <= t[t.length - 1];
+      const [k, share] = place(t, time);
+      const value = inside && data[k] !== null ? linear(data, k, data[k + 1] === null ? 0 : share) : NaN;
+      output.textContent = `${shownNumber(value)}${this.unit ? ` ${this.unit}` : ""}`;
+    }
+  }
+
+  /** @param {[number, number]} range of time to show */
+  zoom([min, max]) {
+    this.#quiet = true;
+    this.plot.batch(() => this.plot.setScale("x", { min, max }));
+    this.#quiet = false;
+  }
+
+  /** @param {number} width @param {number} height pixels, with the legend */
+  resize(width, height) {
+    const left = height - this.legend.offsetHeight - 2;
+    this.plot.setSize({ width: Math.max(120, Math.floor(width)), height: Math.max(90, Math.floor(left)) });
+    this.now();
+  }
+
+  /** After a change of the theme. */
+  redraw() {
+    this.plot.redraw(false, true);
+  }
+
+  dispose() {
+    this.plot.destroy();
+    this.box.remove();
+  }
+}
+
+/** Gives each name a colour of its own as long as there are some. */
+export function palette() {
+  const given = new Map();
+  return (name) => {
+    if (!given.has(name)) given.set(name, COLOURS[given.size % COLOURS.length]);
+    return given.get(name);
+  };
+}

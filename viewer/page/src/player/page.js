@@ -1,0 +1,30 @@
+// A page of recordings as viewer/page_file.py writes it.
+import { decoded } from "./decode.js";
+import { play } from "./play.js";
+
+/**
+ * Unpack the data of a page and play them.
+ * @param {HTMLElement} container
+ * @param {object} page JSON
+ * @returns {{ready: Promise<void>}} once that is resolved with the members of Player, or with `problem`
+ */
+export function playPage(container, page) {
+  const made = { problem: "" };
+  made.ready = decoded(page).then(
+    async (given) => {
+      made.player = play(container, given);
+      for (const name of ["seek", "camera", "set", "step", "play", "pause", "toggle", "speed", "side"]) {
+        made[name] = (...values) => made.player[name](...values);
+      }
+      for (const name of ["problem", "time", "view", "clock", "runs", "notes", "plots", "cameras"]) {
+        Object.defineProperty(made, name, { get: () => made.player[name], configurable: true });
+      }
+      await made.player.ready;
+    },
+    (error) => {
+      made.problem = error.message;
+      container.textContent = `This page cannot be shown: ${error.message}`;
+    },
+  );
+  return made;
+}

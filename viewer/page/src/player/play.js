@@ -1,0 +1,306 @@
+// Plays recordings: the picture, the bar below it and the diagrams beside it, all at one time.
+import uplotStyle from "uplot/dist/uPlot.min.css";
+import { SceneView } from "../scene/scene_view.js";
+import { Bar } from "./bar.js";
+import { Clock } from "./clock.js";
+import { element, styled } from "./elements.js";
+import { keys } from "./keys.js";
+import { fromHash, toHash } from "./link.js";
+import { Plots } from "./plots.js";
+import { Sampler } from "./sampler.js";
+import { Settings } from "./settings.js";
+import style from "./style.css";
+
+const TINTS = ["#3f7fd0", "#d08a2f", "#3f9f6c", "#b0569b"];
+const WIDE = 1.15; // width over height from which the diagrams stand beside the picture
+const SHOWN_NOTES = 3;
+let count = 0;
+
+/**
+ * Show runs in an element.
+ * @param {HTMLElement} container an element with a size
+ * @param {{runs: import("./decode.js").Run[], options?: object}} given the first run is drawn solid, others as ghosts
+ * @returns {Player}
+ */
+export const play = (container, given) => new Player(container, given);
+
+/** A page of recordings; `seek`, `camera`, `view` and `ready` are for programs. */
+export class Player {
+  constructor(container, { runs, options = {} }) {
+    styled("ali3-uplot", uplotStyle);
+    styled("ali3-style", style);
+    this.id = count++;
+    this.runs = runs;
+    this.options = { ...options, ...(options.controls === false ? {} : fromHash(location.hash)) };
+    this.clock = new Clock(Math.min(...runs.map(({ t }) => t[0])), Math.max(...runs.map(({ t }) => t[t.length - 1])), {
+      speed: this.options.speed ?? 1,
+      loop: this.options.loop ?? true,
+    });
+    this.clock.seek(this.options.time ?? this.clock.begin);
+    this.look = {
+      arrows: this.options.arrows ?? false,
+      arrowScale: this.options.arrow_scale ?? 1,
+      stress: this.options.stress ?? true,
+      deformation: this.options.deformation ?? 1,
+    };
+    this.samplers = runs.map((run) => new Sampler(run));
+    this.#build(container);
+    this.#draw();
+    if (this.options.controls !== false) this.#controls();
+    this.theme(this.options.theme ?? "auto");
+    this.observer = new ResizeObserver(() => this.#shape());
+    this.observer.observe(this.root);
+    this.#shape();
+    this.#show();
+    if (this.options.play) this.play();
+    this.loopId = requestAnimationFrame((now) => this.#frame(now));
+    /** Resolved when the first picture stands. */
+    this.ready = this.#painted();
+  }
+
+  /** One sentence where nothing can be drawn, else empty. */
+  get problem() {
+    return this.view?.problem ?? "";
+  }
+
+  get time() {
+    return this.clock.time;
+  }
+
+  /** Sentences on the runs: thinning, gaps. */
+  get notes() {
+    const several = this.runs.length > 1;
+    return this.runs.flatMap(({ name, notes = [] }) => notes.map((note) => (several ? `${name}: ${note}` : note)));
+  }
+
+  get sideOpen() {
+    return !this.sideBox?.hidden;
+  }
+
+  play() {
+    this.clock.play();
+    this.bar?.now();
+  }
+
+  pause() {
+    this.clock.pause();
+    this.bar?.now();
+    this.remember();
+  }
+
+  toggle() {
+    if (this.clock.playing) this.pause();
+    else this.play();
+  }
+
+  /** @param {number} t s @returns {Promise<void>} when the picture stands on the screen */
+  seek(t) {
+    this.clock.seek(t);
+    this.#show();
+    this.changed();
+    return this.#painted();
+  }
+
+  /** Go on by recorded times of the first run. @param {number} steps */
+  step(steps) {
+    this.clock.pause();
+    const { t } = this.runs[0];
+    const [k, share] = this.samplers[0].place;
+    const from = steps < 0 && share > 0 ? k + 1 : k;
+    const to = Math.min(t.length - 1, Math.max(0, from + steps));
+    return this.seek(t[to]);
+  }
+
+  /** @param {number} speed from 0.05 to 10 */
+  speed(speed) {
+    this.clock.faster(Math.min(10, Math.max(0.05, speed)));
+    this.bar?.speeds(this.clock.speed);
+    this.changed();
+  }
+
+  loop(on) {
+    this.clock.loop = on;
+  }
+
+  /** @param {string} name @returns {string} a sentence if there is no such camera, else empty */
+  camera(name) {
+    if (!this.cameras.includes(name)) return `There is no camera '${name}'; there are ${this.cameras.join(", ") || "none"}.`;
+    this.view.camera(name);
+    this.cameraName = name;
+    if (this.bar?.camera) this.bar.camera.value = name;
+    this.dirty = true;
+    this.changed();
+    return "";
+  }
+
+  /** @param {{arrows?: boolean, arrowScale?: number, stress?: boolean, deformation?: number}} look */
+  set(look) {
+    Object.assign(this.look, look);
+    this.view?.set?.(look);
+    this.dirty = true;
+  }
+
+  /** @param {{name: string}} ghost @param {boolean} on */
+  showGhost(ghost, on) {
+    if (on) ghost.drawn ??= this.view.addGhost(ghost.run.scene, ghost.options);
+    else {
+      ghost.drawn?.remove();
+      ghost.drawn = undefined;
+    }
+    this.#show();
+  }
+
+  /** Show or hide the diagrams. @param {boolean} open */
+  side(open) {
+    this.sideBox.hidden = !open;
+    this.plots ??= new Plots(this.sideBox, this, this.options.plots ?? []);
+    this.bar.signals.setAttribute("aria-pressed", String(open));
+    this.#shape();
+    this.plots.resize();
+    this.dirty = true;
+  }
+
+  /** @param {"auto" | "light" | "dark"} name */
+  theme(name) {
+    this.themeName = name;
+    this.dark ??= matchMedia("(prefers-color-scheme: dark)");
+    this.dark.onchange = () => this.theme(this.themeName);
+    this.root.dataset.theme = name === "auto" ? (this.dark.matches ? "dark" : "light") : name;
+    this.plots?.redraw();
+  }
+
+  fullScreen() {
+    if (document.fullscreenElement) document.exitFullscreen();
+    else this.root.requestFullscreen?.().catch(() => {});
+  }
+
+  /** Something that the address of the page tells has changed. */
+  changed() {
+    if (!this.clock.playing) this.remember();
+  }
+
+  /** Write into the address what is shown, so that it can be sent to somebody. */
+  remember() {
+    if (this.options.controls === false || !/^(https?|file):$/.test(location.protocol)) return;
+    clearTimeout(this.later);
+    const state = { time: this.clock.time, camera: this.cameraName, plots: this.plots?.chosen ?? [], speed: this.clock.speed };
+    this.later = setTimeout(() => history.replaceState(null, "", toHash(state)), 150); // browsers allow few a second
+  }
+
+  dispose() {
+    cancelAnimationFrame(this.loopId);
+    clearTimeout(this.later);
+    this.observer.disconnect();
+    this.plots?.dispose();
+    this.view?.dispose();
+    this.dark.onchange = null;
+    this.root.remove();
+  }
+
+  #build(container) {
+    this.viewBox = element("div", { class: "ali3-view" });
+    this.sideBox = element("aside", { class: "ali3-side", hidden: true, "aria-label": "signals" });
+    this.stage = element("div", { class: "ali3-stage" }, [this.viewBox, this.sideBox]);
+    this.foot = element("div", { class: "ali3-foot" });
+    this.root = element("div", { class: "ali3-player", tabindex: "-1" }, [this.stage, this.foot]);
+    container.replaceChildren(this.root);
+  }
+
+  /** The picture: of the first run that has a scene; the other runs are ghosts. */
+  #draw() {
+    this.solid = this.runs.findIndex(({ scene }) => scene !== null && scene !== undefined);
+    this.ghosts = [];
+    this.cameras = [];
+    this.has = {};
+    if (this.solid < 0) return;
+    const { scene } = this.runs[this.solid];
+    this.view = new SceneView(this.viewBox, scene, { onMessage: () => {}, keep: this.options.controls === false });
+    this.has = this.view.has ?? { arrows: scene.arrows?.length > 0, stress: scene.flexible?.some(({ stress }) => stress), deformation: scene.flexible?.length > 0 };
+    this.view.set?.(this.look);
+    this.cameras = this.view.cameraNames;
+    this.cameraName = this.cameras[0];
+    for (const [k, run] of this.runs.entries()) {
+      if (k === this.solid || !run.scene || this.problem) continue;
+      const options = { name: run.name, tint: TINTS[this.ghosts.length % TINTS.length] };
+      this.ghosts.push({ name: run.name, run, options, sampler: this.samplers[k], drawn: this.view.addGhost(run.scene, options) });
+    }
+    if (this.options.camera !== undefined) this.wrong = this.camera(this.options.camera);
+    for (const event of ["pointerdown", "pointermove", "wheel", "touchmove", "pointerup"]) {
+      this.viewBox.addEventListener(event, () => (this.dirty = true), { passive: true });
+    }
+  }
+
+  #controls() {
+    this.#head();
+    this.barBox = element("div", { class: "ali3-bar" });
+    this.foot.append(this.barBox);
+    this.bar = new Bar(this.barBox, this);
+    if (this.bar.camera) this.bar.camera.value = this.cameraName;
+    this.settings = new Settings(this.foot, this);
+    const plotsOnly = this.solid < 0;
+    if (plotsOnly) this.root.dataset.plotsOnly = "yes";
+    if (plotsOnly || this.options.plots?.length) this.side(true);
+    keys(this);
+  }
+
+  /** Names of the runs and what there is to say of them, over the picture. */
+  #head() {
+    const rows = this.runs.map(({ name }) => {
+      const ghost = this.ghosts.find((other) => other.name === name);
+      const swatch = ghost && element("span", { class: "ali3-swatch", style: `background:${ghost.options.tint}` });
+      return element("div", { class: "ali3-name" }, [...(swatch ? [swatch] : []), name, ...(ghost ? [" (ghost)"] : [])]);
+    });
+    const said = [...this.notes, ...this.#spans(), ...(this.wrong ? [this.wrong] : [])];
+    if (this.solid < 0) said.push("There are no poses in this result: signals can be plotted, and nothing is drawn.");
+    const more = said.length > SHOWN_NOTES ? [`${said.length - SHOWN_NOTES} more notes stand in the settings.`] : [];
+    for (const note of [...said.slice(0, SHOWN_NOTES), ...more]) rows.push(element("div", { class: "ali3-note", text: note }));
+    this.viewBox.append(element("div", { class: "ali3-head" }, rows));
+  }
+
+  /** Which runs do not last the whole time. */
+  #spans() {
+    const { begin, end } = this.clock;
+    return this.runs
+      .filter(({ t }) => t[0] > begin || t[t.length - 1] < end)
+      .map(({ name, t }) => `${name} lasts from ${t[0]} s to ${t[t.length - 1]} s and stands still outside.`);
+  }
+
+  /** Beside or below each other, by the form of the window. */
+  #shape() {
+    const { clientWidth, clientHeight } = this.root;
+    this.root.dataset.shape = clientWidth > WIDE * clientHeight ? "wide" : "tall";
+    this.dirty = true;
+  }
+
+  /** Everything to the time of the clock. */
+  #show() {
+    for (const sampler of this.samplers) sampler.at(this.clock.time);
+    if (this.solid >= 0) {
+      this.view.update(this.samplers[this.solid].lookup);
+      for (const { drawn, sampler } of this.ghosts) drawn?.update(sampler.lookup);
+      this.view.render();
+    }
+    this.bar?.now();
+    if (this.sideOpen) this.plots?.now();
+    this.dirty = false;
+  }
+
+  #frame(now) {
+    const passed = this.last === undefined ? 0 : (now - this.last) / 1000;
+    this.last = now;
+    if (this.clock.playing) {
+      this.clock.tick(passed);
+      this.#show();
+      if (!this.clock.playing) this.remember();
+    } else if (this.dirty) {
+      this.view?.render();
+      this.dirty = false;
+    }
+    this.loopId = requestAnimationFrame((next) => this.#frame(next));
+  }
+
+  /** Two pictures later the browser has shown what was drawn. */
+  #painted() {
+    return new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
+  }
+}

@@ -1,0 +1,66 @@
+// What a diagram shows: the signals of one unit, of all runs on one axis of times, and their differences.
+import { linear, place } from "./sampler.js";
+
+/**
+ * A signal at the times of another run; nothing outside its own times.
+ * @param {ArrayLike<number>} t @param {ArrayLike<number>} data
+ * @param {ArrayLike<number>} times
+ * @returns {(number | null)[]}
+ */
+export function resampled(t, data, times) {
+  const [first, last] = [t[0], t[t.length - 1]];
+  return Array.from(times, (time) => {
+    if (time < first || time > last) return null;
+    const value = linear(data, ...place(t, time));
+    return Number.isFinite(value) ? value : null;
+  });
+}
+
+/** Values as a diagram takes them: null for what is no number. @param {ArrayLike<number>} data */
+export const values = (data) => Array.from(data, (value) => (Number.isFinite(value) ? value : null));
+
+/**
+ * Signals by unit, in the order of their names.
+ * @param {string[]} names @param {import("./decode.js").Run[]} runs
+ * @returns {Map<string, string[]>}
+ */
+export function byUnit(names, runs) {
+  const groups = new Map();
+  for (const name of names) {
+    const unit = unitOf(name, runs);
+    if (unit === null) continue;
+    groups.set(unit, [...(groups.get(unit) ?? []), name]);
+  }
+  return groups;
+}
+
+/** Unit of a signal in the first run that has it; null where none has. */
+export function unitOf(name, runs) {
+  const run = runs.find(({ columns }) => name in columns);
+  return run === undefined ? null : run.columns[name].unit;
+}
+
+/**
+ * Names of all signals: those that do not only place bodies come first.
+ * @param {import("./decode.js").Run[]} runs
+ * @returns {string[]}
+ */
+export function signalNames(runs) {
+  const poses = new Set();
+  for (const { scene } of runs) {
+    for (const frame of Object.values(scene?.frames ?? {})) {
+      for (const name of [...(frame.position ?? []), ...(frame.quaternion ?? [])]) poses.add(name);
+    }
+  }
+  const all = [...new Set(runs.flatMap(({ columns }) => Object.keys(columns)))];
+  return [...all.filter((name) => !poses.has(name)), ...all.filter((name) => poses.has(name))];
+}
+
+/**
+ * Names that hold all words of a search, in any order.
+ * @param {string[]} names @param {string} search
+ */
+export function found(names, search) {
+  const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+  return names.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
+}

@@ -1,0 +1,69 @@
+// The panel of settings: forces, stress, ghosts, colours of the page, and what there is to say of the runs.
+import { element } from "./elements.js";
+
+/** The panel. */
+export class Settings {
+  /** @param {HTMLElement} parent @param {object} player */
+  constructor(parent, player) {
+    this.player = player;
+    this.panel = element("div", { class: "ali3-panel", hidden: true });
+    parent.append(this.panel);
+    this.#fill();
+  }
+
+  toggle(open = this.panel.hidden) {
+    this.panel.hidden = !open;
+    this.player.bar.settings.setAttribute("aria-pressed", String(open));
+  }
+
+  #fill() {
+    const { player } = this;
+    const { look } = player;
+    const rows = [];
+    const check = (text, value, change) => {
+      const box = element("input", { type: "checkbox", onchange: () => change(box.checked) });
+      box.checked = value;
+      rows.push(element("label", { class: "ali3-wide" }, [box, ` ${text}`]));
+    };
+    // A factor from 1/range to range, in equal steps of its logarithm.
+    const factor = (text, key, low, high) => {
+      const shown = element("output", { text: `${Number(look[key].toPrecision(3))}×` });
+      const range = element("input", { type: "range", min: Math.log10(low), max: Math.log10(high), step: 0.05, "aria-label": text });
+      range.value = String(Math.log10(Math.max(look[key], low)));
+      range.addEventListener("input", () => {
+        const value = Number((10 ** Number(range.value)).toPrecision(3));
+        shown.textContent = `${value}×`;
+        player.set({ [key]: value });
+      });
+      rows.push(element("span", { text }), range, shown);
+    };
+    if (player.has.arrows) {
+      check("forces as arrows (a)", look.arrows, (arrows) => player.set({ arrows }));
+      factor("length of the arrows", "arrowScale", 0.05, 20);
+    }
+    if (player.has.stress) check("colours of the stress", look.stress, (stress) => player.set({ stress }));
+    if (player.has.deformation) factor("deformation", "deformation", 1, 1000);
+    for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
+    check("begin again at the end (l)", player.clock.loop, (loop) => player.loop(loop));
+    const theme = element("select", { onchange: () => player.theme(theme.value) });
+    theme.append(...["auto", "light", "dark"].map((name) => element("option", { value: name, text: name })));
+    theme.value = player.themeName;
+    rows.push(element("span", { text: "colours of the page" }), theme, element("span"));
+    const copied = element("span");
+    const copy = async () => {
+      player.remember();
+      try {
+        await navigator.clipboard.writeText(location.href);
+        copied.textContent = "copied";
+      } catch {
+        copied.textContent = "it stands in the address bar";
+      }
+    };
+    if (/^(https?|file):$/.test(location.protocol)) {
+      rows.push(element("span", { text: "link to this time" }), element("button", { text: "copy", onclick: copy }), copied);
+    }
+    for (const note of player.notes) rows.push(element("p", { text: note }));
+    rows.push(element("p", { text: "Keys: space, left and right (with shift: ten steps), Home, End, up and down for the speed." }));
+    this.panel.replaceChildren(...rows);
+  }
+}

@@ -1,0 +1,93 @@
+"""Recordings as the JSON of a page: scenes once each, columns as compressed blocks of numbers."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viewer.recording import Recording
+from viewer.scene_columns import pose_columns
+
+FORMAT = "ALi3 page"
+_LARGEST_FLOAT32 = 3e38
+
+
+def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> dict[str, Any]:
+    """What the script of the page reads.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+    options : mapping
+        Of the player.
+
+    Returns
+    -------
+    dict
+        As `json.dumps` takes it. A block of columns is the base64 of the gzip of their bytes: all first bytes of the
+        numbers, then all second ones and so on, since these are alike and become small.
+    """
+    scenes: list[Any] = []
+    runs = []
+    for recording in recordings:
+        if recording.scene is not None and recording.scene not in scenes:
+            scenes.append(recording.scene)
+        runs.append(_run(recording, None if recording.scene is None else scenes.index(recording.scene)))
+    return {"format": FORMAT, "version": 1, "scenes": scenes, "runs": runs, "options": dict(options)}
+
+
+def json_in_html(data: object) -> str:
+    """JSON that may stand in a script element: no text in it can end the element or begin a comment.
+
+    Parameters
+    ----------
+    data : object
+        As `json.dumps` takes it; numbers must be finite.
+    """
+    text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def block(columns: Mapping[str, NDArray[np.float64]], kind: str) -> dict[str, Any]:
+    """Columns of one kind of number.
+
+    Parameters
+    ----------
+    columns : mapping of str to array of shape (n,)
+    kind : str
+        ``"f8"`` or ``"f4"``.
+    """
+    numbers = np.array(list(columns.values()), dtype=f"<{kind}").reshape(-1)
+    planes = np.frombuffer(numbers.tobytes(), np.uint8).reshape(-1, numbers.itemsize).T
+    packed = gzip.compress(planes.tobytes(), 6, mtime=0)
+    return {"names": list(columns), "kind": kind, "data": base64.b64encode(packed).decode("ascii")}
+
+
+def _run(recording: Recording, scene: int | None) -> dict[str, Any]:
+    exact = set() if recording.scene is None else set(pose_columns(recording.scene))
+    exact |= {name for name, values in recording.columns.items() if _large(values)}
+    rough = {name: values for name, values in recording.columns.items() if name not in exact}
+    fine = {name: values for name, values in recording.columns.items() if name in exact}
+    return {
+        "name": recording.name,
+        "scene": scene,
+        "count": len(recording.t),
+        "time": block({"time": recording.t}, "f8"),
+        "blocks": [block(columns, kind) for columns, kind in ((fine, "f8"), (rough, "f4")) if columns],
+        "units": recording.units,
+        "order": list(recording.columns),
+        "notes": recording.notes,
+        "missing": recording.missing,
+    }
+
+
+def _large(values: NDArray[np.float64]) -> bool:
+    """Whether single precision would turn numbers into infinity."""
+    with np.errstate(invalid="ignore"):
+        return bool((np.abs(values[np.isfinite(values)]) > _LARGEST_FLOAT32).any())

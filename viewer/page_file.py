@@ -1,0 +1,183 @@
+"""Writes recordings as one HTML file that opens from disk and needs nothing else."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ali3.files import check_writable, whole_file
+from viewer.bundle import bundle
+from viewer.errors import ViewerError
+from viewer.page_data import json_in_html, page_data
+from viewer.player_options import check_options
+from viewer.recording import MOST_TIMES, Recording
+
+# Nothing is fetched: what the page needs stands in it.
+_POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
+    "img-src data: blob:; media-src data: blob:; connect-src data: blob:; worker-src blob:"
+)
+_STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"
+
+
+class WrittenPage(NamedTuple):
+    """A page that was written.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    size : int
+        Bytes.
+    notes : list of str
+        Sentences: thinning, gaps, what is not drawn. They stand in the page too.
+    """
+
+    path: Path
+    size: int
+    notes: list[str]
+
+
+def write_page(
+    path: str | PathLike[str],
+    recordings: Recording | Sequence[Recording],
+    title: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    most: int = MOST_TIMES,
+) -> WrittenPage:
+    """Write a page of one recording, or of several that are shown over each other.
+
+    Parameters
+    ----------
+    path : path
+        File to write, usually ``.html``; one that is there is replaced when the new one is whole.
+    recordings : Recording or sequence of Recording
+        The first is drawn solid, the others as ghosts.
+    title : str, optional
+        Of the page; by default the names of the recordings.
+    options : mapping, optional
+        What the player starts with, see `viewer.player_options.OPTIONS`.
+    most : int
+        Times that a recording is thinned to.
+
+    Returns
+    -------
+    WrittenPage
+        Where it is, how large, and what there is to say of it.
+
+    Raises
+    ------
+    ViewerError
+        A recording or an option is wrong, or the script of the page is not there.
+    FileError
+        The file cannot be written; an older one is then unchanged.
+    """
+    check_writable(path)
+    shown = thinned(recordings, most)
+    text = page_html(shown, title, options)
+    with whole_file(path) as made:
+        made.write_text(text, encoding="utf-8", newline="\n")
+    return WrittenPage(Path(path), len(text.encode("utf-8")), notes_of(shown))
+
+
+def page_html(
+    recordings: Recording | Sequence[Recording],
+    title: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    most: int = MOST_TIMES,
+) -> str:
+    """The text of the page that `write_page` writes; see there."""
+    shown = thinned(recordings, most)
+    data = page_data(shown, check_options(options or {}))
+    heading = title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in shown))
+    return html_document(heading, data, "ALi3Viewer.playPage")
+
+
+def html_document(title: str, data: object, function: str) -> str:
+    """One HTML file with the script of the viewer and data, on which it calls a function.
+
+    Parameters
+    ----------
+    title : str
+        Of the page; any text.
+    data : object
+        JSON; any texts may stand in it.
+    function : str
+        Of the script, called with the element that is to be filled and the data; what it returns is
+        ``window.player``.
+
+    Raises
+    ------
+    ViewerError
+        The script is not there and cannot be built.
+    """
+    # The page says what is wrong in place of a picture, for whoever opens it where it cannot run.
+    start = (
+        "(function(){var view=document.getElementById('view');"
+        "try{window.player=" + function + "(view,JSON.parse(document.getElementById('data').textContent));}"
+        "catch(error){view.textContent='This page cannot be shown: '+(error&&error.message||error);}})();"
+    )
+    return "\n".join(
+        (
+            "<!DOCTYPE html>",
+            '<html lang="en"><head><meta charset="utf-8">',
+            f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
+            '<meta name="viewport" content="width=device-width, initial-scale=1, viewport-fit=cover">',
+            '<link rel="icon" href="data:,">',
+            f"<title>{html.escape(' '.join(title.split()))}</title>",
+            f"<style>{_STYLE}</style></head>",
+            '<body><div id="view"></div>',
+            "<noscript>This page draws with JavaScript, which is switched off in this browser.</noscript>",
+            f'<script type="application/json" id="data">{json_in_html(data)}</script>',
+            f"<script>{script()}</script>",
+            f"<script>{start}</script></body></html>",
+            "",
+        )
+    )
+
+
+def script() -> str:
+    """The script of the viewer, which defines ``window.ALi3Viewer``.
+
+    Raises
+    ------
+    ViewerError
+        It is not there and cannot be built.
+    """
+    try:
+        text = bundle().read_text(encoding="utf-8")
+    except RuntimeError as error:
+        raise ViewerError(str(error)) from None
+    if "</script" in text.lower():
+        raise ViewerError("The script of the viewer holds the end of a script element; build it anew.")
+    return text
+
+
+def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:
+    """Recordings as a page carries them.
+
+    Raises
+    ------
+    ViewerError
+        There is none, or something else stands in their place.
+    """
+    listed = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    if not listed:
+        raise ViewerError("There is no recording to be shown.")
+    for item in listed:
+        if not isinstance(item, Recording):
+            raise ViewerError(f"A page shows objects of the class Recording; this is one of {type(item).__name__}.")
+    return [recording.thinned(most) for recording in listed]
+
+
+def notes_of(recordings: Sequence[Recording]) -> list[str]:
+    """What there is to say of recordings, with their names where there are several."""
+    found = []
+    for recording in recordings:
+        head = f"{recording.name}: " if len(recordings) > 1 else ""
+        found += [head + note for note in recording.notes]
+        found += [f"{head}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
+    return found

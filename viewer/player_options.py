@@ -1,0 +1,83 @@
+"""What the player of a page starts with."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from viewer.errors import ViewerError
+
+
+class Option(NamedTuple):
+    """An option of the player.
+
+    Parameters
+    ----------
+    good : callable
+        Whether a value is one.
+    words : str
+        What a value must be.
+    text : str
+        What it does.
+    """
+
+    good: Callable[[Any], bool]
+    words: str
+    text: str
+
+
+def _number(low: float, high: float) -> Callable[[Any], bool]:
+    def good(value: Any) -> bool:
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and low <= value <= high
+
+    return good
+
+
+def _texts(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) and all(isinstance(item, str) for item in value)
+
+
+def _bool(value: Any) -> bool:
+    return isinstance(value, bool)
+
+
+OPTIONS: dict[str, Option] = {
+    "camera": Option(lambda v: isinstance(v, str), "the name of a camera", "camera at the start"),
+    "time": Option(_number(-math.inf, math.inf), "a time in s", "where the slider stands at the start"),
+    "speed": Option(_number(0.05, 10.0), "a number from 0.05 to 10", "of playing; 1 is real time"),
+    "play": Option(_bool, "True or False", "whether it plays when the page is opened"),
+    "loop": Option(_bool, "True or False", "whether it begins again at the end"),
+    "plots": Option(_texts, "a list of names of columns", "signals that are plotted at the start"),
+    "arrows": Option(_bool, "True or False", "whether forces are drawn"),
+    "arrow_scale": Option(_number(1e-3, 1e3), "a number from 0.001 to 1000", "length of the arrows"),
+    "stress": Option(_bool, "True or False", "whether flexible parts have the colours of their stress"),
+    "deformation": Option(_number(0.0, 1e6), "a number from 0 on", "factor of the drawn deformation"),
+    "theme": Option(lambda v: v in ("auto", "light", "dark"), "'auto', 'light' or 'dark'", "colours of the page"),
+    "controls": Option(_bool, "True or False", "whether there is anything but the drawing"),
+}
+"""Options of a page by name."""
+
+
+def check_options(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options that are what they must be.
+
+    Parameters
+    ----------
+    options : mapping
+        By the names of `OPTIONS`.
+
+    Raises
+    ------
+    ViewerError
+        With the name, the value and what would be right.
+    """
+    for name, value in options.items():
+        if name not in OPTIONS:
+            near = difflib.get_close_matches(str(name), OPTIONS, 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(OPTIONS)}."
+            raise ViewerError(f"The player has no option {str(name)!r}; {hint}")
+        if not OPTIONS[name].good(value):
+            raise ViewerError(f"The option {name!r} of the player is {value!r}; it must be {OPTIONS[name].words}.")
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in options.items()}

@@ -1,0 +1,192 @@
+"""Poses of the frames of a scene over time, from the columns of a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vectors = NDArray[np.float64]
+
+GROUND = "ground"
+_ON_A_LINE = 1e-9  # distance of the third point from the line of the others, as a share of its distance from the first
+
+
+@dataclass(frozen=True)
+class Poses:
+    """A frame over time: earth = position + R(quaternion) local.
+
+    Parameters
+    ----------
+    position : array of shape (n, 3)
+        Of its origin in earth axes, m.
+    quaternion : array of shape (n, 4)
+        Unit, scalar first, of continuous sign.
+    shown : array of shape (n,)
+        False where a number is missing; the pose is then that of the nearest time before, or the first one after.
+    """
+
+    position: Vectors
+    quaternion: Vectors
+    shown: NDArray[np.bool_]
+
+    def points(self, local: Sequence[float] | Vectors) -> Vectors:
+        """Earth positions of a point of the frame, of shape (n, 3)."""
+        return self.position + rotated(self.quaternion, np.asarray(local, dtype=float))
+
+
+class FramePoses:
+    """Poses of all frames of a scene.
+
+    Parameters
+    ----------
+    scene : mapping
+        That was checked.
+    columns : mapping of str to array of shape (n,)
+        With all that the frames read.
+    count : int
+        Number of times, n.
+    """
+
+    def __init__(self, scene: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], count: int) -> None:
+        self._frames = scene["frames"]
+        self._columns = columns
+        self._count = count
+        still = Poses(np.zeros((count, 3)), np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)), np.ones(count, dtype=bool))
+        self._found: dict[str, Poses] = {GROUND: still}
+
+    def of(self, name: str) -> Poses:
+        """Poses of a frame."""
+        if name not in self._found:
+            frame = self._frames[name]
+            if "way" in frame:
+                made = self._slid(frame)
+            elif "parent" in frame:
+                made = self._turned(frame)
+            elif "points" in frame:
+                made = self._carried(frame)
+            else:
+                made = held(self._stack(frame["position"]), self._stack(frame["quaternion"]))
+            self._found[name] = made
+        return self._found[name]
+
+    def points(self, anchor: Sequence[Any]) -> Vectors:
+        """Earth positions of an anchor, of shape (n, 3)."""
+        name, local = anchor
+        return self.of(name).points(local)
+
+    def _stack(self, names: Sequence[str]) -> Vectors:
+        return np.column_stack([np.asarray(self._columns[name], dtype=float) for name in names])
+
+    def _turned(self, frame: Mapping[str, Any]) -> Poses:
+        parent = self.of(frame["parent"])
+        angle = np.asarray(self._columns[frame["angle"]], dtype=float)
+        turn = about_axis(frame["axis"], angle)
+        position = parent.points(frame.get("at") or (0.0, 0.0, 0.0))
+        position[~(np.isfinite(angle) & parent.shown)] = np.nan
+        return held(position, product(parent.quaternion, turn))
+
+    def _slid(self, frame: Mapping[str, Any]) -> Poses:
+        parent = self.of(frame["parent"])
+        way = np.asarray(self._columns[frame["way"]], dtype=float)
+        at = np.asarray(frame.get("at") or (0.0, 0.0, 0.0), dtype=float)
+        position = parent.points(at + way[:, None] * np.asarray(frame["direction"], dtype=float))
+        position[~parent.shown] = np.nan
+        return held(position, parent.quaternion)
+
+    def _carried(self, frame: Mapping[str, Any]) -> Poses:
+        a, b, c = (self.points(anchor) for anchor in frame["on"])
+        shown = np.logical_and.reduce([self.of(anchor[0]).shown for anchor in frame["on"]])
+        local = [np.array([p], dtype=float) for p in frame["points"]]
+        rotation = axes_of_points(a, b, c) @ axes_of_points(*local).transpose(0, 2, 1)
+        position = a - np.einsum("nij,j->ni", rotation, local[0][0])
+        position[~shown] = np.nan
+        return held(position, from_matrices(rotation))
+
+
+def held(position: Vectors, quaternion: Vectors) -> Poses:
+    """Poses of unit quaternions of continuous sign; a pose that is not finite is that of the time before."""
+    length = np.linalg.norm(quaternion, axis=1)
+    good = np.isfinite(position).all(axis=1) & np.isfinite(length) & (length > 0.0)
+    if not good.any():
+        n = len(good)
+        return Poses(np.zeros((n, 3)), np.tile([1.0, 0.0, 0.0, 0.0], (n, 1)), good)
+    source = np.maximum.accumulate(np.where(good, np.arange(len(good)), -1))
+    source[source < 0] = int(good.argmax())
+    unit = quaternion[source] / length[source, None]
+    return Poses(position[source], continuous(unit), good)
+
+
+def continuous(quaternion: Vectors) -> Vectors:
+    """The same rotations with each quaternion on the side of the one before it."""
+    turned = np.einsum("ni,ni->n", quaternion[1:], quaternion[:-1]) < 0.0
+    sign = np.where(np.concatenate([[False], np.logical_xor.accumulate(turned)]), -1.0, 1.0)
+    return quaternion * sign[:, None]
+
+
+def rotated(quaternion: Vectors, vector: Vectors) -> Vectors:
+    """R(q) v, of shape (n, 3); one vector or n of them."""
+    w, u = quaternion[:, :1], quaternion[:, 1:]
+    v = np.broadcast_to(vector, u.shape)
+    across = 2.0 * np.cross(u, v)
+    return np.asarray(v + w * across + np.cross(u, across))
+
+
+def product(a: Vectors, b: Vectors) -> Vectors:
+    """Quaternion of R(a) R(b)."""
+    w = a[:, :1] * b[:, :1] - np.einsum("ni,ni->n", a[:, 1:], b[:, 1:])[:, None]
+    return np.hstack([w, a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])])
+
+
+def conjugate(quaternion: Vectors) -> Vectors:
+    """Quaternion of the inverse rotation."""
+    return quaternion * [1.0, -1.0, -1.0, -1.0]
+
+
+def about_axis(axis: Sequence[float], angle: Vectors) -> Vectors:
+    """Quaternions of right-handed turns about an axis by n angles, rad."""
+    unit = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
+    return np.column_stack([np.cos(angle / 2.0), np.sin(angle / 2.0)[:, None] * unit])
+
+
+def axes_of_points(a: Vectors, b: Vectors, c: Vectors) -> Vectors:
+    """Axes of n triangles as columns: x from a to b, c in the plane of x and y; nan where they lie on a line."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        x = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
+        to = c - a
+        across = to - np.einsum("ni,ni->n", to, x)[:, None] * x
+        size = np.linalg.norm(across, axis=1)
+        size[~(size > _ON_A_LINE * np.linalg.norm(to, axis=1))] = np.nan
+        y = across / size[:, None]
+    return np.stack([x, y, np.cross(x, y)], axis=2)
+
+
+def from_matrices(rotation: Vectors) -> Vectors:
+    """Unit quaternions of n rotation matrices; nan where a matrix is."""
+    r = rotation
+    trace = np.einsum("nii->n", r)
+    diagonal = np.stack([trace, r[:, 0, 0], r[:, 1, 1], r[:, 2, 2]], axis=1)
+    columns = np.empty((4, len(r), 4))  # each is the quaternion times four times one of its parts
+    s = [r[:, 2, 1] - r[:, 1, 2], r[:, 0, 2] - r[:, 2, 0], r[:, 1, 0] - r[:, 0, 1]]
+    columns[0] = np.stack([1.0 + trace, *s], axis=1)
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        columns[1 + i][:, 0] = s[i]
+        columns[1 + i][:, 1 + i] = 1.0 + 2.0 * r[:, i, i] - trace
+        columns[1 + i][:, 1 + j] = r[:, j, i] + r[:, i, j]
+        columns[1 + i][:, 1 + k] = r[:, k, i] + r[:, i, k]
+    chosen = columns[np.argmax(np.nan_to_num(diagonal), axis=1), np.arange(len(r))]
+    return np.asarray(chosen / np.linalg.norm(chosen, axis=1)[:, None])
+
+
+def shortest_turns(a: Vectors, b: Vectors) -> Vectors:
+    """Quaternions of the shortest turns that take n unit vectors to n others."""
+    half = np.column_stack([1.0 + np.einsum("ni,ni->n", a, b), np.cross(a, b)])
+    opposite = half[:, 0] < 1e-12
+    if opposite.any():  # any axis across will do
+        other = np.eye(3)[np.argmin(np.abs(a[opposite]), axis=1)]
+        half[opposite] = np.column_stack([np.zeros(len(other)), np.cross(a[opposite], other)])
+    return np.asarray(half / np.linalg.norm(half, axis=1)[:, None])

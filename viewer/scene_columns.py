@@ -1,0 +1,110 @@
+"""Which columns the parts of a scene read, and a scene without the parts whose columns are not there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from viewer.scene_relations import GROUND, frames_of
+
+
+def columns_of(part: Mapping[str, Any]) -> list[str]:
+    """Columns that a frame, an arrow or a flexible part reads.
+
+    Parameters
+    ----------
+    part : mapping
+        Of a scene that was checked.
+    """
+    found = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
+    found += [part[key] for key in ("angle", "value", "computed") if key in part]
+    found += part.get("vector", ())
+    for names in part.get("tyre", {}).values():
+        found += names
+    return found
+
+
+def pose_columns(scene: Mapping[str, Any]) -> list[str]:
+    """Columns that frames and flexible parts read, each once.
+
+    Parameters
+    ----------
+    scene : mapping
+        That was checked.
+    """
+    parts = [*scene["frames"].values(), *(scene.get("flexible") or [])]
+    return list(dict.fromkeys(name for part in parts for name in columns_of(part)))
+
+
+def all_columns(scene: Mapping[str, Any]) -> list[str]:
+    """Columns that any part of a scene reads, each once.
+
+    Parameters
+    ----------
+    scene : mapping
+        That was checked.
+    """
+    return list(
+        dict.fromkeys([*pose_columns(scene), *(name for a in scene.get("arrows") or [] for name in columns_of(a))])
+    )
+
+
+def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tuple[dict[str, Any], dict[str, str]]:
+    """A scene without what cannot be drawn: parts whose columns are faulty, and what stands on them.
+
+    Parameters
+    ----------
+    scene : mapping
+        That was checked.
+    fault : callable
+        Why a column cannot be used, as the end of a sentence; None if it can.
+
+    Returns
+    -------
+    scene : dict
+        With the rest.
+    why : dict
+        By the name of a frame, a body, an arrow or a flexible part, why it is not drawn.
+    """
+    why: dict[str, str] = {}
+
+    def lacks(part: Mapping[str, Any]) -> str | None:
+        return next((reason for name in columns_of(part) if (reason := fault(name)) is not None), None)
+
+    lost: dict[str, str] = {}
+    waiting = dict(scene["frames"])
+    while waiting:  # a frame stands on others that are decided before it
+        for name, frame in list(waiting.items()):
+            if any(other in waiting for other in frames_of(frame)):
+                continue
+            del waiting[name]
+            on = next((other for other in frames_of(frame) if other in lost), None)
+            reason = lacks(frame) or (lost[on] if on is not None else None)
+            if reason is not None:
+                lost[name] = reason
+                why[name] = reason
+
+    def stands(part: Mapping[str, Any]) -> bool:
+        return not any(other in lost for other in frames_of(part))
+
+    made: dict[str, Any] = dict(scene)
+    made["frames"] = {name: frame for name, frame in scene["frames"].items() if name not in lost}
+    made["shapes"] = []
+    for shape in scene["shapes"]:
+        if stands(shape):
+            made["shapes"].append(shape)
+            continue
+        body = shape.get("body") or shape.get("name")
+        if body is not None and body not in why:
+            why[body] = next(lost[other] for other in frames_of(shape) if other in lost)
+    for key, noun in (("flexible", "deformation of"), ("arrows", "arrow")):
+        made[key] = []
+        for part in scene.get(key) or []:
+            reason = lacks(part)
+            if reason is None and stands(part):
+                made[key].append(part)
+            elif reason is not None:
+                why[f"{noun} {part.get('name') or part.get('frame', '')}"] = reason
+    if made.get("focus", "") not in ("", GROUND, *made["frames"]):
+        made["focus"] = ""
+    return made, why

@@ -1,0 +1,230 @@
+"""What holds between several places of a scene: names that are used exist, arrays have their sizes, axes are axes."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viewer.scene_sentences import place, value_words
+
+GROUND = "ground"
+_UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
+
+
+def relation_errors(scene: Mapping[str, Any]) -> list[str]:
+    """Sentences on a scene whose parts have the right types.
+
+    Parameters
+    ----------
+    scene : mapping
+        Checked by the types.
+    """
+    found = list(_frames(scene))
+    for k, shape in enumerate(scene["shapes"]):
+        found += _shape(scene, shape, ("shapes", k))
+    for name, mesh in (scene.get("meshes") or {}).items():
+        found += _mesh(mesh, ("meshes", name))
+    for k, part in enumerate(scene.get("flexible") or []):
+        found += _flexible(scene, part, ("flexible", k))
+    for k, arrow in enumerate(scene.get("arrows") or []):
+        found += _arrow(scene, arrow, ("arrows", k))
+    for k, road in enumerate(scene.get("roads") or []):
+        found += _road(road, ("roads", k))
+    if not any(scene.get("up") or (0.0, 0.0, 1.0)):
+        found.append("up is [0, 0, 0]; it must have a direction.")
+    if scene.get("focus") and scene["focus"] not in _known(scene):
+        found.append(_no_frame(scene, ("focus",), scene["focus"]))
+    return found
+
+
+def anchors_of(shape: Mapping[str, Any]) -> list[Any]:
+    """Points of other frames that a shape or an arrow lies on."""
+    if "frame" in shape:
+        return []
+    ends = shape.get("points") or shape.get("ends") or shape.get("between") or []
+    return [*ends, *([shape["at"]] if shape.get("vector") else [])]
+
+
+def frames_of(part: Mapping[str, Any]) -> list[str]:
+    """Frames that a shape, an arrow, a flexible part or a frame needs."""
+    named = [part[key] for key in ("frame", "parent", "axes") if isinstance(part.get(key), str)]
+    anchors = part["on"] if "on" in part else anchors_of(part)
+    return [*named, *(anchor[0] for anchor in anchors)]
+
+
+def decoded(text: str, kind: str) -> NDArray[Any]:
+    """Numbers of a text in base64; `ValueError` if it is none.
+
+    Parameters
+    ----------
+    text : str
+        base64 of little-endian numbers of 4 bytes.
+    kind : str
+        ``"f"`` or ``"u"``.
+    """
+    try:
+        data = base64.b64decode(text, validate=True)
+    except (binascii.Error, ValueError):
+        raise ValueError("is not base64") from None
+    if len(data) % 4:
+        raise ValueError(f"has {len(data)} bytes, which is no multiple of 4")
+    return np.frombuffer(data, f"<{kind}4")
+
+
+def _known(scene: Mapping[str, Any]) -> list[str]:
+    return [GROUND, *scene["frames"]]
+
+
+def _no_frame(scene: Mapping[str, Any], path: tuple[str | int, ...], name: str) -> str:
+    known = _known(scene)
+    listed = ", ".join(repr(frame) for frame in known[:8]) + (f" and {len(known) - 8} more" if len(known) > 8 else "")
+    return f"{place(path)} is {value_words(name)}, which is no frame; there are {listed}."
+
+
+def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
+    known = _known(scene)
+    good = True
+    for name, frame in scene["frames"].items():
+        path = ("frames", name)
+        if name == GROUND:
+            yield f"{place(path)} is given; the frame 'ground' is there always: earth axes."
+        for other in frames_of(frame):
+            if other not in known:
+                good = False
+                yield _no_frame(scene, (*path, "parent" if "parent" in frame else "on"), other)
+        if "axis" in frame:
+            yield from _direction(frame["axis"], (*path, "axis"))
+        if isinstance(frame.get("start"), (list, tuple)):
+            yield from _direction(frame["start"][1], (*path, "start", 1))
+        if "points" in frame:
+            a, b, c = (np.array(p, float) for p in frame["points"])
+            if np.linalg.norm(np.cross(b - a, c - a)) <= 1e-9 * max(float(np.linalg.norm(b - a)), 1e-12) ** 2:
+                yield f"{place((*path, 'points'))} lie on a line; three points of a plane are needed."
+    if good:
+        yield from _circles(scene)
+
+
+def _circles(scene: Mapping[str, Any]) -> Iterator[str]:
+    done = {GROUND}
+    left = dict(scene["frames"])
+    while left:
+        ready = [name for name, frame in left.items() if done.issuperset(frames_of(frame))]
+        if not ready:
+            yield f"{place(('frames', next(iter(left))))} stands on itself through other frames."
+            return
+        done.update(ready)
+        for name in ready:
+            del left[name]
+
+
+def _direction(vector: Any, path: tuple[str | int, ...]) -> Iterator[str]:
+    if not math.hypot(*vector) > 0.0:
+        yield f"{place(path)} is {value_words(vector)}; it must not be zero."
+
+
+def _users(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
+    known = _known(scene)
+    for key in ("frame", "axes"):
+        if isinstance(part.get(key), str) and part[key] not in known:
+            yield _no_frame(scene, (*path, key), part[key])
+    key = next((k for k in ("points", "ends", "between") if k in part), "at")
+    for k, anchor in enumerate(anchors_of(part)):
+        if anchor[0] not in known:
+            yield _no_frame(scene, (*path, key, 0) if key == "at" else (*path, key, k, 0), anchor[0])
+
+
+def _shape(scene: Mapping[str, Any], shape: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
+    yield from _users(scene, shape, path)
+    if shape["kind"] == "mesh" and shape["mesh"] not in (scene.get("meshes") or {}):
+        names = ", ".join(map(repr, scene.get("meshes") or {})) or "none"
+        yield f"{place((*path, 'mesh'))} is {value_words(shape['mesh'])}, which is no mesh; there are {names}."
+    if shape.get("axes") is not None:
+        axes = np.array(shape["axes"], float)
+        if np.abs(axes @ axes.T - np.eye(3)).max() > _UNIT or np.linalg.det(axes) < 0.0:
+            yield f"{place((*path, 'axes'))} must be three unit vectors at right angles, right-handed."
+    if shape["kind"] in ("wheel", "steering_wheel") and shape.get("axis") is not None:
+        yield from _direction(shape["axis"], (*path, "axis"))
+    if shape["kind"] == "cylinder" and list(shape["ends"][0]) == list(shape["ends"][1]):
+        yield f"{place((*path, 'ends'))} are one point; a cylinder has a length."
+    if shape.get("rim") is not None and shape["rim"] >= shape["radius"]:
+        yield f"{place((*path, 'rim'))} is {shape['rim']:g}; it must be below the radius, {shape['radius']:g}."
+
+
+def _array(text: str, kind: str, path: tuple[str | int, ...], size: int | None = None) -> Iterator[str]:
+    try:
+        numbers = decoded(text, kind)
+    except ValueError as error:
+        yield f"{place(path)} {error}."
+        return
+    if size is not None and len(numbers) != size:
+        yield f"{place(path)} has {len(numbers)} numbers where {size} belong."
+    elif kind == "f" and not np.isfinite(numbers).all():
+        yield f"{place(path)} holds {int((~np.isfinite(numbers)).sum())} values that are no numbers."
+
+
+def _mesh(mesh: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
+    faults = [
+        *_array(mesh["positions"], "f", (*path, "positions")),
+        *_array(mesh["triangles"], "u", (*path, "triangles")),
+    ]
+    yield from faults
+    if faults:
+        return
+    positions, corners = decoded(mesh["positions"], "f"), decoded(mesh["triangles"], "u")
+    if mesh.get("normals") is not None:
+        yield from _array(mesh["normals"], "f", (*path, "normals"), len(positions))
+    for key, numbers in (("positions", positions), ("triangles", corners)):
+        if len(numbers) == 0 or len(numbers) % 3:
+            yield f"{place((*path, key))} has {len(numbers)} numbers; it must be three a point, and not none."
+            return
+    if corners.max() >= len(positions) // 3:
+        yield f"{place((*path, 'triangles'))} names corner {corners.max()}; there are {len(positions) // 3} from 0 on."
+
+
+def _flexible(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
+    yield from _users(scene, part, path)
+    nodes, beams, modes = len(part["nodes"]), len(part["beams"]), len(part["amplitudes"])
+    for key, count in (("names", nodes), ("start", modes)):
+        if part.get(key) is not None and len(part[key]) != count:
+            yield f"{place((*path, key))} has {len(part[key])} entries where {count} belong."
+    yield from _array(part["modes"], "f", (*path, "modes"), nodes * 3 * modes)
+    if len(part["radii"]) != beams:
+        yield f"{place((*path, 'radii'))} has {len(part['radii'])} entries where there are {beams} beams."
+    for k, beam in enumerate(part["beams"]):
+        if max(beam) >= nodes:
+            yield f"{place((*path, 'beams', k))} names node {max(beam)}; there are {nodes} from 0 on."
+    stress = part.get("stress")
+    if stress is not None:
+        if stress.get("rule") == "round" and stress["fibres"] != 3:
+            yield f"{place((*path, 'stress', 'fibres'))} is {stress['fibres']}; the rule 'round' has 3."
+        count = beams * 2 * stress["fibres"]
+        yield from _array(stress["rows"], "f", (*path, "stress", "rows"), count * modes)
+        if stress.get("constant") is not None:
+            yield from _array(stress["constant"], "f", (*path, "stress", "constant"), count)
+
+
+def _arrow(scene: Mapping[str, Any], arrow: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
+    yield from _users(scene, arrow, path)
+
+
+def _road(road: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
+    for key in ("normal", "direction"):
+        if key in road:
+            yield from _direction(road[key], (*path, key))
+    if road["kind"] == "profile":
+        stations, heights = road["stations"], road["heights"]
+        if len(stations) != len(heights):
+            yield f"{place((*path, 'heights'))} has {len(heights)} entries where there are {len(stations)} stations."
+        if not (np.diff(stations) > 0.0).all():
+            yield f"{place((*path, 'stations'))} must rise."
+    if road["kind"] == "grid":
+        size = road["shape"][0] * road["shape"][1]
+        yield from _array(road["heights"], "f", (*path, "heights"), size)
+        if road.get("frictions") is not None:
+            yield from _array(road["frictions"], "f", (*path, "frictions"), size)

@@ -1,0 +1,392 @@
+"""The format of a scene as types: what stands in which place, and of what kind it is."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[Number, Field(gt=0.0)]
+Share = Annotated[Number, Field(ge=0.0, le=1.0)]
+Whole = Annotated[int, Field(strict=True, ge=0, lt=2**32)]
+Text = Annotated[str, Field(strict=True)]
+Name = Annotated[str, Field(strict=True, min_length=1)]
+Vector = tuple[Number, Number, Number]
+Quaternion = tuple[Number, Number, Number, Number]
+Axes = tuple[Vector, Vector, Vector]
+Names = tuple[Name, Name, Name]
+Anchor = tuple[Name, Vector]
+Floats = Annotated[str, Field(strict=True, description="base64 of float32, little-endian")]
+Indices = Annotated[str, Field(strict=True, description="base64 of uint32, little-endian")]
+Color = Annotated[str, Field(strict=True, pattern=r"^#[0-9a-fA-F]{6}$")]
+Material = Literal["steel", "paint", "dark_paint", "rubber", "rim", "glass", "plastic", "chrome"]
+
+
+class Part(BaseModel):
+    """A table of the scene: no other keys than its own."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+
+
+class MovingFrame(Part):
+    """A frame whose pose stands in columns: x_earth = position + R(quaternion) x_local."""
+
+    position: Names
+    """Columns of its origin in earth axes, m."""
+    quaternion: tuple[Name, Name, Name, Name]
+    """Columns of its orientation, scalar first."""
+    start: tuple[Vector, Quaternion] | None = None
+    """Pose as drawn, for pictures without a run."""
+
+
+class TurningFrame(Part):
+    """A frame that turns about an axis of its parent."""
+
+    parent: Name
+    at: Vector = (0.0, 0.0, 0.0)
+    """Its origin in the parent, m."""
+    axis: Vector
+    """Of the turn, in the parent."""
+    angle: Name
+    """Column of the angle, rad."""
+    start: Number | None = None
+    """Angle as drawn, for pictures without a run, rad."""
+
+
+class CarriedFrame(Part):
+    """A frame without columns of its own: its three points lie on points of other frames."""
+
+    points: Axes
+    """In the frame: the first is its origin, the second lies on its x axis, the third fixes the plane."""
+    on: tuple[Anchor, Anchor, Anchor]
+    """Where they lie."""
+    start: tuple[Vector, Quaternion] | None = None
+    """Pose as drawn, for pictures without a run."""
+
+
+def _frame_kind(value: Any) -> str | None:
+    keys = set(value) if isinstance(value, dict) else set()
+    if isinstance(value, Part):
+        keys = set(type(value).model_fields)
+    count = {
+        "TurningFrame": len(keys & {"parent", "axis", "angle", "at"}),
+        "CarriedFrame": len(keys & {"points", "on"}),
+        "MovingFrame": len(keys & {"position", "quaternion"}),
+    }
+    best = max(reversed(count), key=lambda kind: count[kind])
+    return best if count[best] else None
+
+
+Frame = Annotated[
+    Annotated[MovingFrame, Tag("MovingFrame")]
+    | Annotated[TurningFrame, Tag("TurningFrame")]
+    | Annotated[CarriedFrame, Tag("CarriedFrame")],
+    Discriminator(_frame_kind),
+]
+
+
+class Shape(Part):
+    """What all shapes have."""
+
+    name: Text | None = None
+    body: Text | None = None
+    """Name of the model's body."""
+    material: Material | None = None
+    color: Color | None = None
+    opacity: Share | None = None
+
+
+class Placed(Shape):
+    """A shape in one frame."""
+
+    frame: Name
+
+
+class Box(Placed):
+    """A box; `axes` are the columns x, y, z of the box in its frame."""
+
+    kind: Literal["box"]
+    at: Vector = (0.0, 0.0, 0.0)
+    size: tuple[Positive, Positive, Positive]
+    axes: Axes | None = None
+
+
+class Sphere(Placed):
+    """A sphere."""
+
+    kind: Literal["sphere"]
+    at: Vector = (0.0, 0.0, 0.0)
+    radius: Positive
+
+
+class Cylinder(Placed):
+    """A cylinder between the centres of its ends."""
+
+    kind: Literal["cylinder"]
+    ends: tuple[Vector, Vector]
+    radius: Positive
+
+
+class Tube(Shape):
+    """A round tube through points of any frames: arms, rods."""
+
+    kind: Literal["tube"]
+    points: Annotated[list[Anchor], Field(min_length=2)]
+    radius: Positive
+
+
+class Plate(Shape):
+    """A thin plate through points: wishbones, triangular bodies."""
+
+    kind: Literal["plate"]
+    points: Annotated[list[Anchor], Field(min_length=3)]
+    thickness: Positive
+
+
+class MeshShape(Placed):
+    """A mesh of the table `meshes`."""
+
+    kind: Literal["mesh"]
+    mesh: Name
+    at: Vector = (0.0, 0.0, 0.0)
+    axes: Axes | None = None
+
+
+class Spring(Shape):
+    """A coil spring that compresses."""
+
+    kind: Literal["spring"]
+    ends: tuple[Anchor, Anchor]
+    radius: Positive
+    wire: Positive | None = None
+    """Thickness of the wire, m."""
+    coils: Positive | None = None
+
+
+class Damper(Shape):
+    """A telescopic damper."""
+
+    kind: Literal["damper"]
+    ends: tuple[Anchor, Anchor]
+    radius: Positive
+
+
+class Wheel(Placed):
+    """A wheel with tyre and rim, about `axis` of its frame."""
+
+    kind: Literal["wheel"]
+    radius: Positive
+    width: Positive
+    rim: Positive | None = None
+    """Radius of the rim, m."""
+    axis: Vector = (0.0, 1.0, 0.0)
+
+
+class SteeringWheel(Placed):
+    """A steering wheel, about the axis of its frame."""
+
+    kind: Literal["steering_wheel"]
+    radius: Positive
+    axis: Vector | None = None
+
+
+AnyShape = Annotated[
+    Box | Sphere | Cylinder | Tube | Plate | MeshShape | Spring | Damper | Wheel | SteeringWheel,
+    Field(discriminator="kind"),
+]
+
+
+class Mesh(Part):
+    """Triangles."""
+
+    positions: Floats
+    normals: Floats | None = None
+    triangles: Indices
+
+
+class Stress(Part):
+    """Stress of beam ends by the amplitudes."""
+
+    rule: Literal["fibres", "round"] = "fibres"
+    """fibres: the largest size of the rows of a beam end; round: of three rows |a| + sqrt(b² + c²)."""
+    fibres: Annotated[int, Field(strict=True, gt=0, le=1000)]
+    """Rows of a beam end."""
+    rows: Floats
+    """(beams, 2, fibres, modes)."""
+    constant: Floats | None = None
+    """(beams, 2, fibres)."""
+    unit: Text = "Pa"
+    range: Positive | None = None
+    """Stress of the last colour; by default the largest of the run."""
+    limit: Positive | None = None
+    """A mark in the legend."""
+    limit_name: Text | None = None
+    """What the limit is, such as yield stress."""
+
+
+class Flexible(Part):
+    """A framework of beams whose nodes move by modes."""
+
+    frame: Name
+    name: Text | None = None
+    nodes: Annotated[list[Vector], Field(min_length=1)]
+    names: list[Text] | None = None
+    """Of the nodes."""
+    beams: list[tuple[Whole, Whole]]
+    """Indices of their nodes."""
+    radii: list[Positive]
+    """Of the beams, m."""
+    amplitudes: list[Name]
+    """Columns, one a mode."""
+    computed: Name | None = None
+    """Column that is 0 where the part is not computed."""
+    start: list[Number] | None = None
+    """Amplitudes as drawn, for pictures without a run."""
+    modes: Floats
+    """(nodes, 3, modes)."""
+    note: Text | None = None
+    """A sentence to be shown."""
+    stress: Stress | None = None
+
+
+class Arrow(Part):
+    """What all arrows have."""
+
+    name: Name
+    unit: Text = "N"
+
+
+class LineArrow(Arrow):
+    """A force along a line; with `sign` the arrows show the force on the body of the second anchor."""
+
+    value: Name
+    between: tuple[Anchor, Anchor]
+    sign: Literal[1, -1] = 1
+
+
+class VectorArrow(Arrow):
+    """A force with three components, in the axes of a frame."""
+
+    vector: Names
+    axes: Name = "ground"
+    at: Anchor
+
+
+class Tyre(Part):
+    """Columns of a tyre: x = axis x normal, y = normal x x, z = normal; the force acts on the wheel."""
+
+    contact: Names
+    normal: Names
+    axis: Names
+    forces: Names
+
+
+class TyreArrow(Arrow):
+    """The force of the road on a wheel."""
+
+    tyre: Tyre
+
+
+def _arrow_kind(value: Any) -> str | None:
+    keys = set(value) if isinstance(value, dict) else set()
+    if isinstance(value, Part):
+        keys = set(type(value).model_fields)
+    if "tyre" in keys:
+        return "TyreArrow"
+    if keys & {"vector", "at", "axes"}:
+        return "VectorArrow"
+    return "LineArrow" if keys & {"value", "between", "sign"} else None
+
+
+AnyArrow = Annotated[
+    Annotated[LineArrow, Tag("LineArrow")]
+    | Annotated[VectorArrow, Tag("VectorArrow")]
+    | Annotated[TyreArrow, Tag("TyreArrow")],
+    Discriminator(_arrow_kind),
+]
+
+
+class FlatRoad(Part):
+    """A level road."""
+
+    kind: Literal["flat"]
+    height: Number = 0.0
+
+
+class PlaneRoad(Part):
+    """A plane road."""
+
+    kind: Literal["plane"]
+    point: Vector
+    """On the plane, m."""
+    normal: Vector
+
+
+class ProfileRoad(Part):
+    """Heights along a line, the same across, level before and behind."""
+
+    kind: Literal["profile"]
+    stations: Annotated[list[Number], Field(min_length=2)]
+    """Places along the direction, m, rising."""
+    heights: Annotated[list[Number], Field(min_length=2)]
+    """At the stations, m."""
+    direction: Vector = (1.0, 0.0, 0.0)
+    origin: Vector = (0.0, 0.0, 0.0)
+    width: Positive | None = None
+
+
+class GridRoad(Part):
+    """Heights on a grid, linear between."""
+
+    kind: Literal["grid"]
+    origin: tuple[Number, Number]
+    spacing: tuple[Positive, Positive]
+    shape: tuple[Annotated[Whole, Field(ge=2)], Annotated[Whole, Field(ge=2)]]
+    heights: Floats
+    frictions: Floats | None = None
+    axes: tuple[Vector, Vector] | Axes | None = None
+    """Of its x and y in earth axes."""
+
+
+class FileRoad(Part):
+    """A road in a file, which a host turns into a grid before it draws."""
+
+    kind: Literal["file"]
+    variable: Name | None = None
+    """Parameter of the FMU that names the file."""
+    path: Text | None = None
+
+
+AnyRoad = Annotated[FlatRoad | PlaneRoad | ProfileRoad | GridRoad | FileRoad, Field(discriminator="kind")]
+
+
+class Missing(Part):
+    """What is not drawn."""
+
+    name: Text
+    why: Text
+
+
+class Scene(Part):
+    """A scene: frames that columns move, shapes in them, arrows and roads; SI units, the earth axes of the model."""
+
+    format: Literal["ALi3 scene"]
+    version: Literal[1]
+    name: Text
+    description: Text = ""
+    up: Vector = (0.0, 0.0, 1.0)
+    """Against gravity, in earth axes."""
+    planar: Annotated[bool, Field(strict=True)] = False
+    """Whether all moves in the plane of x and y, which then is the screen's."""
+    extent: Positive
+    """Size of the drawing, m."""
+    focus: Text = ""
+    """Frame that cameras follow; empty: the camera stands."""
+    frames: dict[Name, Frame]
+    shapes: list[AnyShape]
+    meshes: dict[Name, Mesh] = {}
+    flexible: list[Flexible] = []
+    arrows: list[AnyArrow] = []
+    roads: list[AnyRoad] = []
+    missing: list[Missing] = []
