@@ -14,6 +14,8 @@ from typing import Any
 from fmu_src.units import DISPLAY_UNITS, canonical_unit, parse_unit
 
 _STRUCTURED_NAME = re.compile(r"[A-Za-z_]\w*(\[\d+(,\d+)*\])?(\.[A-Za-z_]\w*(\[\d+(,\d+)*\])?)*", re.ASCII)
+# A part of a structured name begins with a letter: angle.1 of a model is angle_1 of its FMU.
+_NUMBERED = re.compile(r"\.(?=\d)", re.ASCII)
 _POSE = (
     ("initial.x", "m", "Where the origin of the scene's drawing starts along the earth's x axis"),
     ("initial.y", "m", "Where the origin of the scene's drawing starts along the earth's y axis"),
@@ -114,9 +116,10 @@ def variable_table(
     Returns
     -------
     tuple of Variable
-        Inputs, parameters, outputs, constants; the place is the value reference. Where the sensors have no figures of
-        the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error` and `solver.energy_balance`
-        are the last outputs.
+        Inputs, parameters, outputs, constants; the place is the value reference. A dot before a digit is an underscore
+        here, since parts of structured names begin with a letter: ``angle_1`` for ``angle.1``. Where the sensors have
+        no figures of the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error` and
+        `solver.energy_balance` are the last outputs.
 
     Raises
     ------
@@ -167,6 +170,7 @@ def variable_table(
         if name not in sensed
     ]
     table += [_constant(entry) for entry in meta.get("constants", ())]
+    table = [replace(v, name=_NUMBERED.sub("_", v.name)) for v in table]
     _check(table)
     return _distinct(table)
 

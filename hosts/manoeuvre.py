@@ -100,7 +100,8 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     ----------
     manoeuvre : str
         Name of a manoeuvre of the host, or a CSV file; a file of the same name that ends in ``.ini`` adds to it:
-        ``[start]`` values, a ``[driver]``, ``stop_time`` in ``[run]``.
+        ``[start]`` values, a ``[driver]``, ``stop_time`` in ``[run]``. Behind a table that a page has recorded stands a
+        line ``# outputs from: NAME``: that column and those after it are what came out, and are not read.
 
     Returns
     -------
@@ -144,6 +145,7 @@ def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.f
     start: dict[str, Value] = {}
     names: list[str] = []
     rows: list[list[float]] = []
+    recorded = ""
     lines = _read_text(path).splitlines()
     for number, line in enumerate(lines, start=1):
         where = f"{path}, line {number}"
@@ -151,6 +153,8 @@ def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.f
             key, _, rest = line.lstrip("# ").partition(":")
             if key.strip() == "start":
                 start |= _assignments(rest.split(","), where)
+            elif key.strip() == "outputs from":
+                recorded = rest.strip()
         elif not line.strip():
             continue
         elif not names:
@@ -169,8 +173,11 @@ def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.f
             rows.append(row)
     if not rows:
         raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
+    if recorded and recorded not in names[1:]:
+        raise HostError(f"{path}: there is no column '{recorded}', with which outputs would begin.")
     values = np.array(rows)
-    return values[:, 0], {name: values[:, k] for k, name in enumerate(names) if k}, start
+    inputs = names[1 : names.index(recorded)] if recorded else names[1:]
+    return values[:, 0], {name: values[:, k] for k, name in enumerate(inputs, start=1)}, start
 
 
 def _read_text(path: Path) -> str:

@@ -17,7 +17,7 @@ from viewer.recording import MOST_TIMES, Recording
 
 # Nothing is fetched: what the page needs stands in it.
 _POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
+    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
     "img-src data: blob:; media-src data: blob:; connect-src data: blob:; worker-src blob:"
 )
 _STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"

@@ -302,9 +302,9 @@ class ShapeVocabulary(BodyVocabulary):
             return body.owner
         if isinstance(body, PortedBody):
             return next(b for b in self.bodies if b.start == body.start and not b.is_point)
-        return body if body.is_ground or body in self.bodies else self.bodies_at(body)
+        return body if body.is_ground or body in self.bodies else self._member(body)
 
-    def bodies_at(self, body: Body) -> Body:
+    def _member(self, body: Body) -> Body:
         """The body of the model that has the coordinates of another one, such as the frame of a flexible body."""
         return next(b for b in self.bodies if b.start == body.start)
 

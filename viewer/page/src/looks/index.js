@@ -1,15 +1,45 @@
-// The look of a picture: light, sky, ground.
-import * as THREE from "three";
+// The look of a picture: light, sky and ground after the scene, and how finely it is drawn.
+import { board } from "./board.js";
+import { outdoors } from "./outdoors.js";
+import { studio } from "./studio.js";
+import { Pace } from "./pace.js";
+
+const LOOKS = { board, outdoors, studio };
+
+/** Name of the look of a scene. @param {object} scene */
+export function lookOf(scene) {
+  if (scene.planar) return "board";
+  return (scene.roads ?? []).length > 0 ? "outdoors" : "studio";
+}
 
 /** @param {object} view the SceneView */
 export function makeLook(view) {
-  const { world, renderer, up, extent } = view;
-  world.background = new THREE.Color("#e9edf0");
-  const sun = new THREE.DirectionalLight("#ffffff", 2.4);
-  sun.position.set(...up.map((u, i) => (u * 3 + [0.8, -1.2, 0.6][i]) * extent));
-  const sky = new THREE.HemisphereLight("#ffffff", "#8a8f94", 1.6);
-  sky.position.set(...up);
-  world.add(sun, sky);
-  renderer.toneMapping = THREE.ACESFilmicToneMapping;
-  return { pixelRatio: 1, follow() {}, measured() {}, restore() {}, dispose() {} };
+  const { options, scene, renderer, software } = view;
+  const name = options.look ?? lookOf(scene);
+  if (LOOKS[name] === undefined) throw new Error(`There is no look '${name}'; there are ${Object.keys(LOOKS).join(", ")}.`);
+  const pace = new Pace(renderer, options.quality ?? "auto", software);
+  renderer.shadowMap.enabled = name !== "board";
+  const look = LOOKS[name](view, pace.high);
+  for (const sentence of look.tell) view.notes.tell(sentence);
+  const apply = () => {
+    look.quality(pace.high);
+    if (view.size) view.resize();
+  };
+  pace.changed = apply;
+  return {
+    name,
+    caption: look.caption ?? "",
+    get pixelRatio() {
+      return pace.high ? Math.min(globalThis.devicePixelRatio || 1, 2) : 1;
+    },
+    get quality() {
+      return pace.high ? "high" : "low";
+    },
+    choose: (quality) => pace.choose(quality),
+    follow: () => look.follow(view.origin),
+    before: () => pace.before(),
+    after: () => pace.after(),
+    restore: look.restore,
+    dispose: look.dispose,
+  };
 }

@@ -3,42 +3,58 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { across, add, cross, dot, rotate, scale, subtract, unit } from "./math.js";
 
+/** Where a driver's eyes are beside the middle of the steering wheel, in metres: back, up. */
+const EYES = [0.48, 0.24];
+const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40 };
+
 /** The cameras of a view; places are relative to the origin of the picture. */
 export class Cameras {
   /** @param {object} view the SceneView @param {HTMLElement} element takes mouse and touch */
   constructor(view, element) {
     this.view = view;
     const { extent, up, scene } = view;
-    const range = [extent * 1e-3, Math.max(extent * 400, 50)];
-    this.perspective = new THREE.PerspectiveCamera(36, 1, ...range);
-    this.perspective.up.set(...up);
-    this.flat = new THREE.OrthographicCamera(-1, 1, 1, -1, -range[1], range[1]);
-    this.flat.up.set(...up);
-    this.names = scene.planar ? ["orbit"] : ["orbit", ...(scene.focus ? ["chase"] : []), "side", "top"];
-    this.free = scene.planar ? this.flat : this.perspective;
-    this.#stand();
+    const [near, far] = [extent * 4e-3, Math.max(extent * 400, 3000)];
+    this.rig = new THREE.PerspectiveCamera(VIEW_ANGLES.orbit, 1, near, far);
+    this.free = scene.planar ? new THREE.OrthographicCamera(-1, 1, 1, -1, -far, far) : new THREE.PerspectiveCamera(VIEW_ANGLES.orbit, 1, near, far);
+    this.free.up.set(...up);
+    const shapes = scene.shapes ?? [];
+    this.wheels = [...new Set(shapes.filter(({ kind }) => kind === "wheel").map(({ frame }) => frame))];
+    this.seat = shapes.find(({ kind }) => kind === "steering_wheel");
+    this.names = scene.planar ? ["orbit"] : this.#names(scene.focus);
+    this.home();
     this.controls = new OrbitControls(this.free, element);
     this.controls.enableDamping = false;
+    Object.assign(this.controls, { minDistance: 0.05 * extent, maxDistance: 60 * extent, minZoom: 0.02, maxZoom: 50 });
     if (scene.planar) {
       this.controls.enableRotate = false;
       this.controls.mouseButtons.LEFT = THREE.MOUSE.PAN;
       this.controls.touches.ONE = THREE.TOUCH.PAN;
+    } else {
+      this.controls.maxPolarAngle = 0.497 * Math.PI;
     }
     this.current = this.free;
     this.name = "orbit";
   }
 
-  /** The first place of the free camera. */
-  #stand() {
-    const { extent, up } = this.view;
-    if (this.view.scene.planar) {
+  #names(focus) {
+    const wheels = this.wheels.length <= 6 ? this.wheels.map((frame) => this.#wheelName(frame)) : [];
+    return ["orbit", ...(focus ? ["chase"] : []), ...(focus && this.seat ? ["driver"] : []), ...(focus ? wheels : []), "side", "top"];
+  }
+
+  #wheelName(frame) {
+    return /^wheel/.test(frame) ? frame : `wheel ${frame}`;
+  }
+
+  /** Puts the free camera to its first place. */
+  home() {
+    const { extent, up, scene } = this.view;
+    if (scene.planar) {
       this.free.position.set(0, 0, extent);
-      this.free.lookAt(0, 0, 0);
-      return;
+    } else {
+      const [left, forward] = this.#axes();
+      const from = unit(add(add(scale(forward, 0.78), scale(left, -1)), scale(up, 0.34)));
+      this.free.position.set(...scale(from, extent * 1.7));
     }
-    const [side, forward] = this.#axes();
-    const from = unit(add(add(scale(forward, 0.75), scale(side, -1)), scale(up, 0.5)));
-    this.free.position.set(...scale(from, extent * 1.75));
     this.free.lookAt(0, 0, 0);
   }
 
@@ -57,8 +73,10 @@ export class Cameras {
       throw new Error(`There is no camera '${name}'; there are ${this.names.join(", ")}.`);
     }
     this.name = name;
+    this.current = name === "orbit" ? this.free : this.rig;
     this.controls.enabled = name === "orbit";
-    if (name === "orbit") this.controls.update();
+    this.rig.fov = VIEW_ANGLES[name] ?? VIEW_ANGLES.wheel;
+    this.rig.updateProjectionMatrix();
     this.follow();
   }
 
@@ -66,23 +84,57 @@ export class Cameras {
   follow() {
     if (this.name === "orbit") return;
     const { extent, up } = this.view;
-    const [side, forward] = this.#axes();
-    const from = {
-      chase: add(scale(forward, -1.6 * extent), scale(up, 0.5 * extent)),
-      side: add(scale(side, -1.8 * extent), scale(up, 0.15 * extent)),
-      top: add(scale(up, 3 * extent), scale(forward, -1e-3 * extent)),
-    }[this.name];
-    this.perspective.position.set(...from);
-    this.perspective.lookAt(0, 0, 0);
+    const [left, forward] = this.#axes();
+    const mix = (ahead, aside, above) => add(add(scale(forward, ahead * extent), scale(left, aside * extent)), scale(up, above * extent));
+    const north = Math.abs(up[1]) > 0.7 ? [0, 0, -1] : [0, 1, 0];
+    if (this.name === "chase") this.#look(mix(-1.75, 0, 0.5), mix(0.6, 0, 0.06), up);
+    else if (this.name === "side") this.#look(mix(0, -2.1, 0.14), [0, 0, 0], up);
+    else if (this.name === "top") this.#look(scale(up, 5 * extent), [0, 0, 0], north);
+    else if (this.name === "driver") this.#drive();
+    else this.#watchWheel(this.wheels.find((frame) => this.#wheelName(frame) === this.name));
+  }
+
+  #look(from, at, up) {
+    this.rig.up.set(...up);
+    this.rig.position.set(...from);
+    this.rig.lookAt(...at);
+  }
+
+  /** The driver's eyes, fixed in the body. */
+  #drive() {
+    const { parts, scene, origin } = this.view;
+    const { rotation } = parts.frames.pose(scene.focus);
+    const wheel = parts.frames.point(this.seat.frame, this.seat.at ?? [0, 0, 0]);
+    if (wheel === null) return;
+    const axes = [0, 1, 2].map((k) => [rotation[k], rotation[3 + k], rotation[6 + k]]);
+    const eye = add(subtract(wheel, origin), add(scale(axes[0], -EYES[0]), scale(axes[2], EYES[1])));
+    this.#look(eye, add(eye, add(scale(axes[0], 10), scale(axes[2], -0.9))), axes[2]);
+  }
+
+  /** A wheel and its suspension from ahead and outside. */
+  #watchWheel(frame) {
+    const { parts, up, origin, extent } = this.view;
+    const place = parts.frames.point(frame, [0, 0, 0]);
+    if (place === null) return;
+    const at = subtract(place, origin);
+    const [left, forward] = this.#axes();
+    const out = dot(at, left) >= 0 ? 1 : -1;
+    const front = dot(at, forward) >= 0 ? 1 : -1;
+    const from = add(at, add(add(scale(forward, 0.34 * front * extent), scale(left, 0.2 * out * extent)), scale(up, 0.04 * extent)));
+    this.#look(from, subtract(at, scale(left, 0.03 * out * extent)), up);
   }
 
   resize(width, height) {
-    this.perspective.aspect = width / height;
-    this.perspective.updateProjectionMatrix();
-    const half = 0.62 * this.view.extent;
-    const [x, y] = width > height ? [(half * width) / height, half] : [half, (half * height) / width];
-    Object.assign(this.flat, { left: -x, right: x, top: y, bottom: -y });
-    this.flat.updateProjectionMatrix();
+    this.rig.aspect = width / height;
+    this.rig.updateProjectionMatrix();
+    if (this.free.isPerspectiveCamera) {
+      this.free.aspect = width / height;
+    } else {
+      const half = 0.62 * this.view.extent;
+      const [x, y] = width > height ? [(half * width) / height, half] : [half, (half * height) / width];
+      Object.assign(this.free, { left: -x, right: x, top: y, bottom: -y });
+    }
+    this.free.updateProjectionMatrix();
   }
 
   dispose() {

@@ -1,8 +1,11 @@
 // What moves: the shapes of one scene, placed by its frames.
 import * as THREE from "three";
 import { Materials } from "../looks/materials.js";
+import { Arrows } from "../shapes/arrows.js";
+import { Flexible } from "../shapes/flexible.js";
 import { makeShape } from "../shapes/index.js";
 import { turn, shaded } from "../shapes/place.js";
+import { niceAbove } from "./forces.js";
 import { Frames } from "./frames.js";
 import { subtract } from "./math.js";
 
@@ -20,9 +23,17 @@ export class Parts {
     this.materials = new Materials(options);
     this.carriers = new Map();
     this.shapes = [];
+    /** Largest displacement of a flexible body so far, in metres. */
+    this.moved = 0;
+    this.owned = [];
     const context = { materials: this.materials, frames: this.frames, scene };
     for (const shape of scene.shapes ?? []) this.#add(shape, context, options);
-    for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why}.`);
+    this.flexible = (scene.flexible ?? []).map((body) => this.#bend(body, options));
+    /** Times that displacements are drawn, whether stress is coloured, and the stress at the end of the colours. */
+    this.bending = { factor: 1, coloured: true, most: Math.max(0, ...this.flexible.map(({ bending }) => bending.range)) };
+    this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []), options.extent ?? 1);
+    this.group.add(this.arrows.group);
+    for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why.replace(/\.$/, "")}.`);
   }
 
   #add(shape, context, { ghost = false }) {
@@ -32,9 +43,17 @@ export class Parts {
       return;
     }
     if (!ghost) shaded(made.object);
+    this.owned.push(...(made.owned ?? []));
     made.object.name = shape.name ?? shape.body ?? "";
     (made.frame !== undefined ? this.#carrier(made.frame) : this.group).add(made.object);
     this.shapes.push(made);
+  }
+
+  #bend(body, { ghost = false }) {
+    const flexible = new Flexible(body, this.materials);
+    if (!ghost) shaded(flexible.object);
+    this.#carrier(body.frame).add(flexible.object);
+    return flexible;
   }
 
   /** The group that moves with a frame. */
@@ -56,10 +75,19 @@ export class Parts {
         if (!shown) this.tell(`${why}.`);
       }
     }
+    for (const body of this.flexible) {
+      const absent = body.update(lookup, this.bending.factor);
+      if (absent) this.tell(absent);
+      this.moved = Math.max(this.moved, body.bending.largestMove() / (this.bending.factor || 1));
+      if (body.most > this.bending.most && !(body.bending.range > 0)) this.bending.most = niceAbove(body.most);
+    }
+    this.arrows.update(lookup, this.frames, this.tell);
   }
 
   /** Puts everything to its place relative to the origin of the picture. @param {number[]} origin earth position */
   place(origin) {
+    for (const body of this.flexible) body.paint(this.bending.coloured, this.bending.most || 1);
+    this.arrows.place(origin);
     for (const [name, carrier] of this.carriers) {
       const { position, rotation, shown } = this.frames.pose(name);
       carrier.visible = shown;
@@ -73,6 +101,11 @@ export class Parts {
     }
   }
 
+  /** A factor that draws the largest displacement so far as about a twentieth of the size. @param {number} extent */
+  fittingFactor(extent) {
+    return this.moved > 0 ? Math.max(1, niceAbove(extent / 30 / this.moved)) : 1;
+  }
+
   /** Earth box of all shapes as they stand: [low, high]; null where nothing is drawn. */
   bounds() {
     this.place([0, 0, 0]);
@@ -81,11 +114,17 @@ export class Parts {
     for (const { object, frames } of this.shapes) {
       if (frames.every((name) => this.frames.pose(name).shown)) box.expandByObject(object);
     }
+    for (const { frame, object } of this.flexible) {
+      if (this.frames.pose(frame).shown) box.expandByObject(object);
+    }
     return box.isEmpty() ? null : [box.min.toArray(), box.max.toArray()];
   }
 
   dispose() {
     this.group.traverse((part) => part.geometry?.dispose());
+    for (const body of this.flexible) body.dispose();
+    this.arrows.dispose();
+    for (const thing of this.owned) thing.dispose();
     this.materials.dispose();
     this.group.removeFromParent();
   }

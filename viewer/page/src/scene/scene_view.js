@@ -1,7 +1,8 @@
 // A picture of a scene in an element of a page.
 import * as THREE from "three";
 import { Cameras } from "./cameras.js";
-import { add, middle, rotate, subtract, transpose, unit } from "./math.js";
+import { add, dot, middle, rotate, subtract, transpose, unit } from "./math.js";
+import { Legends, arrowLegend, stressLegend } from "./legends.js";
 import { Notes } from "./notes.js";
 import { Parts } from "./parts.js";
 import { makeRenderer } from "./renderer.js";
@@ -28,6 +29,7 @@ export class SceneView {
     if (getComputedStyle(container).position === "static") container.style.position = "relative";
     this.notes = new Notes(container, options.onMessage);
     const tell = (sentence) => this.notes.tell(sentence);
+    this.legends = new Legends(this.notes.legend);
     this.parts = new Parts(scene, { tell });
     this.ghosts = [];
     this.up = unit(scene.up ?? [0, 0, 1]) ?? [0, 0, 1];
@@ -69,9 +71,85 @@ export class SceneView {
    * @param {((name: string) => number | undefined) | null} lookup the number of a column; null: the scene as drawn
    */
   update(lookup) {
+    this.lookup = lookup;
     this.parts.update(lookup);
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     if (shown) this.origin = add(position, rotate(rotation, this.centre));
+    this.#explain();
+  }
+
+  /**
+   * Look through a run once, so that colours, arrows and floor keep one scale while it plays.
+   * @param {(i: number) => (name: string) => number | undefined} lookupAt numbers of the instants to look at
+   * @param {number} count how many there are
+   */
+  scan(lookupAt, count) {
+    const { parts } = this;
+    const every = Math.max(1, Math.floor(count / 40));
+    let box = null;
+    for (let i = 0; i < count; i++) {
+      parts.update(lookupAt(i));
+      if (this.scene.focus || i % every !== 0) continue;
+      const [low, high] = parts.bounds() ?? this.bounds;
+      box = box ? [low.map((a, k) => Math.min(a, box[0][k])), high.map((a, k) => Math.max(a, box[1][k]))] : [low, high];
+    }
+    if (box !== null) this.#fit(box);
+    this.update(count > 0 ? lookupAt(0) : null);
+  }
+
+  /** What a scene has that `set` can change. @returns {{arrows: boolean, stress: boolean, deformation: boolean}} */
+  get has() {
+    const { arrows, flexible } = this.parts;
+    return {
+      arrows: arrows.list.length > 0,
+      stress: flexible.some(({ bending }) => bending.stress !== null),
+      deformation: flexible.length > 0,
+    };
+  }
+
+  /** Names of the arrows that a scene has. @returns {string[]} */
+  get arrowNames() {
+    return this.parts.arrows.list.map(({ name }) => name);
+  }
+
+  /** A factor that makes the largest displacement so far well visible. @returns {number} 1, 2, 5, 10, ... */
+  get fittingDeformation() {
+    return this.parts.fittingFactor(this.extent);
+  }
+
+  /**
+   * Change what is shown; seen in the next picture.
+   * @param {object} wish any of these keys
+   * @param {boolean | string[]} [wish.arrows] all, none, or names
+   * @param {number} [wish.arrowScale] arrows so many times longer than fits
+   * @param {boolean} [wish.stress] colours of stress
+   * @param {number} [wish.stressMost] the stress at the end of the colours, in its unit; 0: the largest so far
+   * @param {number} [wish.deformation] displacements of flexible bodies are drawn so many times
+   * @param {"high" | "low" | "auto"} [wish.quality]
+   */
+  set({ arrows, arrowScale, stress, stressMost, deformation, quality }) {
+    const { parts } = this;
+    if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? this.arrowNames : arrows || []);
+    if (arrowScale !== undefined) parts.arrows.factor = arrowScale;
+    if (stress !== undefined) parts.bending.coloured = stress;
+    if (stressMost !== undefined) parts.bending.most = stressMost;
+    if (deformation !== undefined) for (const { bending } of [parts, ...this.ghosts]) bending.factor = deformation;
+    if (quality !== undefined) this.look?.choose(quality);
+    this.update(this.lookup);
+  }
+
+  /** The legends of what is drawn now. */
+  #explain() {
+    const { bending, flexible, arrows } = this.parts;
+    const stressed = flexible.filter(({ bending: { stress } }) => stress !== null);
+    const { unit: name, limit, limitName } = stressed[0]?.bending ?? {};
+    const known = stressed.some((body) => body.stressed);
+    const state = { known, most: bending.most || 1, unit: name, limit, limitName, factor: bending.factor };
+    this.legends.put("stress", stressed.length > 0 && bending.coloured ? stressLegend(state) : "");
+    const units = [...new Set(arrows.now.map((force) => force.unit))];
+    const scales = units.map((of) => ({ unit: of, ...arrows.scaleOf(of), colour: arrows.colourOf(of) }));
+    this.legends.put("arrows", arrowLegend(scales));
+    this.legends.put("grid", this.look?.caption ?? "");
   }
 
   /**
@@ -94,12 +172,12 @@ export class SceneView {
   /** Draw the picture now. */
   render() {
     if (this.problem || this.lost) return;
-    const began = performance.now();
+    this.look.before();
     for (const parts of [this.parts, ...this.ghosts]) parts.place(this.origin);
     this.cameras.follow();
     this.look.follow();
     this.renderer.render(this.world, this.cameras.current);
-    this.look.measured(performance.now() - began);
+    this.look.after();
   }
 
   /** @param {string} name one of `cameraNames` */
@@ -135,6 +213,7 @@ export class SceneView {
 
   /** Free what the graphics card holds and take the picture out of the page. */
   dispose() {
+    this.gone = true;
     this.observer?.disconnect();
     for (const parts of [this.parts, ...this.ghosts]) parts.dispose();
     this.notes.dispose();
@@ -148,11 +227,20 @@ export class SceneView {
 
   /** Size of what is drawn and its middle, in the axes of the focus. */
   #measure() {
-    this.bounds = this.parts.bounds() ?? [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]];
-    const [low, high] = this.bounds;
-    this.extent = this.scene.extent > 0 ? this.scene.extent : Math.hypot(...subtract(high, low)) || 1;
+    const bounds = this.parts.bounds() ?? [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]]; // prettier-ignore
+    const size = Math.hypot(...subtract(bounds[1], bounds[0])) || 1;
+    this.extent = this.scene.extent > 0 ? this.scene.extent : size;
+    this.parts.arrows.extent = this.extent;
+    this.#fit(bounds);
+  }
+
+  /** Centre and floor of a box of the earth. @param {number[][]} bounds low and high corner */
+  #fit(bounds) {
+    this.bounds = bounds;
+    const [low, high] = bounds;
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     const centre = middle(low, high);
+    this.floor = Math.min(...[low, high].map((corner) => dot(corner, this.up))) - 0.002 * this.extent;
     this.centre = shown ? rotate(transpose(rotation), subtract(centre, position)) : centre;
     this.origin = centre;
   }
@@ -167,6 +255,7 @@ export class SceneView {
   #watchContext() {
     const canvas = this.renderer.domElement;
     canvas.addEventListener("webglcontextlost", (event) => {
+      if (this.gone) return;
       event.preventDefault(); // asks for it back
       this.lost = true;
       this.notes.instead("The graphics card has taken its drawing context back; the picture returns when it is given again.");

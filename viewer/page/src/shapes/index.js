@@ -1,7 +1,14 @@
 // One maker a kind of shape. A maker gives {object, frame} for a shape fixed in a frame, or {object, update} otherwise.
 import { box } from "./box.js";
 import { cylinder } from "./cylinder.js";
+import { damper } from "./damper.js";
+import { mesh } from "./mesh.js";
+import { plate } from "./plate.js";
 import { sphere } from "./sphere.js";
+import { spring } from "./spring.js";
+import { steeringWheel } from "./steering_wheel.js";
+import { tube } from "./tube.js";
+import { wheel } from "./wheel.js";
 
 /**
  * @typedef {object} Context
@@ -10,7 +17,7 @@ import { sphere } from "./sphere.js";
  * @property {object} scene
  */
 
-const MAKERS = { box, cylinder, sphere };
+const MAKERS = { box, cylinder, damper, mesh, plate, sphere, spring, steering_wheel: steeringWheel, tube, wheel };
 
 /**
  * @param {object} shape one of a scene

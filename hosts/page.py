@@ -1,0 +1,166 @@
+"""Writes a page that runs an FMU: ``ali3 page FMU [FMU ...] [--out DIR] [--title TEXT]``."""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Timer
+from typing import TYPE_CHECKING, Any
+
+from ali3.running import module_command, run_command
+from hosts.errors import HostError
+from hosts.numbers import number
+from hosts.options import add_setting_options, wishes
+
+if TYPE_CHECKING:
+    from hosts.numbers import Value
+    from hosts.page_parts import FmuParts
+
+_PATIENCE = 2.0
+_MOST_PICTURES = 4
+
+
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.page") -> int:
+    """Run the command, which the user typed as `prog`; 0 if the page was written."""
+    parser = argparse.ArgumentParser(
+        prog=prog,
+        description="Write one HTML file that runs an FMU of this program in any browser: drawn, driven by keys, "
+        "gamepad and sliders, plotted and recorded. Several FMUs run side by side, in step and with the same inputs.",
+    )
+    parser.add_argument("fmus", nargs="+", type=Path, metavar="FMU", help="the kind native, with the platform wasm32")
+    parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder of the page; default: out")
+    parser.add_argument("--title", metavar="TEXT", help="of the page; default: the names of the models")
+    parser.add_argument(
+        "--name", action="append", default=[], metavar="TEXT", help="over a picture; once for each FMU, in their order"
+    )
+    parser.add_argument("--step", type=number, metavar="H", help="communication step in s; default: that of the FMU")
+    parser.add_argument(
+        "--plot", action="append", default=[], metavar="NAME", help="input or output that is plotted; repeatable"
+    )
+    parser.add_argument("--paused", action="store_true", help="the page waits until somebody starts it")
+    add_setting_options(parser)
+    options = parser.parse_args(arguments)
+    return run_command(lambda: _page(options))
+
+
+def _page(options: argparse.Namespace) -> int:
+    from ali3.files import check_writable, whole_file
+    from hosts.page_parts import fmu_parts
+    from viewer.page_file import html_document
+
+    if len(options.fmus) > _MOST_PICTURES:
+        raise HostError(f"{len(options.fmus)} FMUs are too many for a page; it shows at most {_MOST_PICTURES}.")
+    file = options.out / ("_".join(dict.fromkeys(path.stem for path in options.fmus)) + ".html")
+    fmus = [fmu_parts(path) for path in options.fmus]
+    check_writable(file)
+    titles = _titles(fmus, options.name)
+    title = options.title if options.title is not None else ", ".join(titles)
+    start = {"name": file.stem, **_page_options(fmus, options)}
+    parts = [with_binary(fmu).record(words) for fmu, words in zip(fmus, titles, strict=True)]
+    with told_when_long("making the page"):
+        text = html_document(title, {"fmus": parts, "options": start}, "ALi3Viewer.drive")
+    with whole_file(file) as made:
+        made.write_text(text, encoding="utf-8", newline="\n")
+    for fmu in fmus:
+        for item in fmu.scene.get("missing", []):
+            print(f"{fmu.name}: {item['name']} is not drawn: {item['why'].rstrip('.')}.")
+    print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; it opens from disk in a browser and needs nothing else")
+    return 0
+
+
+def _titles(fmus: Sequence[FmuParts], given: Sequence[str]) -> list[str]:
+    if len(given) > len(fmus):
+        raise HostError(f"--name is given {len(given)} times for {len(fmus)} FMUs; give it once for each.")
+    titles = [*given, *(fmu.name for fmu in fmus[len(given) :])]
+    for k, title in enumerate(titles):
+        if title in titles[:k]:
+            titles[k] = f"{title} {titles[: k + 1].count(title)}"
+    return titles
+
+
+def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict[str, Any]:
+    """What the page starts with, checked."""
+    found: dict[str, Any] = {"run": not options.paused, "start": _start(fmus, options)}
+    if options.step is not None:
+        if not 0.0 < options.step <= 1.0:
+            raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
+        found["step"] = options.step
+    known = {name for fmu in fmus for name in fmu.variables.names}
+    shown = {n for fmu in fmus for n in known if _plottable(fmu, n)}
+    for name in options.plot:
+        if name not in shown:
+            raise HostError(f"--plot: {name!r} is no input or output of {' or '.join(f.name for f in fmus)}.")
+    if options.plot:
+        found["plots"] = list(options.plot)
+    return found
+
+
+def _plottable(fmu: FmuParts, name: str) -> bool:
+    return name in fmu.variables.names and fmu.variables[name].causality in ("input", "output")
+
+
+def _start(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict[str, Value]:
+    """Start values of the first FMU that has them; the others take those that they have too."""
+    from hosts.settings import Settings
+
+    wanted = wishes(options)
+    settings = Settings(fmus[0].variables)
+    for file in wanted.sets:
+        settings.add_set(file)
+    settings.add_texts(wanted.values, "--set")
+    start = settings.start
+    for fmu in fmus[1:]:
+        for name in start:
+            if name in fmu.variables.names:
+                variable = fmu.variables.settable(name, "--set")
+                variable.check(start[name], f"--set for {fmu.path.name}")
+    return start
+
+
+def with_binary(fmu: FmuParts) -> FmuParts:
+    """The FMU itself if it has a binary in WebAssembly, else one with it, compiled from its own sources.
+
+    Raises
+    ------
+    HostError
+        It cannot be compiled here; with the command that builds one that has it.
+    """
+    from hosts.page_parts import PLATFORM, build_line, fmu_parts
+
+    if fmu.wasm is not None:
+        return fmu
+    with tempfile.TemporaryDirectory() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):
+        made = Path(folder, fmu.path.name)
+        arguments = (str(fmu.path), "--platform", PLATFORM, "--out", str(made))
+        done = subprocess.run(
+            module_command("fmu_src.native.add_platform", *arguments), capture_output=True, text=True, check=False
+        )
+        if done.returncode != 0 or not made.is_file():
+            lines = done.stderr.strip().splitlines()
+            why = lines[-1].removeprefix("error: ").rstrip(".") if lines else "the compiler said nothing"
+            raise HostError(
+                f"{fmu.path} has no binary in WebAssembly, and none could be added ({why}); build it with "
+                f"{build_line(fmu.path)}"
+            )
+        return fmu_parts(made)
+
+
+@contextmanager
+def told_when_long(what: str) -> Iterator[None]:
+    """A context that prints a line if its work takes longer than two seconds."""
+    timer = Timer(_PATIENCE, lambda: print(f"{what} ...", flush=True))
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,175 @@
+"""What a page needs of an FMU: its binary in WebAssembly, its drawing, its resources and its variables."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import math
+import re
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fmpy.model_description import ModelDescription
+
+from ali3.running import command_name
+from hosts.errors import HostError
+from hosts.fmu import described
+from hosts.variables import Variable, Variables
+from viewer.scene import check_scene
+
+PLATFORM = "wasm32"
+SCENE = "resources/geometry.json"
+_ROOM = "resources/"
+
+
+@dataclass(frozen=True)
+class FmuParts:
+    """An FMU as a page runs it.
+
+    Parameters
+    ----------
+    path : Path
+    description : ModelDescription
+    variables : Variables
+    scene : dict
+        What is drawn.
+    wasm : bytes or None
+        The binary; None: the FMU has none.
+    resources : dict of str to bytes
+        Files that the binary reads, by their paths inside the folder of the resources.
+    """
+
+    path: Path
+    description: ModelDescription
+    variables: Variables
+    scene: dict[str, Any]
+    wasm: bytes | None
+    resources: dict[str, bytes]
+
+    @property
+    def name(self) -> str:
+        """Of the model."""
+        return str(self.description.modelName)
+
+    def record(self, title: str) -> dict[str, Any]:
+        """The FMU as JSON of the page; `wasm` must be there."""
+        assert self.wasm is not None
+        return {
+            "title": title,
+            "scene": self.scene,
+            "description": description_record(self.description, self.variables),
+            "wasm": packed(self.wasm),
+            "resources": {path: packed(content) for path, content in self.resources.items()},
+        }
+
+
+def fmu_parts(path: Path) -> FmuParts:
+    """Read an FMU for a page.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    HostError
+        It is no FMU that a page can run; with what would help.
+    """
+    description = described(path)
+    _check_kind(path, description)
+    with zipfile.ZipFile(path) as archive:
+        names = archive.namelist()
+        if SCENE not in names:
+            raise HostError(
+                f"{path} has no drawing of itself ({SCENE}): it was built by an older version; build it anew with "
+                f"{build_line(path)}"
+            )
+        scene = _scene(archive.read(SCENE), path)
+        binaries = [n for n in names if n.startswith(f"binaries/{PLATFORM}/") and n.endswith(".wasm")]
+        wasm = archive.read(binaries[0]) if binaries else None
+        files = [n for n in names if re.fullmatch(_ROOM + r"(?:[^/]+\.ali3|roads/.+\.road)", n)]
+        resources = {name.removeprefix(_ROOM): archive.read(name) for name in sorted(files)}
+    return FmuParts(path, description, Variables(description), scene, wasm, resources)
+
+
+def build_line(path: Path) -> str:
+    """The command that builds an FMU of this file's name with what a page needs."""
+    snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", path.stem.removesuffix("FMI3").removesuffix("Python")).lower()
+    what = f"--car {snake}" if _has_car(path) else f"--scene {snake}"
+    out = "" if path.parent == Path("dist") else f" --out {path.parent}"
+    return f"{command_name('build')} {what} --kind native --platforms this,{PLATFORM}{out}"
+
+
+def _has_car(path: Path) -> bool:
+    with zipfile.ZipFile(path) as archive:
+        return any(name.startswith(f"{_ROOM}car/") for name in archive.namelist())
+
+
+def _check_kind(path: Path, description: ModelDescription) -> None:
+    tool = str(description.generationTool or "an unknown tool")
+    if not tool.startswith("ALi3"):
+        raise HostError(
+            f"{path} is an FMU of {tool}; a page runs FMUs that {command_name('build')} has built, which carry a "
+            "binary in WebAssembly and their drawing."
+        )
+    version = description.fmiVersion
+    kind = "the kind python, which needs a Python," if "PythonFMU" in tool else f"FMI {version}"
+    if version != "2.0" or description.coSimulation is None or "PythonFMU" in tool:
+        raise HostError(f"{path} is an FMU of {kind}; a page runs the kind native (FMI 2.0): {build_line(path)}")
+
+
+def _scene(content: bytes, path: Path) -> dict[str, Any]:
+    source = f"The drawing {SCENE} of {path}"
+    try:
+        scene = json.loads(content)
+    except ValueError as error:
+        raise HostError(f"{source} is no JSON: {error}.") from None
+    check_scene(scene, source)
+    return dict(scene)
+
+
+def packed(content: bytes) -> str:
+    """Bytes as text of a page: base64 of gzip."""
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
+
+
+def description_record(description: ModelDescription, variables: Variables) -> dict[str, Any]:
+    """What `modelDescription.xml` says, as the page reads it.
+
+    Parameters
+    ----------
+    description : ModelDescription
+    variables : Variables
+        Of it.
+    """
+    experiment = description.defaultExperiment
+    times = {"startTime": "startTime", "stopTime": "stopTime", "stepSize": "stepSize"}
+    found = {key: getattr(experiment, name, None) for key, name in times.items()}
+    references = {v.name: int(v.valueReference) for v in description.modelVariables}
+    return {
+        "modelName": description.modelName,
+        "guid": description.guid,
+        "description": description.description or "",
+        **{key: float(value) for key, value in found.items() if value is not None},
+        "variables": [_variable(variables[name], references[name]) for name in variables.names],
+    }
+
+
+def _variable(v: Variable, reference: int) -> dict[str, Any]:
+    record = {
+        "name": v.name,
+        "reference": reference,
+        "type": "Integer" if v.kind == "Enumeration" else v.kind,
+        "causality": v.causality,
+        "variability": v.variability,
+        "unit": v.unit,
+        "start": v.start,
+        "min": v.low if math.isfinite(v.low) else None,
+        "max": v.high if math.isfinite(v.high) else None,
+        "description": v.description,
+        "items": v.items or None,
+    }
+    return {key: value for key, value in record.items() if value is not None}

@@ -1,0 +1,161 @@
+"""What the command `page` makes of an FMU, and the sentences for what it cannot use."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import html
+import json
+import re
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts import page
+
+SCENE = "resources/geometry.json"
+SCENES = Path(__file__).parent / "scenes.py"
+DRAWING = {
+    **{"format": "ALi3 scene", "version": 1, "name": "tuned", "up": [0, 1, 0], "planar": True, "extent": 2.0},
+    **{"focus": "", "frames": {}, "shapes": [{"kind": "sphere", "frame": "ground", "at": [0, 0, 0], "radius": 0.1}]},
+}
+
+
+@pytest.fixture(scope="module")
+def tuned(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, system = load_scene(f"{SCENES}:tuned")
+    return build_fmu(system, name, tmp_path_factory.mktemp("tuned"), [fmpy.platform, "wasm32"])
+
+
+def changed(fmu: Path, folder: Path, change: Any, scene: Any = DRAWING) -> Path:
+    """A copy of an FMU whose files `change` has altered: a function of a name and its bytes, None leaves it out."""
+    file = folder / fmu.name
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(file, "w") as new:
+        names = {SCENE: json.dumps(scene).encode()} if scene else {}
+        names |= {name: old.read(name) for name in old.namelist() if name != SCENE}
+        for name, content in names.items():
+            made = change(name, content)
+            if made is not None:
+                new.writestr(name, made)
+    return file
+
+
+def same(name: str, content: bytes) -> bytes:
+    return content
+
+
+def refusal(fmu: Path, capsys: pytest.CaptureFixture[str], *more: str) -> str:
+    assert page.main([str(fmu), "--out", str(fmu.parent / "made"), *more]) == 2
+    assert not list((fmu.parent / "made").glob("*"))
+    said = capsys.readouterr().err.strip()
+    assert said.count("\n") == 0
+    assert said.startswith("error: ")
+    return said
+
+
+def test_the_page_holds_what_the_fmu_has_and_no_more(tuned: Path, tmp_path: Path) -> None:
+    fmu = changed(tuned, tmp_path, same)
+    arguments = [
+        "--title",
+        "1 < 2 & </script>",
+        "--set",
+        "spring.free_length=0.7",
+        "--plot",
+        "bob.y",
+        "--step",
+        "0.005",
+    ]
+    assert page.main([str(fmu), "--out", str(tmp_path), *arguments]) == 0
+    text = (tmp_path / "Tuned.html").read_text(encoding="utf-8")
+    assert f"<title>{html.escape('1 < 2 & </script>')}</title>" in text
+    data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
+    assert data["options"] == {
+        **{"name": "Tuned", "run": True, "start": {"spring.free_length": 0.7}, "step": 0.005, "plots": ["bob.y"]},
+    }
+    (part,) = data["fmus"]
+    assert part["scene"] == DRAWING
+    with zipfile.ZipFile(fmu) as archive:
+        wasm = next(name for name in archive.namelist() if name.endswith(".wasm"))
+        assert gzip.decompress(base64.b64decode(part["wasm"])) == archive.read(wasm)
+        assert set(part["resources"]) == {"system_0.ali3"}
+        packed = base64.b64decode(part["resources"]["system_0.ali3"])
+        assert gzip.decompress(packed) == archive.read("resources/system_0.ali3")
+    described = part["description"]
+    variables = {v["name"]: v for v in described["variables"]}
+    assert (described["modelName"], described["stepSize"]) == ("Tuned", 0.01)
+    pull = variables["pull"]
+    assert (pull["causality"], pull["min"], pull["max"], pull["start"], pull["unit"]) == ("input", -50, 50, 0, "N")
+    assert variables["spring.free_length"]["variability"] == "fixed"
+    assert variables["solver.status"]["type"] == "Integer"
+    assert "max" not in variables["bob.x"]
+
+
+def test_an_fmu_without_the_binary_gets_it_from_its_own_sources_or_says_how(
+    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bare = changed(tuned, tmp_path, lambda name, content: None if name.endswith(".wasm") else content)
+    monkeypatch.setattr(page, "module_command", lambda *a: ["false"])
+    said = refusal(bare, capsys)
+    assert "has no binary in WebAssembly, and none could be added" in said
+    assert "--scene tuned --kind native --platforms this,wasm32" in said
+
+
+@pytest.mark.parametrize(
+    ("tool", "words"),
+    [
+        (b'generationTool="OpenModelica 1.26"', "is an FMU of OpenModelica 1.26; a page runs"),
+        (b"", "is an FMU of an unknown tool; a page runs"),
+        (b'generationTool="ALi3 0.1.0, PythonFMU 0.7.0"', "is an FMU of the kind python, which needs a Python"),
+    ],
+)
+def test_fmus_of_others(
+    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], tool: bytes, words: str
+) -> None:
+    def change(name: str, content: bytes) -> bytes:
+        return re.sub(rb'generationTool="[^"]*"', tool, content) if name == "modelDescription.xml" else content
+
+    assert words in refusal(changed(tuned, tmp_path, change), capsys)
+
+
+def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = tmp_path / "Text.fmu"
+    text.write_text("no archive")
+    assert "is not an FMU (not a zip archive)" in refusal(text, capsys)
+    assert "There is no file" in refusal(tmp_path / "None.fmu", capsys)
+    assert "has no drawing of itself (resources/geometry.json)" in refusal(changed(tuned, tmp_path, same, None), capsys)
+    for scene, words in (({"format": "x"}, 'format is "x"'), (b"{", "is no JSON")):
+        content = scene if isinstance(scene, bytes) else json.dumps(scene).encode()
+        fmu = changed(tuned, tmp_path, lambda name, old, put=content: put if name == SCENE else old)
+        assert words in refusal(fmu, capsys)
+
+
+def test_an_fmu_of_fmi_3(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    name, system = load_scene(f"{SCENES}:tuned")
+    fmu = build_fmu(system, name, tmp_path, [fmpy.platform], kind="fmi3")
+    said = refusal(fmu, capsys)
+    assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in said
+    assert "--scene tuned --kind native --platforms this,wasm32" in said
+
+
+def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    fmu = changed(tuned, tmp_path, same)
+    for more, words in (
+        (("--set", "spring.mass=1"), "'spring.mass' is a constant"),
+        (("--set", "spring.damping=50"), "its range is 0 to 20 N.s/m"),
+        (("--set", "spring.dumping=5"), "did you mean spring.damping"),
+        (("--step", "0"), "The step is 0 s; it must be positive"),
+        (("--plot", "bob.z"), "'bob.z' is no input or output of Tuned"),
+        (("--name", "a", "--name", "b"), "--name is given 2 times for 1 FMUs"),
+    ):
+        assert words in refusal(fmu, capsys, *more)
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    assert page.main([str(fmu), "--out", str(blocked)]) == 2
+    assert "file is a file" in capsys.readouterr().err
+    assert page.main([str(fmu)] * 5) == 2
+    assert "5 FMUs are too many for a page" in capsys.readouterr().err

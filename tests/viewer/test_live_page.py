@@ -1,0 +1,311 @@
+"""Pages that run an FMU, opened from disk in a Chromium without a window, against the same FMU run natively."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+import mbs
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts import page, run
+from hosts.fmu import Fmu
+from mbs.scenes import prototype_car
+from viewer.browser import BrowserError, find_chromium, launch_arguments
+
+SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
+PLATFORMS = [fmpy.platform, "wasm32"]
+STEP = 0.002
+
+
+def drawn(fmu: Path) -> Path:
+    """The FMU with a drawing, where its builder makes none."""
+    with zipfile.ZipFile(fmu, "a") as archive:
+        if "resources/geometry.json" not in archive.namelist():
+            ball = {"kind": "sphere", "frame": "ground", "at": [0.0, 0.0, 0.0], "radius": 0.1}
+            scene = {"format": "ALi3 scene", "version": 1, "name": fmu.stem, "up": [0, 0, 1], "planar": False}
+            scene |= {"extent": 3.0, "focus": "", "frames": {}, "shapes": [ball]}
+            archive.writestr("resources/geometry.json", json.dumps(scene))
+    return fmu
+
+
+@pytest.fixture(scope="module")
+def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("car")
+    return drawn(build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, PLATFORMS))
+
+
+@pytest.fixture(scope="module")
+def reach(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A mass on a rod and a cable that a winch pulls beyond its reach, if it is told to."""
+    name, system = load_scene(f"{SCENES}:sprung_reach")
+    return drawn(build_fmu(system, name, tmp_path_factory.mktemp("reach"), PLATFORMS))
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    try:
+        program = find_chromium()
+    except BrowserError as error:
+        pytest.skip(str(error))
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as play:
+        arguments = ["--headless=new", *launch_arguments()]
+        browser = play.chromium.launch(executable_path=program, args=arguments, timeout=60_000)
+        yield browser
+        browser.close()
+
+
+class Page:
+    """A page that is open; what went wrong in it is in `wrong`."""
+
+    def __init__(self, browser: Any, file: Path, script: str = "") -> None:
+        self.wrong: list[str] = []
+        self.context = browser.new_context(viewport={"width": 640, "height": 360})
+        self.page = self.context.new_page()
+        self.page.set_default_timeout(60_000)
+        self.page.on("console", lambda m: m.type in ("error", "warning") and self.wrong.append(m.text))
+        self.page.on("pageerror", lambda e: self.wrong.append(str(e)))
+        self.page.on("request", self._asked)
+        if script:
+            self.page.add_init_script(script)
+        self.page.goto(file.resolve().as_uri())
+        self.ask("player.ready.catch(() => {})")
+
+    def _asked(self, request: Any) -> None:
+        if not request.url.startswith(("file:", "blob:", "data:")):
+            self.wrong.append(request.url)
+
+    def ask(self, expression: str) -> Any:
+        return self.page.evaluate(f"async () => await ({expression})")
+
+    def get(self, *names: str) -> list[float]:
+        return list(self.ask(f"{json.dumps(names)}.map((name) => player.get(name))"))
+
+    def text(self, what: str) -> str:
+        return str(self.page.locator(f'[data-a3="{what}"]').first.inner_text())
+
+    def until(self, expression: str) -> None:
+        self.page.wait_for_function(expression)
+
+    def close(self) -> None:
+        self.context.close()
+
+
+def written(fmus: list[Path], out: Path, *more: str) -> Path:
+    assert page.main([*map(str, fmus), "--out", str(out), *more]) == 0
+    return next(out.glob("*.html"))
+
+
+def columns(text: str) -> dict[str, np.ndarray[Any, Any]]:
+    rows = list(csv.reader(line for line in text.splitlines() if not line.startswith("#")))
+    return dict(zip(rows[0], np.array(rows[1:], dtype=float).T, strict=True))
+
+
+def replayed(fmu: Path, table: str, folder: Path, *more: str) -> dict[str, np.ndarray[Any, Any]]:
+    """What the native FMU gives for the inputs of a table that a page has written."""
+    file = folder / "recorded.csv"
+    file.write_text(table, encoding="utf-8")
+    assert run.main([str(fmu), "--input", str(file), "--out", str(folder / "replay"), *more]) == 0
+    return columns((folder / "replay" / f"{fmu.stem}.csv").read_text(encoding="utf-8"))
+
+
+def assert_same_bits(fmu: Path, table: str, folder: Path, *more: str) -> None:
+    seen, native = columns(table), replayed(fmu, table, folder, *more)
+    with Fmu(fmu) as read:
+        outputs = read.names("output")
+    assert len(seen["time"]) == len(native["time"])
+    assert [n for n in ("time", *outputs) if seen[n].tobytes() != native[n].tobytes()] == []
+
+
+def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_the_same_bits(
+    car: Path, chromium: Any, tmp_path: Path
+) -> None:
+    opened = Page(chromium, written([car], tmp_path, "--title", "A <car> & its page"))
+    assert opened.page.title() == "A <car> & its page"
+    assert opened.ask("player.session.threaded") is True
+    keyboard = opened.page.keyboard
+    keyboard.down("ArrowUp")
+    opened.until("player.time > 0.6")
+    keyboard.down("KeyA")
+    opened.until("player.get('used.steering') > 0.05 && player.time > 1.2")
+    (going,) = opened.get("speed")
+    keyboard.up("KeyA")
+    keyboard.up("ArrowUp")
+    keyboard.down("Space")
+    opened.until("player.get('used.hand_brake') === 1 && player.get('used.steering') === 0")
+    keyboard.up("Space")
+    assert going > 1.0
+    assert opened.get("chassis.yaw")[0] > 0.0  # to the left
+    assert opened.text("speed").endswith("km/h")
+    assert "real time" in opened.text("pace")
+    assert "µs a step of 2 ms" in opened.text("pace")
+    keyboard.press("p")
+    opened.until("!player.running")
+    keyboard.press("r")
+    opened.ask("player.advance(10)")
+    assert opened.get("selector", "used.selector") == [-1.0, -1.0]
+    table = opened.ask("player.csv()")
+    rates = np.abs(np.diff(columns(table)["throttle"])) / STEP
+    assert 0.0 < rates.max() < 5.0 + 1e-6  # pedals move, they do not jump
+    assert_same_bits(car, table, tmp_path)
+    assert opened.wrong == []
+    opened.close()
+
+
+def test_parameters_start_values_and_going_back_give_the_bits_of_a_native_run(
+    car: Path, chromium: Any, tmp_path: Path
+) -> None:
+    opened = Page(chromium, written([car], tmp_path, "--set", "initial.yaw=0.1", "--paused"))
+    assert opened.ask("player.running") is False
+    opened.ask("player.set('initial.speed', 12)")
+    assert opened.ask("player.time") == 0.0
+    opened.ask("player.set('throttle', 0.4)")
+    opened.ask("player.advance(400)")
+    opened.ask("player.set('road.friction', 0.5)")
+    opened.ask("player.set('steering', 0.4)")
+    opened.ask("player.advance(400)")
+    before = opened.ask("[...player.session.record.row(617)]")
+    opened.ask("player.seek(1.234)")
+    opened.until("document.querySelector('[data-a3=\"play\"]').textContent === 'Run from here'")
+    opened.ask("player.advance(50)")  # from there
+    assert abs(opened.ask("player.time") - 1.334) < 1e-9
+    assert opened.ask("[...player.session.record.row(617)]") == before
+    opened.ask("player.set('brake', 0.6)")
+    opened.ask("player.advance(100)")
+    table = opened.ask("player.csv()")
+    assert "# start: initial.yaw=0.1, initial.speed=12" in table
+    assert {"road.friction"} == set(columns(table)) & {"road.friction", "front.spring.stiffness"}
+    assert set(columns(table)["road.friction"]) > {0.5}
+    assert_same_bits(car, table, tmp_path)
+    opened.ask("player.reset()")
+    assert opened.ask("player.time") == 0.0
+    assert opened.get("speed") == pytest.approx([12.0])
+    assert opened.wrong == []
+    opened.close()
+
+
+PAD = """
+window.pad = {id: "a wheel", mapping: "standard", connected: true, axes: [0, 0],
+              buttons: Array.from({length: 16}, () => ({value: 0, pressed: false}))};
+window.pads = [];
+navigator.getGamepads = () => window.pads;
+"""
+
+
+def test_a_gamepad_is_plugged_in_and_drives(car: Path, chromium: Any, tmp_path: Path) -> None:
+    opened = Page(chromium, written([car], tmp_path), PAD)
+    opened.page.locator('[data-a3="section Gamepad"] summary').click()
+    assert "No gamepad" in opened.text("section Gamepad")
+    opened.ask("(pads.push(pad), 1)")
+    opened.until("document.querySelector('[data-a3=\"gamepad\"]')?.textContent === 'a wheel'")
+    opened.ask("(pad.buttons[7] = {value: 0.5}, pad.axes = [-0.54, 0], 1)")
+    opened.until("player.get('used.throttle') === 0.5")
+    assert opened.get("steering")[0] == pytest.approx((0.54 - 0.08) / 0.92)
+    opened.until("document.querySelector('[data-a3=\"axes\"]').textContent.startsWith('axis 0: -0.54')")
+    opened.page.locator('[data-a3="assign brake"]').select_option("button 3")
+    opened.ask("(pad.buttons[3] = {value: 1}, 1)")
+    opened.until("player.get('used.brake') === 1")
+    opened.ask("(pads.length = 0, 1)")
+    opened.until("document.querySelector('[data-a3=\"section Gamepad\"]').textContent.includes('No gamepad')")
+    assert opened.wrong == []
+    opened.close()
+
+
+def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium: Any, tmp_path: Path) -> None:
+    opened = Page(chromium, written([reach], tmp_path, "--paused", "--step", "0.01", "--plot", "bob.x"))
+    assert opened.page.locator('[data-a3="plot bob.x"] canvas').count() == 1
+    opened.page.locator('[data-a3="control pull"] [data-a3="number"]').fill("0.2")
+    opened.page.keyboard.press("Tab")
+    opened.ask("player.advance(30)")
+    assert opened.get("pull", "pull_used") == [0.2, 0.2]
+    opened.page.locator('[data-a3="section Parameters"] > summary').click()
+    opened.page.locator('[data-a3="section spring"] > summary').click()
+    field = opened.page.locator('[data-a3="control spring.stiffness"] [data-a3="number"]')
+    field.fill("500")  # beyond its range
+    opened.page.keyboard.press("Tab")
+    assert "a3-wrong" in field.get_attribute("class")
+    field.fill("20")
+    opened.page.keyboard.press("Tab")
+    opened.ask("player.advance(30)")
+    table = opened.ask("player.csv()")
+    assert columns(table)["spring.stiffness"].tolist() == [5.0] * 30 + [20.0] * 31
+    assert_same_bits(reach, table, tmp_path, "--step", "0.01")
+    field = opened.page.locator('[data-a3="control spring.free_length"] [data-a3="number"]')
+    field.fill("0.3")
+    opened.page.keyboard.press("Tab")
+    opened.until("player.time === 0 && player.session.start['spring.free_length'] === 0.3")
+    assert "began anew with spring.free_length = 0.3" in opened.text("banner")
+    opened.ask("player.advance(20)")
+    assert "spring.free_length=0.3" in opened.ask("player.csv()")
+    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path, "--step", "0.01")
+
+    opened.ask("player.set('pull', 5)")
+    opened.ask("player.advance(300)")
+    told = opened.text("notice")
+    assert told.startswith("Stopped at 0.")
+    assert "refused" in told
+    assert "step_size" in told
+    at = opened.ask("player.time")
+    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path, "--step", "0.01")
+    opened.page.locator('[data-a3="go back"]').click()
+    opened.until("player.time === 0")
+    assert at > 0.2
+    assert not opened.page.locator('[data-a3="notice"]').first.is_visible()
+    opened.ask("player.set('pull', 0)")
+    opened.ask("player.advance(100)")
+    assert opened.ask("player.time") == pytest.approx(1.0)
+    assert opened.wrong == []
+    opened.close()
+
+
+def test_two_run_side_by_side_and_one_that_stops_does_not_stop_the_other(
+    car: Path, reach: Path, chromium: Any, tmp_path: Path
+) -> None:
+    file = written([reach, car], tmp_path, "--paused", "--step", "0.01", "--name", "cable", "--name", "car")
+    opened = Page(chromium, file)
+    assert opened.page.locator(".a3-view canvas").count() == 2
+    opened.ask("player.set('pull', 5)")
+    opened.ask("player.set('throttle', 1)")
+    opened.ask("player.advance(100)")
+    assert opened.ask("player.time") == 1.0
+    assert opened.text("notice").startswith("Stopped at")
+    assert opened.ask("player.get('speed', 1)") > 1.0
+    assert opened.wrong == []
+    opened.close()
+
+
+def test_a_browser_that_lacks_a_part_says_so(reach: Path, chromium: Any, tmp_path: Path) -> None:
+    file = written([reach], tmp_path)
+    for missing, script in (
+        ("WebAssembly", "delete window.WebAssembly;"),
+        ("DecompressionStream", "delete window.DecompressionStream;"),
+    ):
+        opened = Page(chromium, file, script)
+        assert opened.text("notice").startswith(f"This browser has no {missing}")
+        assert opened.wrong == []
+        opened.close()
+    no_picture = "HTMLCanvasElement.prototype.getContext = () => null;"
+    opened = Page(chromium, file, no_picture)
+    opened.until("player.time > 0.1")  # it runs all the same
+    assert "WebGL" in opened.text("notice")
+    opened.close()
+
+
+def test_the_command_as_a_program(reach: Path, tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "hosts.page", str(reach), "--out", str(tmp_path)], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert "SprungReach.html: " in done.stdout
+    assert " MB; it opens from disk" in done.stdout

@@ -1,0 +1,64 @@
+// The bar below the picture: start, stop, single steps, slow motion, going back.
+import { el } from "./dom.js";
+
+const SLOW = [0.5, 0.25, 0.1, 0.02].map((rate) => [rate, `slow motion × 1/${1 / rate}`]);
+const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
+
+/** The bar; it calls `act` of the page and shows what it is told. */
+export class Bar {
+  /** @param {object} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv. */
+  constructor(act, { cameras, steps, step, views }) {
+    const button = (data, text, title, work) => {
+      const made = el("button", { type: "button", title, data }, text);
+      made.addEventListener("click", () => {
+        work();
+        made.blur(); // space is the hand brake
+      });
+      return made;
+    };
+    const select = (data, title, options, work, value) => {
+      const made = el("select", { title, data }, ...options.map(([v, words]) => el("option", { value: v }, words)));
+      if (value !== undefined) made.value = value;
+      made.addEventListener("change", () => {
+        work(made.value);
+        made.blur();
+      });
+      return made;
+    };
+    this._play = button("play", "Run", "run or pause (P)", act.toggle);
+    this._line = el("input", { type: "range", min: 0, max: 1, step: "any", title: "go back, then drive on from there", data: "timeline" });
+    this._line.addEventListener("input", () => act.scrub(Number(this._line.value)));
+    this._time = el("span.a3-clock", { data: "clock" });
+    this.element = el(
+      "div.a3-bar",
+      {},
+      button("reset", "Reset", "begin anew (Home)", act.reset),
+      button("back", "2 s back", "two seconds back (Backspace)", act.back),
+      this._play,
+      button("step", "Step", "one communication step (.)", act.step),
+      select("rate", "how fast time runs", SPEEDS, (v) => act.speed(Number(v)), 1),
+      this._line,
+      this._time,
+      select("step size", "communication step", steps, (v) => act.stepSize(Number(v)), step),
+    );
+    if (cameras.length) this.element.append(select("camera", "camera", cameras.map((c) => [c, c]), act.camera));
+    for (const { data, text, title, work } of views) this.element.append(button(data, text, title, work));
+    this.element.append(button("csv", "Save CSV", "inputs and outputs of the run as a table", act.csv));
+  }
+
+  /**
+   * @param {object} now
+   * @param {boolean} now.running
+   * @param {number} now.oldest - Time one can go back to, s.
+   * @param {number} now.time - Of the picture, s.
+   * @param {number} now.end - Of the run, s.
+   * @param {boolean} now.scrubbed - Whether the picture is one of before.
+   */
+  show({ running, oldest, time, end, scrubbed }) {
+    this._play.textContent = running ? "Pause" : scrubbed ? "Run from here" : "Run";
+    this._line.min = oldest;
+    this._line.max = Math.max(end, oldest + 1e-6);
+    if (document.activeElement !== this._line || running) this._line.value = time;
+    this._time.textContent = `${time.toFixed(2)} s`;
+  }
+}

@@ -1,0 +1,70 @@
+// A line of the panel for one variable: slider and number, steps, choice or switch, with unit, range and description.
+import { el, short } from "./dom.js";
+import { choicesOf, fromSlider, rangeOf, toSlider } from "./ranges.js";
+
+const POSITIONS = 1000;
+
+/**
+ * @param {object} variable - Of the description of the FMU.
+ * @param {object} options
+ * @param {(value: number|boolean|string) => void} options.change - Called with a value that fits the variable.
+ * @param {string} [options.note] - Behind the name, such as what a change does.
+ * @param {[string, string][]} [options.texts] - Values of a text and their words.
+ * @returns {{element: HTMLElement, show: (value: number|boolean|string) => void}}
+ */
+export function control(variable, { change, note = "", texts = [] }) {
+  const make = variable.type === "String" ? chooser : variable.type === "Boolean" ? toggle : number;
+  const { body, show, range = "" } = make(variable, change, texts);
+  const title = [variable.description, range].filter(Boolean).join(" ");
+  const head = el("div.a3-name", { title }, variable.name, el("em", {}, [note, range].filter(Boolean).join(" · ")));
+  const element = el("div.a3-control", { data: `control ${variable.name}` }, head, ...body);
+  show(variable.start ?? 0);
+  return { element, show };
+}
+
+function number(variable, change) {
+  const choices = choicesOf(variable);
+  if (choices) return chooser(variable, (text) => change(Number(text)), choices);
+  const range = rangeOf(variable);
+  const unit = variable.unit && variable.unit !== "1" ? ` ${variable.unit}` : "";
+  const slider = el("input", { type: "range", min: 0, max: POSITIONS, step: range.whole ? "any" : 1, data: "slider" });
+  const field = el("input", { type: "number", step: range.whole ? 1 : "any", data: "number" });
+  let held = false; // while a hand is on it, the run does not move it
+  const show = (value) => {
+    if (held || document.activeElement === field) return;
+    slider.value = POSITIONS * toSlider(range, value);
+    field.value = Number(Number(value).toPrecision(6));
+  };
+  slider.addEventListener("pointerdown", () => (held = true));
+  for (const end of ["pointerup", "pointercancel", "change"]) slider.addEventListener(end, () => (held = false));
+  slider.addEventListener("input", () => {
+    const value = fromSlider(range, slider.value / POSITIONS);
+    field.value = value;
+    change(value);
+  });
+  field.addEventListener("change", () => {
+    const value = Number(field.value);
+    const { min = -Infinity, max = Infinity } = variable;
+    const good = field.value.trim() !== "" && value >= min && value <= max && (!range.whole || Number.isInteger(value));
+    field.classList.toggle("a3-wrong", !good);
+    if (!good) return;
+    slider.value = POSITIONS * toSlider(range, value);
+    change(value);
+  });
+  const ends = `${short(range.low)} to ${short(range.high)}${unit}`;
+  const words = range.guessed ? `no range given, guessed: ${ends}` : ends;
+  return { body: [slider, field, el("span.a3-unit", {}, unit)], show, range: words };
+}
+
+function chooser(variable, change, choices) {
+  const options = choices.map(([value, words]) => el("option", { value }, words));
+  const select = el("select", { data: "choice" }, ...options);
+  select.addEventListener("change", () => change(select.value));
+  return { body: [select], show: (value) => (select.value = String(value)) };
+}
+
+function toggle(variable, change) {
+  const box = el("input", { type: "checkbox", data: "switch" });
+  box.addEventListener("change", () => change(box.checked));
+  return { body: [box], show: (value) => (box.checked = Boolean(Number(value))) };
+}

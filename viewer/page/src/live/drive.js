@@ -1,0 +1,431 @@
+// An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
+import { Bar } from "./bar.js";
+import { el } from "./dom.js";
+import { BACK } from "./engine.js";
+import { Gamepad } from "./gamepad.js";
+import { HELP, Keyboard } from "./keyboard.js";
+import { gamepadPanel, inputPanel, parameterPanel, picturePanel } from "./panel.js";
+import { Plots } from "./plots.js";
+import { Session } from "./session.js";
+import { Stage } from "./stage.js";
+import style from "./style.css";
+import { levers } from "./touch.js";
+import { missingParts, unpack } from "./unpack.js";
+
+const ACTS = ["steering", "throttle", "brake"];
+const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
+const PLOT_MS = 120;
+const PANEL_MS = 100;
+const RESTART_MS = 250;
+
+/**
+ * Fill an element with an FMU that runs.
+ * @param {HTMLElement} container
+ * @param {object} given - `{scene, description, wasm, resources, title}` of one FMU, or `fmus`: several of them side by
+ *   side; `recordings`: `{scene, t, columns, title, end}` that go along; `options`.
+ * @returns {Drive}
+ */
+export function drive(container, given) {
+  return new Drive(container, given);
+}
+
+/** The page of an FMU. */
+class Drive {
+  constructor(container, { options = {}, fmus, recordings = [], ...one }) {
+    this.options = options;
+    this.container = container;
+    const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
+    this.root = el("div.a3", { tabIndex: -1 });
+    container.append(el("style", {}, style), this.root);
+    const lacking = missingParts();
+    if (lacking) {
+      this.root.append(el("p.a3-notice", { data: "notice" }, lacking));
+      this.problem = lacking;
+      this.ready = Promise.reject(new Error(lacking));
+      this.ready.catch(() => {});
+      return;
+    }
+    this.ready = this._open(parts, recordings);
+    this.ready.catch((error) => this._tell(`${error.message}`));
+  }
+
+  /** The first picture. @returns {import("../scene/scene_view.js").SceneView} */
+  get view() {
+    return this.stage.parts[0].view;
+  }
+
+  /** Time of the run, s. */
+  get time() {
+    return this.session.time;
+  }
+
+  /** Whether time runs. */
+  get running() {
+    return this.session.running;
+  }
+
+  /** Simulated seconds per second of the clock over the last second, null if unknown. */
+  get factor() {
+    return this.session.pace.factor;
+  }
+
+  /** Show an instant that was; `run` drives on from there. */
+  seek(time) {
+    this.session.scrub(time);
+    this.draw();
+  }
+
+  /** Choose a camera of all pictures. @returns {string} A sentence if there is none of this name. */
+  camera(name) {
+    if (!this.view.cameraNames.includes(name)) {
+      return `There is no camera '${name}'; there are ${this.view.cameraNames.join(", ")}.`;
+    }
+    for (const part of this.stage.parts) if (part.view.cameraNames.includes(name)) part.view.camera(name);
+    this.stage.dirty = true;
+    return "";
+  }
+
+  /** Let time run. @param {number} [speed] - Simulated seconds per second of the clock. */
+  run(speed) {
+    this._tell("");
+    return this.session.run(speed);
+  }
+
+  /** Let time stand. */
+  pause() {
+    return this.session.pause();
+  }
+
+  /** Communication steps, then stand. */
+  async advance(count = 1) {
+    await this.session.advance(count);
+    this.draw();
+  }
+
+  /** Begin anew. */
+  async reset() {
+    const { running } = this.session;
+    await this.session.restart();
+    if (running) await this.session.run();
+    this.draw();
+  }
+
+  /** Go back, and run on if it ran. @param {number} seconds - Of the run. */
+  async back(seconds = 2) {
+    const { session } = this;
+    const { running } = session;
+    await session.back(Math.max(0, Math.round((session.shown - seconds) / session.step)));
+    this._clear();
+    if (running) await session.run();
+    this.draw();
+  }
+
+  /** Set an input or parameter; a fixed one begins the run anew. */
+  async set(name, value) {
+    if (this.inputs.some((v) => v.name === name)) {
+      this._hold(name);
+      return this.session.want([[name, Number(value)]]);
+    }
+    const anew = await this.session.set(name, value);
+    this._tell(anew ? `The run began anew with ${name} = ${value}.` : "", 3000);
+    this.parameters?.show(name, value);
+    return undefined;
+  }
+
+  /** The run as a table of inputs and outputs. */
+  csv() {
+    return this.session.csv().join("");
+  }
+
+  /** Numbers of the run now, by name. */
+  get(name, which = 0) {
+    const column = this.session.record.column(this.session.prefixes[which] + name);
+    const { record } = this.session;
+    return record.row(record.end - 1)[column >= 0 ? column : record.column(name)];
+  }
+
+  /** Draw what is shown now. */
+  draw() {
+    const { session } = this;
+    const { running, speed, step, pace } = session;
+    this.stage.show(session.record, session.shown, { running, speed, step, factor: pace.factor, cost: pace.cost });
+    this.stage.render();
+    this._showPanel();
+  }
+
+  /** Take everything out of the page. */
+  dispose() {
+    this._ended = true;
+    this._listeners?.abort();
+    this.session?.close();
+    this.stage?.dispose();
+    this.container.replaceChildren();
+  }
+
+  async _open(parts, recordings) {
+    const fmus = [];
+    for (const part of parts) {
+      const resources = {};
+      for (const [path, packed] of Object.entries(part.resources ?? {})) resources[path] = await unpack(packed);
+      fmus.push({ ...part, wasm: await unpack(part.wasm), resources });
+    }
+    this.session = new Session(fmus, this.options, {
+      started: () => this._started(),
+      refused: (which, text, alive) => this._refused(which, text, alive),
+      message: (which, text) => this._tell(text),
+      error: (at, text) => this._error(at, text),
+    });
+    const pictures = fmus.map(({ title, scene, description }) => {
+      return { title, scene, variables: new Map(description.variables.map((v) => [v.name, v])) };
+    });
+    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep });
+    this._layOut(fmus[0]);
+    this.stage.open();
+    this.problem = this.stage.problem;
+    this._cameras();
+    await this.session.ready;
+    this.plots.open();
+    this.draw();
+    this._listen();
+    this._frame();
+    if (this.options.run !== false) await this.run(this.options.speed ?? 1);
+  }
+
+  _layOut(first) {
+    const { session } = this;
+    this.inputs = session.held.filter((v) => v.causality === "input");
+    const names = this.inputs.map((v) => v.name);
+    this.isCar = ACTS.every((name) => names.includes(name));
+    const constants = [...session.variables.values()].filter((v) => v.variability === "constant");
+    this.keyboard = this.isCar ? new Keyboard(Object.fromEntries(constants.map((v) => [v.name, Number(v.start)]))) : null;
+    this.gamepad = new Gamepad(() => navigator.getGamepads?.() ?? []);
+    this._slid = new Map();
+    const want = (name, value) => {
+      this._hold(name);
+      session.want([[name, value]]);
+    };
+    this.inputPanel = inputPanel(this.inputs, want, this.isCar ? HELP : "");
+    const settable = (v) => v.causality === "parameter" || (v.causality === "input" && v.variability === "fixed");
+    const parameters = [...session.variables.values()].filter(settable);
+    const roads = Object.keys(first.resources).filter((path) => path.startsWith("roads/")).map((path) => path.slice(6));
+    this.parameters = parameterPanel(parameters, { set: (v, value) => this._setSoon(v, value), roads });
+    const plotted = [...names, ...new Set(session.outputs.map((name) => name.split(": ").at(-1)))];
+    const wished = this.options.plots ?? PLOTTED.filter((name) => plotted.includes(name));
+    const firstPlots = wished.length ? wished : plotted.slice(names.length, names.length + 3);
+    this.plots = new Plots(plotted, session.variables, firstPlots.slice(0, 4));
+    this.gamepadPanel = gamepadPanel(this.gamepad, names);
+    this.side = el("div.a3-side", {}, this.inputPanel.element, this.plots.element, this.parameters.element);
+    if (names.length) this.side.append(this.gamepadPanel.element);
+    this.banner = el("div.a3-banner", { data: "banner" });
+    this.stage.element.append(this.banner);
+    if (this.isCar) this.stage.element.append(levers(names, want));
+    this.root.append(this.stage.element, this.side);
+  }
+
+  _cameras() {
+    const { session } = this;
+    const steps = stepChoices(session.step).map((h) => [h, `step ${Number((1e3 * h).toPrecision(6))} ms`]);
+    const views = [];
+    if (this.isCar) {
+      const work = () => this.root.classList.toggle("a3-touching");
+      views.push({ data: "touch levers", text: "Levers", title: "levers for fingers over the picture", work });
+    }
+    const act = {
+      reset: () => this.reset(),
+      toggle: () => (session.running ? this.pause() : this.run()),
+      step: () => this.advance(),
+      back: () => this.back(),
+      speed: (speed) => (session.running ? this.run(speed) : (session.speed = speed)),
+      scrub: (time) => this.seek(time),
+      camera: (name) => this.camera(name),
+      stepSize: (step) => this._stepSize(step),
+      csv: () => this._download(),
+    };
+    this.act = act;
+    this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views });
+    this.root.append(this.bar.element);
+    const set = (wishes) => {
+      for (const part of this.stage.parts) part.view.set?.(wishes);
+      this.stage.dirty = true;
+    };
+    const shown = picturePanel(this.stage.parts.map((part) => part.view.has ?? {}), set);
+    if (shown) this.plots.element.before(shown);
+  }
+
+  /** Another communication step; the inner one is not longer than it. */
+  async _stepSize(step) {
+    const { session } = this;
+    const { running } = session;
+    const inner = session.variables.get("step_size");
+    const start = { ...session.start };
+    if (inner && step < Number(inner.start)) start.step_size = Math.max(step, inner.min ?? 0);
+    else delete start.step_size;
+    await session.restart(start, step).catch(() => {});
+    if (running) await session.run();
+    this.draw();
+  }
+
+  _setSoon(variable, value) {
+    if (variable.variability === "tunable") {
+      this.set(variable.name, value);
+      return;
+    }
+    clearTimeout(this._soon);
+    this._soon = setTimeout(() => this.set(variable.name, value).catch(() => {}), RESTART_MS);
+  }
+
+  _started() {
+    this.stage?.bind(this.session.record, this.session.prefixes);
+    this._clear();
+    this.keyboard?.clear();
+    if (this.plots) this.plots.stale = true;
+  }
+
+  _clear() {
+    for (const part of this.stage?.parts ?? []) if (!part.view?.problem) this.stage.tell(part, "");
+    this._tell("");
+  }
+
+  _refused(which, text, alive) {
+    const part = this.stage.parts.filter((p) => p.variables)[which];
+    const button = (data, words, work) => {
+      const made = el("button", { type: "button", data }, words);
+      made.addEventListener("click", work);
+      return made;
+    };
+    const choices = [button("begin anew", "Begin anew", () => this.reset()), button("go back", "2 s back", () => this.back())];
+    const time = this.session.time.toFixed(3);
+    this.stage.tell(part, `Stopped at ${time} s. ${text}`, alive ? [] : choices);
+  }
+
+  _error(at, text) {
+    if (!this.stage) return;
+    const what = { open: "The FMU could not be started: ", restart: "These values were refused: " }[at] ?? "";
+    this._tell(`${what}${text}`);
+  }
+
+  _tell(sentence, time = 0) {
+    clearTimeout(this._banner);
+    if (!this.banner) {
+      if (sentence) this.root.append(el("p.a3-notice", { data: "notice" }, sentence));
+      return;
+    }
+    this.banner.textContent = sentence;
+    if (time) this._banner = setTimeout(() => (this.banner.textContent = ""), time);
+  }
+
+  /** A slider has the word for an input, until a key or the gamepad moves it. */
+  _hold(name) {
+    this._slid.set(name, true);
+  }
+
+  _listen() {
+    this._listeners = new AbortController();
+    const { signal } = this._listeners;
+    const key = (event) => this._key(event);
+    window.addEventListener("keydown", key, { signal });
+    window.addEventListener("keyup", key, { signal });
+    window.addEventListener("blur", () => this._letGo(), { signal });
+    document.addEventListener("visibilitychange", () => this._hidden(), { signal });
+  }
+
+  /** A page that is not seen does not run: it says so when it is seen again. */
+  _hidden() {
+    if (!document.hidden || !this.session.running) return;
+    this.pause();
+    this._tell("Paused, because the page was not on the screen.");
+  }
+
+  _letGo() {
+    if (!this.keyboard) return;
+    this.keyboard.clear();
+    this._wantKeys();
+  }
+
+  _key(event) {
+    const down = event.type === "keydown";
+    const { tagName, type } = event.target;
+    const typing = tagName === "SELECT" || (tagName === "INPUT" && type === "number");
+    if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
+    const { used, selector } = this.keyboard?.key(event.code, down, event.shiftKey) ?? { used: false };
+    if (used) {
+      event.preventDefault();
+      if (event.repeat) return;
+      if (selector !== undefined) this.session.want([["selector", selector]]);
+      this._slid.clear();
+      this._wantKeys();
+      return;
+    }
+    const { act } = this;
+    const work = { KeyP: act.toggle, Period: act.step, Backspace: act.back, Home: act.reset }[event.code];
+    if (!work) return;
+    event.preventDefault();
+    if (down && !event.repeat) work();
+  }
+
+  _wantKeys() {
+    const names = new Set(this.inputs.map((v) => v.name));
+    const speed = Math.abs(this.get("speed") || 0);
+    const wants = this.keyboard.wants(speed).filter(([name]) => names.has(name) && !this._slid.has(name));
+    this.session.want(wants);
+    this._keyed = wants.some(([, value]) => value !== 0);
+  }
+
+  _pollGamepad() {
+    const { changed, touched } = this.gamepad.poll();
+    if (changed) this.gamepadPanel.fill();
+    if (touched) this._slid.clear();
+    if (touched || (this._padded && this.gamepad.pad)) {
+      const names = new Set(this.inputs.map((v) => v.name));
+      this.session.want(this.gamepad.wants().filter(([name]) => names.has(name) && !this._slid.has(name)));
+      this._padded = !this._keyed;
+    }
+    this.gamepadPanel.show();
+  }
+
+  _frame() {
+    if (this._ended) return;
+    requestAnimationFrame(() => this._frame());
+    const { session } = this;
+    this._pollGamepad();
+    if (this._keyed) this._wantKeys(); // the steering limit follows the speed
+    const shown = session.shown;
+    if (shown !== this._drawn || session.running !== this._ran) {
+      [this._drawn, this._ran] = [shown, session.running];
+      this.draw();
+      return;
+    }
+    this.stage.render();
+  }
+
+  _showPanel() {
+    const { session } = this;
+    const now = performance.now();
+    const { running, oldest, shown: time, scrubbed } = session;
+    this.bar.show({ running, oldest, time, end: session.time, scrubbed: scrubbed !== null });
+    if (now - (this._panelled ?? -Infinity) > PANEL_MS || !running) {
+      this._panelled = now;
+      const row = session.record.row(Math.round(time / session.step));
+      session.held.forEach((v, i) => (v.causality === "input" ? this.inputPanel : this.parameters).show(v.name, row[i]));
+    }
+    if (now - (this._plotted ?? -Infinity) > PLOT_MS || !running || this.plots.stale) {
+      this._plotted = now;
+      this.plots.show(session.record, session.prefixes, time);
+    }
+  }
+
+  _download() {
+    const url = URL.createObjectURL(new Blob(this.session.csv(), { type: "text/csv" }));
+    const name = (this.options.name ?? "run").replace(/[^\w.-]+/g, "_");
+    const link = el("a", { href: url, download: `${name}.csv` });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(url), 60000);
+  }
+}
+
+/** Communication steps to choose from: that of the FMU, shorter and longer ones. */
+export function stepChoices(step) {
+  return [0.1, 0.2, 0.5, 1, 2, 5].map((factor) => Number((factor * step).toPrecision(6)));
+}
+
+export { BACK };

@@ -1,0 +1,224 @@
+// FMUs of one page, stepped side by side with the same inputs; saved states to go back to. Knows no page.
+import { Hand } from "./hand.js";
+
+/** Simulated time between saved states, s. */
+const SAVE_EVERY = 0.25;
+/** How far back one can go, s. */
+export const BACK = 30;
+
+const NUMBERS = ["Real", "Integer", "Boolean"];
+
+/** Inputs and tunable parameters of some FMUs, by name, each once. */
+export function heldVariables(descriptions) {
+  const found = new Map();
+  for (const { variables } of descriptions) {
+    for (const v of variables) {
+      const held = v.causality === "input" || (v.causality === "parameter" && v.variability === "tunable");
+      if (held && NUMBERS.includes(v.type) && !found.has(v.name)) found.set(v.name, v);
+    }
+  }
+  const all = [...found.values()];
+  return [...all.filter((v) => v.causality === "input"), ...all.filter((v) => v.causality !== "input")];
+}
+
+/** Names of the outputs of an FMU that are numbers. */
+export function outputNames({ variables }) {
+  return variables.filter((v) => v.causality === "output" && /^(Real|Integer)$/.test(v.type)).map((v) => v.name);
+}
+
+function writer(slave, { name, type }) {
+  if (type === "Boolean") return (value) => slave.setBoolean(name, value !== 0);
+  const write = slave.writer([name]);
+  return (value) => write([value]);
+}
+
+/** The run of one or more FMUs. */
+export class Engine {
+  /**
+   * @param {object[]} fmus - As `loadFmu` gives them.
+   * @param {number} step - Communication step, s.
+   */
+  constructor(fmus, step) {
+    this.fmus = fmus;
+    this.step = step;
+    const descriptions = fmus.map((f) => ({ variables: [...f.variables.values()] }));
+    const held = heldVariables(descriptions);
+    this.heldNames = held.map((v) => v.name);
+    this._whole = held.map((v) => v.type !== "Real");
+    this.outputs = descriptions.map(outputNames);
+    this.rows = new Float64Array(this.outputs.reduce((sum, names) => sum + names.length, 0));
+    this.runs = [];
+    this._states = []; // [k, a state of each FMU, what was set in each], oldest first
+  }
+
+  /**
+   * Begin anew.
+   * @param {Object<string, number|boolean|string>} start - Values that differ from those of the FMUs, by name.
+   * @throws {Error} With the FMU's words; the old run is then over too.
+   */
+  restart(start) {
+    this._forget();
+    this.start = { ...start };
+    this.k = 0;
+    this._past = new Map(); // what was held in step k, as far back as the states reach
+    this.hand = new Hand(this.heldNames.map((name) => this._startOf(name)));
+    if (!this.runs.length) this.runs = this._instances();
+    else for (const run of this.runs) run.slave.reset();
+    this.runs.forEach((run, which) => {
+      const { variables } = this.fmus[which];
+      const own = Object.entries(this.start).filter(([name]) => variables.has(name));
+      run.slave.set(Object.fromEntries(own));
+      run.slave.initialise({});
+      run.failed = null;
+      run.last.set(run.indices.map((i) => this.hand.values[i]));
+    });
+    this.held = this.hand.values.slice();
+    this._read();
+    this._save();
+  }
+
+  /** Give the memory of the instances back. */
+  free() {
+    this._forget();
+    for (const run of this.runs) run.slave.free();
+    this.runs = [];
+  }
+
+  /** Time, s. */
+  get time() {
+    return this.k * this.step;
+  }
+
+  /** The oldest step one can go back to. */
+  get oldest() {
+    return this._states.length ? this._states[0][0] : 0;
+  }
+
+  /** Whether an FMU still runs. */
+  get alive() {
+    return this.runs.some((run) => run.failed === null);
+  }
+
+  /**
+   * One communication step of all FMUs that still run.
+   * @returns {{which: number, text: string}[]} FMUs that refused this step; each stays where it is.
+   */
+  advance() {
+    // The first step has the values of the start: so a run that sets the same table from the start is the same.
+    const hand = this.k === 0 ? this.hand.values : this.hand.move(this.step);
+    const held = hand.map((value, i) => (this._whole[i] ? Math.round(value) : value));
+    this.held = held;
+    const refused = this._stepWith(held);
+    if (!this.alive) return refused; // a step that all refuse is none
+    const before = this._past.get(this.k - 1);
+    this._past.set(this.k, before && held.every((value, i) => Object.is(value, before[i])) ? before : held);
+    this.k += 1;
+    this._read();
+    if (this.k % Math.max(1, Math.round(SAVE_EVERY / this.step)) === 0) this._save();
+    return refused;
+  }
+
+  /**
+   * Go back to a step that was, bit for bit.
+   * @param {number} k - Not before `oldest`.
+   */
+  back(k) {
+    const target = Math.max(this.oldest, Math.min(k, this.k));
+    while (this._states.length > 1 && this._states[this._states.length - 1][0] > target) {
+      this._states.pop()[1].forEach((s) => s?.free());
+    }
+    const [from, states, lasts] = this._states[this._states.length - 1];
+    this.runs.forEach((run, i) => {
+      if (states[i]) run.slave.setState(states[i]); // one that had failed before stays as it is
+      run.last.set(lasts[i]);
+      if (run.failed !== null && run.failed >= target) run.failed = null;
+    });
+    this.k = from;
+    while (this.k < target) {
+      const held = this._past.get(this.k);
+      const asleep = this.runs.filter((run) => run.failed !== null && run.failed <= this.k);
+      this._stepWith(held, asleep);
+      this.k += 1;
+      this.hand.hold(held);
+    }
+    for (const step of [...this._past.keys()]) if (step >= target) this._past.delete(step);
+    if (target === from && this._past.has(from - 1)) this.hand.hold(this._past.get(from - 1));
+    this._read();
+  }
+
+  /** FMUs that refused the last step may try it again, with other inputs or parameters. */
+  retry() {
+    if (!this.alive) for (const run of this.runs) if (run.failed === this.k) run.failed = null;
+  }
+
+  /** Messages of the FMUs since the last call. */
+  messages() {
+    return this.runs.flatMap((run, which) => {
+      const found = run.slave.messages.map((m) => ({ which, ...m }));
+      run.slave.messages.length = 0;
+      return found;
+    });
+  }
+
+  _stepWith(held, asleep = this.runs.filter((run) => run.failed !== null)) {
+    const refused = [];
+    this.runs.forEach((run, which) => {
+      if (asleep.includes(run)) return;
+      try {
+        // Only what has changed is set: a parameter may be dear.
+        run.indices.forEach((i, n) => {
+          if (Object.is(run.last[n], held[i])) return;
+          run.writers[n](held[i]);
+          run.last[n] = held[i];
+        });
+        run.slave.step(this.step);
+      } catch (error) {
+        if (!error.status) throw error;
+        run.failed = this.k;
+        refused.push({ which, text: error.message, status: error.status });
+      }
+    });
+    return refused;
+  }
+
+  _instances() {
+    let begin = 0;
+    return this.fmus.map((fmu, which) => {
+      const slave = fmu.instantiate({});
+      const names = this.heldNames.filter((name) => fmu.variables.has(name));
+      const indices = names.map((name) => this.heldNames.indexOf(name));
+      const writers = names.map((name) => writer(slave, fmu.variables.get(name)));
+      const run = { slave, failed: null, begin, indices, writers, last: new Float64Array(names.length) };
+      run.reader = slave.reader(this.outputs[which]);
+      begin += this.outputs[which].length;
+      return run;
+    });
+  }
+
+  _forget() {
+    for (const [, states] of this._states) states.forEach((s) => s?.free());
+    this._states = [];
+  }
+
+  _read() {
+    for (const run of this.runs) this.rows.set(run.reader(), run.begin);
+  }
+
+  _save() {
+    const states = this.runs.map((run) => (run.failed === null ? run.slave.getState() : null));
+    this._states.push([this.k, states, this.runs.map((run) => run.last.slice())]);
+    while (this._states.length > 1 && this.k - this._states[1][0] >= BACK / this.step) {
+      this._states.shift()[1].forEach((s) => s?.free());
+      for (const step of this._past.keys()) {
+        if (step >= this.oldest - 1) break;
+        this._past.delete(step);
+      }
+    }
+  }
+
+  _startOf(name) {
+    if (name in this.start) return Number(this.start[name]);
+    const v = this.fmus.map((f) => f.variables.get(name)).find(Boolean);
+    return Number(v.start ?? 0);
+  }
+}

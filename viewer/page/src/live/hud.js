@@ -1,0 +1,58 @@
+// The figures over the picture: speed, gear, engine, time, and how the computer keeps up.
+import { el, short } from "./dom.js";
+
+const SPEEDS = ["speed"];
+const TURNS = ["engine_speed", "motor_speed"];
+const RPM = 30 / Math.PI;
+/** Beyond this the machine does not keep up. */
+const SLOW = 0.97;
+
+/** What the machine does, in words; a warning where it is slower than asked for. */
+export function paceWords({ running, speed, factor, cost, step }) {
+  const wanted = speed === 1 ? "real time" : speed < 1 ? `slow motion × ${short(speed)}` : `fast × ${short(speed)}`;
+  const work = cost > 0 ? `${short(1e6 * cost)} µs a step of ${short(1e3 * step)} ms` : "";
+  if (!running) return { text: ["paused", work].filter(Boolean).join(" · "), warn: "" };
+  const got = factor === null ? "" : ` (× ${factor.toFixed(2)})`;
+  const late = factor !== null && factor < SLOW * speed;
+  const warn = late ? `This machine does not keep up: ${factor.toFixed(2)} s of the run a second, ${short(speed)} asked for.` : "";
+  return { text: [`${wanted}${got}`, work].filter(Boolean).join(" · "), warn };
+}
+
+/** Head-up figures of one FMU. */
+export class Hud {
+  /**
+   * @param {Map<string, object>} variables - Of the FMU by name.
+   * @param {string} title
+   */
+  constructor(variables, title) {
+    const has = (names) => names.find((name) => variables.get(name)?.causality === "output");
+    this._speed = has(SPEEDS);
+    this._turns = has(TURNS);
+    this._gear = has(["gear"]);
+    this._selector = has(["used.selector"]);
+    this._big = el("div.a3-speed", { data: "speed" });
+    this._small = el("div.a3-small", { data: "gear" });
+    this._time = el("div.a3-small", { data: "time" });
+    this._pace = el("div.a3-small", { data: "pace" });
+    this._warn = el("div.a3-warn", { data: "behind" });
+    this.element = el("div.a3-hud", {}, el("div.a3-title", {}, title), this._big, this._small, this._time, this._pace, this._warn);
+  }
+
+  /**
+   * @param {(name: string) => number} lookup
+   * @param {number} time - s.
+   * @param {object} pace - See `paceWords`.
+   */
+  show(lookup, time, pace) {
+    if (this._speed) this._big.textContent = `${(3.6 * lookup(this._speed)).toFixed(0)} km/h`;
+    const parts = [];
+    if (this._selector && lookup(this._selector) < 1) parts.push(lookup(this._selector) < 0 ? "R" : "N");
+    else if (this._gear) parts.push(`gear ${lookup(this._gear)}`);
+    if (this._turns) parts.push(`${(RPM * lookup(this._turns)).toFixed(0)} rpm`);
+    this._small.textContent = parts.join(" · ");
+    this._time.textContent = `${time.toFixed(2)} s`;
+    const { text, warn } = paceWords(pace);
+    this._pace.textContent = text;
+    this._warn.textContent = warn;
+  }
+}

@@ -1,0 +1,71 @@
+// Driving a car by keys: pedals and steering wheel move at limited rates and return when the key is let go.
+
+/** Largest change per second of the simulated time: to what is wanted, and back. */
+const RATES = { steering: [1.6, 3.0], throttle: [2.5, 5.0], brake: [4.0, 8.0], hand_brake: [8.0, 8.0] };
+/** Lateral acceleration that full steering by a key may ask for, m/s2. */
+const LATERAL = 9.0;
+/** m and rad, where the FMU does not tell them. */
+const WHEELBASE = 2.5;
+const WHEEL_ANGLE = 0.55;
+
+const KEYS = {
+  ArrowLeft: "left", KeyA: "left", ArrowRight: "right", KeyD: "right",
+  ArrowUp: "throttle", KeyW: "throttle", ArrowDown: "brake", KeyS: "brake", Space: "hand_brake",
+}; // prettier-ignore
+const SELECTOR = { KeyR: -1, KeyN: 0 };
+
+export const HELP = "arrow keys or WASD: steer, throttle, brake; space: hand brake; R, N, Shift+D: reverse, neutral, drive";
+
+/** What is asked for by the keys that are down. */
+export class Keyboard {
+  /** @param {Object<string, number>} constants - Of the FMU, by name. */
+  constructor(constants = {}) {
+    this._down = new Set();
+    this._wheelbase = constants["vehicle.wheelbase"] ?? WHEELBASE;
+    this._angle = constants["vehicle.front_wheel_angle_max"] ?? WHEEL_ANGLE;
+  }
+
+  /**
+   * A key goes down or up.
+   * @param {string} code - As in `KeyboardEvent.code`.
+   * @param {boolean} down
+   * @param {boolean} [shift]
+   * @returns {{used: boolean, selector?: number}} Whether it is a key for driving.
+   */
+  key(code, down, shift = false) {
+    if (down && shift && code === "KeyD") return { used: true, selector: 1 };
+    if (code in SELECTOR) return down ? { used: true, selector: SELECTOR[code] } : { used: true };
+    const act = KEYS[code];
+    if (!act) return { used: false };
+    this._down[down ? "add" : "delete"](code);
+    return { used: true };
+  }
+
+  /** All keys are up, as when the page loses the focus. */
+  clear() {
+    this._down.clear();
+  }
+
+  /** Share of full lock that a key asks for: as much as the tyres could follow at this speed. */
+  steeringLimit(speed) {
+    const angle = (LATERAL * this._wheelbase) / Math.max(speed * speed, 1e-6);
+    return Math.min(1, Math.max(0.02, angle / this._angle));
+  }
+
+  /**
+   * What is wanted now.
+   * @param {number} speed - Of the car, m/s.
+   * @returns {[string, number, number][]} Input, value, rate.
+   */
+  wants(speed) {
+    const acts = new Set([...this._down].map((code) => KEYS[code]));
+    const limit = this.steeringLimit(speed);
+    const steering = limit * ((acts.has("left") ? 1 : 0) - (acts.has("right") ? 1 : 0));
+    const wanted = { steering };
+    for (const pedal of ["throttle", "brake", "hand_brake"]) wanted[pedal] = acts.has(pedal) ? 1 : 0;
+    return Object.entries(wanted).map(([name, value]) => {
+      const [to, back] = RATES[name];
+      return [name, value, value === 0 ? back : to];
+    });
+  }
+}

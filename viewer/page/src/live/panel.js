@@ -1,0 +1,133 @@
+// The panel beside the picture: inputs, the gamepad, parameters by group.
+import { control } from "./controls.js";
+import { el, short } from "./dom.js";
+import { sourcesOf } from "./gamepad.js";
+
+/** A part of the panel that opens and closes. */
+export function section(title, open, ...children) {
+  return el("details.a3-section", { open, data: `section ${title}` }, el("summary", {}, title), ...children);
+}
+
+/**
+ * Inputs as sliders.
+ * @param {object[]} variables
+ * @param {(name: string, value: number) => void} want
+ * @returns {{element: HTMLElement, show: (name: string, value: number) => void}}
+ */
+export function inputPanel(variables, want, hint) {
+  const controls = new Map(variables.map((v) => [v.name, control(v, { change: (value) => want(v.name, Number(value)) })]));
+  const children = [...controls.values()].map((c) => c.element);
+  if (hint) children.unshift(el("p.a3-hint", {}, hint));
+  if (!variables.length) children.push(el("p.a3-hint", {}, "This FMU has no inputs."));
+  return { element: section("Inputs", true, ...children), show: (name, value) => controls.get(name)?.show(value) };
+}
+
+/** The group that a parameter stands in: what is before its first dot. */
+function groupOf({ name }) {
+  if (!name.includes(".")) return "run";
+  const head = name.split(".")[0];
+  return head === "initial" ? "start values" : head;
+}
+
+/**
+ * Parameters by group.
+ * @param {object[]} variables
+ * @param {object} options
+ * @param {(variable: object, value: number|boolean|string) => void} options.set
+ * @param {string[]} options.roads - Files of roads in the FMU.
+ * @returns {{element: HTMLElement, show: (name: string, value: any) => void}}
+ */
+export function parameterPanel(variables, { set, roads }) {
+  const groups = new Map([["start values", []], ["run", []]]);
+  for (const v of variables) {
+    const group = groupOf(v);
+    if (!groups.has(group)) groups.set(group, []);
+    groups.get(group).push(v);
+  }
+  const controls = new Map();
+  const parts = [];
+  for (const [title, members] of groups) {
+    const lines = [];
+    for (const v of members) {
+      if (v.type === "String" && v.name !== "road.file") continue; // a text without choices
+      const texts = [["", "as built in"], ...roads.map((name) => [name, name])];
+      const note = v.variability === "tunable" ? "" : "starts again";
+      controls.set(v.name, control(v, { change: (value) => set(v, value), note, texts }));
+      lines.push(controls.get(v.name).element);
+    }
+    if (lines.length) parts.push(section(title, title === "start values" && lines.length < 8, ...lines));
+  }
+  const hint = "A change takes effect at once; where it says “starts again”, the run begins anew with it.";
+  return {
+    element: section("Parameters", false, el("p.a3-hint", {}, hint), ...parts),
+    show: (name, value) => controls.get(name)?.show(value),
+  };
+}
+
+/**
+ * The gamepad or wheel, with its axes and what they do.
+ * @param {import("./gamepad.js").Gamepad} gamepad
+ * @param {string[]} inputs
+ */
+export function gamepadPanel(gamepad, inputs) {
+  const body = el("div");
+  const values = el("pre.a3-axes", { data: "axes" });
+  const element = section("Gamepad", false, body);
+  const fill = () => {
+    if (!gamepad.pad) {
+      body.replaceChildren(el("p.a3-hint", {}, "No gamepad or wheel; plug one in and press one of its buttons."));
+      return;
+    }
+    const lines = inputs.map((name) => {
+      const options = sourcesOf(gamepad.pad).map((source) => el("option", { value: source }, source));
+      const select = el("select", { data: `assign ${name}` }, ...options);
+      select.value = gamepad.assigned[name] ?? "none";
+      select.addEventListener("change", () => gamepad.assign(name, select.value));
+      return el("label.a3-control", {}, `${name} `, select);
+    });
+    const zone = el("input", { type: "range", min: 0, max: 0.3, step: 0.01, value: gamepad.zone, data: "dead zone" });
+    zone.addEventListener("input", () => (gamepad.zone = Number(zone.value)));
+    const head = el("p.a3-hint", { data: "gamepad" }, gamepad.pad.id);
+    body.replaceChildren(head, ...lines, el("label.a3-control", {}, "dead zone ", zone), values);
+  };
+  fill();
+  return {
+    element,
+    fill,
+    show: () => {
+      if (!gamepad.pad || !element.open) return;
+      const axes = Array.from(gamepad.pad.axes, (v, k) => `axis ${k}: ${short(v)}`);
+      const pressed = gamepad.pad.buttons.map((b, k) => (b.value > 0 ? k : -1)).filter((k) => k >= 0);
+      values.textContent = [...axes, `buttons pressed: ${pressed.join(", ") || "none"}`].join("\n");
+    },
+  };
+}
+
+/**
+ * What the pictures show beside shapes.
+ * @param {{arrows?: boolean, stress?: boolean, deformation?: boolean}[]} has - What each picture can.
+ * @param {(wishes: object) => void} set - Told what a person wants, as `SceneView.set` has it.
+ * @returns {HTMLElement | null} Nothing where there is nothing to choose.
+ */
+export function picturePanel(has, set) {
+  const can = (what) => has.some((one) => one[what]);
+  const lines = [];
+  for (const [what, words] of [["arrows", "forces as arrows"], ["stress", "colours of stress"]]) {
+    if (!can(what)) continue;
+    const box = el("input", { type: "checkbox", checked: what === "stress", data: `show ${what}` });
+    box.addEventListener("change", () => set({ [what]: box.checked }));
+    lines.push(el("label.a3-control", {}, box, words));
+    set({ [what]: box.checked });
+  }
+  if (can("deformation")) {
+    const slider = el("input", { type: "range", min: 0, max: 200, value: 1, data: "deformation" });
+    const words = el("span", {}, "× 1");
+    slider.addEventListener("input", () => {
+      words.textContent = `× ${slider.value}`;
+      set({ deformation: Number(slider.value) });
+    });
+    lines.push(el("label.a3-control", {}, "deformation ", slider, words));
+    set({ deformation: 1 });
+  }
+  return lines.length ? section("Picture", true, ...lines) : null;
+}

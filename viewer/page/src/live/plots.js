@@ -1,0 +1,116 @@
+// Plots of chosen outputs, in step with the run.
+import uPlot from "uplot";
+import uplotCss from "uplot/dist/uPlot.min.css";
+import { el } from "./dom.js";
+import { section } from "./panel.js";
+
+const MOST_POINTS = 1000;
+const HEIGHT = 120;
+const COLOURS = ["#1f77b4", "#d62728", "#2ca02c", "#9467bd"];
+const SPANS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [Infinity, "all"]];
+
+/** The plots of the panel. */
+export class Plots {
+  /**
+   * @param {string[]} names - Of inputs and outputs that can be chosen.
+   * @param {Map<string, object>} variables - For units and descriptions.
+   * @param {string[]} first - Chosen at the start.
+   */
+  constructor(names, variables, first) {
+    this._variables = variables;
+    this._span = SPANS[0][0];
+    this._plots = new Map();
+    this._list = el("div");
+    const options = names.map((name) => el("option", { value: name }, name));
+    const choice = el("select", { data: "plot" }, el("option", { value: "" }, "plot …"), ...options);
+    choice.addEventListener("change", () => {
+      if (choice.value) this.add(choice.value);
+      choice.value = "";
+    });
+    const span = el("select", { data: "span" }, ...SPANS.map(([value, words]) => el("option", { value }, words)));
+    span.addEventListener("change", () => {
+      this._span = Number(span.value);
+      this.stale = true;
+    });
+    const style = el("style", {}, uplotCss);
+    this.element = section("Plots", true, style, el("div.a3-control", {}, choice, span), this._list);
+    this._first = first;
+    this.stale = true;
+  }
+
+  /** Make the first plots, once the panel has a width. */
+  open() {
+    for (const name of this._first) this.add(name);
+  }
+
+  /** Names that are plotted. */
+  get names() {
+    return [...this._plots.keys()];
+  }
+
+  /** Plot one more. */
+  add(name) {
+    if (this._plots.has(name)) return;
+    const { unit = "1", description = "" } = this._variables.get(name) ?? {};
+    const label = unit === "1" ? name : `${name}, ${unit}`;
+    const close = el("button", { type: "button", title: "remove", data: `unplot ${name}` }, "×");
+    const holder = el("div.a3-plot", { data: `plot ${name}` }, el("div.a3-name", { title: description }, label, close));
+    close.addEventListener("click", () => this.remove(name));
+    this._list.append(holder);
+    this._plots.set(name, { holder, plot: null });
+    this.stale = true;
+  }
+
+  remove(name) {
+    const found = this._plots.get(name);
+    found?.plot?.destroy();
+    found?.holder.remove();
+    this._plots.delete(name);
+  }
+
+  /**
+   * Draw what the run has been.
+   * @param {import("./record.js").Record} record
+   * @param {string[]} prefixes - Of the columns of each FMU.
+   * @param {number} time - Of the picture, s; a line stands there.
+   */
+  show(record, prefixes, time) {
+    this.stale = false;
+    if (!this.element.open) return;
+    const rows = Number.isFinite(this._span) ? Math.round(this._span / record.step) : record.end;
+    const from = Math.max(record.first, record.end - rows);
+    const stride = Math.max(1, Math.ceil((record.end - from) / MOST_POINTS));
+    for (const [name, entry] of this._plots) {
+      const columns = [...new Set(prefixes.map((p) => record.column(p + name)).concat(record.column(name)))];
+      const series = columns.filter((c) => c >= 0).map((c) => record.series(c, from, stride));
+      if (!series.length) continue;
+      const data = [series[0][0], ...series.map(([, values]) => values)];
+      entry.plot ??= this._make(entry.holder, series.length);
+      entry.time = time;
+      entry.plot.setData(data);
+    }
+  }
+
+  _make(holder, count) {
+    const entry = [...this._plots.values()].find((e) => e.holder === holder);
+    const lines = Array.from({ length: count }, (_, k) => ({ stroke: COLOURS[k], width: 1.2, dash: k ? [6, 3] : [] }));
+    const axis = { stroke: "currentColor", grid: { stroke: "#8884", width: 1 }, ticks: { show: false }, font: "11px system-ui" };
+    const cursor = (u) => {
+      const x = u.valToPos(entry.time, "x", true);
+      if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) return;
+      u.ctx.fillStyle = "#8888";
+      u.ctx.fillRect(x, u.bbox.top, 1, u.bbox.height);
+    };
+    const options = {
+      width: Math.max(120, holder.clientWidth - 4),
+      height: HEIGHT,
+      legend: { show: false },
+      cursor: { show: false },
+      scales: { x: { time: false } },
+      axes: [{ ...axis, size: 22 }, { ...axis, size: 52 }],
+      series: [{}, ...lines],
+      hooks: { draw: [cursor] },
+    };
+    return new uPlot(options, [[], ...lines.map(() => [])], holder);
+  }
+}

@@ -1,0 +1,55 @@
+// Ranges of sliders: those of the variable, or a guess that is said to be one.
+
+/** Guessed half-widths around 0 by unit, for variables that start at 0. */
+const GUESSES = { m: 10, "m/s": 40, "m/s2": 10, rad: Math.PI, "rad/s": 10, N: 1000, "N.m": 100, kg: 100, s: 10, "1": 1 };
+/** Quotient of the ends of a range from which on a slider is logarithmic. */
+const LOGARITHMIC = 50;
+
+/**
+ * The range of a variable.
+ * @param {{min?: number, max?: number, start?: number, unit?: string, type: string}} variable
+ * @returns {{low: number, high: number, guessed: boolean, log: boolean, whole: boolean}}
+ */
+export function rangeOf({ min, max, start, unit, type }) {
+  const whole = type === "Integer" || type === "Enumeration";
+  const begin = Number(start ?? 0);
+  const width = begin === 0 ? (whole ? 10 : (GUESSES[unit ?? "1"] ?? 10)) : 2 * Math.abs(begin);
+  let low = min ?? Math.min(-width, max === undefined ? 0 : max - 2 * width);
+  let high = max ?? Math.max(width, min === undefined ? 0 : min + 2 * width);
+  if (whole) [low, high] = [Math.ceil(low), Math.floor(high)];
+  const guessed = min === undefined || max === undefined;
+  return { low, high, guessed, log: !whole && low > 0 && high / low >= LOGARITHMIC, whole };
+}
+
+/** Where a value is on a slider from 0 to 1. */
+export function toSlider(range, value) {
+  const { low, high, log } = range;
+  const x = log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low || 1);
+  return Math.max(0, Math.min(1, x));
+}
+
+/** The value of a slider from 0 to 1; at its ends exactly those of the range. */
+export function fromSlider(range, x) {
+  const { low, high, log, whole } = range;
+  if (x <= 0) return low;
+  if (x >= 1) return high;
+  const value = log ? low * (high / low) ** x : low + x * (high - low);
+  if (whole) return Math.round(value) || 0;
+  const digits = 10 ** (Math.floor(Math.log10(log ? value : high - low)) - 3);
+  return Math.max(low, Math.min(high, Number((Math.round(value / digits) * digits).toPrecision(12))));
+}
+
+/**
+ * The choices of a whole-number variable of few values, with the words of its description, such as "0 neutral".
+ * @returns {[number, string][] | null}
+ */
+export function choicesOf({ type, min, max, description = "", items }) {
+  if (items && Object.keys(items).length) return Object.entries(items).map(([name, value]) => [value, `${value} ${name}`]);
+  if (type !== "Integer" || min === undefined || max === undefined || max - min > 12) return null;
+  const words = new Map();
+  for (const [, number, word] of description.matchAll(/(-?\d+) ([a-z_]+)/g)) words.set(Number(number), word);
+  return Array.from({ length: max - min + 1 }, (_, i) => {
+    const value = min + i;
+    return [value, words.has(value) ? `${value} ${words.get(value)}` : String(value)];
+  });
+}

@@ -1,0 +1,150 @@
+// What a run has been: a row for each communication step, for plots, the picture between two steps, and a table.
+
+const ROWS = 1024; // in a block
+
+/** Rows of numbers at the times k * step; row k has the inputs of the step that begins there. */
+export class Record {
+  /**
+   * @param {string[]} held - Names of what is set: inputs and tunable parameters.
+   * @param {string[]} outputs - Names of what comes out, one for each instance's output.
+   * @param {number} step - s.
+   * @param {number} [most] - Bytes; the oldest rows are forgotten beyond them.
+   */
+  constructor(held, outputs, step, most = 4e8) {
+    this.held = held;
+    this.outputs = outputs;
+    this.step = step;
+    this.width = held.length + outputs.length;
+    this._blocksMost = Math.max(2, Math.floor(most / (8 * ROWS * this.width)));
+    this.clear();
+  }
+
+  /** Forget everything. */
+  clear() {
+    this._blocks = [];
+    this.first = 0;
+    this.end = 0; // one beyond the last row
+  }
+
+  /** Time of the last row, s. */
+  get time() {
+    return Math.max(0, this.end - 1) * this.step;
+  }
+
+  /**
+   * A row after the last one.
+   * @param {ArrayLike<number>} held - Values of the step that ends there: they belong to the row before.
+   * @param {ArrayLike<number>} outputs - At its end.
+   */
+  add(held, outputs) {
+    if (this.end > this.first) this._row(this.end - 1).set(held, 0);
+    if (this.end % ROWS === 0 || !this._blocks.length) this._grow();
+    this.end += 1;
+    const row = this._row(this.end - 1);
+    row.set(held, 0); // until the next step says what it has
+    row.set(outputs, this.held.length);
+  }
+
+  /** Forget the rows after k. */
+  cut(k) {
+    this.end = Math.max(this.first, Math.min(this.end, k + 1));
+    const keep = this.end === 0 ? 0 : Math.floor((this.end - 1) / ROWS) - this._base + 1;
+    this._blocks.length = Math.min(this._blocks.length, keep);
+  }
+
+  /** The numbers of row k: what is set, then outputs. */
+  row(k) {
+    return this._row(Math.max(this.first, Math.min(this.end - 1, k)));
+  }
+
+  /** Where a column is: its index in a row, -1 if there is none. */
+  column(name) {
+    const held = this.held.indexOf(name);
+    if (held >= 0) return held;
+    const output = this.outputs.indexOf(name);
+    return output < 0 ? -1 : this.held.length + output;
+  }
+
+  /**
+   * A column over rows, thinned.
+   * @param {number} index - Of the column.
+   * @param {number} from - First row.
+   * @param {number} stride
+   * @returns {[number[], number[]]} Times and values.
+   */
+  series(index, from, stride) {
+    const t = [];
+    const values = [];
+    const begin = Math.ceil(Math.max(from, this.first) / stride) * stride;
+    for (let k = begin; k < this.end; k += stride) {
+      t.push(k * this.step);
+      values.push(this._row(k)[index]);
+    }
+    return [t, values];
+  }
+
+  /**
+   * The run as a table that `ali3 drive --manoeuvre`, `ali3 run --input` and `ali3 view` read.
+   * @param {string[]} comments - Lines behind the numbers, where programs that know no comments do not meet them.
+   * @param {string[]} [kept] - Of what is set, which columns; by default all.
+   * @param {string[]} [outputs] - Names of columns of outputs; by default all.
+   * @returns {string[]} Parts of the text.
+   */
+  csv(comments, kept = this.held, outputs = this.outputs) {
+    const columns = [...kept, ...outputs].map((name) => this.column(name));
+    const names = ["time", ...kept, ...outputs];
+    const parts = [`${names.map((name) => `"${name}"`).join(",")}\n`];
+    for (let begin = this.first; begin < this.end; begin += ROWS) {
+      let text = "";
+      for (let k = begin; k < Math.min(begin + ROWS, this.end); k++) {
+        const row = this._row(k);
+        text += `${k * this.step}`;
+        for (const column of columns) text += `,${Object.is(row[column], -0) ? "-0" : row[column]}`;
+        text += "\n";
+      }
+      parts.push(text);
+    }
+    parts.push(comments.map((line) => `# ${line}\n`).join(""));
+    return parts;
+  }
+
+  get _base() {
+    return Math.floor(this.first / ROWS);
+  }
+
+  _row(k) {
+    const block = this._blocks[Math.floor(k / ROWS) - this._base];
+    const begin = (k % ROWS) * this.width;
+    return block.subarray(begin, begin + this.width);
+  }
+
+  _grow() {
+    this._blocks.push(new Float64Array(ROWS * this.width));
+    if (this._blocks.length > this._blocksMost) {
+      this._blocks.shift();
+      this.first = (this._base + 1) * ROWS;
+    }
+  }
+}
+
+/**
+ * A lookup between two rows, for a picture.
+ * @param {Record} record
+ * @param {number} time - s.
+ * @param {Map<string, number>} columns - Index in a row by name.
+ * @param {Set<string>} [turning] - Names of angles and quaternions, which may jump: the nearer row counts there.
+ * @returns {(name: string) => number}
+ */
+export function between(record, time, columns, turning = new Set()) {
+  const x = Math.max(record.first, Math.min(record.end - 1, time / record.step));
+  const k = Math.min(Math.floor(x), Math.max(record.first, record.end - 2));
+  const [before, after] = [record.row(k), record.row(k + 1)];
+  const s = x - k;
+  return (name) => {
+    const index = columns.get(name);
+    if (index === undefined) return NaN;
+    const [a, b] = [before[index], after[index]];
+    if (turning.has(name) && Math.abs(b - a) > 1) return s < 0.5 ? a : b;
+    return a + s * (b - a);
+  };
+}

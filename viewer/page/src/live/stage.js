@@ -1,0 +1,114 @@
+// The pictures: one beside the other, each of an FMU that runs or of a recording that goes along.
+import { SceneView } from "../scene/scene_view.js";
+import { el } from "./dom.js";
+import { Hud } from "./hud.js";
+import { between } from "./record.js";
+
+/** Pictures that are drawn when something has changed. */
+export class Stage {
+  /**
+   * @param {object[]} items - `{title, scene, variables}` of an FMU, or `{title, scene, recording}`.
+   * @param {object} options - Of SceneView.
+   */
+  constructor(items, options) {
+    this.element = el("div.a3-stage");
+    this.parts = items.map((item) => {
+      const holder = el("div.a3-picture");
+      const notice = el("div.a3-notice", { data: "notice", hidden: true });
+      const hud = new Hud(item.variables ?? new Map(), item.title);
+      const element = el("div.a3-view", {}, holder, hud.element, notice);
+      this.element.append(element);
+      return { ...item, holder, notice, hud, element };
+    });
+    this._options = options;
+    this.dirty = true;
+  }
+
+  /** Make the pictures, once the element stands in the page. */
+  open() {
+    for (const part of this.parts) {
+      part.view = new SceneView(part.holder, part.scene, this._options);
+      for (const event of ["pointerdown", "pointermove", "wheel"]) {
+        part.holder.addEventListener(event, () => (this.dirty = true), { passive: true });
+      }
+      new ResizeObserver(() => (this.dirty = true)).observe(part.holder);
+    }
+    this.problem = this.parts.map((part) => part.view.problem).find(Boolean) ?? "";
+    for (const part of this.parts) if (part.view.problem) this.tell(part, part.view.problem);
+  }
+
+  /** Which columns of the record are those of the FMUs, by name. */
+  bind(record, prefixes) {
+    for (const [which, part] of this.parts.filter((p) => p.variables).entries()) {
+      const names = [...part.variables.values()].filter((v) => v.causality === "output").map((v) => v.name);
+      const own = names.map((name) => [name, record.column(prefixes[which] + name)]);
+      part.columns = new Map([...record.held.map((name, k) => [name, k]), ...own.filter(([, index]) => index >= 0)]);
+      part.turning = turningColumns(part.scene);
+    }
+  }
+
+  /** What the numbers of a picture are at a time. */
+  lookup(part, record, time) {
+    if (!part.recording) return between(record, time, part.columns, part.turning);
+    return lookupOf(part.recording, time);
+  }
+
+  /** Draw the instant `time`. */
+  show(record, time, pace) {
+    for (const part of this.parts) {
+      const lookup = this.lookup(part, record, time);
+      part.view.update(lookup);
+      const end = part.recording ? part.recording.t[part.recording.t.length - 1] : Infinity;
+      part.hud.show(lookup, Math.min(time, end), pace);
+      if (part.recording?.end) this.tell(part, time > end ? part.recording.end : "");
+    }
+    this.dirty = true;
+  }
+
+  /** Put the pictures on the screen. */
+  render() {
+    if (!this.dirty) return;
+    this.dirty = false;
+    for (const part of this.parts) part.view.render();
+  }
+
+  /** A sentence over a picture, with buttons; empty takes it away. */
+  tell(part, sentence, buttons = []) {
+    if (part.told === sentence) return;
+    part.told = sentence;
+    part.notice.hidden = !sentence;
+    part.notice.replaceChildren(el("p", {}, sentence), ...buttons);
+  }
+
+  dispose() {
+    for (const part of this.parts) part.view?.dispose();
+  }
+}
+
+/** Columns of angles and quaternions of a scene: they may jump from one end of their range to the other. */
+export function turningColumns(scene) {
+  const names = new Set();
+  for (const frame of Object.values(scene.frames ?? {})) {
+    for (const name of frame.quaternion ?? []) names.add(name);
+    if (frame.angle) names.add(frame.angle);
+  }
+  return names;
+}
+
+/** A lookup in a recording, straight between its times; after its end it stands. */
+export function lookupOf({ t, columns }, time) {
+  let [low, high] = [0, t.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (t[middle] <= time) low = middle;
+    else high = middle;
+  }
+  const span = t[high] - t[low];
+  const s = span > 0 ? Math.max(0, Math.min(1, (time - t[low]) / span)) : 1;
+  return (name) => {
+    const column = columns[name];
+    if (!column) return NaN;
+    const values = column.data ?? column;
+    return values[low] + s * (values[high] - values[low]);
+  };
+}

@@ -1,0 +1,30 @@
+// What a page carries as text, as bytes again.
+
+/**
+ * Bytes of base64, unpacked where they are gzip.
+ * @param {string | ArrayBuffer | Uint8Array} given - Bytes stay as they are.
+ * @returns {Promise<Uint8Array>}
+ */
+export async function unpack(given) {
+  if (typeof given !== "string") return given instanceof Uint8Array ? given : new Uint8Array(given);
+  const text = atob(given);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+  if (bytes[0] !== 0x1f || bytes[1] !== 0x8b) return bytes;
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** What this browser lacks, as one sentence; empty if nothing. */
+export function missingParts(scope = globalThis) {
+  if (typeof scope.WebAssembly !== "object") {
+    return "This browser has no WebAssembly, in which the FMU runs; use a current Chrome, Edge, Firefox or Safari.";
+  }
+  if (typeof scope.DecompressionStream === "undefined") {
+    return (
+      "This browser has no DecompressionStream, by which the page is unpacked; use Chrome or Edge 80, Firefox 113, " +
+      "Safari 16.4 or newer."
+    );
+  }
+  return "";
+}

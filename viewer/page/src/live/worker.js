@@ -1,0 +1,152 @@
+// The FMUs run here, in a thread of their own, so that drawing does not hold them up. `Desk` is the other side.
+import { loadFmu } from "../wasm/fmu.js";
+import { Engine } from "./engine.js";
+import { Pacer } from "./pacer.js";
+
+/** Work between two looks at the messages of the page, s of the clock. */
+const SLICE = 0.012;
+/** Rows are sent to the page at most this often, s of the clock. */
+const POST_EVERY = 0.008;
+const WAKE_MS = 4;
+
+/** Seconds of a clock that page and worker share. */
+export function clock() {
+  return (performance.timeOrigin + performance.now()) / 1000;
+}
+
+/** Answers the messages of a page. */
+export class Runner {
+  /** @param {(message: object, transfer?: ArrayBuffer[]) => void} post - To the page. */
+  constructor(post) {
+    this._post = post;
+    this._timer = null;
+    this._rows = [];
+    this._posted = 0;
+    this._cost = 0; // s a step, smoothed
+  }
+
+  /** @param {object} message - `{do: "open" | "restart" | ..., ...}` */
+  async take(message) {
+    try {
+      await this[`_${message.do}`](message);
+    } catch (error) {
+      this._halt();
+      this._post({ is: "error", at: message.do, text: String(error.message ?? error) });
+    }
+  }
+
+  async _open({ fmus, step, start }) {
+    const loaded = [];
+    for (const fmu of fmus) loaded.push(await loadFmu(fmu));
+    this.engine = new Engine(loaded, step);
+    this._restart({ start, step });
+  }
+
+  _restart({ start, step }) {
+    this._halt();
+    this.engine.step = step ?? this.engine.step;
+    this.pacer = new Pacer(this.engine.step);
+    this._rows = [];
+    this.engine.restart(start);
+    this._tellMessages();
+    const { step: used, held, rows } = this.engine;
+    this._post({ is: "started", step: used, held, outputs: rows.slice() });
+  }
+
+  _run({ speed }) {
+    this.engine.retry();
+    this.pacer.start(clock(), this.engine.k, speed);
+    this._tick();
+  }
+
+  _pause() {
+    this._halt();
+    this._send("paused");
+  }
+
+  _step({ count }) {
+    this._halt();
+    this.engine.retry();
+    for (let n = 0; n < count && this._one(); n++);
+    this._send("paused");
+  }
+
+  _want({ wants }) {
+    for (const [name, value, rate] of wants) {
+      const index = this.engine.heldNames.indexOf(name);
+      if (index >= 0) this.engine.hand.want(index, value, rate);
+    }
+  }
+
+  _back({ k }) {
+    this._halt();
+    this._rows = [];
+    this.engine.back(k);
+    this._post({ is: "back", k: this.engine.k, held: this.engine.hand.values.slice() });
+  }
+
+  _halt() {
+    clearTimeout(this._timer);
+    this._timer = null;
+    this.pacer?.stop();
+  }
+
+  /** Do the steps that are due; then sleep until others are. */
+  _tick() {
+    const begin = clock();
+    const due = this.pacer.due(begin);
+    let done = 0;
+    let going = true;
+    let now = begin;
+    while (going && this.engine.k < due && now - begin < SLICE) {
+      going = this._one();
+      done += going;
+      now = clock();
+    }
+    if (done) this._cost += ((now - begin) / done - this._cost) * Math.min(1, done / 200);
+    if (!going) return;
+    this.pacer.reached(now, this.engine.k);
+    if (now - this._posted >= POST_EVERY) this._send("rows");
+    const wait = 1000 * (this.pacer.deadline(this.engine.k + 1) - now);
+    this._timer = setTimeout(() => this._tick(), Math.max(0, Math.min(WAKE_MS, wait)));
+  }
+
+  _one() {
+    const { engine } = this;
+    const refused = engine.advance();
+    if (engine.alive) this._rows.push(engine.held, engine.rows.slice());
+    for (const { which, text } of refused) {
+      if (!engine.alive) this._halt();
+      this._send("rows");
+      this._post({ is: "refused", which, text, k: engine.alive ? engine.k - 1 : engine.k, alive: engine.alive });
+    }
+    if (engine.k % 50 === 0 || refused.length) this._tellMessages(refused.length > 0);
+    return engine.alive;
+  }
+
+  _tellMessages(quiet = false) {
+    const told = this.engine.messages();
+    if (!quiet) for (const { which, text, status } of told) this._post({ is: "message", which, text, status });
+  }
+
+  _send(is) {
+    const width = this.engine.heldNames.length + this.engine.rows.length;
+    const count = this._rows.length / 2;
+    const rows = new Float64Array(count * width);
+    for (let n = 0; n < count; n++) {
+      rows.set(this._rows[2 * n], n * width);
+      rows.set(this._rows[2 * n + 1], n * width + this.engine.heldNames.length);
+    }
+    this._rows = [];
+    this._posted = clock();
+    const { k, oldest } = this.engine;
+    const pace = { at: this._posted, factor: this.pacer.factor(), slow: this.pacer.slow, cost: this._cost };
+    this._post({ is, k, oldest, count, rows, pace }, [rows.buffer]);
+  }
+}
+
+/** Serve the page that started this worker. */
+export function serve() {
+  const runner = new Runner((message, transfer) => self.postMessage(message, transfer ?? []));
+  self.onmessage = (event) => runner.take(event.data);
+}

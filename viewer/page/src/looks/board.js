@@ -1,0 +1,43 @@
+// A white board for planar mechanisms: a grid in metres behind them, even light.
+import * as THREE from "three";
+import { niceStep } from "../scene/forces.js";
+import { gridSurface } from "./grid.js";
+import { mirrorOf } from "./mirror.js";
+import { room } from "./room.js";
+
+/** @param {object} view the SceneView @param {boolean} fine */
+export function board(view, fine) {
+  const { world, renderer, extent } = view;
+  world.background = new THREE.Color("#ffffff");
+  renderer.toneMapping = THREE.NoToneMapping;
+  const front = new THREE.DirectionalLight("#ffffff", 1.5);
+  front.position.set(-0.5, 0.9, 1.6);
+  world.add(front);
+  const step = niceStep(extent / 8);
+  const reach = 12 * extent;
+  const grid = gridSurface({ x: [1, 0, 0], y: [0, 1, 0], step, reach, color: "#ffffff", ink: "#b4bec6", lit: false });
+  world.add(grid.mesh);
+  let mirrored = null;
+  const bake = () => {
+    mirrored?.dispose();
+    mirrored = mirrorOf(renderer, room([0, 0.6, 0.8]), fine);
+    world.environment = mirrored.texture;
+    world.environmentIntensity = 0.8;
+  };
+  bake();
+  return {
+    caption: `grid ${step} m`,
+    follow(origin) {
+      grid.follow(origin);
+      grid.mesh.position.set(0, 0, -2 * extent);
+    },
+    quality() {},
+    restore: bake,
+    tell: [],
+    dispose() {
+      grid.mesh.geometry.dispose();
+      grid.mesh.material.dispose();
+      mirrored.dispose();
+    },
+  };
+}

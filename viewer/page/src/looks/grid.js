@@ -1,0 +1,53 @@
+// A floor or wall with a grid in metres, fixed to the earth.
+import * as THREE from "three";
+import { dot } from "../scene/math.js";
+
+const CODE = /* glsl */ `
+vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
+vec2 soft = max(fwidth(plane), 1e-7);
+vec2 fine = abs(mod(plane + aOffset[0] + 0.5 * aStep, aStep) - 0.5 * aStep) / soft;
+vec2 bold = abs(mod(plane + aOffset[1] + 2.5 * aStep, 5.0 * aStep) - 2.5 * aStep) / soft;
+vec2 thin = (1.0 - smoothstep(0.5, 1.5, fine)) * clamp(0.25 * aStep / soft - 0.5, 0.0, 1.0);
+vec2 thick = (1.0 - smoothstep(0.6, 1.6, bold)) * clamp(0.25 * aStep / soft, 0.0, 1.0);
+float far = length(plane) / aReach;
+float ink = max(0.45 * max(thin.x, thin.y), 0.85 * max(thick.x, thick.y)) * (1.0 - smoothstep(0.35, 1.0, far));
+diffuseColor.rgb = mix(diffuseColor.rgb, aInk, ink);
+diffuseColor.a *= 1.0 - smoothstep(0.6, 1.0, far);
+`;
+
+/**
+ * @param {{x: number[], y: number[], step: number, reach: number, color: string, ink: string, lit: boolean}} options
+ *   x, y: unit vectors of the surface; step: metres between lines, every fifth is bold; reach: where it ends
+ * @returns {{mesh: THREE.Mesh, follow: (origin: number[]) => void}} a square of side 2 reach, to be turned and placed
+ */
+export function gridSurface({ x, y, step, reach, color, ink, lit }) {
+  const uniforms = {
+    aX: { value: new THREE.Vector3(...x) },
+    aY: { value: new THREE.Vector3(...y) },
+    aOffset: { value: [new THREE.Vector2(), new THREE.Vector2()] },
+    aStep: { value: step },
+    aReach: { value: reach },
+    aInk: { value: new THREE.Color(ink) },
+  };
+  const settings = { color, transparent: true, depthWrite: false };
+  const material = lit
+    ? new THREE.MeshStandardMaterial({ ...settings, roughness: 0.75, metalness: 0 })
+    : new THREE.MeshBasicMaterial({ ...settings, toneMapped: false, fog: false });
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    shader.vertexShader = `varying vec3 vGround;\n${shader.vertexShader}`.replace(
+      "#include <begin_vertex>",
+      "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;",
+    );
+    const head = "uniform vec3 aX, aY, aInk;\nuniform vec2 aOffset[2];\nuniform float aStep, aReach;\nvarying vec3 vGround;\n";
+    shader.fragmentShader = (head + shader.fragmentShader).replace("#include <map_fragment>", `#include <map_fragment>\n${CODE}`);
+  };
+  material.customProgramCacheKey = () => `ali3-grid-${lit}`;
+  const mesh = new THREE.Mesh(new THREE.PlaneGeometry(2 * reach, 2 * reach), material);
+  mesh.renderOrder = -1;
+  const follow = (origin) => {
+    const at = [dot(origin, x), dot(origin, y)];
+    [step, 5 * step].forEach((period, i) => uniforms.aOffset.value[i].set(...at.map((a) => a - period * Math.floor(a / period))));
+  };
+  return { mesh, follow };
+}

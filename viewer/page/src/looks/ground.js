@@ -1,0 +1,103 @@
+// The ground as a surface fixed to the earth: its pattern stands still while the picture's origin moves with the focus.
+import * as THREE from "three";
+import { across, cross, dot } from "../scene/math.js";
+
+/** Metres after which each layer of the pattern repeats: grain, patches, tones, painted lines. */
+export const PERIODS = [1.1, 7.3, 61, 20];
+
+const PARAMETERS = /* glsl */ `
+uniform vec3 aX, aY;
+uniform vec2 aOffset[4];
+uniform sampler2D aNoise;
+uniform float aPaint;
+uniform vec3 aGrass;
+varying vec3 vGround;
+varying float vWet;
+`;
+
+const ASPHALT = /* glsl */ `
+vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
+float grain = texture2D(aNoise, (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)}).r;
+float speck = texture2D(aNoise, (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)}).a;
+float patches = texture2D(aNoise, (plane + aOffset[1]) / ${PERIODS[1].toFixed(1)}).g;
+float tone = texture2D(aNoise, (plane + aOffset[2]) / ${PERIODS[2].toFixed(1)}).b;
+vec3 stone = vec3(0.118, 0.119, 0.12) * (0.3 + 1.05 * grain + 0.45 * (patches - 0.5) + 0.6 * (tone - 0.5)) + 0.09 * speck;
+#ifdef A_GRASS
+stone = aGrass * (0.35 + 0.75 * grain * patches + 1.1 * (tone - 0.3));
+#endif
+if (aPaint > 0.0) {
+  vec2 line = abs(mod(plane + aOffset[3], ${PERIODS[3].toFixed(1)}) - ${(PERIODS[3] / 2).toFixed(1)});
+  vec2 soft = max(fwidth(plane), 1e-5);
+  vec2 on = 1.0 - smoothstep(0.06 - 0.5 * soft, 0.06 + 0.5 * soft + 1e-4, line);
+  on *= min(vec2(1.0), 0.12 / soft);
+  stone = mix(stone, vec3(0.62) * (0.75 + 0.3 * patches), aPaint * max(on.x, on.y) * (0.55 + 0.45 * grain));
+}
+vec3 ice = vec3(0.55, 0.66, 0.74) * (0.8 + 0.3 * patches);
+stone = vWet < 0.5 ? mix(stone, stone * 0.42, vWet * 2.0) : mix(stone * 0.42, ice, (vWet - 0.5) * 2.0);
+diffuseColor.rgb *= stone;
+`;
+
+/** Gloss: what is wet mirrors the sky. */
+const ROUGHNESS = /* glsl */ `
+float wetGloss = smoothstep(0.15, 0.6, vWet);
+roughnessFactor = mix(0.86 + 0.12 * patches - 0.1 * speck, 0.16 + 0.12 * patches, wetGloss);
+`;
+
+/** Grain as relief, where it is near enough to be seen. */
+const RELIEF = /* glsl */ `
+#ifdef A_RELIEF
+float fade = clamp(1.0 - 60.0 * max(fwidth(plane.x), fwidth(plane.y)), 0.0, 1.0);
+if (fade > 0.0) {
+  vec2 at = (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)};
+  float e = 1.0 / 256.0;
+  vec2 slope = vec2(texture2D(aNoise, at + vec2(e, 0.0)).r - grain, texture2D(aNoise, at + vec2(0.0, e)).r - grain);
+  vec3 tilt = (viewMatrix * vec4(aX * slope.x + aY * slope.y, 0.0)).xyz;
+  normal = normalize(normal - fade * (1.0 - vWet) * 0.55 * tilt);
+}
+#endif
+`;
+
+/**
+ * The material of roads and ground. `follow(origin)` keeps its pattern on the earth.
+ * @param {{noise: THREE.Texture, up: number[], paint?: number, grass?: boolean, relief?: boolean}} options
+ */
+export function groundMaterial({ noise, up, paint = 0, grass = false, relief = false }) {
+  const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? axisAcross(up, [1, 0, 0]) : across(up);
+  const y = cross(up, x);
+  const uniforms = {
+    aX: { value: new THREE.Vector3(...x) },
+    aY: { value: new THREE.Vector3(...y) },
+    aOffset: { value: PERIODS.map(() => new THREE.Vector2()) },
+    aNoise: { value: noise },
+    aPaint: { value: paint },
+    aGrass: { value: new THREE.Color(0.105, 0.125, 0.052) },
+  };
+  const material = new THREE.MeshStandardMaterial({ color: "#ffffff", roughness: 1, metalness: 0 });
+  material.defines = { ...(grass ? { A_GRASS: 1 } : {}), ...(relief ? { A_RELIEF: 1 } : {}) };
+  material.customProgramCacheKey = () => `ali3-ground-${grass}-${relief}`;
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    shader.vertexShader = `attribute float wet;\nvarying vec3 vGround;\nvarying float vWet;\n${shader.vertexShader}`.replace(
+      "#include <begin_vertex>",
+      "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;\nvWet = wet;",
+    );
+    shader.fragmentShader = (PARAMETERS + shader.fragmentShader)
+      .replace("#include <map_fragment>", `#include <map_fragment>\n${ASPHALT}`)
+      .replace("#include <roughnessmap_fragment>", `#include <roughnessmap_fragment>\n${ROUGHNESS}`)
+      .replace("#include <normal_fragment_maps>", `#include <normal_fragment_maps>\n${RELIEF}`);
+  };
+  /** @param {number[]} origin earth position of the picture's origin */
+  const follow = (origin) => {
+    const [a, b] = [dot(origin, x), dot(origin, y)];
+    PERIODS.forEach((period, i) => uniforms.aOffset.value[i].set(modulo(a, period), modulo(b, period)));
+  };
+  return { material, follow };
+}
+
+const modulo = (a, period) => a - period * Math.floor(a / period);
+
+function axisAcross(up, axis) {
+  const rest = axis.map((a, i) => a - dot(up, axis) * up[i]);
+  const size = Math.hypot(...rest);
+  return rest.map((a) => a / size);
+}

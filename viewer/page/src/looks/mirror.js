@@ -1,0 +1,28 @@
+// What things mirror: a scene of lamps or sky, blurred for every roughness.
+import * as THREE from "three";
+
+/** Side of the coarse mirror; three.js asks for at least 256, which takes the processor seconds. */
+const COARSE = 64;
+
+class CoarseGenerator extends THREE.PMREMGenerator {
+  _setSize() {
+    this._cubeSize = COARSE;
+  }
+}
+
+/**
+ * @param {THREE.WebGLRenderer} renderer
+ * @param {THREE.Scene} around what stands around; its things are freed
+ * @param {boolean} fine
+ * @returns {THREE.WebGLCubeRenderTarget} its texture is the environment of a scene
+ */
+export function mirrorOf(renderer, around, fine) {
+  const generator = fine ? new THREE.PMREMGenerator(renderer) : new CoarseGenerator(renderer);
+  const target = generator.fromScene(around, 0, 0.1, 100);
+  generator.dispose();
+  around.traverse((part) => {
+    part.geometry?.dispose();
+    part.material?.dispose();
+  });
+  return target;
+}

@@ -1,0 +1,61 @@
+// A car's world: sky, sun, fog and a proving ground.
+import * as THREE from "three";
+import { across, add, cross, scale, unit } from "../scene/math.js";
+import { groundMaterial } from "./ground.js";
+import { mirrorOf } from "./mirror.js";
+import { noiseTexture } from "./noise.js";
+import { makeRoads } from "./roads.js";
+import { HAZE, skyBall } from "./sky.js";
+import { sharpen, sunLight } from "./sun.js";
+
+/** @param {object} view the SceneView @param {boolean} fine whether the machine draws by a graphics card */
+export function outdoors(view, fine) {
+  const { world, renderer, up, extent, scene } = view;
+  const x = across(up);
+  const direction = unit(add(scale(up, 0.72), add(scale(x, 0.62), scale(cross(up, x), -0.38))));
+  const sun = sunLight({ direction, reach: 0.75 * extent, strength: 3.4, color: "#fff1dc", size: fine ? 2048 : 1024 });
+  world.add(sun);
+  renderer.toneMapping = THREE.ACESFilmicToneMapping;
+  renderer.toneMappingExposure = 1.15;
+  world.fog = new THREE.Fog(HAZE, 60 + 15 * extent, 700 + 60 * extent);
+  const held = {};
+  const noise = noiseTexture(fine ? 8 : 1);
+  /** Draws the sky once: what is seen, and, small, what things mirror. */
+  const bake = () => {
+    held.cube?.dispose();
+    held.mirrored?.dispose();
+    const ball = skyBall(up, new THREE.Vector3(...direction), noise);
+    const around = new THREE.Scene().add(ball);
+    held.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
+    new THREE.CubeCamera(0.1, 100, held.cube).update(renderer, around);
+    held.mirrored = mirrorOf(renderer, around, fine);
+    world.background = held.cube.texture;
+    world.environment = held.mirrored.texture;
+    world.environmentIntensity = 0.75;
+  };
+  bake();
+  const asphalt = groundMaterial({ noise, up, paint: 1, relief: fine });
+  const road = groundMaterial({ noise, up, relief: fine });
+  const grass = groundMaterial({ noise, up, grass: true });
+  const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material, extent });
+  world.add(roads.group);
+  return {
+    follow(origin) {
+      for (const surface of [asphalt, road, grass]) surface.follow(origin);
+      roads.follow(origin);
+    },
+    quality(high) {
+      sharpen(sun, high ? 2048 : 1024);
+    },
+    restore: bake,
+    tell: roads.unknown,
+    dispose() {
+      roads.dispose();
+      for (const { material } of [asphalt, road, grass]) material.dispose();
+      noise.dispose();
+      sun.dispose();
+      held.cube.dispose();
+      held.mirrored.dispose();
+    },
+  };
+}

@@ -1,0 +1,128 @@
+// Roads of a scene: flat, inclined, with a profile, or a grid of heights.
+import * as THREE from "three";
+import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
+import { floats } from "../scene/data.js";
+import { alongY, turn } from "../shapes/place.js";
+
+/** Half the side of a road without end, in metres. */
+const ENDLESS = 1500;
+/** Cells of a grid in one piece: pieces are left out where they are not in the picture. */
+const PIECE = 64;
+
+/**
+ * @param {object} scene
+ * @param {{up: number[], asphalt: THREE.Material, road: THREE.Material, grass: THREE.Material, extent: number}} looks
+ */
+export function makeRoads(scene, looks) {
+  const group = new THREE.Group();
+  const pieces = [];
+  const unknown = [];
+  for (const road of scene.roads ?? []) {
+    const maker = { flat, plane, profile, grid }[road.kind];
+    if (maker === undefined) unknown.push(`A road of the kind '${road.kind}' is not known to this page and is not drawn.`);
+    else pieces.push(...maker(road, looks));
+  }
+  for (const { mesh } of pieces) {
+    mesh.receiveShadow = true;
+    group.add(mesh);
+  }
+  return {
+    group,
+    unknown,
+    follow(origin) {
+      for (const piece of pieces) piece.follow(origin);
+    },
+    dispose() {
+      for (const { mesh } of pieces) mesh.geometry.dispose();
+    },
+  };
+}
+
+/** A square that stays under the focus, on a plane through a point. */
+function endless(point, normal, material) {
+  const geometry = new THREE.PlaneGeometry(2 * ENDLESS, 2 * ENDLESS).rotateX(-Math.PI / 2);
+  dry(geometry);
+  const mesh = new THREE.Mesh(geometry, material);
+  turn(mesh, alongY(normal));
+  const follow = (origin) => mesh.position.set(...scale(normal, dot(normal, subtract(point, origin))));
+  return [{ mesh, follow }];
+}
+
+/** No wet place. */
+function dry(geometry) {
+  geometry.setAttribute("wet", new THREE.BufferAttribute(new Float32Array(geometry.getAttribute("position").count), 1));
+}
+
+const flat = (road, { up, asphalt }) => endless(scale(up, road.height ?? 0), up, asphalt);
+
+function plane(road, { up, asphalt }) {
+  return endless(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt);
+}
+
+/** Levels along a direction of travel; before the first and after the last the road goes on level. */
+function profile(road, { up, road: material }) {
+  const { stations, heights } = road;
+  const forward = unit(road.direction ?? [1, 0, 0]);
+  const side = cross(up, forward);
+  const half = (road.width ?? 2 * ENDLESS) / 2;
+  const base = road.origin ?? [0, 0, 0];
+  const along = [stations[0] - ENDLESS, ...stations, stations[stations.length - 1] + ENDLESS];
+  const levels = [heights[0], ...heights, heights[heights.length - 1]];
+  const positions = [];
+  const middle = stations[0];
+  along.forEach((s, i) => {
+    for (const way of [-1, 1]) positions.push(...add(add(scale(forward, s - middle), scale(up, levels[i])), scale(side, way * half)));
+  });
+  const triangles = [];
+  for (let i = 0; i + 1 < along.length; i++) triangles.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
+  const at = add(base, scale(forward, middle));
+  return [piece(at, positions, triangles, null, material)];
+}
+
+/** Heights on a grid, in pieces; what has little friction is wet or ice. Around it lies grass. */
+function grid(road, { up, road: material, grass }) {
+  const [nx, ny] = road.shape;
+  const [dx, dy] = road.spacing;
+  const heights = floats(road.heights);
+  const frictions = road.frictions === undefined ? null : floats(road.frictions);
+  const axes = road.axes ?? (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0]] : [[1, 0, 0], [0, 0, -1]]); // prettier-ignore
+  const world = (x, y, z) => add(add(scale(axes[0], x), scale(axes[1], y)), scale(up, z));
+  const pieces = [];
+  for (let i0 = 0; i0 < nx - 1; i0 += PIECE) {
+    for (let j0 = 0; j0 < ny - 1; j0 += PIECE) {
+      const [i1, j1] = [Math.min(i0 + PIECE, nx - 1), Math.min(j0 + PIECE, ny - 1)];
+      const [positions, wets, triangles] = [[], [], []];
+      for (let i = i0; i <= i1; i++) {
+        for (let j = j0; j <= j1; j++) {
+          positions.push(...world((i - i0) * dx, (j - j0) * dy, heights[i * ny + j]));
+          wets.push(frictions === null ? 0 : wetness(frictions[i * ny + j]));
+        }
+      }
+      const row = j1 - j0 + 1;
+      for (let i = 0; i < i1 - i0; i++) {
+        for (let j = 0; j < j1 - j0; j++) {
+          const a = i * row + j;
+          triangles.push(a, a + row, a + 1, a + 1, a + row, a + row + 1);
+        }
+      }
+      pieces.push(piece(world(road.origin[0] + i0 * dx, road.origin[1] + j0 * dy, 0), positions, triangles, wets, material));
+    }
+  }
+  const low = heights.reduce((a, b) => Math.min(a, b), Infinity);
+  pieces.push(...endless(scale(up, low - 0.15), up, grass));
+  return pieces;
+}
+
+/** 0: dry, 0.5: wet, 1: ice, from the factor of friction. @param {number} factor */
+export const wetness = (factor) => (factor >= 0.95 ? 0 : factor > 0.5 ? (0.95 - factor) / 0.9 : Math.min(1, 0.5 + (0.5 - factor) / 0.6));
+
+function piece(at, positions, triangles, wets, material) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
+  geometry.setIndex(triangles);
+  geometry.computeVertexNormals();
+  if (wets === null) dry(geometry);
+  else geometry.setAttribute("wet", new THREE.BufferAttribute(Float32Array.from(wets), 1));
+  const mesh = new THREE.Mesh(geometry, material);
+  return { mesh, follow: (origin) => mesh.position.set(...subtract(at, origin)) };
+}

@@ -1,0 +1,53 @@
+// A studio for mechanisms: an even floor with a grid in metres, soft light.
+import * as THREE from "three";
+import { across, add, cross, dot, fromColumns, scale, unit } from "../scene/math.js";
+import { turn } from "../shapes/place.js";
+import { niceStep } from "../scene/forces.js";
+import { gridSurface } from "./grid.js";
+import { mirrorOf } from "./mirror.js";
+import { room } from "./room.js";
+import { sharpen, sunLight } from "./sun.js";
+
+const BACKGROUND = "#dfe4e8";
+
+/** @param {object} view the SceneView @param {boolean} fine */
+export function studio(view, fine) {
+  const { world, renderer, up, extent } = view;
+  const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? unit([1, 0, 0].map((a, i) => a - up[0] * up[i])) : across(up);
+  const y = cross(up, x);
+  const direction = unit(add(scale(up, 1.3), add(scale(x, 0.55), scale(y, -0.75))));
+  const sun = sunLight({ direction, reach: 1.1 * extent, strength: 2.6, color: "#fffaf2", size: fine ? 2048 : 1024 });
+  world.add(sun);
+  world.background = new THREE.Color(BACKGROUND);
+  renderer.toneMapping = THREE.NeutralToneMapping;
+  renderer.toneMappingExposure = 1;
+  const step = niceStep(extent / 8);
+  const floor = gridSurface({ x, y, step, reach: 7 * extent, color: "#c3c9cf", ink: "#8d979f", lit: true });
+  floor.mesh.receiveShadow = true;
+  turn(floor.mesh, fromColumns(x, y, up));
+  world.add(floor.mesh);
+  let mirrored = null;
+  const bake = () => {
+    mirrored?.dispose();
+    mirrored = mirrorOf(renderer, room(up), fine);
+    world.environment = mirrored.texture;
+    world.environmentIntensity = 0.62;
+  };
+  bake();
+  return {
+    caption: `grid ${step} m`,
+    follow(origin) {
+      floor.follow(origin);
+      floor.mesh.position.set(...scale(up, view.floor - dot(up, origin)));
+    },
+    quality: (high) => sharpen(sun, high ? 2048 : 1024),
+    restore: bake,
+    tell: [],
+    dispose() {
+      floor.mesh.geometry.dispose();
+      floor.mesh.material.dispose();
+      sun.dispose();
+      mirrored.dispose();
+    },
+  };
+}

@@ -1,0 +1,88 @@
+// Displacement and stress of a flexible body from the amplitudes of its modes; pure numbers.
+import { floats } from "./data.js";
+
+/** The arrays of one entry of a scene's `flexible`. */
+export class Bending {
+  /** @param {object} body one of a scene's `flexible` */
+  constructor(body) {
+    this.nodes = body.nodes;
+    this.beams = body.beams;
+    this.count = body.amplitudes.length;
+    this.names = body.amplitudes;
+    this.start = body.start ?? body.amplitudes.map(() => 0);
+    this.modes = floats(body.modes);
+    this.displaced = body.nodes.map((node) => [...node]);
+    this.stress = null;
+    this.unit = body.stress?.unit ?? "Pa";
+    /** Stress at the end of the colours that the scene asks for; 0: the largest that is seen. */
+    this.range = body.stress?.range ?? 0;
+    this.limit = body.stress?.limit ?? null;
+    this.limitName = body.stress?.limit_name ?? "limit";
+    /** Column that is 0 where this body is rigid in the model that ran. */
+    this.computed = body.computed;
+    if (body.stress !== undefined) {
+      this.round = body.stress.rule === "round";
+      this.fibres = this.round ? 3 : body.stress.fibres;
+      this.rows = floats(body.stress.rows);
+      this.constant = body.stress.constant === undefined ? null : floats(body.stress.constant);
+      /** Largest stress at both ends of each beam, without sign. */
+      this.stress = new Float64Array(2 * this.beams.length);
+    }
+    expect("modes", this.modes, 3 * this.nodes.length * this.count);
+    if (this.stress !== null) expect("stress.rows", this.rows, 2 * this.beams.length * this.fibres * this.count);
+  }
+
+  /**
+   * @param {((name: string) => number | undefined) | null} lookup
+   * @param {number} factor the displacement is drawn so many times
+   * @returns {string | null} the column without a number, null where nothing is computed, else empty; without numbers
+   *   the body is left as drawn
+   */
+  update(lookup, factor) {
+    if (lookup !== null && this.computed !== undefined && !(Math.abs(lookup(this.computed)) > 0)) {
+      this.#displace(this.names.map(() => 0), factor);
+      return null;
+    }
+    const amplitudes = this.names.map((name, i) => (lookup === null ? this.start[i] : lookup(name)));
+    const absent = this.names.find((_, i) => !Number.isFinite(amplitudes[i]));
+    const now = absent === undefined ? amplitudes : amplitudes.map(() => 0);
+    this.#displace(now, factor);
+    if (this.stress !== null && absent === undefined) this.#stress(now);
+    return absent ?? "";
+  }
+
+  /** Largest displacement of a node, times the factor. */
+  largestMove() {
+    return this.nodes.reduce((most, node, i) => Math.max(most, Math.hypot(...node.map((x, k) => this.displaced[i][k] - x))), 0);
+  }
+
+  #displace(amplitudes, factor) {
+    const { modes, count } = this;
+    this.nodes.forEach((node, i) => {
+      for (let k = 0; k < 3; k++) {
+        let sum = 0;
+        for (let m = 0; m < count; m++) sum += modes[(3 * i + k) * count + m] * amplitudes[m];
+        this.displaced[i][k] = node[k] + factor * sum;
+      }
+    });
+  }
+
+  #stress(amplitudes) {
+    const { rows, fibres, count, constant } = this;
+    const at = new Array(fibres).fill(0);
+    for (let end = 0; end < this.stress.length; end++) {
+      for (let f = 0; f < fibres; f++) {
+        const row = end * fibres + f;
+        let sum = constant === null ? 0 : constant[row];
+        for (let m = 0; m < count; m++) sum += rows[row * count + m] * amplitudes[m];
+        at[f] = sum;
+      }
+      // A round tube: axial stress and the bending stresses about two axes meet at one fibre.
+      this.stress[end] = this.round ? Math.abs(at[0]) + Math.hypot(at[1], at[2]) : Math.max(...at.map(Math.abs));
+    }
+  }
+}
+
+function expect(name, array, size) {
+  if (array.length !== size) throw new Error(`${name} of a flexible body has ${array.length} numbers, not ${size}.`);
+}

@@ -1,0 +1,58 @@
+// The wire of a coil spring: points and normals for any length; pure numbers.
+import { add, cross, scale } from "../scene/math.js";
+
+const AROUND = 8;
+const PER_TURN = 20;
+
+/**
+ * Height of the wire's middle over a turn: end coils lie flat, the active ones share what is left.
+ * @param {number} turn 0 to coils @param {number} coils @param {number} wire diameter @param {number} height length of the spring
+ */
+export function heightAt(turn, coils, wire, height) {
+  const dead = Math.min(0.8, 0.15 * coils);
+  const flat = Math.min(wire, height / (coils + 1));
+  const rest = height - wire - 2 * dead * flat;
+  const active = Math.max(0, Math.min(turn - dead, coils - 2 * dead));
+  const ends = Math.min(turn, dead) + Math.max(0, turn - (coils - dead));
+  return wire / 2 + ends * flat + (active / (coils - 2 * dead)) * rest;
+}
+
+/** Triangles of a wire, by index. @param {number} coils @returns {number[]} */
+export function coilTriangles(coils) {
+  const rings = Math.round(coils * PER_TURN) + 1;
+  const triangles = [];
+  for (let i = 0; i + 1 < rings; i++) {
+    for (let j = 0; j < AROUND; j++) {
+      const [a, b] = [i * AROUND + j, i * AROUND + ((j + 1) % AROUND)];
+      triangles.push(a, a + AROUND, b, b, a + AROUND, b + AROUND);
+    }
+  }
+  return triangles;
+}
+
+/**
+ * Points and normals of the wire.
+ * @param {{coils: number, radius: number, wire: number}} spring radius: of the wire's middle
+ * @param {number[]} base @param {number[][]} axes x, y, z with z along the spring @param {number} height
+ */
+export function coilSurface({ coils, radius, wire }, base, [x, y, z], height) {
+  const rings = Math.round(coils * PER_TURN) + 1;
+  const positions = new Float32Array(rings * AROUND * 3);
+  const normals = new Float32Array(rings * AROUND * 3);
+  for (let i = 0; i < rings; i++) {
+    const turn = (i / (rings - 1)) * coils;
+    const outward = add(scale(x, Math.cos(2 * Math.PI * turn)), scale(y, Math.sin(2 * Math.PI * turn)));
+    const centre = add(base, add(scale(outward, radius), scale(z, heightAt(turn, coils, wire, height))));
+    const along = cross(z, outward);
+    const slope = (height / coils) / (2 * Math.PI * radius);
+    const up = scale(add(z, scale(along, -slope)), 1 / Math.hypot(1, slope));
+    for (let j = 0; j < AROUND; j++) {
+      const angle = (2 * Math.PI * j) / AROUND;
+      const normal = add(scale(outward, Math.cos(angle)), scale(up, Math.sin(angle)));
+      const k = 3 * (i * AROUND + j);
+      normals.set(normal, k);
+      positions.set(add(centre, scale(normal, wire / 2)), k);
+    }
+  }
+  return { positions, normals };
+}

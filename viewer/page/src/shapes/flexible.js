@@ -1,0 +1,57 @@
+// A flexible body: tubes that bend by the amplitudes of its modes, coloured by stress.
+import * as THREE from "three";
+import { colourTexture } from "../looks/colour_map.js";
+import { headlight } from "../looks/headlight.js";
+import { Bending } from "../scene/bending.js";
+import { FrameTubes } from "./frame_tubes.js";
+
+/** One entry of a scene's `flexible`, drawn. */
+export class Flexible {
+  /** @param {object} body @param {import("../looks/materials.js").Materials} materials */
+  constructor(body, materials) {
+    this.frame = body.frame;
+    this.name = body.name ?? body.frame;
+    this.bending = new Bending(body);
+    this.tubes = new FrameTubes(body.nodes, body.beams, body.radii ?? []);
+    this.plain = materials.named("steel");
+    this.map = colourTexture();
+    this.coloured = headlight({ map: this.map });
+    this.object = new THREE.Mesh(this.tubes.geometry, this.plain);
+    this.object.frustumCulled = false;
+    this.colours = !materials.options.ghost;
+    this.absent = "";
+    this.update(null, 1);
+  }
+
+  /** Whether its stress is known now. */
+  get stressed() {
+    return this.bending.stress !== null && this.absent === "";
+  }
+
+  /** Largest stress now; 0 where it is not known. */
+  get most() {
+    return this.stressed ? this.bending.stress.reduce((a, b) => Math.max(a, b), 0) : 0;
+  }
+
+  /** @param {Function | null} lookup @param {number} factor of the displacement @returns {string} what has no number */
+  update(lookup, factor) {
+    this.absent = this.bending.update(lookup, factor);
+    this.tubes.move(this.bending.displaced);
+    if (this.absent === "") return "";
+    const name = this.name;
+    if (this.absent === null) return `Deformation and stresses of '${name}' are not computed in this run.`;
+    return `Deformation and stresses of '${name}' are not drawn where the column '${this.absent}' has no number.`;
+  }
+
+  /** @param {boolean} wanted colours of stress @param {number} most stress at the end of the map */
+  paint(wanted, most) {
+    const coloured = wanted && this.colours && this.stressed;
+    this.object.material = coloured ? this.coloured : this.plain;
+    if (coloured) this.tubes.colour(this.bending.stress, most);
+  }
+
+  dispose() {
+    this.map.dispose();
+    this.coloured.dispose();
+  }
+}

@@ -1,0 +1,93 @@
+// Tubes of a flexible body: one surface for all beams, with balls at the nodes.
+import * as THREE from "three";
+import { across, add, cross, scale, subtract, unit } from "../scene/math.js";
+
+const AROUND = 12;
+
+/** A surface over nodes and beams that is written anew when the nodes move. */
+export class FrameTubes {
+  /** @param {number[][]} nodes @param {number[][]} beams pairs of nodes @param {number[]} radii of the beams */
+  constructor(nodes, beams, radii) {
+    this.beams = beams;
+    this.radii = radii;
+    this.thick = thickness(nodes, beams, radii);
+    const ball = new THREE.IcosahedronGeometry(1, nodes.length > 300 ? 1 : 2);
+    this.ball = ball.getAttribute("position").array;
+    ball.dispose();
+    this.first = beams.length * 2 * AROUND;
+    const count = this.first + nodes.length * (this.ball.length / 3);
+    this.geometry = new THREE.BufferGeometry();
+    for (const [name, size] of [["position", 3], ["normal", 3], ["level", 1]]) {
+      this.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(count * size), size));
+    } // prettier-ignore
+    this.geometry.setIndex(this.#triangles(count));
+  }
+
+  #triangles(count) {
+    const list = [];
+    this.beams.forEach((_, b) => {
+      for (let j = 0; j < AROUND; j++) {
+        const [a, c] = [2 * AROUND * b + j, 2 * AROUND * b + ((j + 1) % AROUND)];
+        list.push(a, c, a + AROUND, c, c + AROUND, a + AROUND);
+      }
+    });
+    for (let i = this.first; i < count; i++) list.push(i);
+    return list;
+  }
+
+  /** @param {number[][]} nodes where the nodes are now */
+  move(nodes) {
+    const [positions, normals] = ["position", "normal"].map((name) => this.geometry.getAttribute(name));
+    this.beams.forEach(([from, to], b) => {
+      const z = unit(subtract(nodes[to], nodes[from])) ?? [0, 0, 1];
+      const x = across(z);
+      const y = cross(z, x);
+      for (let j = 0; j < AROUND; j++) {
+        const angle = (2 * Math.PI * j) / AROUND;
+        const normal = add(scale(x, Math.cos(angle)), scale(y, Math.sin(angle)));
+        [from, to].forEach((node, end) => {
+          const k = 3 * (2 * AROUND * b + end * AROUND + j);
+          normals.array.set(normal, k);
+          positions.array.set(add(nodes[node], scale(normal, this.radii[b])), k);
+        });
+      }
+    });
+    nodes.forEach((node, i) => {
+      const base = 3 * this.first + i * this.ball.length;
+      for (let k = 0; k < this.ball.length; k++) {
+        normals.array[base + k] = this.ball[k];
+        positions.array[base + k] = node[k % 3] + this.thick[i] * this.ball[k];
+      }
+    });
+    positions.needsUpdate = normals.needsUpdate = true;
+    this.geometry.computeBoundingSphere();
+    this.geometry.boundingBox = null;
+  }
+
+  /** @param {ArrayLike<number>} values of both ends of each beam @param {number} most the value of the map's end */
+  colour(values, most) {
+    const level = this.geometry.getAttribute("level");
+    const atNode = new Float64Array(this.thick.length);
+    this.beams.forEach((beam, b) => {
+      beam.forEach((node, end) => {
+        const value = values[2 * b + end] / most;
+        atNode[node] = Math.max(atNode[node], value);
+        level.array.fill(value, AROUND * (2 * b + end), AROUND * (2 * b + end + 1));
+      });
+    });
+    const size = this.ball.length / 3;
+    atNode.forEach((value, i) => level.array.fill(value, this.first + i * size, this.first + (i + 1) * size));
+    level.needsUpdate = true;
+  }
+}
+
+/** Radius of the ball at each node: that of its thickest beam; without beams nodes are points of one size. */
+function thickness(nodes, beams, radii) {
+  if (beams.length === 0) {
+    const size = [0, 1, 2].map((k) => Math.max(...nodes.map((node) => node[k])) - Math.min(...nodes.map((node) => node[k])));
+    return nodes.map(() => Math.max(0.004 * Math.hypot(...size), 1e-4));
+  }
+  const thick = new Array(nodes.length).fill(0);
+  beams.forEach((beam, b) => beam.forEach((node) => (thick[node] = Math.max(thick[node], radii[b]))));
+  return thick;
+}

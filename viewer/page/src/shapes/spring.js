@@ -1,0 +1,37 @@
+import * as THREE from "three";
+import { across, add, cross, dot, length, rotate, scale, subtract, unit } from "../scene/math.js";
+import { coilSurface, coilTriangles } from "./coil.js";
+import { set } from "./plate.js";
+import { stretch } from "./place.js";
+
+/** A coil spring between two points; its wire keeps its thickness when it is compressed. @param {object} shape */
+export function spring(shape, { materials, frames }) {
+  const { radius, wire = radius / 5, coils = 6, ends } = shape;
+  const material = materials.of({ color: "#d9a21b", ...shape }, "paint");
+  const geometry = new THREE.BufferGeometry();
+  geometry.setIndex(coilTriangles(coils));
+  const wound = new THREE.Mesh(geometry, material);
+  const seat = new THREE.CylinderGeometry(1, 1, 1, 32);
+  const seats = [0, 1].map(() => new THREE.Mesh(seat, materials.named("dark_paint")));
+  const object = new THREE.Group().add(wound, ...seats);
+  const update = (at) => {
+    const [from, to] = ends.map(at);
+    const z = unit(subtract(to, from));
+    object.visible = z !== null;
+    if (z === null) return;
+    // The start of the wire keeps its place on the body of the first end.
+    const body = frames.pose(ends[0][0]).rotation;
+    const candidates = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => rotate(body, axis)); // prettier-ignore
+    const best = candidates.reduce((a, b) => (Math.abs(dot(a, z)) <= Math.abs(dot(b, z)) ? a : b));
+    const x = unit(subtract(best, scale(z, dot(best, z)))) ?? across(z);
+    const height = length(subtract(to, from));
+    const { positions, normals } = coilSurface({ coils, radius, wire }, from, [x, cross(z, x), z], height);
+    set(geometry, "position", positions);
+    set(geometry, "normal", normals);
+    geometry.computeBoundingSphere();
+    const rim = 1.12 * (radius + wire / 2);
+    stretch(seats[0], subtract(from, scale(z, 0.5 * wire)), from, rim);
+    stretch(seats[1], to, add(to, scale(z, 0.5 * wire)), rim);
+  };
+  return { object, update };
+}

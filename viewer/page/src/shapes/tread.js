@@ -1,0 +1,45 @@
+// The pattern of a tyre, made by code: tread blocks and lines on the side, so that turning is seen.
+import * as THREE from "three";
+
+const [WIDE, HIGH] = [1024, 64];
+
+/**
+ * @param {[number, number]} tread part of the profile (0 to 1) that is tread
+ * @returns {THREE.DataTexture} repeats around the tyre
+ */
+export function treadTexture(tread) {
+  const pixels = new Uint8Array(WIDE * HIGH * 4);
+  for (let j = 0; j < HIGH; j++) {
+    const v = (j + 0.5) / HIGH;
+    const across = (v - tread[0]) / (tread[1] - tread[0]);
+    for (let i = 0; i < WIDE; i++) {
+      const value = across > 0 && across < 1 ? block(i / WIDE, across) : side(i / WIDE, v);
+      const k = 4 * (j * WIDE + i);
+      pixels.fill(value, k, k + 3);
+      pixels[k + 3] = 255;
+    }
+  }
+  const texture = new THREE.DataTexture(pixels, WIDE, HIGH);
+  texture.wrapS = THREE.RepeatWrapping;
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.magFilter = THREE.LinearFilter;
+  texture.minFilter = THREE.LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.anisotropy = 4;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** Blocks that slant to the middle, with a closed rib there. */
+function block(u, across) {
+  const off = Math.abs(across - 0.5) * 2;
+  const slanted = (u * 60 + (across < 0.5 ? off : off + 0.5) * 0.6) % 1;
+  return slanted < 0.16 && off > 0.18 ? 70 : 205;
+}
+
+/** Two fine rings and eight marks on each side. */
+function side(u, v) {
+  const out = Math.abs(v - 0.5) * 2;
+  const mark = (u * 8) % 1 < 0.1 && out > 0.66 && out < 0.74;
+  return mark ? 255 : Math.abs(out - 0.62) < 0.012 || Math.abs(out - 0.8) < 0.012 ? 235 : 190;
+}

@@ -1,0 +1,30 @@
+import * as THREE from "three";
+import { stretch } from "./place.js";
+
+const rod = (material) => new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 16, 1, true), material);
+
+/** Round tubes between points with balls where they meet; `place` puts them to points relative to the origin. */
+export function roundTubes(count, closed, radius, material) {
+  const group = new THREE.Group();
+  const rods = Array.from({ length: closed ? count : count - 1 }, () => rod(material));
+  const ball = new THREE.SphereGeometry(radius, 16, 10);
+  const balls = Array.from({ length: count }, () => new THREE.Mesh(ball, material));
+  group.add(...rods, ...balls);
+  const place = (points) => {
+    rods.forEach((mesh, i) => stretch(mesh, points[i], points[(i + 1) % count], radius));
+    balls.forEach((mesh, i) => mesh.position.set(...points[i]));
+  };
+  return { group, place };
+}
+
+/** A round tube through points of any frames. @param {object} shape @param {import("./index.js").Context} context */
+export function tube(shape, { materials }) {
+  const { points, radius } = shape;
+  const { group, place } = roundTubes(points.length, false, radius, materials.of(shape, "steel"));
+  const frame = points[0][0];
+  if (points.every(([other]) => other === frame)) {
+    place(points.map(([, local]) => local));
+    return { object: group, frame };
+  }
+  return { object: group, update: (at) => place(points.map(at)) };
+}
