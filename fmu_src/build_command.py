@@ -35,6 +35,12 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         help="a scene of mbs.scenes, or path/to/file.py:function (a function that returns an mbs.Model or mbs.System); "
         "default: prototype_car",
     )
+    what.add_argument(
+        "--fmu",
+        type=Path,
+        metavar="FMU",
+        help="an FMU of the kind native: it is compiled for the --platforms from the sources in it, what it has stays",
+    )
     parser.add_argument("--out", type=Path, default=Path("dist"), metavar="DIR", help="default: dist")
     parser.add_argument(
         "--kind",
@@ -54,7 +60,27 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
     options = parser.parse_args(arguments)
+    if options.fmu is not None:
+        return run_command(lambda: _add_platforms(options), (RuntimeError,))
     return run_command(lambda: _build(options), (ValueError, RuntimeError))
+
+
+def _add_platforms(options: argparse.Namespace) -> int:
+    """More platforms for an FMU that is there."""
+    from ali3.files import check_writable
+    from fmu_src.native.more_platforms import add_platforms
+    from fmu_src.platforms import this_platform
+    from fmu_src.progress_line import ProgressLine
+
+    _need("ziglang")
+    platforms = _platforms(options.platforms, this_platform())
+    file = options.out / options.fmu.name
+    check_writable(file)
+    line = ProgressLine()
+    line.expect(len(platforms))
+    added = add_platforms(options.fmu, platforms, file, line.told)
+    print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; added: {', '.join(added) or 'nothing'}", flush=True)
+    return 0
 
 
 def _build(options: argparse.Namespace) -> int:

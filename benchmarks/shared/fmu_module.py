@@ -37,15 +37,13 @@ class FmuModule:
         self._call("_initialize")
         self.messages: list[tuple[int, str]] = []
         for path, data in resources.items():
-            block = self.block(data)
-            if block == 0 or not self._call("ali3_file_add", self.text(f"/resources/{path}"), block, len(data)):
-                raise MemoryError(path)
+            self.add_file(path, data)
         self._room = self._call("malloc", 16)
         self._component = self._call(
             *("fmi2Instantiate", self.text("wasmtime"), 1, self.text(guid), self.text("file:///resources")),
             *(self._call("ali3_callbacks"), 0, 0),
         )
-        self._listen()
+        self.listen()
 
     @property
     def there(self) -> bool:
@@ -55,13 +53,33 @@ class FmuModule:
     def _call(self, name: str, *arguments: Any) -> Any:
         return self._exports[name](self._store, *arguments)
 
-    def _listen(self) -> None:
+    def listen(self) -> None:
+        """Take the messages over that came since the last call."""
         box = self._call("ali3_messages")
         used, lost = struct.unpack("<2I", self.bytes_at(box, 8))
         words = bytes(self.bytes_at(box + 8, used)).decode().split("\0")[:-1]
         self.messages += [(int(head[0]), text) for head, text in zip(words[::2], words[1::2], strict=True)]
         self.messages += [(1, f"{lost} lost")] if lost else []
         self._memory.write(self._store, bytes(8), box)
+
+    @property
+    def memory_size(self) -> int:
+        """Bytes of the module's memory."""
+        return int(self._memory.data_len(self._store))
+
+    def address(self, name: str) -> int:
+        """What a helper without arguments gives."""
+        return int(self._call(name))
+
+    def add_file(self, path: str, data: bytes) -> None:
+        """Put a file into the resources; MemoryError if there is no room."""
+        block = self.block(data)
+        if block == 0 or not self._call("ali3_file_add", self.text(f"/resources/{path}"), block, len(data)):
+            raise MemoryError(path)
+
+    def remove_file(self, path: str) -> bool:
+        """Take a file of the resources away; whether there was one."""
+        return bool(self._call("ali3_file_remove", self.text(f"/resources/{path}")))
 
     def bytes_at(self, address: int, size: int) -> bytes:
         """Bytes of the module's memory."""
@@ -81,7 +99,7 @@ class FmuModule:
     def fmi(self, name: str, *arguments: Any) -> None:
         """A call of FMI for the instance; raises FMICallException."""
         status = self._call(name, self._component, *arguments)
-        self._listen()
+        self.listen()
         if status > 1:
             raise FMICallException(function=name, status=status)
 

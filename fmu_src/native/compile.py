@@ -13,8 +13,6 @@ from mbs.kernel import build
 _INCLUDE = (KERNEL_INCLUDE, HERE, DETOUR)
 # The kernel's own functions are not for hosts: only those of FMI are exported.
 _DEFINES = ("ALI3_INSIDE",)
-# What the host of a WebAssembly module calls beside FMI: memory, and files in it.
-_ALONE = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
 
 
 def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path, name: str) -> bytes:
@@ -38,11 +36,29 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
     bytes
         The library.
     """
-    files, made = _files(face, table), []
+    return _library(targets, _files(face, table), _INCLUDE, folder, name)
+
+
+def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: str) -> bytes:
+    """The same from the sources that lie in an FMU.
+
+    Parameters
+    ----------
+    targets : sequence of str
+    sources : Path
+        The unpacked folder.
+    folder, name
+        As for `compile_library`.
+    """
+    return _library(targets, sorted(sources.rglob("*.c")), (sources,), folder, name)
+
+
+def _library(targets: Sequence[str], files: Sequence[Path], include: Sequence[Path], folder: Path, name: str) -> bytes:
+    made = []
     for target in targets:
         library = folder / target / name
         build.compile_c(
-            files, target, library, include=_INCLUDE, what="the FMU", defines=_DEFINES, exports=exports(files)
+            files, target, library, include=include, what="the FMU", defines=_DEFINES, exports=exports(files)
         )
         made.append(library.read_bytes())
     return made[0] if len(made) == 1 else universal(made)
@@ -57,7 +73,8 @@ def library_command(face: str, target: str, table: Path, library: Path) -> list[
 def exports(files: Sequence[Path]) -> list[str]:
     """Functions that a WebAssembly module of these C files exports: those of FMI 2.0 and what its host needs beside."""
     shell = [f.read_text(encoding="utf-8") for f in files if f.name.startswith("fmi2_")]
-    return [*re.findall(r"^FMI2_EXPORT .*\bFMI2_NAME\((\w+)\)", "\n".join(shell), re.MULTILINE), *_ALONE]
+    found = re.findall(r"^FMI2_EXPORT .*\bFMI2_NAME\((\w+)\)", "\n".join(shell), re.MULTILINE)
+    return [*found, *build.WASM_HELPERS]
 
 
 def _files(face: str, table: Path) -> list[Path]:

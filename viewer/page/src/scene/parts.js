@@ -30,7 +30,7 @@ export class Parts {
     for (const shape of scene.shapes ?? []) this.#add(shape, context, options);
     this.flexible = (scene.flexible ?? []).map((body) => this.#bend(body, options));
     /** Times that displacements are drawn, whether stress is coloured, and the stress at the end of the colours. */
-    this.bending = { factor: 1, coloured: true, most: 0 };
+    this.bending = { factor: 1, coloured: true, most: Math.max(0, ...this.flexible.map(({ bending }) => bending.range)) };
     this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []), options.extent ?? 1);
     this.group.add(this.arrows.group);
     for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why.replace(/\.$/, "")}.`);
@@ -79,7 +79,7 @@ export class Parts {
       const absent = body.update(lookup, this.bending.factor);
       if (absent) this.tell(absent);
       this.moved = Math.max(this.moved, body.bending.largestMove() / (this.bending.factor || 1));
-      if (body.most > this.bending.most) this.bending.most = niceAbove(body.most);
+      if (body.most > this.bending.most && !(body.bending.range > 0)) this.bending.most = niceAbove(body.most);
     }
     this.arrows.update(lookup, this.frames, this.tell);
   }

@@ -213,6 +213,7 @@ export class SceneView {
 
   /** Free what the graphics card holds and take the picture out of the page. */
   dispose() {
+    this.gone = true;
     this.observer?.disconnect();
     for (const parts of [this.parts, ...this.ghosts]) parts.dispose();
     this.notes.dispose();
@@ -254,6 +255,7 @@ export class SceneView {
   #watchContext() {
     const canvas = this.renderer.domElement;
     canvas.addEventListener("webglcontextlost", (event) => {
+      if (this.gone) return;
       event.preventDefault(); // asks for it back
       this.lost = true;
       this.notes.instead("The graphics card has taken its drawing context back; the picture returns when it is given again.");

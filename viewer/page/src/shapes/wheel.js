@@ -1,10 +1,10 @@
 import * as THREE from "three";
-import { dot, rotate, subtract, transpose } from "../scene/math.js";
-import { alongY, turn } from "./place.js";
+import { across, cross, dot, fromColumns, rotate, scale, subtract, transpose, unit } from "../scene/math.js";
+import { turn } from "./place.js";
 import { treadTexture } from "./tread.js";
 
 const SPOKES = 5;
-const points = (list) => list.map(([r, y]) => new THREE.Vector2(r, y));
+const vectors = (list) => list.map(([r, y]) => new THREE.Vector2(r, y));
 
 /** Half of a tyre's profile from the bead to the middle of the tread, and where the tread begins. */
 function halfProfile(r, rim, w) {
@@ -27,7 +27,7 @@ function halfProfile(r, rim, w) {
 function tyre(r, rim, w, materials) {
   const { half, start } = halfProfile(r, rim, w);
   const profile = [...half.map(([x, y]) => [x, -y]), ...half.slice(0, -1).reverse()];
-  const geometry = new THREE.LatheGeometry(points(profile), 72);
+  const geometry = new THREE.LatheGeometry(vectors(profile), 72);
   const material = materials.named("rubber").clone();
   if (!materials.options.ghost) {
     material.color.set("#48494c");
@@ -56,14 +56,14 @@ function face(rim, thickness) {
 
 function rimParts(rim, w, out, materials) {
   const metal = materials.named("rim");
-  const barrel = points([[0.93 * rim, -0.4 * w], [rim, -0.43 * w], [rim, -0.36 * w], [0.9 * rim, -0.3 * w], [0.86 * rim, 0], [0.9 * rim, 0.3 * w],
+  const barrel = vectors([[0.93 * rim, -0.4 * w], [rim, -0.43 * w], [rim, -0.36 * w], [0.9 * rim, -0.3 * w], [0.86 * rim, 0], [0.9 * rim, 0.3 * w],
     [rim, 0.36 * w], [rim, 0.43 * w], [0.93 * rim, 0.4 * w]]); // prettier-ignore
   const parts = [
     new THREE.Mesh(new THREE.LatheGeometry(barrel, 56), materials.named("rim", undefined, undefined, true)),
     new THREE.Mesh(face(rim * 0.94, 0.08 * w).translate(0, 0.2 * w * out, 0), metal),
     new THREE.Mesh(new THREE.CylinderGeometry(0.17 * rim, 0.19 * rim, 0.56 * w, 28), materials.named("dark_paint")),
-    new THREE.Mesh(new THREE.CylinderGeometry(0.66 * rim, 0.66 * rim, 0.1 * w, 40).translate(0, -0.12 * w * (out || 1), 0), materials.named("steel")),
   ];
+  if (out) parts.push(new THREE.Mesh(new THREE.CylinderGeometry(0.66 * rim, 0.66 * rim, 0.1 * w, 40).translate(0, -0.12 * w * out, 0), materials.named("steel")));
   // One valve: it tells a turned wheel from another of the same five spokes.
   const valve = new THREE.Mesh(new THREE.SphereGeometry(0.05 * rim, 12, 8), materials.named("plastic", "#d8412f"));
   valve.position.set(0.8 * rim, (0.2 * out + 0.07) * w, 0);
@@ -88,6 +88,8 @@ export function wheel(shape, context) {
   const { mesh, owned } = tyre(radius, rim, width, context.materials);
   const object = new THREE.Group().add(mesh, ...rimParts(rim, width, out, context.materials));
   object.position.set(...(shape.at ?? [0, 0, 0]));
-  turn(object, alongY(axis));
+  const y = unit(axis) ?? [0, 1, 0];
+  const x = Math.abs(y[0]) < 0.9 ? unit(subtract([1, 0, 0], scale(y, y[0]))) : across(y);
+  turn(object, fromColumns(x, y, cross(x, y)));
   return { object, frame: shape.frame, owned };
 }

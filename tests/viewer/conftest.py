@@ -1,0 +1,84 @@
+"""One Chromium for the pictures of a module of tests, and a page with one view in it."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viewer import browser, bundle
+
+_MAKE = """([scene, options]) => {
+  window.view?.dispose();
+  window.view = new ALi3Viewer.SceneView(document.getElementById('picture'), scene, options);
+}"""
+_NUMBERS = "numbers => { const all = numbers; view.update(all === null ? null : name => all[name]); view.render(); }"
+
+
+class DrawnPage:
+    """A page with a `SceneView` called `view`."""
+
+    def __init__(self, page: Any):
+        self.page = page
+        self.errors: list[str] = []
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+
+    def show(self, scene: dict[str, Any], numbers: dict[str, float] | None = None, **options: Any) -> None:
+        """Draw a scene, as drawn or at given numbers."""
+        self.page.evaluate(_MAKE, [scene, options])
+        self.update(numbers)
+
+    def update(self, numbers: dict[str, float] | None) -> None:
+        self.page.evaluate(_NUMBERS, numbers)
+
+    def ask(self, code: str, *values: Any) -> Any:
+        """What an expression of `view` is worth, or a function of one value."""
+        return self.page.evaluate(code, *values)
+
+    def picture(self) -> np.ndarray:
+        """Pixels (height, width, 3) from 0 to 255, without the words over them."""
+        from PIL import Image
+
+        self.page.evaluate("() => { document.body.className = 'hidden'; view.render(); }")
+        picture = self.page.screenshot()
+        self.page.evaluate("document.body.className = ''")
+        return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).astype(int)
+
+    def project(self, point: Any) -> tuple[float, float]:
+        return tuple(self.page.evaluate("point => view.project(point)", [float(x) for x in point]))
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    """A Chromium without a window; tests are skipped where there is none."""
+    play = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    try:
+        program, _ = browser.find_chromium(), bundle.bundle()
+    except RuntimeError as error:
+        pytest.skip(str(error))
+    with play.sync_playwright() as started:
+        chromium = started.chromium.launch(executable_path=program, args=browser.launch_arguments())
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(scope="module")
+def _page(chromium: Any) -> Iterator[Any]:
+    page = chromium.new_page(viewport={"width": 320, "height": 180})
+    page.set_content("<body style='margin:0'><div id='picture' style='width:320px;height:180px'></div></body>")
+    page.add_style_tag(content=".hidden .ali3-notes { display: none }")
+    page.add_script_tag(content=bundle.bundle().read_text(encoding="utf-8"))
+    yield page
+    page.close()
+
+
+@pytest.fixture
+def drawn(_page: Any) -> Iterator[DrawnPage]:
+    """An empty page of 320 x 180 pixels; an error in its script fails the test."""
+    made = DrawnPage(_page)
+    yield made
+    _page.evaluate("window.view?.dispose(); window.view = undefined;")
+    assert made.errors == []

@@ -1,0 +1,278 @@
+"""What stands in a picture, and where: pixels of pictures against places and numbers that are known."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from tests.viewer.hand_scenes import everything, floats, moving
+
+RED = "#ff0000"
+
+
+def scene(**parts):
+    """A body that moves, with what is given."""
+    start = {"start": [[0, 0, 0], [1, 0, 0, 0]]}
+    base = {"format": "ALi3 scene", "version": 1, "name": "test", "up": [0, 0, 1], "planar": False, "extent": 2.0}
+    return base | {"focus": "", "frames": {"body": moving("body") | start}, "shapes": [], "roads": []} | parts
+
+
+def at(x, y, z, quaternion=(1, 0, 0, 0), body="body", **more):
+    values = (x, y, z, *quaternion)
+    columns = [f"{body}.{part}" for part in ("x", "y", "z", "qw", "qx", "qy", "qz")]
+    return dict(zip(columns, map(float, values), strict=True)) | more
+
+
+def ball(place=(0, 0, 0), radius=0.1):
+    return {"kind": "sphere", "frame": "body", "at": list(place), "radius": radius, "color": RED, "material": "plastic"}
+
+
+def red(picture):
+    """Middle of what is red: x, y in pixels."""
+    r, g, b = np.moveaxis(picture, 2, 0)
+    rows, columns = np.nonzero((r > 90) & (r > 2.5 * g) & (r > 2.5 * b))
+    assert len(rows) > 10, "nothing red is in the picture"
+    return (columns.min() + columns.max() + 1) / 2, (rows.min() + rows.max() + 1) / 2
+
+
+# A quarter turn about z takes (0.4, 0.1, 0.3) of the body to (-0.1, 0.4, 0.3) from its origin.
+TURNED = (np.sqrt(0.5), 0, 0, np.sqrt(0.5))
+
+
+@pytest.mark.parametrize("camera", ["orbit", "side", "top"])
+@pytest.mark.parametrize("place", [(0, 0, 0), (0.2, -0.3, 0.1)])
+def test_a_ball_stands_where_its_place_is_projected(drawn, camera, place):
+    drawn.show(scene(shapes=[ball((0.4, 0.1, 0.3))]), at(*place, TURNED), camera=camera)
+    earth = np.add(place, (-0.1, 0.4, 0.3))
+    assert red(drawn.picture()) == pytest.approx(drawn.project(earth), abs=2)
+
+
+def test_a_ball_of_a_planar_model_stands_to_scale_on_the_board(drawn):
+    planar = scene(shapes=[ball((0.5, 0.25, 0))], planar=True, up=[0, 1, 0], extent=2.0)
+    drawn.show(planar, at(0, 0, 0))
+    where = red(drawn.picture())
+    assert where == pytest.approx(drawn.project((0.5, 0.25, 0)), abs=2)
+    drawn.update(at(0.3, 0.2, 0))
+    # The height of the picture is 1.24 times the extent.
+    pixels = 180 / (1.24 * 2.0)
+    assert np.subtract(red(drawn.picture()), where) == pytest.approx([0.3 * pixels, -0.2 * pixels], abs=2)
+
+
+def test_a_hundred_kilometres_away_the_picture_is_the_same(drawn):
+    """Whole steps of the grid away, as near as the screen can show; a step of 1 mm moves nothing by a pixel."""
+    shown = scene(shapes=[ball((0.3, 0, 0.2)), {"kind": "box", "frame": "body", "size": [0.5, 0.4, 0.2]}], focus="body")
+    drawn.show(shown, at(0, 0, 0))
+    near = drawn.picture()
+    drawn.update(at(1e5, -7e4, 0))
+    far = drawn.picture()
+    assert np.abs(far - near).mean() < 0.05
+    drawn.update(at(1e5 + 0.001, -7e4, 0))
+    assert red(drawn.picture()) == pytest.approx(red(far), abs=1)
+
+
+def test_a_wheel_turns_about_its_axis_to_the_side_that_its_angle_says(drawn):
+    """The mark of the valve, at the front (x) at angle 0, goes down when the wheel turns forward about +y."""
+    frames = {"hub": moving("hub") | {"start": [[0, 0, 0], [1, 0, 0, 0]]}}
+    frames["wheel"] = {"parent": "hub", "at": [0, 0, 0], "axis": [0, 1, 0], "angle": "angle"}
+    wheel = {"kind": "wheel", "frame": "wheel", "radius": 0.5, "width": 0.3, "rim": 0.35}
+    shown = scene(frames=frames, shapes=[wheel], extent=1.2)
+    marks = []
+    for angle in (0.0, np.pi / 2):
+        if angle == 0.0:
+            drawn.show(shown, at(0, 0, 0, body="hub", angle=angle), camera="side")
+        else:
+            drawn.update(at(0, 0, 0, body="hub", angle=angle))
+        picture = drawn.picture()
+        r, g, b = np.moveaxis(picture, 2, 0)
+        rows, columns = np.nonzero((r > 90) & (r > 1.8 * g) & (r > 1.8 * b))
+        assert len(rows) > 3
+        marks.append((columns.mean() - 160, rows.mean() - 90))
+    (x0, y0), (x1, y1) = marks
+    assert x0 > 10
+    assert abs(y0) < 0.4 * x0
+    assert y1 > 10
+    assert abs(x1) < 0.4 * y1
+
+
+def frame_of_two_beams():
+    """Two beams along y; the first mode stresses the left one fourfold, in closed form."""
+    nodes = [[0, -0.5, 0], [0, 0, 0], [0, 0.5, 0]]
+    modes = np.zeros((3, 3, 1))
+    modes[:, 2, 0] = [0.0, 0.1, 0.0]
+    rows = np.array([[[[1e6], [-4e6]]] * 2, [[[1e6], [0.5e6]]] * 2])  # beams, ends, fibres, modes
+    stress = {"fibres": 2, "rows": floats(rows), "unit": "Pa", "limit": 2e8}
+    flexible = {"frame": "body", "nodes": nodes, "beams": [[0, 1], [1, 2]], "radii": [0.04, 0.04]}
+    flexible |= {"amplitudes": ["q"], "modes": floats(modes), "stress": stress, "computed": "on"}
+    return scene(flexible=[flexible])
+
+
+def colour(drawn, point):
+    x, y = drawn.project(point)
+    return drawn.picture()[int(y), int(x)]
+
+
+def test_a_tube_has_the_colour_of_its_stress(drawn):
+    drawn.show(frame_of_two_beams(), at(0, 0, 0, q=10.0, on=1.0))
+    drawn.ask("view.set({ stressMost: 8e7 })")
+    viridis = pytest.importorskip("matplotlib").colormaps["viridis"]
+    # Fibre stresses: 10 * 4e6 = 40 MPa left, 10 * 1e6 = 10 MPa right; the node between bends by 10 * 0.1 m.
+    for place, stress in ((-0.25, 40e6), (0.25, 10e6)):
+        seen = colour(drawn, (0, place, 0.5))
+        assert seen == pytest.approx(np.array(viridis(stress / 8e7)[:3]) * 255, abs=10), place
+    legend = drawn.page.locator("[data-legend=stress]").inner_text()
+    assert "MPa" in legend
+    assert "80" in legend
+    assert "200 MPa" in legend
+
+
+def test_displacements_are_drawn_as_many_times_as_asked(drawn):
+    drawn.show(frame_of_two_beams(), at(0, 0, 0, q=1.0, on=1.0), camera="side")
+    drawn.ask("view.set({ deformation: 5, stressMost: 4e6 })")
+    background = drawn.picture()[2, 2]
+    # Node 2 of the first beam is at 0.1 m times 5.
+    assert np.abs(colour(drawn, (0, 0, 0.5)) - background).max() > 60
+    assert "\u00d75" in drawn.page.locator("[data-legend=stress]").inner_text()
+
+
+@pytest.mark.parametrize("numbers", [{"q": 1.0, "on": 0.0}, {"q": float("nan"), "on": 1.0}, {"on": 1.0}])
+def test_stress_that_is_not_computed_is_not_coloured_and_said(drawn, numbers):
+    drawn.show(frame_of_two_beams(), at(0, 0, 0, **numbers))
+    assert drawn.page.locator("[data-legend=stress]").inner_text() == "stress: not computed"
+    assert len([m for m in drawn.ask("view.messages") if "not computed" in m or "'q'" in m]) == 1
+    r, g, b = colour(drawn, (0, -0.25, 0))
+    assert max(r, g, b) - min(r, g, b) < 40  # steel
+
+
+def test_a_thing_without_numbers_is_hidden_said_once_and_comes_back(drawn):
+    drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
+    place = red(drawn.picture())
+    for _ in range(3):
+        drawn.update(at(0, float("nan"), 0))
+    with pytest.raises(AssertionError, match="nothing red"):
+        red(drawn.picture())
+    assert drawn.ask("view.messages") == ["'body' is not drawn where the column 'body.y' has no number."]
+    drawn.update(at(0, 0, 0))
+    assert red(drawn.picture()) == pytest.approx(place, abs=0.5)
+
+
+def test_arrows_point_as_forces_do_and_are_explained(drawn):
+    """A force up on the second end, its reaction on the first; a tyre's force in its own axes."""
+    ends = [["ground", [0, 0, 0]], ["ground", [0, 0, 0.2]]]
+    push = {"name": "push", "unit": "N", "value": "f", "between": ends, "sign": 1}
+    drawn.show(scene(arrows=[push]), {"f": 900.0} | at(0, 0, 0), camera="side")
+    drawn.ask("view.scan(() => name => ({ f: 1000 }[name] ?? (name === 'body.qw' ? 1 : 0)), 1)")
+    drawn.update({"f": 900.0} | at(0, 0, 0))
+    orange = (244, 81, 30)
+    picture = drawn.picture()
+    rows, _ = np.nonzero(np.abs(picture - orange).max(axis=2) < 40)
+    top, bottom = drawn.project((0, 0, 0.2))[1], drawn.project((0, 0, 0))[1]
+    length = 0.5 * 900 / 1000  # 0.5 m is the round length below 0.35 times the extent of 2 m
+    pixels = (bottom - top) / 0.2
+    assert rows.min() == pytest.approx(top - length * pixels, abs=3)
+    assert rows.max() == pytest.approx(bottom + length * pixels, abs=3)
+    assert drawn.page.locator("[data-legend=arrows]").inner_text().split()[1:] == ["0.5", "m", "=", "1", "kN"]
+    drawn.ask("view.set({ arrows: false })")
+    assert not (np.abs(drawn.picture() - orange).max(axis=2) < 40).any()
+
+
+def test_every_kind_of_thing_is_drawn_from_every_camera(drawn):
+    shown = everything()
+    drawn.show(shown)
+    assert sorted(drawn.ask("view.messages")) == [
+        "'lower arm' is not drawn: no output gives its motion.",
+        "A road of the kind 'file' is not known to this page and is not drawn.",
+    ]
+    cameras = drawn.ask("view.cameraNames")
+    assert cameras == ["orbit", "chase", "driver", "wheel spinning wheel", "side", "top"]
+    pictures = []
+    for camera in cameras:
+        drawn.ask("name => view.camera(name)", camera)
+        pictures.append(drawn.picture())
+        assert pictures[-1].std() > 8, camera
+    assert all(np.abs(a - b).mean() > 1 for a, b in pairwise(pictures))
+    said = drawn.ask("() => { try { view.camera('drone'); } catch (error) { return error.message; } }")
+    assert "'drone'" in said
+    assert "chase" in said
+
+
+def test_a_ghost_is_seen_beside_the_run_and_goes(drawn):
+    drawn.show(scene(shapes=[ball()]), at(0, 0, 0), camera="side")
+    before = drawn.picture()
+    drawn.ask(
+        "numbers => { window.ghost = view.addGhost(view.scene); ghost.update(name => numbers[name]); }", at(0.5, 0, 0)
+    )
+    after = drawn.picture()
+    x, y = map(int, drawn.project((0.5, 0, 0)))
+    assert np.abs(after[y, x] - before[y, x]).max() > 20
+    assert red(after) == pytest.approx(red(before), abs=1)
+    drawn.ask("ghost.remove()")
+    assert np.abs(drawn.picture() - before).max() <= 2
+
+
+def test_a_context_that_is_lost_is_said_and_given_back(drawn):
+    drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
+    before = drawn.picture()
+    drawn.ask(
+        "() => { window.lose = view.renderer.getContext().getExtension('WEBGL_lose_context'); lose.loseContext(); }"
+    )
+    drawn.page.wait_for_function("view.lost === true")
+    assert "taken" in drawn.page.locator("[role=alert]").inner_text()
+    drawn.ask("lose.restoreContext()")
+    drawn.page.wait_for_function("view.lost === false")
+    assert drawn.page.locator("[role=alert]").count() == 0
+    assert np.abs(drawn.picture() - before).mean() < 1
+
+
+def test_a_view_that_is_disposed_leaves_nothing(drawn):
+    """Browsers give about sixteen contexts: twenty views one after the other need them back."""
+    board = scene(shapes=[ball()], planar=True, up=[0, 1, 0])
+    left = drawn.ask(
+        """scenes => {
+          const element = document.getElementById('picture');
+          const left = scenes.map(scene => {
+            const view = new ALi3Viewer.SceneView(element, scene, {});
+            view.render();
+            const { memory } = view.renderer.info;
+            view.dispose();
+            return [memory.geometries, memory.textures, view.problem, view.renderer.getContext().isContextLost()];
+          });
+          return [left, element.childElementCount];
+        }""",
+        [everything(), scene(shapes=[ball()]), *[board] * 18],
+    )
+    assert left == [[[0, 0, "", True]] * 20, 0]
+
+
+def test_without_webgl_one_sentence_stands_in_place_of_the_picture(drawn):
+    drawn.ask(
+        """() => {
+          window.kept = HTMLCanvasElement.prototype.getContext;
+          HTMLCanvasElement.prototype.getContext = () => null;
+        }"""
+    )
+    try:
+        drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
+        sentence = drawn.page.locator("[role=alert]").inner_text()
+        assert "no WebGL" in sentence
+        assert drawn.ask("view.problem") == drawn.ask("window.ALi3ViewerProblem") == sentence
+        assert drawn.ask("view.project([0, 0, 0])") is None
+        drawn.ask(
+            """() => {
+              view.camera('orbit');
+              view.set({ stress: false });
+              view.resize();
+              view.addGhost(view.scene).update(null);
+            }"""
+        )
+    finally:
+        drawn.ask("() => { HTMLCanvasElement.prototype.getContext = kept; }")
+
+
+def test_a_coarse_picture_shows_the_same_as_a_fine_one(drawn):
+    drawn.show(scene(shapes=[ball()]), at(0, 0, 0), quality="high")
+    fine = drawn.picture()
+    drawn.ask("view.set({ quality: 'low' })")
+    assert red(drawn.picture()) == pytest.approx(red(fine), abs=1)
+    assert drawn.ask("view.look.quality") == "low"

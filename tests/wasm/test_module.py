@@ -1,0 +1,260 @@
+"""The module itself: what it imports and exports, files and messages in its memory, memory that runs out."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import struct
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.validation import validate_fmu
+from wasm_hosts import Fmu, Plan, assert_same, native, wasmtime
+
+import build_fmu
+from benchmarks.shared.fmu_module import FmuModule
+from fmu_src.build import build_fmu as build
+from fmu_src.native.sources import packed_sources
+from fmu_src.scene_registry import load_scene
+from hosts.check import main as check
+from mbs.elements import GridRoad
+from mbs.kernel import build as kernel_build
+from mbs.kernel.binding import load_library
+from mbs.kernel.binding.errors import status_text
+from mbs.roads import write_road
+
+STACK = 1 << 20
+HELPERS = {"memory", "_initialize", "malloc", "free"}
+HELPERS |= {"ali3_file_add", "ali3_file_remove", "ali3_callbacks", "ali3_messages"}
+SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
+
+
+def module(fmu: Fmu, **more: Any) -> FmuModule:
+    return FmuModule(fmu.wasm, fmu.resources, fmu.description.guid, **more)
+
+
+def test_it_imports_nothing_and_exports_fmi(small: Callable[[str], Fmu]) -> None:
+    import wasmtime
+
+    fmu = small("crane")
+    made = wasmtime.Module(wasmtime.Engine(), fmu.wasm)
+    assert list(made.imports) == []
+    names = {export.name for export in made.exports}
+    sources = "".join(f.read_text() for f in (fmu.folder / "sources").glob("fmi2_*.c"))
+    fmi = set(re.findall(r"FMI2_NAME\((fmi2\w+)\)", sources))
+    assert len(fmi) == 34
+    assert names == fmi | HELPERS
+
+
+def test_the_stack_lies_below_all_data(small: Callable[[str], Fmu]) -> None:
+    """An overflow is then a trap, and no change of data."""
+    made = module(small("crane"))
+    assert made.address("ali3_messages") >= STACK
+    assert made.address("ali3_callbacks") >= STACK
+
+
+def test_memory_that_runs_out_is_a_sentence(prototype: Fmu) -> None:
+    made = module(prototype)
+    assert made.there
+    for limit, there in ((made.memory_size, True), (made.memory_size - (1 << 18), False)):
+        limited = module(prototype, memory_limit=limit)
+        assert limited.there == there
+        if not there:
+            assert any("memory" in text for _, text in limited.messages), limited.messages
+
+
+def test_a_road_for_which_there_is_no_memory(prototype: Fmu) -> None:
+    made = module(prototype, memory_limit=module(prototype).memory_size + (1 << 16))
+    with pytest.raises(FMICallException):
+        made.set("String", [prototype.kinds["road.file"][1]], ["own.road"])
+    assert made.messages[-1][1].endswith(": there is not enough memory.")
+    with pytest.raises(MemoryError):
+        made.add_file("roads/large.road", bytes(1 << 20))
+
+
+def test_a_table_whose_points_exceed_32_bits_is_refused(prototype: Fmu) -> None:
+    """65536 x 65536 points are 0 in 32 bits."""
+    made, n = module(prototype), 1 << 16
+    made.add_file("roads/large.csv", b"y/x" + b";1" * n + b"\n" + (b"1" + b";0" * n + b"\n") * 4 + b"1;0\n" * (n - 4))
+    with pytest.raises(FMICallException):
+        made.set("String", [prototype.kinds["road.file"][1]], ["large.csv"])
+    assert "it has fewer cells than rows and columns" in made.messages[-1][1]
+
+
+def test_messages_beyond_the_room_for_them_are_counted(small: Callable[[str], Fmu]) -> None:
+    fmu = small("crane")
+    made = module(fmu)
+    reference = struct.pack("<I", fmu.kinds["torque"][1])
+    where, value = made.block(reference), made.block(struct.pack("<d", np.nan))
+    refuse = made.caller("fmi2SetReal")
+    assert {refuse(where, 1, value) for _ in range(2000)} == {3}
+    made.listen()
+    *kept, lost = made.messages
+    assert lost == (1, f"{2000 - len(kept)} lost")
+    assert 300 < len(kept) < 2000
+    assert len(set(kept)) == 1
+    assert kept[0][0] == 3
+    assert "'torque' was set to nan" in kept[0][1]
+    refuse(where, 1, value)
+    made.listen()
+    assert made.messages[-1] == kept[0]
+
+
+def test_a_percent_sign_is_one(prototype: Fmu) -> None:
+    made = module(prototype)
+    with pytest.raises(FMICallException):
+        made.set("String", [prototype.kinds["road.file"][1]], ["50%.road"])
+    assert "'50%.road' (/resources/roads/50%.road)" in made.messages[-1][1]
+
+
+def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype: Fmu, tmp_path: Path) -> None:
+    """Of a road with more tiles than are near; what comes later is read from the file as it was opened."""
+    for name, seed in (("long.road", 1), ("other.road", 2)):
+        heights = 0.01 * np.random.default_rng(seed).standard_normal((6000, 64))
+        write_road(GridRoad((-10.0, -3.2), (0.1, 0.1), heights, 0.9), tmp_path / name)
+    files = [(tmp_path / name).read_bytes() for name in ("long.road", "other.road")]
+
+    def driven(change: str) -> list[float]:
+        made = module(prototype)
+        made.add_file("roads/long.road", files[0])
+        made.set("String", [prototype.kinds["road.file"][1]], ["long.road"])
+        made.set("Real", [prototype.kinds["initial.speed"][1]], [60.0])
+        made.setupExperiment()
+        made.enterInitializationMode()
+        made.exitInitializationMode()
+        if change == "other":
+            made.add_file("roads/long.road", files[1])
+        elif change == "none":
+            assert made.remove_file("roads/long.road")
+            assert not made.remove_file("roads/long.road")
+        heights = []
+        for k in range(100):
+            made.doStep(k * 0.05, 0.05)
+            heights += made.getReal([prototype.kinds[name][1] for name in ("chassis.x", "chassis.z")])
+        return heights
+
+    usual = driven("")
+    assert usual[-2] > 200.0
+    assert driven("other") == usual
+    assert driven("none") == usual
+
+
+def test_the_same_sources_give_the_same_module(small: Callable[[str], Fmu], tmp_path: Path) -> None:
+    name, system = load_scene(f"{SCENES}:crane")
+    again = build(system, name, tmp_path, ["wasm32"], kind="native")
+    with zipfile.ZipFile(again) as archive:
+        assert archive.read("binaries/wasm32/Crane.wasm") == small("crane").wasm
+
+
+@pytest.fixture
+def bare(tmp_path: Path) -> Path:
+    """The crane for this machine only."""
+    name, system = load_scene(f"{SCENES}:crane")
+    return build(system, name, tmp_path / "bare", [fmpy.platform], kind="native")
+
+
+def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callable[[str], Fmu], tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert build_fmu.main(["--fmu", str(bare), "--platforms", "wasm32", "--out", str(out)]) == 0
+    made = Fmu(out / "Crane.fmu", tmp_path / "made")
+    assert made.wasm == small("crane").wasm
+    with zipfile.ZipFile(bare) as before, zipfile.ZipFile(out / "Crane.fmu") as after:
+        assert {n: after.read(n) for n in before.namelist()} == {n: before.read(n) for n in before.namelist()}
+    assert build_fmu.main(["--fmu", str(out / "Crane.fmu"), "--platforms", "wasm32", "--out", str(out)]) == 0
+
+
+@pytest.mark.slow
+def test_other_sources_than_those_installed_are_compiled(bare: Path, tmp_path: Path) -> None:
+    """The sign of a damper is turned in the FMU's sources: the module has it, the library of this machine has not."""
+    plan = Plan({"torque": 2.0}, ["torque"], [{"h": 0.01, "inputs": [2.0]}] * 20)
+    turned = tmp_path / "turned" / "Crane.fmu"
+    turned.parent.mkdir()
+    with zipfile.ZipFile(bare) as archive, zipfile.ZipFile(turned, "w") as other:
+        for name in archive.namelist():
+            data = archive.read(name)
+            if name.endswith("elements/scalar_spring_damper.c"):
+                assert data.count(b"- c * a->ud[0]") == 1
+                data = data.replace(b"- c * a->ud[0]", b"+ c * a->ud[0]")
+            other.writestr(name, data)
+    assert build_fmu.main(["--fmu", str(turned), "--platforms", "wasm32", "--out", str(tmp_path)]) == 0
+    fmu = Fmu(tmp_path / "Crane.fmu", tmp_path / "unpacked")
+    with pytest.raises(pytest.fail.Exception, match="values differ, first 'rod.x' after step 1"):
+        assert_same(wasmtime(fmu, plan), native(fmu, plan), fmu, plan)
+
+
+def test_what_cannot_be_compiled_again(
+    bare: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], small: Callable[[str], Fmu]
+) -> None:
+    def words(file: Path) -> str:
+        assert build_fmu.main(["--fmu", str(file), "--platforms", "wasm32", "--out", str(tmp_path / "out")]) == 2
+        return capsys.readouterr().err
+
+    def without(leave: str) -> Path:
+        file = tmp_path / "less.fmu"
+        with zipfile.ZipFile(bare) as archive, zipfile.ZipFile(file, "w") as other:
+            for name in archive.namelist():
+                if leave not in name:
+                    other.writestr(name, archive.read(name))
+        return file
+
+    (tmp_path / "text.fmu").write_text("x")
+    assert "There is no file" in words(tmp_path / "none.fmu")
+    assert "is not an FMU that can be read" in words(tmp_path / "text.fmu")
+    assert "is no FMU of ALi3 of the kind native" in words(without("fmi2_direct.c"))
+    assert "older than the platform wasm32" in words(without("fmi2_alone.c"))
+    assert "has no modelDescription.xml" in words(without("modelDescription.xml"))
+    assert not (tmp_path / "out").exists()
+
+
+def test_other_tools_do_not_mind_it(small: Callable[[str], Fmu], tmp_path: Path, capfd: Any) -> None:
+    fmu = small("crane")
+    assert "wasm32" in {part.name for part in (fmu.folder / "binaries").iterdir()}
+    assert fmpy.supported_platforms(str(fmu.path)) == ["c-code", fmpy.platform]
+    assert validate_fmu(str(fmu.path)) == []
+    shutil.copy(fmu.path, tmp_path / "Crane.fmu")
+    result = fmpy.simulate_fmu(str(tmp_path / "Crane.fmu"), stop_time=0.5, start_values={"torque": 2.5})
+    assert np.ptp(result["rod.angle"]) > 0.1
+    assert check([str(tmp_path / "Crane.fmu"), "--steps", "10"]) == 0
+    assert "nothing bad found" in capfd.readouterr().out
+
+
+def test_the_platform_is_asked_for_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = ["--scene", f"{SCENES}:crane", "--out", str(tmp_path)]
+    assert build_fmu.main([*scene, "--platforms", "wasm32"]) == 0
+    printed = capsys.readouterr().out
+    assert "fmi3: left out, it runs on linux64, win64, darwin64, aarch64-linux only" in printed
+    assert "python: left out, it runs on linux64, win64 only" in printed
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["Crane.fmu", "Crane.ssv"]
+    with zipfile.ZipFile(tmp_path / "Crane.fmu") as archive:
+        assert [n for n in archive.namelist() if n.startswith("binaries/")] == ["binaries/wasm32/Crane.wasm"]
+
+
+def test_sources_for_a_file_system_leave_the_room_out() -> None:
+    """Its files lie in every FMU, and are empty but with ALI3_ALONE."""
+    sources = packed_sources("fmi2", "")
+    for name in ("fmi2_alone.c", "kernel/src/files/file_room.c"):
+        assert b"#if defined(ALI3_ALONE)" in sources[name]
+
+
+def test_the_kernel_alone_is_a_module_too(tmp_path: Path) -> None:
+    import wasmtime
+
+    path = kernel_build.compile_library("wasm32-wasi", tmp_path / kernel_build.library_name("wasm32-wasi"))
+    assert path.name == "ali3.wasm"
+    engine = wasmtime.Engine()
+    made = wasmtime.Module.from_file(engine, str(path))
+    assert list(made.imports) == []
+    assert {e.name for e in made.exports} == (
+        {"memory", "_initialize"} | set(kernel_build.functions()) | set(kernel_build.WASM_HELPERS)
+    )
+    store = wasmtime.Store(engine)
+    exports: Any = wasmtime.Instance(store, made, []).exports(store)
+    address = exports["ali3_status_text"](store, 0)
+    text = bytes(exports["memory"].read(store, address, address + 200)).split(b"\0")[0]
+    assert text.decode() == status_text(load_library(), 0).removesuffix(".")

@@ -1,0 +1,263 @@
+"""Films of recordings: pictures of the page, one after the other, as MP4, or as an animated WebP or GIF."""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+import tempfile
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import closing
+from numbers import Real
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ali3.errors import UserError
+from ali3.files import check_writable, whole_file
+from ali3.running import missing_package
+from viewer.browser import screenshot
+from viewer.errors import ViewerError
+from viewer.page_file import notes_of, thinned, write_page
+from viewer.recording import Recording
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+SUFFIXES = (".mp4", ".webp", ".gif")
+MOST_FRAMES = 20_000
+Progress = Callable[[float], None]
+_QUALITY = 7.5  # of MP4, 0 to 10
+_WEBP = {"quality": 55, "method": 6, "minimize_size": True}
+
+
+class FilmError(UserError, RuntimeError):
+    """There is no program that makes a film, or it fails; the message says what would help."""
+
+
+class WrittenFilm(NamedTuple):
+    """A film that was written.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    size : int
+        Bytes.
+    frames : int
+        Pictures.
+    duration : float
+        Of the film, s.
+    notes : list of str
+        Sentences: thinning, gaps, what is not drawn.
+    """
+
+    path: Path
+    size: int
+    frames: int
+    duration: float
+    notes: list[str]
+
+
+def write_mp4(
+    path: str | os.PathLike[str],
+    recordings: Recording | Sequence[Recording],
+    *,
+    fps: float = 30.0,
+    size: tuple[int, int] = (1280, 720),
+    camera: str | None = None,
+    speed: float = 1.0,
+    begin: float | None = None,
+    end: float | None = None,
+    options: Mapping[str, Any] | None = None,
+    progress: bool | Progress | None = None,
+) -> WrittenFilm:
+    """Write a film of a recording, or of several that are shown over each other.
+
+    A Chromium without a window draws the pictures, by the processor: those of 1280 x 720 take a second or less each.
+    ffmpeg (of the package imageio-ffmpeg) encodes them as H.264. Files ``.webp`` and ``.gif`` are animated pictures for
+    documents, which play without end.
+
+    Parameters
+    ----------
+    path : path
+        ``.mp4``, ``.webp`` or ``.gif``; an older file is replaced when the new one is whole.
+    recordings : Recording or sequence of Recording
+        The first is drawn solid, the others as ghosts.
+    fps : float
+        Pictures a second, 1 to 120; the times between two of a GIF are multiples of 10 ms.
+    size : (int, int)
+        Pixels, both even for ``.mp4``.
+    camera : str, optional
+        Its name; by default the one that the page starts with.
+    speed : float
+        Of the film; 1 is real time, 0.1 slow motion.
+    begin, end : float, optional
+        Part of the recording, s; by default all of the first one.
+    options : mapping, optional
+        What the page starts with, such as ``{"stress": True, "deformation": 20.0}``; see
+        `viewer.player_options.OPTIONS`.
+    progress : bool or callable, optional
+        None: a bar after two seconds; True: at once; False: none. A function receives the share that is done, 0 to 1.
+
+    Returns
+    -------
+    WrittenFilm
+        Where it is, how large and how long.
+
+    Raises
+    ------
+    ViewerError
+        A recording or an argument is wrong.
+    BrowserError
+        There is no browser, or it cannot draw.
+    FilmError
+        There is no ffmpeg, or it fails.
+    FileError
+        The file cannot be written; an older one is then unchanged.
+    """
+    target = Path(path)
+    shown = thinned(recordings)
+    times = _times(target, shown[0], fps, size, speed, begin, end)
+    check_writable(path)
+    encode = _mp4_encoder(fps, size) if target.suffix.lower() == ".mp4" else _animation_encoder(target, fps)
+    with tempfile.TemporaryDirectory(prefix="ali3-film-") as folder:
+        page = Path(folder, "page.html")
+        chosen = {**(options or {}), "controls": False, "play": False}
+        write_page(page, shown, options=chosen)
+        pictures = _told(screenshot(page, times, size, camera), len(times), progress)
+        with closing(pictures), whole_file(path) as made:
+            encode(made, pictures)
+            written = made.stat().st_size
+    return WrittenFilm(target, written, len(times), len(times) / fps, notes_of(shown))
+
+
+def _times(
+    target: Path,
+    recording: Recording,
+    fps: float,
+    size: tuple[int, int],
+    speed: float,
+    begin: float | None,
+    end: float | None,
+) -> list[float]:
+    """Times of the pictures, s."""
+    if target.suffix.lower() not in SUFFIXES:
+        raise ViewerError(f"{target} must end with .mp4, .webp or .gif.")
+    if recording.scene is None:
+        raise ViewerError(f"{recording.name!r} has no scene: there is nothing to be filmed.")
+    _check_number("fps", fps, 1.0, 120.0)
+    _check_number("speed", speed, 1e-4, 1e4)
+    _check_size(target, size)
+    first, last = float(recording.t[0]), float(recording.t[-1])
+    for name, value in (("begin", begin), ("end", end)):
+        if value is not None:
+            _check_number(name, value, first, last)
+    first = first if begin is None else float(begin)
+    last = last if end is None else float(end)
+    if first > last:
+        raise ViewerError(f"The film is to begin at {first:g} s and to end before that, at {last:g} s.")
+    count = math.floor((last - first) / speed * fps * (1.0 + 1e-9)) + 1
+    if count > MOST_FRAMES:
+        raise ViewerError(
+            f"The film would have {count} pictures, at most {MOST_FRAMES} are made; choose begin and end, a higher "
+            "speed or a lower fps."
+        )
+    return [min(first + k * speed / fps, last) for k in range(count)]
+
+
+def _check_number(name: str, value: object, low: float, high: float) -> None:
+    if isinstance(value, bool) or not isinstance(value, Real) or not low <= float(value) <= high:
+        raise ViewerError(f"{name} of the film is {value!r}; it must be a number from {low:g} to {high:g}.")
+
+
+def _check_size(target: Path, size: Any) -> None:
+    listed = list(size) if isinstance(size, (tuple, list)) else []
+    if len(listed) != 2 or not all(type(n) is int and 16 <= n <= 8192 for n in listed):
+        raise ViewerError(f"The size of the film is {size!r}; it must be two numbers of pixels from 16 to 8192.")
+    if target.suffix.lower() == ".mp4" and any(n % 2 for n in size):
+        raise ViewerError(f"The size of the film is {size!r}; both numbers must be even for an MP4 file.")
+
+
+def _told(pictures: Iterator[bytes], count: int, progress: bool | Progress | None) -> Generator[Image, None, None]:
+    """Pictures as they come, with a bar."""
+    try:
+        from PIL import Image
+    except ModuleNotFoundError:
+        raise FilmError(f"A film cannot be written. {missing_package('PIL')}") from None
+    tell, close = _teller(count, progress)
+    try:
+        for number, data in enumerate(pictures):
+            yield Image.open(io.BytesIO(data)).convert("RGB")
+            tell(number + 1)
+    finally:
+        close()
+
+
+def _teller(count: int, progress: bool | Progress | None) -> tuple[Callable[[int], None], Callable[[], None]]:
+    if callable(progress):
+        return lambda number: progress(number / count), lambda: None
+    if progress is False:
+        return lambda number: None, lambda: None
+    try:
+        from tqdm import tqdm
+    except ModuleNotFoundError:
+        return lambda number: None, lambda: None
+    bar = tqdm(total=count, desc="film", unit="picture", delay=2.0 if progress is None else 0.0, leave=False)
+    return lambda number: bar.update(1) and None, bar.close
+
+
+def _mp4_encoder(fps: float, size: tuple[int, int]) -> Callable[[Path, Iterator[Image]], None]:
+    try:
+        import imageio_ffmpeg
+    except ModuleNotFoundError:
+        raise FilmError(f"An MP4 file cannot be written. {missing_package('imageio_ffmpeg')}") from None
+    try:
+        imageio_ffmpeg.get_ffmpeg_exe()
+    except RuntimeError:
+        raise FilmError(
+            "There is no ffmpeg on this machine, which MP4 files need; install it, or name its program in the "
+            "environment variable IMAGEIO_FFMPEG_EXE; animated pictures (.webp, .gif) need none."
+        ) from None
+
+    def encode(path: Path, pictures: Iterator[Image]) -> None:
+        writer = imageio_ffmpeg.write_frames(
+            str(path), size, fps=fps, codec="libx264", quality=_QUALITY, macro_block_size=2, ffmpeg_log_level="error"
+        )
+        writer.send(None)
+        try:
+            for picture in pictures:
+                writer.send(picture.tobytes())
+        except OSError as error:
+            words = " ".join(str(error).split())[:300]
+            raise FilmError(f"ffmpeg does not encode the film: {words}.") from None
+        finally:
+            writer.close()
+        if not path.is_file():
+            raise FilmError("ffmpeg did not write the film.")
+
+    return encode
+
+
+def _animation_encoder(target: Path, fps: float) -> Callable[[Path, Iterator[Image]], None]:
+    kind = target.suffix.lower()[1:]
+
+    def encode(path: Path, pictures: Iterator[Image]) -> None:
+        first = next(pictures)
+        options: dict[str, Any] = dict(_WEBP) if kind == "webp" else {"optimize": False, "disposal": 1}
+        # Whole milliseconds whose sum is that of the film; a GIF has hundredths of a second.
+        first.save(
+            path,
+            format=kind.upper(),
+            save_all=True,
+            append_images=pictures,
+            duration=_milliseconds(fps, kind),
+            loop=0,
+            **options,
+        )
+
+    return encode
+
+
+def _milliseconds(fps: float, kind: str) -> int:
+    step = 10 if kind == "gif" else 1
+    return max(2 * step, step * round(1000.0 / fps / step))
