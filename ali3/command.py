@@ -39,6 +39,7 @@ COMMANDS = (
     Command("page", "hosts.page", "write a page that runs an FMU in a browser"),
     Command("parameters", "hosts.parameters", "show the parameters of an FMU, or write them as a parameter set"),
     Command("check", "hosts.check", "check an FMU and print a verdict"),
+    Command("view", "hosts.view", "show a result or an FMU moving, in a page; pictures, films and glTF of it"),
     Command("kerb", "hosts.kerb", "run the paper's kerb test and draw the moments of the frame"),
     Command("road", "mbs.roads.command", "make, check and show road files"),
     Command("kernel", "mbs.kernel.build", "compile the C kernel for a platform"),

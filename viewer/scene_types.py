@@ -180,6 +180,7 @@ class Wheel(Placed):
     width: Positive
     rim: Positive | None = None
     """Radius of the rim, m."""
+    at: Vector = (0.0, 0.0, 0.0)
     axis: Vector = (0.0, 1.0, 0.0)
 
 
@@ -188,6 +189,7 @@ class SteeringWheel(Placed):
 
     kind: Literal["steering_wheel"]
     radius: Positive
+    at: Vector = (0.0, 0.0, 0.0)
     axis: Vector | None = None
 
 
@@ -268,7 +270,8 @@ class LineArrow(Arrow):
 class VectorArrow(Arrow):
     """A force with three components, in the axes of a frame."""
 
-    vector: Names
+    vector: tuple[Name | None, Name | None, Name | None]
+    """Columns; null for one that is zero."""
     axes: Name = "ground"
     at: Anchor
 

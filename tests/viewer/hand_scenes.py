@@ -77,8 +77,16 @@ def everything() -> dict[str, Any]:
                 "coils": 8,
             },
             {"kind": "damper", "ends": [["ground", [0, 0, 0]], ["body", [0, 0, 0]]], "radius": 0.02},
-            {"kind": "wheel", "frame": "spinning wheel", "radius": 0.3, "width": 0.2, "rim": 0.2, "axis": [0, 1, 0]},
-            {"kind": "steering_wheel", "frame": "spinning wheel", "radius": 0.2, "axis": [0, 1, 0]},
+            {
+                "kind": "wheel",
+                "frame": "spinning wheel",
+                "radius": 0.3,
+                "width": 0.2,
+                "rim": 0.2,
+                "at": [0, 0, 0],
+                "axis": [0, 1, 0],
+            },
+            {"kind": "steering_wheel", "frame": "spinning wheel", "radius": 0.2, "at": [0, 0, 0], "axis": [0, 1, 0]},
         ],
         "meshes": {
             "triangle": {
@@ -178,7 +186,7 @@ def crank(times: np.ndarray, speed: float = 2.0, name: str = "crank") -> Recordi
             {"kind": "box", "frame": "slider", "size": [0.3, 0.2, 0.2], "color": "#cc3333"},
             {"kind": "tube", "points": [["crank", [0.5, 0, 0]], ["slider", [0, 0, 0]]], "radius": 0.03},
         ],
-        "arrows": [{"name": "push", "unit": "N", "vector": ["fx", "fy", "fz"], "at": ["slider", [0, 0, 0]]}],
+        "arrows": [{"name": "push", "unit": "N", "vector": ["fx", "fy", None], "at": ["slider", [0, 0, 0]]}],
     }
     a = speed * times
     zero, one = np.zeros_like(a), np.ones_like(a)

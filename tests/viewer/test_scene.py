@@ -140,6 +140,7 @@ def test_any_value_is_good_or_has_one_sentence(place: tuple[tuple[Any, ...], str
         (("arrows", 1, "axes"), "wing", 'arrows[1].axes is "wing", which is no frame'),
         (("arrows", 0, "sign"), 2, "arrows[0].sign is 2; it must be 1 or -1."),
         (("roads", 1, "shape"), [2, 3], "roads[1].heights has 4 numbers where 6 belong."),
+        (("arrows", 1, "vector"), ["a", 1, None], "arrows[1].vector[1] is 1; it must be a text."),
         (("up",), [0, 0, 0], "up is [0, 0, 0]; it must have a direction."),
         (
             ("focus",),
