@@ -181,9 +181,11 @@ class Drive {
       message: (which, text) => this._tell(text),
       error: (at, text) => this._error(at, text),
     });
-    const pictures = fmus.map(({ title, scene, description }) => {
-      return { title, scene, variables: new Map(description.variables.map((v) => [v.name, v])) };
-    });
+    const pictures = [];
+    for (const { title, scene, roads, description } of fmus) {
+      const choices = roads ? JSON.parse(new TextDecoder().decode(await unpack(roads))) : {};
+      pictures.push({ title, scene, roads: choices, variables: new Map(description.variables.map((v) => [v.name, v])) });
+    }
     this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep });
     this._layOut(fmus[0]);
     this.stage.open();
@@ -251,11 +253,8 @@ class Drive {
     this.act = act;
     this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views });
     this.root.append(this.bar.element);
-    const set = (wishes) => {
-      for (const part of this.stage.parts) part.view.set?.(wishes);
-      this.stage.dirty = true;
-    };
-    const shown = picturePanel(this.stage.parts.map((part) => part.view.has ?? {}), set);
+    const has = this.stage.parts.map((part) => part.view.has ?? {});
+    const shown = picturePanel(has, (wishes) => this.stage.set(wishes));
     if (shown) this.plots.element.before(shown);
   }
 
@@ -283,6 +282,7 @@ class Drive {
 
   _started() {
     this.stage?.bind(this.session.record, this.session.prefixes);
+    this.stage?.chooseRoads(this.session.start["road.file"] ?? "");
     this._clear();
     this.keyboard?.clear();
     if (this.plots) this.plots.stale = true;

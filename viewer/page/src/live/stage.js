@@ -27,6 +27,7 @@ export class Stage {
   /** Make the pictures, once the element stands in the page. */
   open() {
     for (const part of this.parts) {
+      part.road ??= "";
       part.view = new SceneView(part.holder, part.scene, this._options);
       for (const event of ["pointerdown", "pointermove", "wheel"]) {
         part.holder.addEventListener(event, () => (this.dirty = true), { passive: true });
@@ -35,6 +36,28 @@ export class Stage {
     }
     this.problem = this.parts.map((part) => part.view.problem).find(Boolean) ?? "";
     for (const part of this.parts) if (part.view.problem) this.tell(part, part.view.problem);
+  }
+
+  /** Draw the roads that belong to a value of the parameter `road.file`. */
+  chooseRoads(name) {
+    for (const part of this.parts) {
+      if (!part.view || part.road === name || !part.roads?.[name]) continue;
+      const camera = part.view.cameras?.name;
+      part.view.dispose();
+      part.road = name;
+      part.scene = { ...part.scene, roads: part.roads[name] };
+      part.view = new SceneView(part.holder, part.scene, this._options);
+      if (camera && !part.view.problem) part.view.camera(camera);
+      if (this._wishes) part.view.set?.(this._wishes);
+    }
+    this.dirty = true;
+  }
+
+  /** What the pictures show, as `SceneView.set` has it. */
+  set(wishes) {
+    this._wishes = { ...this._wishes, ...wishes };
+    for (const part of this.parts) part.view.set?.(wishes);
+    this.dirty = true;
   }
 
   /** Which columns of the record are those of the FMUs, by name. */
