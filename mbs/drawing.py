@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -172,14 +172,17 @@ class Drawing:
     scene : mapping
         In the format of `docs/animation.md`.
     places : Places
+    shared : sequence of (frame, place, frame, place)
+        Points that two frames share by their joint, each with its place in both, m.
     """
 
     scene: Mapping[str, Any]
     places: Places
+    shared: Sequence[tuple[str, Sequence[float], str, Sequence[float]]] = ()
 
     def to_bytes(self) -> bytes:
         """The array `drawing` of a System file: JSON, UTF-8."""
-        content = {"scene": self.scene, "places": self.places.to_json()}
+        content = {"scene": self.scene, "places": self.places.to_json(), "shared": [list(s) for s in self.shared]}
         return json.dumps(content, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
 
     @classmethod
@@ -195,7 +198,8 @@ class Drawing:
         places = Places.from_json(content["places"])
         if places.matrix.shape[1] != nq:
             raise ValueError(f"the drawing is of {places.matrix.shape[1]} coordinates, the System has {nq}")
-        return cls(dict(content["scene"]), places)
+        shared = [(str(a), [float(x) for x in p], str(b), [float(x) for x in q]) for a, p, b, q in content["shared"]]
+        return cls(dict(content["scene"]), places, shared)
 
 
 def quaternions(matrices: Array) -> Array:

@@ -46,6 +46,8 @@ class NativeContents:
         Of the model, for its description; empty: the solver's.
     origin : mapping of str to bytes
         Files that the model was made from, by their paths in the FMU.
+    geometry : bytes
+        The scene of the FMU, JSON; empty: none.
     """
 
     model_name: str
@@ -59,6 +61,7 @@ class NativeContents:
     copyright: str = ""
     licence: str = ""
     origin: Mapping[str, bytes] = field(default_factory=dict)
+    geometry: bytes = b""
 
     def description_head(self, guid: str, **more: Any) -> Description:
         """Attributes of modelDescription.xml; what is not given of the rights is the solver's."""

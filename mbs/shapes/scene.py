@@ -17,7 +17,9 @@ from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import touched
-from mbs.shapes.roads import base64_of, roads_of
+from mbs.roads.scene_part import base64_of
+from mbs.shapes.roads import roads_of
+from mbs.shapes.shared_points import shared_points
 
 Scene = dict[str, Any]
 Binding = Callable[[str, Mapping[str, Any]], "Mapping[str, Any] | str"]
@@ -64,7 +66,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "roads": roads_of(model),
         "missing": [],
     }
-    return Drawing(scene, places)
+    return Drawing(scene, places, shared_points(model, names))
 
 
 def rebound(scene: Mapping[str, Any], binding: Binding) -> Scene:

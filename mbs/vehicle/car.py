@@ -37,11 +37,20 @@ from mbs.vehicle.drives import Drive
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 from mbs.vehicle.names import CarName, Name, Text
-from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, wheel_poses, work_outputs
+from mbs.vehicle.outputs import (
+    chassis_outputs,
+    health_outputs,
+    lever_outputs,
+    used_inputs,
+    wheel_outputs,
+    wheel_poses,
+    work_outputs,
+)
 from mbs.vehicle.payload import Payload
 from mbs.vehicle.quantities import Length, Mass, Point
 from mbs.vehicle.road import RoadSection, level_within
 from mbs.vehicle.section import Section, sections_of
+from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering import Steering
@@ -198,6 +207,7 @@ class Car(Section):
         self._outputs(b, steered, spins, fidelity)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
+        car_shapes(b, spins)
         return m
 
     def _builder(self, road: Road | RoadFile | None) -> CarBuilder:
@@ -299,6 +309,12 @@ class Car(Section):
     def _paths(self) -> list[str]:
         return [section.key(field) for section in sections_of(self) for field in type(section).model_fields]
 
+    @property
+    def rack_ends(self) -> Coordinates:
+        """Inner end of the left tie rod of the front axle, m."""
+        points = self.front.suspension.points
+        return tuple(getattr(points, "tie_rod_inner", None) or points.toe_link_inner)
+
     def _rack_way(self) -> float:
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
         suspension = self.front.suspension
@@ -337,3 +353,4 @@ class Car(Section):
         steered.torque_outputs()
         for name, spin in spins.items():
             wheel_poses(b, spin, name)
+        lever_outputs(b)
