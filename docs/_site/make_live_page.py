@@ -10,6 +10,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import mbs
+from ali3.running import run_command
 from fmu_src.build_command import main as build
 from hosts import page
 from hosts.page_parts import FmuParts, fmu_parts
@@ -94,13 +95,14 @@ MAKERS: dict[str, Callable[[Path], str]] = {
 }
 
 
-def main(name: str, out: Path) -> None:
-    """Make a page and put it into a folder."""
+def main(name: str, out: Path) -> int:
+    """Make a page and put it into a folder; 0."""
     with tempfile.TemporaryDirectory() as folder:
         text = MAKERS[name](Path(folder))
     out.mkdir(parents=True, exist_ok=True)
     (out / f"{name}.html").write_text(text, encoding="utf-8", newline="\n")
+    return 0
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], Path(sys.argv[2]))
+    sys.exit(run_command(lambda: main(sys.argv[1], Path(sys.argv[2])), (RuntimeError, ValueError)))

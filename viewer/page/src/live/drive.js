@@ -150,6 +150,7 @@ class Drive {
   draw() {
     const { session } = this;
     const { running, speed, step, pace } = session;
+    this.stage.survey(session.record);
     this.stage.show(session.record, session.shown, { running, speed, step, factor: pace.factor, cost: pace.cost });
     this.stage.render();
     this._showPanel();

@@ -4,6 +4,11 @@ import { el } from "./dom.js";
 import { Hud } from "./hud.js";
 import { between } from "./record.js";
 
+/** Instants of a run that are looked at. */
+const SURVEYED = 40;
+/** After this a camera stays where a person has put it, s of the run. */
+const SURVEYED_UNTIL = 20;
+
 /** Pictures that are drawn when something has changed. */
 export class Stage {
   /**
@@ -12,6 +17,7 @@ export class Stage {
    */
   constructor(items, options) {
     this.element = el("div.a3-stage");
+    this._surveyed = 0;
     this.parts = items.map((item) => {
       const holder = el("div.a3-picture");
       const notice = el("div.a3-notice", { data: "notice", hidden: true });
@@ -62,6 +68,7 @@ export class Stage {
 
   /** Which columns of the record are those of the FMUs, by name. */
   bind(record, prefixes) {
+    this._surveyed = 0;
     for (const [which, part] of this.parts.filter((p) => p.variables).entries()) {
       const names = [...part.variables.values()].filter((v) => v.causality === "output").map((v) => v.name);
       const own = names.map((name) => [name, record.column(prefixes[which] + name)]);
@@ -74,6 +81,21 @@ export class Stage {
   lookup(part, record, time) {
     if (!part.recording) return between(record, time, part.columns, part.turning);
     return lookupOf(part.recording, time);
+  }
+
+  /**
+   * Ranges of arrows and stress, and what a camera that stands must see, from what the run has been; each time the run
+   * is twice as long.
+   */
+  survey(record) {
+    if (record.time < 2 * this._surveyed || this._surveyed > SURVEYED_UNTIL || record.end - record.first < 2) return;
+    this._surveyed = Math.max(0.25, record.time);
+    const times = Array.from({ length: SURVEYED }, (_, i) => record.first * record.step + (i / (SURVEYED - 1)) * record.time);
+    for (const part of this.parts) {
+      const { recording: run } = part;
+      const instants = run ? times.map((_, i) => run.t[0] + (i / (SURVEYED - 1)) * (run.t.at(-1) - run.t[0])) : times;
+      part.view.scan?.((i) => this.lookup(part, record, instants[i]), SURVEYED);
+    }
   }
 
   /** Draw the instant `time`. */
