@@ -17,6 +17,7 @@ from pathlib import Path
 from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
 from fmu_src.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
+from fmu_src.geometry.geometry import geometry, geometry_file
 from fmu_src.native.ahead import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
@@ -164,8 +165,10 @@ class FmuBuilder:
         with told("finding what depends on what"):
             reach = probe(systems, table)
         version = importlib.metadata.version("ali3")
+        scene = geometry(systems[fidelity], table, fmu_name(name), description)
+        drawn = geometry_file(scene) if scene is not None else b""
         self._contents = NativeContents(
-            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights, origin or {}
+            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights, origin or {}, drawn
         )
         self._libraries: dict[tuple[str, str], bytes] = {}
         self._run: ReferenceRun | None = None

@@ -33,11 +33,14 @@ class Bound:
         Place of the drawing's origin in the frame, where it is not 0, m.
     lost : dict of str to str
         Frames that nothing moves, and why.
+    amplitudes : dict of str to str
+        Variables of amplitudes by the columns of the drawing.
     """
 
     frames: dict[str, Frame]
     moved: dict[str, Array]
     lost: dict[str, str]
+    amplitudes: dict[str, str]
 
 
 def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Shared]) -> Bound:
@@ -52,7 +55,7 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
     shared : sequence of (frame, place, frame, place)
         Points that frames share.
     """
-    rows, bound = SensorRows(system), Bound({}, {}, {})
+    rows, bound = SensorRows(system), Bound({}, {}, {}, {})
     assert system.drawing is not None, "asked for before"
     places = {place.columns[0]: place for place in system.drawing.places.bodies}
     for name, frame in frames.items():
@@ -75,6 +78,11 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
         else:
             at = np.array(frame.get("at", (0.0, 0.0, 0.0))) + bound.moved.get(frame["parent"], 0.0)
             bound.frames[name] = dict(frame) | {key: column, "at": [float(x) for x in at]}
+    for place in system.drawing.places.amplitudes:
+        for k, column in enumerate(place.columns):
+            found = rows.angle(place.row + k)
+            if found is not None:
+                bound.amplitudes[column] = found
     return bound
 
 

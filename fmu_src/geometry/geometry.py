@@ -11,20 +11,14 @@ from fmu_src.geometry.binding import bind
 from fmu_src.geometry.moved_places import moved_part
 from fmu_src.geometry.roads import with_parameters
 from fmu_src.variables import Variable
+from mbs.kernel.header import ElementType
 from mbs.shapes.scene import frames_used
 
-PATH = "resources/geometry.json"
 FRAME_TUBE = "frame tube"
 """Name of shapes that a flexible part draws too."""
 
 
-def geometry(
-    system: mbs.System,
-    table: Sequence[Variable],
-    name: str,
-    description: str,
-    flexible: Sequence[Mapping[str, Any]] = (),
-) -> dict[str, Any] | None:
+def geometry(system: mbs.System, table: Sequence[Variable], name: str, description: str) -> dict[str, Any] | None:
     """The scene of an FMU: its columns are variables of the FMU.
 
     Parameters
@@ -35,8 +29,6 @@ def geometry(
         Of the FMU.
     name, description : str
         Of the model.
-    flexible : sequence of mapping
-        Flexible parts whose amplitudes are outputs, in place of those of the drawing.
 
     Returns
     -------
@@ -53,12 +45,15 @@ def geometry(
     def kept(parts: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
         return [moved_part(part, bound.moved) for part in parts if frames_used(part) <= here]
 
-    parts = [part for part in flexible if part["frame"] in here]
-    if not parts:
-        parts = [p for p in kept(scene["flexible"]) if set(p["amplitudes"]) <= known]
+    parts = [
+        part | {"amplitudes": [bound.amplitudes.get(name, name) for name in part["amplitudes"]]}
+        for part in kept(scene["flexible"])
+    ]
+    bending = [part for part in parts if set(part["amplitudes"]) <= known]
     shapes = kept(scene["shapes"])
-    if parts:
+    if bending:
         shapes = [shape for shape in shapes if shape.get("name") != FRAME_TUBE]
+    shapes += [tube for part in parts if part not in bending for tube in _stiff(part)]
     used = {shape["mesh"] for shape in shapes if shape["kind"] == "mesh"}
     drawn = {frame for shape in scene["shapes"] for frame in frames_used(shape)}
     return scene | {
@@ -67,7 +62,7 @@ def geometry(
         "frames": bound.frames,
         "shapes": shapes,
         "meshes": {key: mesh for key, mesh in scene["meshes"].items() if key in used},
-        "flexible": parts,
+        "flexible": bending,
         "arrows": [arrow for arrow in kept(scene["arrows"]) if set(_columns(arrow)) <= known],
         "roads": with_parameters(scene["roads"], system, known),
         "focus": scene["focus"] if scene["focus"] in bound.frames else "",
@@ -76,6 +71,35 @@ def geometry(
             *({"name": frame, "why": why} for frame, why in bound.lost.items() if frame in drawn),
         ],
     }
+
+
+def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Tubes of a flexible part whose amplitudes are no outputs."""
+    frame, nodes = part["frame"], part["nodes"]
+    return [
+        {"kind": "tube", "points": [[frame, nodes[i]], [frame, nodes[j]]], "radius": radius, "body": frame}
+        for (i, j), radius in zip(part["beams"], part["radii"], strict=True)
+    ]
+
+
+def lost_frames(system: mbs.System) -> list[str]:
+    """Frames of a drawing that carry shapes and that no output of the System moves, or that bend without an output.
+
+    What bends is enough as it is drawn where the outputs are those of wheels.
+
+    Parameters
+    ----------
+    system : mbs.System
+        Without a drawing it has none.
+    """
+    if system.drawing is None:
+        return []
+    scene = system.drawing.scene
+    bound = bind(system, scene["frames"], system.drawing.shared)
+    drawn = {frame for part in (*scene["shapes"], *scene["flexible"]) for frame in frames_used(part)}
+    wheels = int(ElementType.SPIN_ANGLE) in system.arrays["el_type"]
+    stiff = [p["frame"] for p in scene["flexible"] if not (wheels or set(p["amplitudes"]) <= set(bound.amplitudes))]
+    return [frame for frame in bound.frames | bound.lost if frame in drawn and (frame in bound.lost or frame in stiff)]
 
 
 def _columns(arrow: Mapping[str, Any]) -> list[str]:

@@ -10,7 +10,6 @@ import numpy as np
 from fmu_src.geometry.sensor_rows import Array
 
 
-
 def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str, Any]:
     """A shape, arrow or flexible part in frames whose origins were moved.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.affine import AffineVector
+from mbs.affine import Affine, AffineVector
 from mbs.checks import one_of
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,7 +29,20 @@ class Sliding(Turning):
 
 
 class SlidingVocabulary(ShapeVocabulary):
-    """What slides on a body, and computed meshes."""
+    """What slides on a body, and computed meshes.
+
+    Parameters
+    ----------
+    name, dimension, gravity, length
+        See `Model`.
+    """
+
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
+        super().__init__(name, dimension, gravity, length=length)
+        self.more_poses: list[Callable[[], list[dict[str, Any]]]] = []
+        self.flexible_scene: list[dict[str, Any]] = []
 
     def sliding(self, name: str, body: Body, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
         """Something that only its looks slide along a line of a body, such as a rack that a guide moves.

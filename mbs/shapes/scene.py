@@ -13,11 +13,11 @@ from mbs.drawing import Drawing, Places, matrices
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Shape
+from mbs.roads.scene_part import base64_of
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import touched
-from mbs.roads.scene_part import base64_of
 from mbs.shapes.roads import roads_of
 from mbs.shapes.shared_points import shared_points
 
@@ -61,7 +61,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "frames": frames,
         "shapes": shapes,
         "meshes": meshes,
-        "flexible": [],
+        "flexible": list(model.flexible_scene),
         "arrows": arrows_of(model, names, found.lines),
         "roads": roads_of(model),
         "missing": [],

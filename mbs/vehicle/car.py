@@ -7,6 +7,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Field, PrivateAttr
 
 from mbs.elements.road import Road
@@ -21,6 +22,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.changes import changed_content
+from mbs.vehicle.chassis.amplitudes import amplitude_outputs
 from mbs.vehicle.chassis.attachments import attachments
 from mbs.vehicle.chassis.build import build_chassis, stress_outputs
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
@@ -208,7 +210,24 @@ class Car(Section):
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
         car_shapes(b, spins)
+        if self.chassis.frame is not None:
+            m.more_poses.append(partial(self._frame_poses, b))
         return m
+
+    def _frame_poses(self, b: CarBuilder) -> list[dict[str, Any]]:
+        """Amplitudes of the frame as outputs, and its parts of the scene."""
+        amplitude_outputs(b.m, b.chassis, self.flexible_frame)
+        shift = np.subtract(self.vehicle.reference_point, b.chassis.frame.com)
+        return [
+            part | {"nodes": [[float(x) for x in np.add(node, shift)] for node in part["nodes"]]}
+            for part in self._flexible_parts
+        ]
+
+    @cached_property
+    def _flexible_parts(self) -> list[dict[str, Any]]:
+        from mbs.vehicle.chassis.stress_scene import flexible_part  # it compiles a car
+
+        return flexible_part(self)
 
     def _builder(self, road: Road | RoadFile | None) -> CarBuilder:
         """An empty model with road and inputs."""

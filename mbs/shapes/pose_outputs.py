@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import re
 
-from mbs import Model
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
-
-POSES = ("wheels", "all")
-"""What `--poses` may be: of the wheels of a car only, which are always there, or of all bodies."""
+from mbs.model.model import Model
 
 
 def pose_outputs(model: Model) -> None:
     """Add position and quaternion of every body, and the angle of every wheel that is not a body.
 
     The names are `body.NAME.x` to `.z`, m, of the centre of mass as drawn, `body.NAME.qw` to `.qz`, scalar first, and
-    `body.NAME.angle`; NAME is that in the model with everything but letters and digits written as an underscore. Planar
-    bodies have z = 0 and turn about z, particles do not turn.
+    `body.NAME.angle`; NAME is that in the model, with underscores for all but letters and digits. Planar bodies have
+    z = 0 and turn about z, particles do not turn. A flexible body adds its amplitudes, `body.NAME.mode_1` and on,
+    unless the model names others (`Model.more_poses`).
 
     Parameters
     ----------
@@ -36,6 +34,19 @@ def pose_outputs(model: Model) -> None:
         text = f"angle by which {spin.name} has turned on its carrier since the start, not wrapped"
         model.sense_spin_angle(f"{stem}.angle", spin, description=text)
         sensed.add(f"{stem}.angle")
+    for more in model.more_poses:
+        model.flexible_scene += more()
+    if not model.more_poses:
+        for body in model.bodies:
+            if isinstance(body, FlexibleBody):
+                _amplitudes(model, body, sensed)
+
+
+def _amplitudes(model: Model, body: FlexibleBody, sensed: set[str]) -> None:
+    stem = _stem(body.name, sensed, ("mode_1",))
+    for k, mode in enumerate(body.reduced.mode_names):
+        row = [float(j == k) for j in range(body.n_modes)]
+        model.sense_recovery(f"{stem}.mode_{k + 1}", body, row, "1", f"amplitude of mode '{mode}' of {body.name}")
 
 
 def _stem(name: str, taken: set[str], parts: tuple[str, ...]) -> str:
