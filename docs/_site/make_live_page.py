@@ -74,8 +74,9 @@ def puma(folder: Path) -> str:
     rows = [[float(x) for x in row] for row in csv.reader(text.splitlines()[1:])]
     there = [row[1:8] for row in rows if row[0] == 1]
     table = folder / "manoeuvre.csv"
-    table.write_text("\n".join(["time," + ",".join(f"torque_{k}" for k in range(1, 7)), *_to_and_fro(there, 3)]))
-    return written(fmu, folder, "--title", "The PUMA robot", "--manoeuvre", str(table), "--plot", "angle_2")
+    table.write_text("\n".join(["time," + ",".join(f"torque_{k}" for k in range(1, 7)), *_to_and_fro(there, 1)]))
+    small = ["--set", "step_size=0.002", "--step", "0.002"]
+    return written(fmu, folder, "--title", "The PUMA robot", "--manoeuvre", str(table), "--plot", "angle_2", *small)
 
 
 def _to_and_fro(rows: Sequence[Sequence[float]], times: int) -> list[str]:

@@ -91,6 +91,10 @@ test("sliders: the given range, a guess that says so, logarithmic where it is wi
   assert.deepEqual([pedal.low, pedal.high, pedal.guessed, pedal.log], [0, 1, false, false]);
   const torque = rangeOf({ start: 0, type: "Real", unit: "N.m" });
   assert.deepEqual([torque.low, torque.high, torque.guessed], [-100, 100, true]);
+  const tiny = rangeOf({ start: -1.4e-16, type: "Real", unit: "N.m" });
+  assert.deepEqual([tiny.low, tiny.high], [-100, 100]);
+  const moved = rangeOf({ start: 0, type: "Real", unit: "N.m", largest: 3.7 });
+  assert.deepEqual([moved.low, moved.high], [-8, 8]);
   const half = rangeOf({ min: 5, start: 0, type: "Real", unit: "m" });
   assert.deepEqual([half.low, half.high], [5, 25]);
   const spring = rangeOf({ min: 1e3, max: 9e5, start: 12360, type: "Real", unit: "N/m" });

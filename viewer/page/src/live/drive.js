@@ -214,7 +214,9 @@ class Drive {
       session.want([[name, value]]);
     };
     const follows = this.script ? `Inputs follow a table of ${short(this.script.t.at(-1))} s until a hand moves them. ` : "";
-    this.inputPanel = inputPanel(this.inputs, want, follows + (this.isCar ? HELP : ""));
+    const largest = (name) => Math.max(0, ...(this.script?.columns[name] ?? []).map(Math.abs));
+    const sliders = this.inputs.map((v) => ({ ...v, largest: largest(v.name) }));
+    this.inputPanel = inputPanel(sliders, want, follows + (this.isCar ? HELP : ""));
     const settable = (v) => v.causality === "parameter" || (v.causality === "input" && v.variability === "fixed");
     const parameters = [...session.variables.values()].filter(settable);
     const roads = Object.keys(first.resources).filter((path) => path.startsWith("roads/")).map((path) => path.slice(6));
