@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import mbs
 from fmu_src.geometry.geometry import lost_frames
@@ -11,10 +12,10 @@ from mbs.shapes.pose_outputs import pose_outputs
 POSES = ("wheels", "all")
 """What `--poses` may be: of the wheels of a car only, which are always there, or of all bodies."""
 
-Maker = Callable[[], "mbs.Model | mbs.System"]
+Maker = Callable[[], "mbs.Model"] | Callable[[], "mbs.Model | mbs.System"]
 
 
-def posed_systems(makers: Mapping[int, Maker], default: int, poses: str | None) -> dict[int, mbs.System]:
+def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) -> dict[int, mbs.System]:
     """Compile the models of an FMU.
 
     Parameters

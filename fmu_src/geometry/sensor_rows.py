@@ -88,7 +88,7 @@ class SensorRows:
         if body.axes is None:
             return np.zeros(3) if _same(wanted, 0.0 * wanted, body.origin) else None
         matrix = body.axes.transpose(1, 2, 0).reshape(-1, 3)
-        found = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
+        found: Array = np.asarray(np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0], float)
         return found if _same(matrix @ found, wanted.ravel(), wanted) else None
 
     def quaternions(self) -> list[tuple[tuple[str, ...], Array]]:

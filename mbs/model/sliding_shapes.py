@@ -133,7 +133,7 @@ class SlidingVocabulary(ShapeVocabulary):
 
 def _numbers(values: ArrayLike, kind: type, what: str) -> np.ndarray:
     try:
-        found = np.asarray(values, dtype=kind)
+        found: np.ndarray[Any, Any] = np.asarray(values, dtype=kind)
     except (TypeError, ValueError, OverflowError):
         raise ModelError(f"{what} must be rows of three numbers, not {shown(values)}.") from None
     if found.ndim != 2 or found.shape[1] != 3:

@@ -331,8 +331,9 @@ class Car(Section):
     @property
     def rack_ends(self) -> Coordinates:
         """Inner end of the left tie rod of the front axle, m."""
-        points = self.front.suspension.points
-        return tuple(getattr(points, "tie_rod_inner", None) or points.toe_link_inner)
+        suspension = self.front.suspension
+        assert not isinstance(suspension, TwistBeam), "refused with the file"
+        return suspension.steering_arm_inner
 
     def _rack_way(self) -> float:
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""

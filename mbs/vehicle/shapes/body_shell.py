@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.vehicle.shapes.loft import interpolated, loft
-from mbs.vehicle.shapes.looks import ACCENT, DARK, Looks
+from mbs.vehicle.shapes.looks import ACCENT, DARK, Looks, Paint
 
 if TYPE_CHECKING:
     from mbs.vehicle.car import Car
 
-GLASS = {"material": "glass", "color": "#18212b", "opacity": 0.55}
-LAMP = {"material": "glass", "color": "#eef4ff"}
-TAIL_LAMP = {"material": "plastic", "color": "#a3101c"}
+GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
+LAMP: Paint = {"material": "glass", "color": "#eef4ff"}
+TAIL_LAMP: Paint = {"material": "plastic", "color": "#a3101c"}
 # place from the rear end over the length; height of the deck over that of the car, half width over the largest
 DECK = (
     (0.000, 0.500, 0.82),

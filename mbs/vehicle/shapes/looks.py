@@ -16,17 +16,19 @@ from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.side import Point
 
+Paint: TypeAlias = "dict[str, Any]"
+"""Material and colour."""
 Anchor: TypeAlias = "tuple[Owner, Sequence[float]]"
 """A point of a body, or of what slides or turns on one: earth axes as drawn, m."""
 
-BARE = {"material": "steel", "color": "#5d646e"}
-POLISHED = {"material": "chrome"}
-CAST = {"material": "steel", "color": "#8a9098"}
-COIL = {"material": "paint", "color": "#d8a12a"}
-DARK = {"material": "plastic", "color": "#23262b"}
-PAINT = {"material": "paint", "color": "#b3202c"}
-ACCENT = {"material": "paint", "color": "#1f5f9e"}
-CLOTH = {"material": "plastic", "color": "#3a3f47"}
+BARE: Paint = {"material": "steel", "color": "#5d646e"}
+POLISHED: Paint = {"material": "chrome"}
+CAST: Paint = {"material": "steel", "color": "#8a9098"}
+COIL: Paint = {"material": "paint", "color": "#d8a12a"}
+DARK: Paint = {"material": "plastic", "color": "#23262b"}
+PAINT: Paint = {"material": "paint", "color": "#b3202c"}
+ACCENT: Paint = {"material": "paint", "color": "#1f5f9e"}
+CLOTH: Paint = {"material": "plastic", "color": "#3a3f47"}
 SMALL_CAR = 600.0  # kg: parts of a car of this mass are drawn as thick as they are given here
 
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from mbs.vehicle.shapes.looks import CLOTH, Looks
+from mbs.vehicle.shapes.looks import CLOTH, Looks, Paint
 from mbs.vehicle.side import Point
 
 if TYPE_CHECKING:
     from mbs.vehicle.car import Car
 
-SKIN = {"material": "plastic", "color": "#c99b7d"}
-SHIRT = {"material": "plastic", "color": "#35618f"}
-HELMET = {"material": "paint", "color": "#e8e6df"}
-TROUSERS = {"material": "plastic", "color": "#2f3440"}
+SKIN: Paint = {"material": "plastic", "color": "#c99b7d"}
+SHIRT: Paint = {"material": "plastic", "color": "#35618f"}
+HELMET: Paint = {"material": "paint", "color": "#e8e6df"}
+TROUSERS: Paint = {"material": "plastic", "color": "#2f3440"}
 RECLINE = math.radians(15.0)  # of the backs of the seats
-CASE = {"material": "plastic", "color": "#6b4f34"}
+CASE: Paint = {"material": "plastic", "color": "#6b4f34"}
 COS, SIN = math.cos(RECLINE), math.sin(RECLINE)
 PERSON = 30.0  # kg: a payload of so much and more is drawn as a person
 
@@ -56,7 +56,7 @@ def _person(looks: Looks, at: Point, driver: bool) -> None:
     """A person who sits, with the seat; `at` is the centre of mass."""
     chassis, (x, y, z) = looks.chassis, at
 
-    def limb(radius: float, paint: dict[str, str], *offsets: tuple[float, float, float]) -> None:
+    def limb(radius: float, paint: Paint, *offsets: tuple[float, float, float]) -> None:
         points = [(chassis, (x + a, y + b, z + c)) for a, b, c in offsets]
         looks.m.shape(chassis, "tube", points=points, radius=radius, **paint)
 
