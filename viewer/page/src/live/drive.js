@@ -83,6 +83,7 @@ class Drive {
       return `There is no camera '${name}'; there are ${this.view.cameraNames.join(", ")}.`;
     }
     for (const part of this.stage.parts) if (part.view.cameraNames.includes(name)) part.view.camera(name);
+    this.bar?.camera(name);
     this.stage.dirty = true;
     return "";
   }
@@ -256,6 +257,8 @@ class Drive {
     this.act = act;
     this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views });
     this.root.append(this.bar.element);
+    const camera = this.options.camera ?? (this.isCar ? "chase" : "");
+    if (this.view.cameraNames.includes(camera)) this.camera(camera);
     const has = this.stage.parts.map((part) => part.view.has ?? {});
     const shown = picturePanel(has, (wishes) => this.stage.set(wishes));
     if (shown) this.plots.element.before(shown);
@@ -284,7 +287,7 @@ class Drive {
   }
 
   _started() {
-    this.stage?.bind(this.session.record, this.session.prefixes);
+    this.stage?.bind(this.session.record, this.session.prefixes, this.session.start);
     this.stage?.chooseRoads(this.session.start["road.file"] ?? "");
     this._clear();
     this.keyboard?.clear();

@@ -66,21 +66,29 @@ export class Stage {
     this.dirty = true;
   }
 
-  /** Which columns of the record are those of the FMUs, by name. */
-  bind(record, prefixes) {
+  /**
+   * Which columns of the record are those of the FMUs, by name; fixed parameters have the values of the start.
+   * @param {import("./record.js").Record} record
+   * @param {string[]} prefixes - Of the columns of each FMU.
+   * @param {Object<string, any>} start - Values that are not those of the FMUs.
+   */
+  bind(record, prefixes, start) {
     this._surveyed = 0;
     for (const [which, part] of this.parts.filter((p) => p.variables).entries()) {
       const names = [...part.variables.values()].filter((v) => v.causality === "output").map((v) => v.name);
       const own = names.map((name) => [name, record.column(prefixes[which] + name)]);
       part.columns = new Map([...record.held.map((name, k) => [name, k]), ...own.filter(([, index]) => index >= 0)]);
       part.turning = turningColumns(part.scene);
+      const others = [...part.variables.values()].filter((v) => !part.columns.has(v.name));
+      part.fixed = new Map(others.map((v) => [v.name, start[v.name] ?? v.start]));
     }
   }
 
   /** What the numbers of a picture are at a time. */
   lookup(part, record, time) {
-    if (!part.recording) return between(record, time, part.columns, part.turning);
-    return lookupOf(part.recording, time);
+    if (part.recording) return lookupOf(part.recording, time);
+    const lookup = between(record, time, part.columns, part.turning);
+    return (name) => (part.columns.has(name) ? lookup(name) : part.fixed.get(name));
   }
 
   /**
