@@ -69,23 +69,35 @@ def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[
 def _roads(
     scene: Mapping[str, Any], fmu: zipfile.ZipFile, settings: Mapping[str, Value]
 ) -> tuple[list[Any], list[dict[str, str]]]:
-    """Roads with those of files as grids; a file replaces the roads that are drawn without it."""
-    roads = [road for road in scene.get("roads", []) if road["kind"] != "file"]
-    missing = []
+    """Roads with those of files read and with the values that were set; what cannot be drawn, and why."""
+    roads, missing = [], []
     for road in scene.get("roads", []):
-        if road["kind"] != "file":
-            continue
-        given = settings.get(str(road.get("variable", "")), "")
-        name = str(given) or str(road.get("path", ""))
-        if not name:
-            continue
-        try:
-            made = _part(name, fmu)
-        except HostError as error:
-            missing.append({"name": f"the road {name}", "why": str(error).rstrip(".")})
-            made = None
-        roads = [] if made is None and given else [made] if given and made is not None else [*roads, made]
-    return [road for road in roads if road is not None], missing
+        variables = road.get("variables") or {}
+        given = str(settings.get(variables.get("file", road.get("variable", "")), ""))
+        name = given or str(road.get("path", "") if road["kind"] == "file" else "")
+        if not name and road["kind"] != "file":
+            roads.append(_moved(road, variables, settings))
+        elif name:
+            try:
+                roads.append(_part(name, fmu))
+            except HostError as error:
+                missing.append({"name": f"the road {name}", "why": str(error).rstrip(".")})
+    return roads, missing
+
+
+def _moved(road: dict[str, Any], variables: Mapping[str, str], settings: Mapping[str, Value]) -> dict[str, Any]:
+    """A road with a kerb where the parameters have it: the higher side stays the higher one."""
+    if road["kind"] != "profile" or len(road["heights"]) != 2:
+        return road
+    made = dict(road)
+    if variables.get("kerb_x") in settings:
+        made["origin"] = [float(settings[variables["kerb_x"]]), *list(road.get("origin", (0.0, 0.0, 0.0)))[1:]]
+    if variables.get("kerb_height") in settings:
+        first, last = road["heights"][0], road["heights"][-1]
+        low, high = min(first, last), min(first, last) + float(settings[variables["kerb_height"]])
+        # Where both sides were level, the kerb is one to drive down, as it is by default.
+        made["heights"] = [low, high] if first < last else [high, low]
+    return made
 
 
 def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:

@@ -113,7 +113,8 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         raise HostError(f"{path} has no table {table_file.name} beside it; name the .csv file of a result.")
     table = read_table(table_file)
     record = _record(record_file) if record_file.is_file() else None
-    units, told = dict(table.units), [table.note] if table.note else []
+    units: dict[str, str] = dict(table.units)
+    told: list[str] = []
     scene: dict[str, Any] | None = None
     settings = {entry["name"]: entry["new"] for entry in record["set"]} if record is not None else {}
     if geometry is not None:

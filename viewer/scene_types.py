@@ -286,8 +286,7 @@ class LineArrow(Arrow):
 class VectorArrow(Arrow):
     """A force with three components, in the axes of a frame."""
 
-    vector: tuple[Name | None, Name | None, Name | None]
-    """Columns; null for one that is zero."""
+    vector: Names
     axes: Name = "ground"
     at: Anchor
 
@@ -326,23 +325,13 @@ AnyArrow = Annotated[
 ]
 
 
-class RoadVariables(Part):
-    """Parameters of an FMU that move a road or exchange it."""
-
-    kerb_x: Name | None = None
-    """x of the edge of a kerb, m."""
-    kerb_height: Name | None = None
-    """Its height, m."""
-    file: Name | None = None
-    """File of a road in place of this one; empty: none."""
-
-
 class Road(Part):
     """What all roads have."""
 
-    variables: RoadVariables | None = None
+    variables: dict[Literal["file", "kerb_x", "kerb_height"], Name] | None = None
+    """Parameters of the FMU by what they set; a host applies them before it draws."""
     note: Text | None = None
-    """A sentence on what is not drawn as it is."""
+    """A sentence to be shown."""
 
 
 class FlatRoad(Road):

@@ -14,6 +14,8 @@ from fmu_src.variables import Variable
 from mbs.kernel.header import ElementType
 from mbs.shapes.scene import frames_used
 
+COLUMNS = ("position", "quaternion", "angle", "way", "value", "vector", "tyre", "amplitudes", "computed")
+"""Keys of frames, arrows and flexible parts that name variables."""
 FRAME_TUBE = "frame tube"
 """Name of shapes that a flexible part draws too."""
 
@@ -73,6 +75,17 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
     }
 
 
+def _renamed(part: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
+    """A frame, arrow or flexible part with other names of its variables."""
+
+    def new(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: new(item) for key, item in value.items()}
+        return names.get(value, value) if isinstance(value, str) else [new(item) for item in value]
+
+    return {key: new(value) if key in COLUMNS else value for key, value in part.items()}
+
+
 def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Tubes of a flexible part whose amplitudes are no outputs."""
     frame, nodes = part["frame"], part["nodes"]
@@ -109,12 +122,18 @@ def _columns(arrow: Mapping[str, Any]) -> list[str]:
     return [arrow["value"]] if "value" in arrow else [name for name in arrow["vector"] if name is not None]
 
 
-def geometry_file(scene: Mapping[str, Any]) -> bytes:
+def geometry_file(scene: Mapping[str, Any], names: Mapping[str, str] | None = None) -> bytes:
     """The scene as it lies in the FMU.
 
     Parameters
     ----------
     scene : mapping
         From `geometry`.
+    names : mapping of str to str, optional
+        Other names of variables: those of elements of arrays, which FMI 3.0 has.
     """
+    if names:
+        moving = {key: [_renamed(part, names) for part in scene[key]] for key in ("flexible", "arrows")}
+        frames = {name: _renamed(frame, names) for name, frame in scene["frames"].items()}
+        scene = dict(scene) | moving | {"frames": frames}
     return json.dumps(scene, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()

@@ -158,4 +158,4 @@ def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture
     assert page.main([str(fmu), "--out", str(blocked)]) == 2
     assert "file is a file" in capsys.readouterr().err
     assert page.main([str(fmu)] * 5) == 2
-    assert "5 FMUs are too many for a page" in capsys.readouterr().err
+    assert "5 pictures are too many for a page" in capsys.readouterr().err

@@ -141,7 +141,7 @@ def everything() -> dict[str, Any]:
             },
         ],
         "roads": [
-            {"kind": "flat", "height": 0.0},
+            {"kind": "flat", "height": 0.0, "note": "level", "variables": {"file": "road.file"}},
             {
                 "kind": "grid",
                 "origin": [0, 0],
@@ -186,7 +186,7 @@ def crank(times: np.ndarray, speed: float = 2.0, name: str = "crank") -> Recordi
             {"kind": "box", "frame": "slider", "size": [0.3, 0.2, 0.2], "color": "#cc3333"},
             {"kind": "tube", "points": [["crank", [0.5, 0, 0]], ["slider", [0, 0, 0]]], "radius": 0.03},
         ],
-        "arrows": [{"name": "push", "unit": "N", "vector": ["fx", "fy", None], "at": ["slider", [0, 0, 0]]}],
+        "arrows": [{"name": "push", "unit": "N", "vector": ["fx", "fy", "fz"], "at": ["slider", [0, 0, 0]]}],
     }
     a = speed * times
     zero, one = np.zeros_like(a), np.ones_like(a)

@@ -14,7 +14,7 @@ import style from "./style.css";
 const TINTS = ["#3f7fd0", "#d08a2f", "#3f9f6c", "#b0569b"];
 const WIDE = 1.15; // width over height from which the diagrams stand beside the picture
 const SHOWN_NOTES = 3;
-const SCANNED = 400; // times that ranges are looked for at
+const SCANNED = 200; // times that ranges are looked for at
 let count = 0;
 
 /**
@@ -216,8 +216,7 @@ export class Player {
     this.has = {};
     if (this.solid < 0) return;
     const { scene } = this.runs[this.solid];
-    this.view = new SceneView(this.viewBox, scene, { onMessage: () => {}, keep: this.options.controls === false });
-    if (this.options.controls === false) this.view.notes?.list?.remove(); // a film holds no sentences
+    this.view = new SceneView(this.viewBox, scene, { words: this.options.controls !== false, keep: this.options.controls === false });
     this.#scan();
     this.has = this.view.has ?? { arrows: scene.arrows?.length > 0, stress: scene.flexible?.some(({ stress }) => stress), deformation: scene.flexible?.length > 0 };
     this.view.set?.(this.look);
