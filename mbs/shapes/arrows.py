@@ -92,7 +92,9 @@ def _of_joints(model: Model, names: FrameNames) -> list[Arrow]:
         ends = joints[name].ends
         if len(read) < model.dimension or ends is None:
             continue
-        vector = [read.get(k) for k in range(3)]
+        # in the plane the third component is a place that is always 0
+        moving = next(b for b in ends.bodies if not b.is_ground)
+        vector = [read.get(k) or names.columns[f"{names.owner(moving).name}.z"] for k in range(3)]
         at = list(names.anchor(ends.bodies[0], place_drawn(model, ends.points[0])))
         found.append({"name": name, "unit": "N", "vector": vector, "axes": "ground", "at": at})
     return found

@@ -53,12 +53,14 @@ class FrameNames:
         bodies = {b.number: "body ground" if b.name == "ground" else b.name for b in model.bodies}
         used = {*bodies.values(), "ground"}
         turns = {t.name: f"wheel {t.name}" if t.name in used else t.name for t in turns_of(model)}
-        sensors, columns = {sensor.name for sensor in model.sensors}, {}
-        names = [(b.name, part) for b in model.bodies for part in POSE]
-        names += [(t.name, "angle") for t in turns_of(model)]
-        names += [(b.name, mode) for b in model.bodies if isinstance(b, FlexibleBody) for mode in modes_of(b)]
-        for name, part in names:
-            columns[f"{name}.{part}"] = f"{name}.pose.{part}" if f"{name}.{part}" in sensors else f"{name}.{part}"
+        sensors = {sensor.name for sensor in model.sensors}
+        columns: dict[str, str] = {}
+        groups: list[tuple[str, tuple[str, ...]]] = [(b.name, POSE) for b in model.bodies]
+        groups += [(t.name, ("angle",)) for t in turns_of(model)]
+        groups += [(b.name, modes_of(b)) for b in model.bodies if isinstance(b, FlexibleBody)]
+        for name, parts in groups:
+            own = name if sensors.isdisjoint(f"{name}.{part}" for part in parts) else f"{name}.pose"
+            columns |= {f"{name}.{part}": f"{own}.{part}" for part in parts}
         return cls(bodies, turns, columns)
 
     def of_body(self, body: Body) -> str:

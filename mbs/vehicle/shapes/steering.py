@@ -16,11 +16,10 @@ RADIUS = 0.185  # m, of the steering wheel
 
 
 def rack_of(b: CarBuilder) -> Owner:
-    """What the inner ends of the tie rods move with: the body of the rack, or a slide where it has none."""
+    """What the inner ends of the tie rods move with: a slide by the travel of the rack, which is always an output."""
     inner = b.car.rack_ends
-    body = next((body for body in b.m.bodies if body.name == "rack"), None)
-    middle = inner[0], 0.0, inner[2]
-    return body or b.m.sliding("rack", b.chassis.frame, at=middle, direction=LEFT, way="steering_rack")
+    name = "sliding rack" if any(body.name == "rack" for body in b.m.bodies) else "rack"
+    return b.m.sliding(name, b.chassis.frame, at=(inner[0], 0.0, inner[2]), direction=LEFT, way="steering_rack")
 
 
 def steering_shapes(looks: Looks) -> None:
