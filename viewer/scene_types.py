@@ -180,6 +180,7 @@ class Wheel(Placed):
     width: Positive
     rim: Positive | None = None
     """Radius of the rim, m."""
+    at: Vector = (0.0, 0.0, 0.0)
     axis: Vector = (0.0, 1.0, 0.0)
 
 
@@ -188,6 +189,7 @@ class SteeringWheel(Placed):
 
     kind: Literal["steering_wheel"]
     radius: Positive
+    at: Vector = (0.0, 0.0, 0.0)
     axis: Vector | None = None
 
 
@@ -307,14 +309,23 @@ AnyArrow = Annotated[
 ]
 
 
-class FlatRoad(Part):
+class Road(Part):
+    """What all roads have."""
+
+    variables: dict[Literal["file", "kerb_x", "kerb_height"], Name] | None = None
+    """Parameters of the FMU by what they set; a host applies them before it draws."""
+    note: Text | None = None
+    """A sentence to be shown."""
+
+
+class FlatRoad(Road):
     """A level road."""
 
     kind: Literal["flat"]
     height: Number = 0.0
 
 
-class PlaneRoad(Part):
+class PlaneRoad(Road):
     """A plane road."""
 
     kind: Literal["plane"]
@@ -323,7 +334,7 @@ class PlaneRoad(Part):
     normal: Vector
 
 
-class ProfileRoad(Part):
+class ProfileRoad(Road):
     """Heights along a line, the same across, level before and behind."""
 
     kind: Literal["profile"]
@@ -336,7 +347,7 @@ class ProfileRoad(Part):
     width: Positive | None = None
 
 
-class GridRoad(Part):
+class GridRoad(Road):
     """Heights on a grid, linear between."""
 
     kind: Literal["grid"]
@@ -349,7 +360,7 @@ class GridRoad(Part):
     """Of its x and y in earth axes."""
 
 
-class FileRoad(Part):
+class FileRoad(Road):
     """A road in a file, which a host turns into a grid before it draws."""
 
     kind: Literal["file"]

@@ -46,8 +46,14 @@ def test_the_names_it_puts_among_the_packages(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
     top = {name.partition("/")[0] for name in names}
-    assert {name for name in top if not name.endswith(".dist-info")} == {"ali3", "mbs", "fmu_src", "hosts"}
-    for needed in ("mbs/py.typed", "mbs/kernel/include/ali3.h", "hosts/manoeuvres/slalom.csv", "hosts/c/host.c"):
+    assert {name for name in top if not name.endswith(".dist-info")} == {"ali3", "mbs", "fmu_src", "hosts", "viewer"}
+    for needed in (
+        "mbs/py.typed",
+        "mbs/kernel/include/ali3.h",
+        "hosts/manoeuvres/slalom.csv",
+        "hosts/c/host.c",
+        "viewer/bundle/ali3-viewer.js",
+    ):
         assert needed in names
     assert any(name.startswith("mbs/kernel/lib/") for name in names)
 
