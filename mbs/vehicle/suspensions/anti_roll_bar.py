@@ -15,6 +15,8 @@ from mbs.vehicle.geometry import LEAST
 from mbs.vehicle.quantities import Factor, Point, TorsionalStiffness
 from mbs.vehicle.section import Section
 
+LINK = "anti-roll link "
+"""Begins the names of links, and of the angles of their levers; the wheel's name follows."""
 DEAD_POINT = 0.2  # sine between lever and link, seen along the bar
 
 
@@ -74,7 +76,7 @@ class AntiRollBar(Section):
             p = {name: corner.side.point(point) for name, point in self.points}
             levers.append(
                 b.m.drop_link(
-                    f"anti-roll link {corner.side.wheel}",
+                    f"{LINK}{corner.side.wheel}",
                     b.chassis.body,
                     corner.parts[self.part],
                     axis=LEFT,
