@@ -13,6 +13,7 @@ from PIL import Image
 
 from tests.viewer.hand_scenes import crank
 from viewer.browser import BrowserError, find_chromium, launch_arguments
+from viewer.notebook import html_of
 from viewer.page_file import write_page
 from viewer.recording import Recording
 
@@ -272,3 +273,19 @@ def test_without_webgl_there_is_one_sentence_and_the_diagrams(
     page.seek(1.0)
     assert page.page.locator(".ali3-chart").count() == 1
     assert [line for line in page.said if line.startswith("error")] == []
+
+
+def test_in_a_notebook_it_runs_in_its_frame(browser: Any, tmp_path: Path) -> None:
+    (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
+    page = browser.new_page(viewport={"width": 640, "height": 400})
+    said: list[str] = []
+    page.on("console", lambda message: said.append(message.text))
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto((tmp_path / "cell.html").as_uri())
+    frame = page.frames[1]
+    frame.wait_for_function("window.player !== undefined")
+    assert frame.evaluate("async () => { await player.ready; await player.seek(1.5); return player.problem; }") == ""
+    assert frame.evaluate("player.time") == 1.5
+    frame.evaluate("player.pause()")
+    assert [line for line in said if "GL Driver" not in line] == []
+    page.close()
