@@ -157,7 +157,7 @@ def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
     assert pair("player.time") == pytest.approx(3.0)
     pair.page.keyboard.press("Home")
     assert pair("player.time") == 0.0
-    assert pair.page.inner_text(".ali3-time") == "0.000 / 3.000 s"
+    assert pair.page.inner_text(".ali3-time") == "0.00 / 3.00 s"
     box = pair.page.locator(".u-over").first.bounding_box()
     pair.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     assert pair("player.time") == pytest.approx(1.5, abs=0.02)
