@@ -36,6 +36,7 @@ COMMANDS = (
     Command("car", "mbs.vehicle.command", "copy a car of the package to a folder, or check a car file"),
     Command("drive", "hosts.drive", "drive the FMU of a car through a manoeuvre"),
     Command("run", "hosts.run", "run any FMU with constant inputs and plot its outputs"),
+    Command("view", "hosts.view", "show a result or an FMU moving, in a page; pictures, films and glTF of it"),
     Command("page", "hosts.page", "write a page that runs an FMU in a browser"),
     Command("parameters", "hosts.parameters", "show the parameters of an FMU, or write them as a parameter set"),
     Command("check", "hosts.check", "check an FMU and print a verdict"),

@@ -54,7 +54,7 @@ def _run(options: argparse.Namespace) -> int:
     path = options.fmu
     with Fmu(path) as fmu:
         table, picture, record = result_paths(options.out, path.stem)
-        manoeuvre = _manoeuvre(fmu, options.input, options.stop_time)
+        manoeuvre = run_manoeuvre(fmu, options.input, options.stop_time)
         check_columns(fmu, manoeuvre)
         manoeuvre, settings = set_in(fmu, manoeuvre, wishes(options))
         step = communication_step(fmu, manoeuvre, options.step)
@@ -66,8 +66,22 @@ def _run(options: argparse.Namespace) -> int:
     return print_result((settings.rows(), rows), result, (table, picture, record))
 
 
-def _manoeuvre(fmu: Fmu, table: Path | None, stop_time: float | None) -> Manoeuvre:
-    """The table, or none for the time of the FMU's experiment."""
+def run_manoeuvre(fmu: Fmu, table: Path | None, stop_time: float | None) -> Manoeuvre:
+    """What an FMU is run with: a table of inputs, or none for the time of its default experiment.
+
+    Parameters
+    ----------
+    fmu : Fmu
+    table : Path, optional
+        CSV file with time and inputs.
+    stop_time : float, optional
+        s; by default that of the table or experiment, else 10 s.
+
+    Raises
+    ------
+    HostError
+        The table is none, or needs a driver.
+    """
     import numpy as np
 
     from hosts.manoeuvre import Manoeuvre, load_manoeuvre

@@ -14,12 +14,14 @@ from mbs.system import System, SystemFileError
 
 if TYPE_CHECKING:
     from mbs.accuracy import Accuracy, AccuracyWarning
+    from mbs.animation import Animation, animate
     from mbs.control import Control
     from mbs.errors import SimulationError
     from mbs.kinks import LinearisationWarning
     from mbs.large_bending import BendingWarning
     from mbs.linear_model import LinearModel, linearise
     from mbs.periodic_motion import FloquetModel, floquet
+    from mbs.poses import Poses
     from mbs.roads import RoadFile, RoadFileError, read_road, write_road
     from mbs.settings import Settings
     from mbs.simulation import Pose, Simulation, simulate
@@ -29,7 +31,10 @@ if TYPE_CHECKING:
 _LAZY = {
     "Accuracy": "mbs.accuracy",
     "AccuracyWarning": "mbs.accuracy",
+    "Animation": "mbs.animation",
+    "animate": "mbs.animation",
     "Control": "mbs.control",
+    "Poses": "mbs.poses",
     "Pose": "mbs.simulation",
     "RoadFile": "mbs.roads",
     "RoadFileError": "mbs.roads",
@@ -53,6 +58,7 @@ __all__ = [
     "AccuracyWarning",
     "Affine",
     "AffineVector",
+    "Animation",
     "ArgumentTypeError",
     "Control",
     "BendingWarning",
@@ -63,6 +69,7 @@ __all__ = [
     "Model",
     "ModelError",
     "Pose",
+    "Poses",
     "RoadFile",
     "RoadFileError",
     "Settings",
@@ -71,6 +78,7 @@ __all__ = [
     "System",
     "SystemFileError",
     "Trajectory",
+    "animate",
     "compile",
     "floquet",
     "linearise",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ Array = NDArray[np.float64]
 POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
 """Parts of a pose: position, m, and quaternion, scalar first and not negative."""
 POSE_UNITS = ("m", "m", "m", "1", "1", "1", "1")
-_SIZES = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2}
+_SIZES = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2, "pose": 7}
 
 
 @dataclass(frozen=True)
@@ -27,8 +28,8 @@ class BodyPlace:
     ----------
     name : str
         Of the body.
-    kind : {"rigid", "planar", "point", "planar point"}
-        What its full coordinates are: position, then axes.
+    kind : {"rigid", "planar", "point", "planar point", "pose"}
+        What its full coordinates are: position, then axes; or the seven parts of the pose themselves.
     row : int
         First of them.
     columns : sequence of str
@@ -117,6 +118,8 @@ class Places:
     def pose(self, q: Array, body: BodyPlace) -> Array:
         """Positions and quaternions of a body, shape (n, 7), at coordinates (n, nq)."""
         full = self.rows(q, body.row, _SIZES[body.kind])
+        if body.kind == "pose":
+            return full
         found = np.zeros((len(q), 7))
         found[:, 3] = 1.0
         d = 2 if body.kind.startswith("planar") else 3
@@ -169,17 +172,29 @@ class Drawing:
 
     Parameters
     ----------
-    scene : mapping
-        In the format of `docs/animation.md`.
+    base : mapping
+        The scene in the format of `docs/animation.md`, without what is made late.
     places : Places
+    shared : sequence of (frame, place, frame, place)
+        Points that two frames share by their joint, each with its place in both, m.
+    late : tuple of callable
+        Each makes entries of the scene's ``flexible``, which takes as long as compiling a model and is not always
+        wanted.
     """
 
-    scene: Mapping[str, Any]
+    base: Mapping[str, Any]
     places: Places
+    shared: Sequence[tuple[str, Sequence[float], str, Sequence[float]]] = ()
+    late: tuple[Callable[[], list[dict[str, Any]]], ...] = ()
+
+    @cached_property
+    def scene(self) -> dict[str, Any]:
+        """The scene."""
+        return {**self.base, "flexible": [*self.base["flexible"], *(part for make in self.late for part in make())]}
 
     def to_bytes(self) -> bytes:
         """The array `drawing` of a System file: JSON, UTF-8."""
-        content = {"scene": self.scene, "places": self.places.to_json()}
+        content = {"scene": self.scene, "places": self.places.to_json(), "shared": [list(s) for s in self.shared]}
         return json.dumps(content, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
 
     @classmethod
@@ -195,7 +210,8 @@ class Drawing:
         places = Places.from_json(content["places"])
         if places.matrix.shape[1] != nq:
             raise ValueError(f"the drawing is of {places.matrix.shape[1]} coordinates, the System has {nq}")
-        return cls(dict(content["scene"]), places)
+        shared = [(str(a), [float(x) for x in p], str(b), [float(x) for x in q]) for a, p, b, q in content["shared"]]
+        return cls(dict(content["scene"]), places, shared)
 
 
 def quaternions(matrices: Array) -> Array:

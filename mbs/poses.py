@@ -8,9 +8,10 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
 
 from mbs.checks import shown
-from mbs.drawing import POSE, POSE_UNITS, Places, twist
+from mbs.drawing import POSE, POSE_UNITS, BodyPlace, Places, twist
 
 Array = NDArray[np.float64]
 MOST_SAMPLES, MOST_NUMBERS = 100_000, 4_000_000
@@ -46,6 +47,35 @@ class Poses(Mapping[str, Array]):
         self._q, self._places = q, places
         self._made: dict[str, Array] = {}
         self.bodies = tuple(body.name for body in places.bodies)
+
+    @classmethod
+    def of_columns(cls, t: Array, columns: Mapping[str, Array]) -> Poses | None:
+        """Poses from named columns, of what has all seven parts.
+
+        Parameters
+        ----------
+        t : ndarray, shape (n,)
+            Times, s.
+        columns : mapping of str to ndarray, shape (n,)
+            By name, such as ``rod.x``.
+
+        Returns
+        -------
+        Poses or None
+            None where nothing has all parts.
+        """
+        parts = [f".{part}" for part in POSE]
+        names = [n.removesuffix(".qw") for n in columns if n.endswith(".qw")]
+        whole = [n for n in names if all(n + part in columns for part in parts) and f"{n}.pose.qw" not in columns]
+        if not whole:
+            return None
+        q = np.column_stack([columns[n + part] for n in whole for part in parts])
+        bodies = [
+            BodyPlace(n.removesuffix(".pose"), "pose", 7 * k, tuple(n + part for part in parts))
+            for k, n in enumerate(whole)
+        ]
+        size = q.shape[1]
+        return cls(t, 1, q, Places(sparse.csr_matrix(np.eye(size)), np.zeros(size), tuple(bodies)))
 
     def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str) or name not in self._columns:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
@@ -13,16 +14,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.decimal_number import DECIMAL
+from ali3.errors import UserError
 from ali3.files import whole_file
 from mbs.accuracy import Accuracy
-from mbs.checks import shown, whole
+from mbs.checks import flag, shown, whole
 from mbs.control import Control
+from mbs.drawing import Drawing
 from mbs.poses import Poses
 from mbs.run_report import Report
 from mbs.settings import Settings
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from viewer.recording import Recording
 
 _NUMBER = re.compile(rf"\s*[+-]?({DECIMAL}|inf|nan)\s*", re.ASCII)
 _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
@@ -56,7 +61,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         How method and steps were chosen, where `simulate` chose them.
     poses : Poses, optional
         Of all bodies.
-    scene : mapping, optional
+    drawing : Drawing, optional
         What `mbs.animate` draws.
     """
 
@@ -74,7 +79,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         branch_change: str = "",
         control: Control | None = None,
         poses: Poses | None = None,
-        scene: Mapping[str, Any] | None = None,
+        drawing: Drawing | None = None,
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
@@ -85,7 +90,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.notices = tuple(notices)
         self.branch_change = branch_change
         self.control = control
-        self.scene = scene
+        self.drawing = drawing
         self._poses = poses
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
@@ -117,6 +122,60 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             )
         return self._poses
 
+    def recording(self, scene: Mapping[str, Any] | None = None, name: str = "") -> Recording:
+        """The run as what draws takes it: a scene, times, and sensors and poses as columns.
+
+        Parameters
+        ----------
+        scene : mapping, optional
+            In place of that of the run.
+        name : str
+            Of the run; by default that of the model.
+
+        Returns
+        -------
+        Recording
+            At the times of the poses.
+
+        Raises
+        ------
+        ValueError
+            The run has no scene and none is given.
+        viewer.errors.ViewerError
+            The scene is not of the format.
+        """
+        from viewer.recording import Recording
+
+        if scene is None:
+            if self.drawing is None:
+                raise ValueError(
+                    "This trajectory does not know what is drawn of it; give the System as the scene, as in "
+                    "animate(run, scene=system)."
+                )
+            scene = self.drawing.scene
+        poses = self._poses
+        every = 1 if poses is None else poses.every
+        columns, units = {n: v[::every] for n, v in self._columns.items()}, dict(self.units)
+        if poses is not None:
+            names = poses.recorded_names
+            columns |= {names[column]: values for column, values in poses.items()}
+            units |= {names[column]: unit for column, unit in poses.units.items()}
+        found = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
+        if every > 1:
+            found.notes.append(f"Poses were kept of one of {every} samples of the run.")
+        return found
+
+    def _repr_html_(self) -> str | None:
+        """In a notebook a run shows itself."""
+        if self.drawing is None or len(self.t) < 2:
+            return None
+        try:
+            from viewer.notebook import html_of
+
+            return html_of(self.recording())
+        except UserError as error:
+            return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
+
     def thinned(self, every: int) -> Trajectory:
         """Every so many samples, the first one among them, with the same report, settings and accuracy.
 
@@ -142,7 +201,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         names, units = list(self.units), list(self.units.values())
         rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
         poses = None if self._poses is None else self._poses.thinned(every)
-        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.scene)
+        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.drawing)
 
     @property
     def realtime_factor(self) -> float:
@@ -156,23 +215,39 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         text = f"Trajectory({samples}, {len(self)} sensors{known}){told}"
         return text if self.control is None else f"{text}\n  {self.control}"
 
-    def to_csv(self, path: str | PathLike[str]) -> None:
+    def to_csv(self, path: str | PathLike[str], poses: bool = False) -> None:
         """Write one column per sensor, headed ``name [unit]``, with all digits.
 
         Parameters
         ----------
         path : str or path-like
             File to write; one that exists is replaced when the new one is whole.
+        poses : bool
+            Whether with the poses of all bodies, ``rod.x [m]`` to ``rod.qz [1]``, by which `from_csv`, ``animate(...,
+            scene=system)`` and ``ali3 view`` draw the run. Where a sensor has such a name, the columns are
+            ``rod.pose.x`` to ``rod.pose.qz``.
 
         Raises
         ------
         OSError
             The file cannot be written.
+        ValueError
+            The run has no poses, or not at all of its samples.
         """
+        columns, units = dict(self._columns), dict(self.units)
+        if flag(poses, "The poses of to_csv", ValueError):
+            if self.poses.every > 1:
+                raise ValueError(
+                    f"Poses were kept of one of {self.poses.every} samples; write "
+                    f"run.thinned({self.poses.every}).to_csv(..., poses=True)."
+                )
+            names = self.poses.recorded_names
+            columns |= {names[column]: values for column, values in self.poses.items()}
+            units |= {names[column]: unit for column, unit in self.poses.units.items()}
         with whole_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in self.units.items())])
-            writer.writerows(np.column_stack([self.t, *self.values()]).tolist())
+            writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in units.items())])
+            writer.writerows(np.column_stack([self.t, *columns.values()]).tolist())
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str]) -> Trajectory:
@@ -186,7 +261,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Returns
         -------
         Trajectory
-            Times, values, names and units.
+            Times, values, names and units; poses of what has all seven columns ``.x`` to ``.qz``, which are among the
+            sensors too.
 
         Raises
         ------
@@ -214,7 +290,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                 raise ValueError(f"{path}, line {number}: {shown(wrong[0])} is no number.")
         data = np.array(rows[1:], float).reshape(-1, len(headings))
         found = [match for match in headings[1:] if match is not None]
-        return cls(data[:, 0], data[:, 1:], [m["name"] for m in found], [m["unit"] for m in found])
+        names = [m["name"] for m in found]
+        poses = Poses.of_columns(data[:, 0], dict(zip(names, data[:, 1:].T, strict=True)))
+        return cls(data[:, 0], data[:, 1:], names, [m["unit"] for m in found], poses=poses)
 
     def plot(self, *names: str) -> Figure:
         """Draw sensors over time with matplotlib, one diagram per unit.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import html
 from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -91,7 +92,13 @@ def page_html(
 ) -> str:
     """The text of the page that `write_page` writes; see there."""
     shown = thinned(recordings, most)
-    data = page_data(shown, check_options(options or {}))
+    checked = check_options(options or {})
+    known = dict.fromkeys(name for recording in shown for name in recording.columns)
+    for name in checked.get("plots", ()):
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 3, 0.4) or list(known)[:3]
+            raise ViewerError(f"There is no signal {name!r} to be plotted; there is {', '.join(near) or 'none'}.")
+    data = page_data(shown, checked)
     heading = title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in shown))
     return html_document(heading, data, "ALi3Viewer.playPage")
 

@@ -32,7 +32,8 @@ _OF_KEY: dict[str, type[BaseModel]] = {
 }
 # What a table that could be of several types must have.
 _CHOICES: dict[tuple[str | int, ...], str] = {
-    ("frames",): "the keys 'position' and 'quaternion', 'parent', 'axis' and 'angle', or 'points' and 'on'",
+    ("frames",): "the keys 'position' and 'quaternion', 'parent' with 'axis' and 'angle' or with 'direction' "
+    "and 'way', or 'points' and 'on'",
     ("arrows",): "the keys 'value' and 'between', 'vector' and 'at', or 'tyre'",
 }
 
@@ -136,7 +137,8 @@ def _sentence(
     if kind == "string_pattern_mismatch":
         return f"{place(path)} is {value_words(value)}; it must be a colour such as '#3366cc'."
     if path and "[key]" in item["loc"]:
-        return f"{place(path[:-1])} has a key {value_words(value)}; a name is a text that is not empty."
+        known = message.replace("Input should be ", "") if kind == "literal_error" else "a text that is not empty"
+        return f"{place(path[:-1])} has the key {value_words(value)}; it must be {known}."
     wanted = message.replace("Input should be ", "").replace("greater than or equal to", "at least")
     wanted = wanted.replace("less than or equal to", "at most").replace("greater than", "above")
     wanted = wanted.replace("a valid dictionary or instance of ", "a table ").replace("a valid dictionary", "a table")

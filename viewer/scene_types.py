@@ -54,11 +54,25 @@ class TurningFrame(Part):
     """Angle as drawn, for pictures without a run, rad."""
 
 
+class SlidingFrame(Part):
+    """A frame that slides along a line of its parent: its origin is at + way * direction, its axes are the parent's."""
+
+    parent: Name
+    at: Vector = (0.0, 0.0, 0.0)
+    """Its origin in the parent where the way is 0, m."""
+    direction: Vector
+    """Unit vector in the parent."""
+    way: Name
+    """Column of the way, m."""
+    start: Number | None = None
+    """Way as drawn, for pictures without a run, m."""
+
+
 class CarriedFrame(Part):
     """A frame without columns of its own: its three points lie on points of other frames."""
 
     points: Axes
-    """In the frame: the first is its origin, the second lies on its x axis, the third fixes the plane."""
+    """Places in the frame."""
     on: tuple[Anchor, Anchor, Anchor]
     """Where they lie."""
     start: tuple[Vector, Quaternion] | None = None
@@ -70,6 +84,7 @@ def _frame_kind(value: Any) -> str | None:
     if isinstance(value, Part):
         keys = set(type(value).model_fields)
     count = {
+        "SlidingFrame": 2 * len(keys & {"direction", "way"}),
         "TurningFrame": len(keys & {"parent", "axis", "angle", "at"}),
         "CarriedFrame": len(keys & {"points", "on"}),
         "MovingFrame": len(keys & {"position", "quaternion"}),
@@ -81,6 +96,7 @@ def _frame_kind(value: Any) -> str | None:
 Frame = Annotated[
     Annotated[MovingFrame, Tag("MovingFrame")]
     | Annotated[TurningFrame, Tag("TurningFrame")]
+    | Annotated[SlidingFrame, Tag("SlidingFrame")]
     | Annotated[CarriedFrame, Tag("CarriedFrame")],
     Discriminator(_frame_kind),
 ]
@@ -180,6 +196,7 @@ class Wheel(Placed):
     width: Positive
     rim: Positive | None = None
     """Radius of the rim, m."""
+    at: Vector = (0.0, 0.0, 0.0)
     axis: Vector = (0.0, 1.0, 0.0)
 
 
@@ -188,6 +205,7 @@ class SteeringWheel(Placed):
 
     kind: Literal["steering_wheel"]
     radius: Positive
+    at: Vector = (0.0, 0.0, 0.0)
     axis: Vector | None = None
 
 
@@ -307,14 +325,23 @@ AnyArrow = Annotated[
 ]
 
 
-class FlatRoad(Part):
+class Road(Part):
+    """What all roads have."""
+
+    variables: dict[Literal["file", "kerb_x", "kerb_height"], Name] | None = None
+    """Parameters of the FMU by what they set; a host applies them before it draws."""
+    note: Text | None = None
+    """A sentence to be shown."""
+
+
+class FlatRoad(Road):
     """A level road."""
 
     kind: Literal["flat"]
     height: Number = 0.0
 
 
-class PlaneRoad(Part):
+class PlaneRoad(Road):
     """A plane road."""
 
     kind: Literal["plane"]
@@ -323,7 +350,7 @@ class PlaneRoad(Part):
     normal: Vector
 
 
-class ProfileRoad(Part):
+class ProfileRoad(Road):
     """Heights along a line, the same across, level before and behind."""
 
     kind: Literal["profile"]
@@ -336,7 +363,7 @@ class ProfileRoad(Part):
     width: Positive | None = None
 
 
-class GridRoad(Part):
+class GridRoad(Road):
     """Heights on a grid, linear between."""
 
     kind: Literal["grid"]
@@ -349,7 +376,7 @@ class GridRoad(Part):
     """Of its x and y in earth axes."""
 
 
-class FileRoad(Part):
+class FileRoad(Road):
     """A road in a file, which a host turns into a grid before it draws."""
 
     kind: Literal["file"]

@@ -129,6 +129,14 @@ def _beams(
 ) -> dict[str, Any]:
     beams = [frame.beams[k] for k in group]
     nodes, ends = np.unique([[beam.i, beam.j] for beam in beams], return_inverse=True)
+    lines: dict[str, Any] = {
+        "beams": ends.reshape(-1, 2).tolist(),
+        "radii": [round(_radius(beam), 6) for beam in beams],
+    }
+    if not all(beam.section.fibres for beam in beams):
+        lines["note"] = "the sections have no fibres: stresses are not known"
+        plain: dict[str, Any] = entry(nodes, lines)
+        return plain
     rows = _round_rows(body, frame, group) if rule == "round" else _fibre_rows(body, frame, group)
     stress = {"rule": rule, "fibres": rows.shape[2], "rows": packed(rows), "unit": "Pa"}
     strengths = [beam.material.yield_strength for beam in beams]
@@ -137,17 +145,14 @@ def _beams(
         stress |= {"limit": min(known), "limit_name": "yield strength"}
     if scale is not None:
         stress["range"] = scale
-    more = {
-        "beams": ends.reshape(-1, 2).tolist(),
-        "radii": [round(_radius(beam), 6) for beam in beams],
-        "stress": stress,
-    }
-    part: dict[str, Any] = entry(nodes, more)
+    part: dict[str, Any] = entry(nodes, lines | {"stress": stress})
     return part
 
 
 def _radius(beam: Beam) -> float:
     """Half the diameter, or half the side of the square that a box round the fibres has the area of."""
+    if not beam.section.fibres:
+        return float(np.sqrt(beam.section.area / np.pi))
     half = np.abs(np.array(beam.section.fibres)).max(axis=0)
     return float(np.sqrt(half[0] * half[1]))
 

@@ -222,8 +222,8 @@ class ShapeVocabulary(BodyVocabulary):
         ModelError
             The body is none of this model, the kind does not exist, lacks a number or does not take one, or a number is
             not what it must be.
-        viewer.errors.ViewerError
-            The mesh file cannot be read.
+        ali3.errors.UserError
+            The mesh file cannot be read, or holds no mesh.
         """
         given = {
             name_: value

@@ -24,6 +24,7 @@ TUBE, LONGEST_TUBE = 0.014, 0.09
 """Radius of a tube in parts of the extent, and of the length of its body at most."""
 SLENDER = 0.2  # height of a triangle over its longest side below which it is drawn as tubes
 
+SMALL = 1.1  # distance of the joints of a slider in edges of its box, below which the box is drawn
 BEYOND = 0.1  # parts of a tube's length by which a centre of mass may be beyond its ends
 
 Shape = dict[str, Any]
@@ -103,6 +104,8 @@ class Defaults:
                 return [self._lump(body, frame)]
             if len(points) == 1:
                 return [*self._tubes(frame, [*points, com], com), self._ball(frame)]
+        if self._only_slides(frame) and np.linalg.norm(np.ptp(points, axis=0)) < SMALL * self._edges(body).max():
+            return [self._lump(body, frame)]
         shapes = self._plate(frame, points, com) or self._tubes(frame, points, com)
         if len(points) > 2:
             return shapes
@@ -114,6 +117,17 @@ class Defaults:
             if self.names.of_body(slide.bodies[0]) == frame
         ]
         return shapes + block
+
+    def _only_slides(self, frame: str) -> bool:
+        turning = any(self.names.of_body(b) == frame for pivot in self.touched.pivots for b in pivot.bodies)
+        return not turning and any(self.names.of_body(slide.bodies[0]) == frame for slide in self.touched.slides)
+
+    def _edges(self, body: Body) -> Vector:
+        """Edges of the box with the second moments of a body along the earth axes as drawn, m."""
+        J = np.diag(body.second_moment) / body.mass
+        if self.model.dimension == 2:
+            J = J + np.array([0.0, 0.0, 0.25 * J[0]])
+        return np.asarray(np.sqrt(12.0 * np.clip(J, 0.0, None)))
 
     def _ball(self, frame: str) -> Shape:
         return {"kind": "sphere", "frame": frame, "at": [0.0, 0.0, 0.0], "radius": 2.2 * self.tube}
@@ -140,17 +154,16 @@ class Defaults:
     def _lump(self, body: Body, frame: str) -> Shape:
         """A box with the inertia of a body that nothing but its centre of mass places; a slider lies along its rail."""
         J = body.second_moment / body.mass
-        if self.model.dimension == 2:
-            J = J + np.diag([0.0, 0.0, 0.25 * J[0, 0]])
-        values, axes = np.linalg.eigh(J)
-        axes = axes * (1.0 if np.linalg.det(axes) > 0.0 else -1.0)
-        edges = np.sqrt(12.0 * np.clip(values, 0.0, None))
+        turned = not np.allclose(J, np.diag(np.diag(J)), atol=1e-9 * float(np.abs(J).max()))
+        edges, axes = self._edges(body), np.eye(3)
+        if turned:
+            values, axes = np.linalg.eigh(J)
+            axes = axes * (1.0 if np.linalg.det(axes) > 0.0 else -1.0)
+            edges = np.sqrt(12.0 * np.clip(values, 0.0, None))
         least = 0.02 * max(float(edges.max()), self.tube)
         size = np.clip(edges, least, 0.35 * self.extent if len(self.model.bodies) > 1 else None)
         shape: Shape = {"kind": "box", "frame": frame, "at": [0.0, 0.0, 0.0], "size": numbers(size)}
-        if not np.allclose(J, np.diag(np.diag(J)), atol=1e-9 * float(np.abs(J).max())):
-            return shape | {"axes": [numbers(column) for column in axes.T]}
-        return shape | {"size": numbers(np.clip(np.sqrt(12.0 * np.clip(np.diag(J), 0.0, None)), least, size.max()))}
+        return shape | ({"axes": [numbers(column) for column in axes.T]} if turned else {})
 
     def _block(self, frame: str, com: Vector, slide: Slide) -> Shape:
         edge = 4.0 * self.tube
@@ -216,10 +229,15 @@ class Defaults:
     def _rail(self, slide: Slide, drawn: set[str]) -> list[Shape]:
         """The line along which a body slides, on the body that has it."""
         base = slide.bodies[1]
-        frame, local = self.names.anchor(base, slide.place)
+        unit = slide.axis / np.linalg.norm(slide.axis)
+        middle = slide.place
+        if base.is_ground:
+            every = [p for points in self.touched.points.values() for p in points]
+            middle = slide.place + np.dot(np.mean(every, axis=0) - slide.place, unit) * unit
+        frame, local = self.names.anchor(base, middle)
         if not base.is_ground and (frame in drawn or len(self.touched.points.get(frame, [])) > 2):
             return []
-        half = (0.5 if base.is_ground else 0.25) * self.extent * slide.axis / np.linalg.norm(slide.axis)
+        half = (0.75 if base.is_ground else 0.25) * self.extent * unit
         ends = [numbers(np.array(local) - half), numbers(np.array(local) + half)]
         return [
             {"kind": "cylinder", "frame": frame, "ends": ends, "radius": 0.4 * self.tube}

@@ -17,6 +17,7 @@ from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.model import Model
 from mbs.model.shapes import Owner, Turning, in_space, origin_of
+from mbs.model.sliding_shapes import Sliding
 from mbs.model.spin import Spin
 
 Anchor = tuple[str, list[float]]
@@ -52,12 +53,14 @@ class FrameNames:
         bodies = {b.number: "body ground" if b.name == "ground" else b.name for b in model.bodies}
         used = {*bodies.values(), "ground"}
         turns = {t.name: f"wheel {t.name}" if t.name in used else t.name for t in turns_of(model)}
-        sensors, columns = {sensor.name for sensor in model.sensors}, {}
-        names = [(b.name, part) for b in model.bodies for part in POSE]
-        names += [(t.name, "angle") for t in turns_of(model)]
-        names += [(b.name, mode) for b in model.bodies if isinstance(b, FlexibleBody) for mode in modes_of(b)]
-        for name, part in names:
-            columns[f"{name}.{part}"] = f"{name}.pose.{part}" if f"{name}.{part}" in sensors else f"{name}.{part}"
+        sensors = {sensor.name for sensor in model.sensors}
+        columns: dict[str, str] = {}
+        groups: list[tuple[str, tuple[str, ...]]] = [(b.name, POSE) for b in model.bodies]
+        groups += [(t.name, ("angle",)) for t in turns_of(model)]
+        groups += [(b.name, modes_of(b)) for b in model.bodies if isinstance(b, FlexibleBody)]
+        for name, parts in groups:
+            own = name if sensors.isdisjoint(f"{name}.{part}" for part in parts) else f"{name}.pose"
+            columns |= {f"{name}.{part}": f"{own}.{part}" for part in parts}
         return cls(bodies, turns, columns)
 
     def of_body(self, body: Body) -> str:
@@ -104,11 +107,12 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
             "start": [numbers(pose[:3]), numbers(pose[3:])],
         }
     for turn in turns_of(model):
+        along, value = ("direction", "way") if isinstance(turn, Sliding) else ("axis", "angle")
         frames[names.turns[turn.name]] = {
             "parent": names.of_body(turn.carrier),
             "at": numbers(origin_of(turn) - origin_of(turn.carrier)),
-            "axis": numbers(turn.axis_reference),
-            "angle": _angle_column(turn, names),
+            along: numbers(turn.axis_reference),
+            value: _angle_column(turn, names),
         }
     return frames
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,14 +11,17 @@ from numpy.typing import NDArray
 
 from mbs.checks import Vector
 from mbs.drawing import Drawing, Places, matrices
+from mbs.flexible.scene_part import flexible_parts
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Shape
+from mbs.roads.scene_part import base64_of
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import touched
-from mbs.shapes.roads import base64_of, roads_of
+from mbs.shapes.roads import roads_of
+from mbs.shapes.shared_points import shared_points
 
 Scene = dict[str, Any]
 Binding = Callable[[str, Mapping[str, Any]], "Mapping[str, Any] | str"]
@@ -54,17 +58,17 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "description": "",
         "up": _up(model),
         "planar": model.dimension == 2,
-        "extent": _extent(_places_of_shapes(shapes, frames)) if shapes else extent,
+        "extent": _extent([*_places_of_shapes(shapes, frames), *_nodes(model)]) if shapes else extent,
         "focus": _focus(model, names),
         "frames": frames,
         "shapes": shapes,
         "meshes": meshes,
-        "flexible": [],
+        "flexible": list(model.flexible_scene),
         "arrows": arrows_of(model, names, found.lines),
         "roads": roads_of(model),
         "missing": [],
     }
-    return Drawing(scene, places)
+    return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
 
 
 def rebound(scene: Mapping[str, Any], binding: Binding) -> Scene:
@@ -160,6 +164,19 @@ def _fill(shape: Scene, defaults: Defaults) -> None:
         shape.setdefault("thickness", tube)
 
 
+def _flexible(
+    model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]
+) -> tuple[Callable[[], list[Scene]], ...]:
+    """What makes beams, modes and rows of stress of what bends."""
+    found = []
+    bodies = [body for body in model.bodies if isinstance(body, FlexibleBody)]
+    for body, of in zip(bodies, places.amplitudes, strict=True):
+        start = places.rows(q[None], of.row, len(of.modes))[0]
+        frame = names.of_body(body)
+        found.append(partial(flexible_parts, body.reduced, frame, of.columns, axes=body.axes, start=start))
+    return tuple(found)
+
+
 def _up(model: Model) -> list[float]:
     """Against gravity; of planar models y."""
     if model.dimension == 2:
@@ -185,6 +202,10 @@ def _places_of_bodies(model: Model) -> list[Vector]:
         radius = float(np.sqrt(np.trace(body.second_moment) / body.mass))
         found += [found[0] - radius, found[0] + radius]
     return found
+
+
+def _nodes(model: Model) -> list[Vector]:
+    return [p for body in model.bodies if isinstance(body, FlexibleBody) for p in body.node_positions]
 
 
 def _extent(places: list[Vector]) -> float:

@@ -262,8 +262,7 @@ def _trajectory(
     notices = notices_of(ended.system, times, values)
     record = PositionRecord(ended.system, positions[0], len(times))
     record.fill(positions)
-    scene = None if record.drawing is None else record.drawing.scene
     return Trajectory(
         times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control,
-        record.poses(times), scene,
+        record.poses(times), record.drawing,
     )  # fmt: skip

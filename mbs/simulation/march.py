@@ -169,7 +169,7 @@ def _trajectory(
         notices=[*notices_of(simulation.system, t, values), *filter(None, [report.capped_text])],
         branch_change=simulation.branch_change,
         poses=record.poses(t),
-        scene=None if record.drawing is None else record.drawing.scene,
+        drawing=record.drawing,
     )
 
 

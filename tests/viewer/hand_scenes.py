@@ -77,8 +77,16 @@ def everything() -> dict[str, Any]:
                 "coils": 8,
             },
             {"kind": "damper", "ends": [["ground", [0, 0, 0]], ["body", [0, 0, 0]]], "radius": 0.02},
-            {"kind": "wheel", "frame": "spinning wheel", "radius": 0.3, "width": 0.2, "rim": 0.2, "axis": [0, 1, 0]},
-            {"kind": "steering_wheel", "frame": "spinning wheel", "radius": 0.2, "axis": [0, 1, 0]},
+            {
+                "kind": "wheel",
+                "frame": "spinning wheel",
+                "radius": 0.3,
+                "width": 0.2,
+                "rim": 0.2,
+                "at": [0, 0, 0],
+                "axis": [0, 1, 0],
+            },
+            {"kind": "steering_wheel", "frame": "spinning wheel", "radius": 0.2, "at": [0, 0, 0], "axis": [0, 1, 0]},
         ],
         "meshes": {
             "triangle": {
@@ -133,7 +141,7 @@ def everything() -> dict[str, Any]:
             },
         ],
         "roads": [
-            {"kind": "flat", "height": 0.0},
+            {"kind": "flat", "height": 0.0, "note": "level", "variables": {"file": "road.file"}},
             {
                 "kind": "grid",
                 "origin": [0, 0],

@@ -37,7 +37,7 @@ OPTIONAL = {
     *("description", "up", "planar", "focus", "start", "at", "name", "body", "axes", "material", "color", "opacity"),
     *("wire", "coils", "rim", "axis", "normals", "stress", "constant", "unit", "limit", "sign", "frictions", "height"),
     *("flexible", "arrows", "roads", "missing", "variable", "path", "rule", "computed", "limit_name"),
-    *("names", "note", "range", "direction", "origin", "width"),
+    *("names", "note", "range", "direction", "origin", "width", "variables", "file"),
 }
 NEEDED = {(("roads", 1), "origin"), (("shapes", 8), "width"), (("frames", "spinning wheel"), "axis")}
 NEEDED |= {(("missing", 0), "name"), (("arrows", 1), "at")}
@@ -140,6 +140,7 @@ def test_any_value_is_good_or_has_one_sentence(place: tuple[tuple[Any, ...], str
         (("arrows", 1, "axes"), "wing", 'arrows[1].axes is "wing", which is no frame'),
         (("arrows", 0, "sign"), 2, "arrows[0].sign is 2; it must be 1 or -1."),
         (("roads", 1, "shape"), [2, 3], "roads[1].heights has 4 numbers where 6 belong."),
+        (("arrows", 1, "vector"), ["a", 1, "b"], "arrows[1].vector[1] is 1; it must be a text."),
         (("up",), [0, 0, 0], "up is [0, 0, 0]; it must have a direction."),
         (
             ("focus",),

@@ -14,6 +14,7 @@ import style from "./style.css";
 const TINTS = ["#3f7fd0", "#d08a2f", "#3f9f6c", "#b0569b"];
 const WIDE = 1.15; // width over height from which the diagrams stand beside the picture
 const SHOWN_NOTES = 3;
+const SCANNED = 200; // times that ranges are looked for at
 let count = 0;
 
 /**
@@ -44,10 +45,11 @@ export class Player {
       deformation: this.options.deformation ?? 1,
     };
     this.samplers = runs.map((run) => new Sampler(run));
+    this.themeName = this.options.theme ?? "auto";
     this.#build(container);
     this.#draw();
     if (this.options.controls !== false) this.#controls();
-    this.theme(this.options.theme ?? "auto");
+    this.theme(this.themeName);
     this.observer = new ResizeObserver(() => this.#shape());
     this.observer.observe(this.root);
     this.#shape();
@@ -183,7 +185,7 @@ export class Player {
   remember() {
     if (this.options.controls === false || !/^(https?|file):$/.test(location.protocol)) return;
     clearTimeout(this.later);
-    const state = { time: this.clock.time, camera: this.cameraName, plots: this.plots?.chosen ?? [], speed: this.clock.speed };
+    const state = { time: this.clock.time, camera: this.cameraName === this.cameras[0] ? "" : this.cameraName, plots: this.plots?.chosen ?? [], speed: this.clock.speed };
     this.later = setTimeout(() => history.replaceState(null, "", toHash(state)), 150); // browsers allow few a second
   }
 
@@ -214,7 +216,8 @@ export class Player {
     this.has = {};
     if (this.solid < 0) return;
     const { scene } = this.runs[this.solid];
-    this.view = new SceneView(this.viewBox, scene, { onMessage: () => {}, keep: this.options.controls === false });
+    this.view = new SceneView(this.viewBox, scene, { words: this.options.controls !== false, keep: this.options.controls === false });
+    this.#scan();
     this.has = this.view.has ?? { arrows: scene.arrows?.length > 0, stress: scene.flexible?.some(({ stress }) => stress), deformation: scene.flexible?.length > 0 };
     this.view.set?.(this.look);
     this.cameras = this.view.cameraNames;
@@ -228,6 +231,14 @@ export class Player {
     for (const event of ["pointerdown", "pointermove", "wheel", "touchmove", "pointerup"]) {
       this.viewBox.addEventListener(event, () => (this.dirty = true), { passive: true });
     }
+  }
+
+  /** Lets the view look through the run, so that floor, arrows and colours keep one scale. */
+  #scan() {
+    const { t, columns } = this.runs[this.solid];
+    const count = Math.min(t.length, SCANNED);
+    const sample = (i) => (count > 1 ? Math.round((i * (t.length - 1)) / (count - 1)) : 0);
+    this.view.scan?.((i) => (name) => columns[name]?.data[sample(i)], count);
   }
 
   #controls() {

@@ -36,13 +36,21 @@ export class Settings {
         player.set({ [key]: value });
       });
       rows.push(element("span", { text }), range, shown);
+      return range;
     };
     if (player.has.arrows) {
       check("forces as arrows (a)", look.arrows, (arrows) => player.set({ arrows }));
       factor("length of the arrows", "arrowScale", 0.05, 20);
     }
     if (player.has.stress) check("colours of the stress", look.stress, (stress) => player.set({ stress }));
-    if (player.has.deformation) factor("deformation", "deformation", 1, 1000);
+    if (player.has.deformation) {
+      const range = factor("deformation", "deformation", 1, 1000);
+      const fit = () => {
+        range.value = String(Math.log10(player.view.fittingDeformation));
+        range.dispatchEvent(new Event("input"));
+      };
+      rows.push(element("span"), element("button", { text: "make it visible", onclick: fit }), element("span"));
+    }
     for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
     check("begin again at the end (l)", player.clock.loop, (loop) => player.loop(loop));
     const theme = element("select", { onchange: () => player.theme(theme.value) });

@@ -1,0 +1,331 @@
+"""The command that shows results and FMUs: where the scene comes from, what the page holds, and one sentence for all
+that cannot be shown.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+import mbs
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts import view
+from hosts.run import main as run_fmu
+from tests.viewer.test_page_text import data_of, numbers
+from viewer import browser
+from viewer.browser import BrowserError, find_chromium
+
+ROOT = Path(__file__).parents[2]
+SCENE = {
+    "format": "ALi3 scene",
+    "version": 1,
+    "name": "MotorPendulum",
+    "up": [0, 1, 0],
+    "planar": True,
+    "extent": 2.0,
+    "frames": {"rod": {"parent": "ground", "axis": [0, 0, 1], "angle": "rod.angle"}},
+    "shapes": [{"kind": "cylinder", "frame": "rod", "ends": [[0, 0, 0], [1, 0, 0]], "radius": 0.05}],
+}
+
+
+def with_resources(fmu: Path, made: Path, geometry: str | None) -> Path:
+    """A copy of an FMU with another scene in it, or none."""
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+        for name in old.namelist():
+            if name != "resources/geometry.json":
+                new.writestr(name, old.read(name))
+        if geometry is not None:
+            new.writestr("resources/geometry.json", geometry)
+    return made
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, system = load_scene(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
+    return build_fmu(system, name, tmp_path_factory.mktemp("built"), [fmpy.platform])
+
+
+@pytest.fixture
+def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder of a user's without a screen."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(browser, "open_in_browser", lambda path: False)
+    return tmp_path
+
+
+@pytest.fixture
+def pendulum(work: Path, built: Path) -> Path:
+    (work / "dist").mkdir()
+    return with_resources(built, work / "dist" / "MotorPendulum.fmu", json.dumps(SCENE))
+
+
+@pytest.fixture
+def result(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> Path:
+    assert run_fmu(["dist/MotorPendulum.fmu", "--stop-time", "1", "--out", "out"]) == 0
+    capsys.readouterr()
+    return Path("out/MotorPendulum.csv")
+
+
+Said = Callable[..., tuple[int, str]]
+
+
+@pytest.fixture
+def said(capsys: pytest.CaptureFixture[str]) -> Said:
+    def run(*arguments: object) -> tuple[int, str]:
+        status = view.main([*map(str, arguments)])
+        out, err = capsys.readouterr()
+        return status, out + err
+
+    return run
+
+
+def shown(page: Path) -> list[dict[str, Any]]:
+    """Runs of a page with their numbers."""
+    data = data_of(page.read_text(encoding="utf-8"))
+    for run in data["runs"]:
+        run["columns"] = {}
+        for block in (run["time"], *run["blocks"]):
+            run["columns"] |= numbers(block)
+        run["scene"] = None if run["scene"] is None else data["scenes"][run["scene"]]
+    return list(data["runs"])
+
+
+def test_a_result_is_shown_with_the_scene_of_its_fmu(result: Path, said: Said) -> None:
+    status, text = said(result)
+    assert status == 0
+    assert "written: out/MotorPendulum.html" in text
+    assert f"open {Path('out/MotorPendulum.html').absolute()} in one" in text
+    (run,) = shown(Path("out/MotorPendulum.html"))
+    assert list(run["scene"]["frames"]) == ["rod"]
+    table = np.genfromtxt(result, delimiter=",", names=True, deletechars="")
+    np.testing.assert_array_equal(run["columns"]["time"], table["time"])
+    np.testing.assert_array_equal(run["columns"]["rod.angle"], table["rod.angle"])
+    assert run["units"]["rod.angle"] == "rad"
+
+
+def test_the_record_stands_for_its_table(result: Path, said: Said) -> None:
+    assert said(result.with_suffix(".json"), "--no-open")[0] == 0
+    assert shown(Path("out/MotorPendulum.html"))[0]["scene"] is not None
+
+
+def test_a_result_is_found_from_another_folder(
+    result: Path, said: Said, work: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (work / "elsewhere").mkdir()
+    monkeypatch.chdir(work / "elsewhere")
+    assert said(work / result, "--no-open")[0] == 0
+    assert shown(work / "out" / "MotorPendulum.html")[0]["scene"] is not None
+
+
+def test_an_fmu_is_run_and_shown(pendulum: Path, said: Said) -> None:
+    status, text = said(pendulum, "--stop-time", "0.5", "--set", "torque=2", "--no-open")
+    assert status == 0
+    assert "browser" not in text
+    (run,) = shown(Path("out/MotorPendulum.html"))
+    assert run["columns"]["time"][-1] == pytest.approx(0.5)
+    assert run["columns"]["torque"][-1] == 2.0
+    assert "torque 2" in run["name"]
+
+
+def test_two_are_shown_over_each_other_with_names_that_differ(result: Path, said: Said) -> None:
+    shutil.copytree("out", "other")
+    assert said(result, "other/MotorPendulum.csv", "--no-open", "--plot", "rod.angle")[0] == 0
+    runs = shown(Path("out/MotorPendulum_compared.html"))
+    assert [run["name"] for run in runs] == ["out/MotorPendulum", "other/MotorPendulum"]
+    page = data_of(Path("out/MotorPendulum_compared.html").read_text(encoding="utf-8"))
+    assert page["options"]["plots"] == ["rod.angle"]
+    assert len(page["scenes"]) == 1
+
+
+def test_a_part_of_the_time_and_fewer_times(result: Path, said: Said) -> None:
+    status, text = said(result, "--times", "0.2", "0.6", "--most", "5", "--no-open", "--out", "part.html")
+    assert status == 0
+    assert "5 of " in text
+    (run,) = shown(Path("part.html"))
+    assert run["columns"]["time"][[0, -1]] == pytest.approx([0.2, 0.6])
+
+
+def test_a_run_of_mbs_is_shown_by_the_geometry_of_an_fmu(pendulum: Path, said: Said) -> None:
+    _, system = load_scene(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
+    mbs.simulate(system, 0.5, 0.01, progress=False).to_csv("run.csv")
+    status, text = said("run.csv", "--no-open")
+    assert status == 0
+    assert "run.csv has no record run.json beside it that names its FMU" in text
+    (run,) = shown(Path("run.html"))
+    assert run["scene"] is None
+    assert run["units"]["rod.angle"] == "rad"
+    assert said("run.csv", "--no-open", "--geometry", pendulum)[0] == 0
+    assert list(shown(Path("run.html"))[0]["scene"]["frames"]) == ["rod"]
+    Path("scene.json").write_text(json.dumps(SCENE))
+    assert said("run.csv", "--no-open", "--geometry", "scene.json")[0] == 0
+    assert list(shown(Path("run.html"))[0]["scene"]["frames"]) == ["rod"]
+
+
+def test_an_fmu_that_has_moved_or_is_another_build(result: Path, said: Said, pendulum: Path) -> None:
+    pendulum.rename("Moved.fmu")
+    status, text = said(result)
+    assert status == 2
+    assert "names the FMU dist/MotorPendulum.fmu, which is not there any more; say where it is now by --geo" in text
+    assert said(result, "--no-open", "--geometry", "Moved.fmu")[0] == 0
+    Path("Moved.fmu").rename(pendulum)
+    record = json.loads(result.with_suffix(".json").read_text())
+    result.with_suffix(".json").write_text(json.dumps(record | {"token": "{another}"}))
+    status, text = said(result, "--no-open")
+    assert status == 0
+    assert "was built anew since MotorPendulum was recorded" in text
+
+
+def test_an_fmu_of_another_program_has_its_diagrams(pendulum: Path, built: Path, said: Said) -> None:
+    with_resources(built, pendulum, None)
+    status, text = said(pendulum, "--stop-time", "0.2", "--no-open")
+    assert status == 0
+    assert "has no resources/geometry.json, which says what there is to draw" in text
+    page = data_of(Path("out/MotorPendulum.html").read_text(encoding="utf-8"))
+    assert page["runs"][0]["scene"] is None
+    assert len(page["options"]["plots"]) == 3
+
+
+@pytest.mark.parametrize(
+    ("geometry", "sentence"),
+    [
+        ("{", "resources/geometry.json of dist/MotorPendulum.fmu is no JSON file"),
+        (
+            json.dumps(SCENE | {"extent": -1}),
+            "geometry.json of dist/MotorPendulum.fmu: extent is -1; it must be above 0.",
+        ),
+    ],
+)
+def test_a_geometry_that_is_none(pendulum: Path, built: Path, said: Said, geometry: str, sentence: str) -> None:
+    with_resources(built, pendulum, geometry)
+    status, text = said("dist/MotorPendulum.fmu", "--stop-time", "0.1", "--no-open")
+    assert status == 2
+    assert sentence in text
+
+
+def test_a_result_without_poses_says_so(result: Path, said: Said) -> None:
+    lines = result.read_text().splitlines()
+    result.write_text("\n".join([lines[0].replace("rod.angle", "angle"), *lines[1:]]) + "\n")
+    status, text = said(result, "--no-open")
+    assert status == 0
+    assert "out/MotorPendulum.csv holds no poses that could be drawn (the result has no column 'rod.angle')" in text
+    assert "rod is not drawn: the result has no column 'rod.angle'." in text
+
+
+def test_one_time_and_values_that_are_no_numbers(result: Path, said: Said) -> None:
+    lines = result.read_text().splitlines()
+    result.write_text("\n".join(lines[:2]) + "\n")
+    assert said(result, "--no-open")[0] == 0
+    assert len(shown(Path("out/MotorPendulum.html"))[0]["columns"]["time"]) == 1
+    place = lines[0].split(",").index('"rod.angle"')
+    cells = lines[2].split(",")
+    cells[place] = "nan"
+    result.write_text("\n".join([*lines[:2], ",".join(cells), *lines[3:]]) + "\n")
+    status, text = said(result, "--no-open")
+    assert status == 0
+    assert "The column 'rod.angle' has 1 of 101 values that are no numbers" in text
+
+
+def test_a_table_that_would_fill_the_memory_is_read_in_part(
+    result: Path, said: Said, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from hosts import recorded
+
+    monkeypatch.setattr(recorded, "_FEWEST_ROWS", 10)
+    monkeypatch.setattr(recorded, "_MOST_VALUES", 100)
+    status, text = said(result, "--no-open")
+    assert status == 0
+    assert text.count("Every 10th of about 101 rows of MotorPendulum.csv was read.") == 1
+    times = shown(Path("out/MotorPendulum.html"))[0]["columns"]["time"]
+    np.testing.assert_allclose(times, 0.1 * np.arange(11))
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "sentence"),
+    [
+        ("a.csv", "", "its heading begins with nothing; it must be time"),
+        ("a.csv", "time,x\n", "holds no values"),
+        ("a.csv", "time,x\n0,one\n", "'one' in row 2, column 2, is no number"),
+        ("a.csv", "time,x\n0,1\n1\n", "row 3 has 1 values where those before have 2"),
+        ("a.csv", "time,x\n0\n", "1 values in a row where the heading has 2 columns"),
+        ("a.csv", "x,y\n0,1\n", "its heading begins with 'x'; it must be time"),
+        ("a.csv", "time,x,x\n0,1,1\n", "has the column 'x' twice"),
+        ("a.csv", "time\n0\n", "a column of times and no other"),
+        ("a.csv", "time,x\n1,1\n0,1\n", "go back from 1 s to 0 s"),
+        ("a.csv", "time,x\nnan,1\n", "time 0 (from 0 on) is nan"),
+        ("a.csv", b"\xff\xfe\x00", "is no table of text"),
+        ("a.json", "{}", "has no table a.csv beside it"),
+        ("a.toml", "", "is shown when it is built: "),
+        ("a.txt", "x", "is neither a result (.csv, .json) nor an FMU (.fmu)"),
+        ("a.fmu", "x", "is not an FMU (not a zip archive)"),
+    ],
+)
+def test_what_cannot_be_shown(work: Path, said: Said, name: str, content: str | bytes, sentence: str) -> None:
+    Path(name).write_bytes(content if isinstance(content, bytes) else content.encode())
+    status, text = said(name, "--no-open")
+    assert status == 2
+    assert sentence in text
+    assert len(text.splitlines()) <= 2
+    assert not Path("a.html").exists()
+
+
+def test_lines_of_comment_are_left_out(work: Path, said: Said) -> None:
+    Path("a.csv").write_text("# first\ntime,x\n0,1\n# between\n1,2\n# outputs from: x\n")
+    assert said("a.csv", "--no-open")[0] == 0
+    np.testing.assert_array_equal(shown(Path("a.html"))[0]["columns"]["x"], [1.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--out", "page.txt"], "page.txt would be a page; give it the suffix .html."),
+        (["--plot", "rod.angel"], "There is no signal 'rod.angel' to be plotted; the result has rod.angle"),
+        (["--times", "7", "8"], "There is no time from 7 s to 8 s in 'MotorPendulum'"),
+        (["--most", "1"], "must be a whole number from 2 on"),
+        (["--manoeuvre", "slalom"], "results are shown as they are"),
+        (["--geometry", "none.fmu"], "There is no file none.fmu."),
+        (["--png", "p.png", "--at", "9"], "There is no picture at 9 s; it was recorded from 0 s to 1 s."),
+        (["--gltf", "a.txt"], "a.txt must end with .glb or .gltf."),
+    ],
+)
+def test_options_that_cannot_be_met(result: Path, said: Said, arguments: list[str], sentence: str) -> None:
+    status, text = said(result, "--no-open", *arguments)
+    assert status == 2
+    assert sentence in text
+    assert not Path("out/MotorPendulum.html").exists()
+
+
+def test_without_a_browser_for_pictures_there_is_one_sentence(
+    result: Path, said: Said, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ALI3_BROWSER", "none-such-browser")
+    status, text = said(result, "--png", "p.png")
+    assert status == 2
+    assert "ALI3_BROWSER names none-such-browser, which is no program." in text
+    assert not Path("p.png").exists()
+
+
+def test_pictures_and_animations_are_written_without_a_page(result: Path, said: Said) -> None:
+    from PIL import Image
+
+    pytest.importorskip("playwright")
+    try:
+        find_chromium()
+    except BrowserError as error:
+        pytest.skip(str(error))
+    status, text = said(result, "--png", "p.png", "--at", "0.5", "--size", 320, 240, "--gltf", "p.glb")
+    assert status == 0, text
+    assert "written: p.glb, p.png" in text
+    with Image.open("p.png") as picture:
+        assert picture.size == (320, 240)
+        assert len(picture.convert("RGB").getcolors(1 << 20) or []) > 10
+    assert Path("p.glb").read_bytes().startswith(b"glTF")
+    assert not Path("out/MotorPendulum.html").exists()

@@ -1,0 +1,151 @@
+"""`animate`, recordings of runs, and runs from files."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs import poses as poses_module
+from mbs.scenes import bicycle, double_four_bar, pendulum
+from viewer.errors import ViewerError
+
+
+@pytest.fixture(scope="module")
+def run():
+    return mbs.simulate(mbs.compile(pendulum.build()), 1.0, 0.01)
+
+
+def test_a_recording_has_sensors_and_poses(run):
+    recording = run.recording()
+    assert recording.name == "pendulum"
+    np.testing.assert_array_equal(recording.t, run.t)
+    np.testing.assert_array_equal(recording.columns["bob.x"], run.poses["bob.x"])
+    np.testing.assert_array_equal(recording.columns["rod.tension"], run["rod.tension"])
+    assert recording.units["rod.tension"] == "N"
+    assert recording.units["bob.x"] == "m"
+
+
+def test_animate_takes_ghosts_names_and_options(run):
+    other = mbs.simulate(mbs.compile(pendulum.build(length=0.8)), 1.0, 0.01)
+    animation = mbs.animate(run, other, speed=0.5, plots=["rod.tension"])
+    assert [r.name for r in animation.recordings] == ["pendulum", "pendulum 2"]
+    assert animation.options == {"speed": 0.5, "plots": ["rod.tension"]}
+    named = mbs.animate(run, other, names=("long", "short"))
+    assert [r.name for r in named.recordings] == ["long", "short"]
+    assert "long, short" in repr(named)
+
+
+def test_what_animate_refuses(run):
+    with pytest.raises(mbs.ArgumentTypeError, match="Trajectory"):
+        mbs.animate(mbs.compile(pendulum.build()))
+    with pytest.raises(ValueError, match="2 names for 1 runs"):
+        mbs.animate(run, names=("a", "b"))
+    with pytest.raises(ViewerError, match="no option 'sped'; did you mean 'speed'"):
+        mbs.animate(run, sped=2.0)
+    bare = mbs.System.from_bytes(mbs.compile(pendulum.build()).to_bytes(drawing=False))
+    with pytest.raises(ValueError, match="give the System as the scene"):
+        mbs.animate(mbs.simulate(bare, 0.1, 0.01))
+
+
+def test_a_page_is_written(run, tmp_path):
+    mbs.animate(run, path=tmp_path / "run.html")
+    text = (tmp_path / "run.html").read_text(encoding="utf-8")
+    assert text.lower().startswith("<!doctype html>")
+    assert "pendulum" in text
+    assert not re.search(r"(?:src|href)=[\"']https?:", text)
+    written = mbs.animate(run).save(tmp_path / "again.html")
+    assert written.size == len(text.encode())
+
+
+def test_no_browser_is_a_sentence(run, monkeypatch):
+    import viewer.browser
+
+    monkeypatch.setattr(viewer.browser, "open_in_browser", lambda path: False)
+    with pytest.raises(viewer.browser.BrowserError, match=r"the page is .*animation\.html"):
+        mbs.animate(run).show()
+    seen = []
+    monkeypatch.setattr(viewer.browser, "open_in_browser", lambda path: seen.append(path) or True)
+    assert mbs.animate(run).show() == seen[0]
+    assert seen[0].is_file()
+
+
+def test_in_a_notebook_a_run_shows_itself(run, monkeypatch):
+    assert "<iframe" in run._repr_html_()
+    assert "<iframe" in mbs.animate(run)._repr_html_()
+    bare = mbs.System.from_bytes(mbs.compile(pendulum.build()).to_bytes(drawing=False))
+    assert mbs.simulate(bare, 0.1, 0.01)._repr_html_() is None
+
+    def failing(*_):
+        raise ViewerError("There is no <page>.")
+
+    import viewer.notebook
+
+    monkeypatch.setattr(viewer.notebook, "html_of", failing)
+    assert "There is no &lt;page&gt;." in run._repr_html_()
+
+
+def test_gltf_of_a_run(run, tmp_path):
+    import pygltflib
+
+    mbs.animate(run).to_gltf(tmp_path / "run.glb")
+    file = pygltflib.GLTF2().load(tmp_path / "run.glb")
+    assert len(file.animations) == 1
+    assert "bob" in [node.name for node in file.nodes]
+
+
+def test_thinned_poses_are_said(monkeypatch):
+    monkeypatch.setattr(poses_module, "MOST_SAMPLES", 200)
+    run = mbs.simulate(mbs.compile(pendulum.build()), 3.0, 0.005)
+    recording = run.recording()
+    assert recording.notes == ["Poses were kept of one of 4 samples of the run."]
+    np.testing.assert_array_equal(recording.columns["rod.tension"], run["rod.tension"][::4])
+    with pytest.raises(ValueError, match=r"run\.thinned\(4\)\.to_csv"):
+        run.to_csv("unused.csv", poses=True)
+
+
+@pytest.mark.parametrize("scene", [double_four_bar, bicycle])
+def test_a_file_with_poses_is_drawn_like_the_run(scene, tmp_path):
+    system = mbs.compile(scene.build())
+    run = mbs.Simulation(system).run(0.2, 0.01)
+    run.to_csv(tmp_path / "run.csv", poses=True)
+    read = mbs.Trajectory.from_csv(tmp_path / "run.csv")
+    assert read.poses.bodies == run.poses.bodies
+    for body in run.poses.bodies:
+        np.testing.assert_array_equal(read.poses.position(body), run.poses.position(body))
+        np.testing.assert_array_equal(read.poses.quaternion(body), run.poses.quaternion(body))
+    (found,) = mbs.animate(read, scene=system).recordings
+    expected = run.recording()
+    assert found.missing == []
+    assert found.columns.keys() == expected.columns.keys()
+    for name, values in expected.columns.items():
+        np.testing.assert_array_equal(found.columns[name], values)
+
+
+def test_a_file_without_poses_is_as_before(run, tmp_path):
+    run.to_csv(tmp_path / "run.csv")
+    read = mbs.Trajectory.from_csv(tmp_path / "run.csv")
+    assert list(read) == list(run)
+    with pytest.raises(ValueError, match="no poses"):
+        _ = read.poses
+    with pytest.raises(ValueError, match="poses of to_csv"):
+        run.to_csv(tmp_path / "run.csv", poses="yes")
+    (found,) = mbs.animate(read, scene=mbs.compile(pendulum.build())).recordings
+    assert [m["name"] for m in found.missing]
+
+
+def test_poses_of_a_body_whose_sensor_has_its_name_come_back(tmp_path):
+    m = mbs.Model("rod", dimension=2)
+    rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+    m.sense_position("rod.x", rod, (1.0, 0.0), "x")
+    system = mbs.compile(m)
+    run = mbs.simulate(system, 0.5, 0.01)
+    run.to_csv(tmp_path / "run.csv", poses=True)
+    read = mbs.Trajectory.from_csv(tmp_path / "run.csv")
+    np.testing.assert_array_equal(read["rod.x"], run["rod.x"])
+    assert read.poses.bodies == ("rod",)
+    np.testing.assert_array_equal(read.poses["rod.x"], run.poses["rod.x"])
+    assert mbs.animate(read, scene=system).recordings[0].missing == []

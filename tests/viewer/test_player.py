@@ -1,0 +1,291 @@
+"""The player in a browser without a window: what it shows at which time, its controls, and what it asks of nobody."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from tests.viewer.hand_scenes import crank
+from viewer.browser import BrowserError, find_chromium, launch_arguments
+from viewer.notebook import html_of
+from viewer.page_file import write_page
+from viewer.recording import Recording
+
+sync_api = pytest.importorskip("playwright.sync_api")
+
+SIZE = (640, 360)
+TIMES = np.linspace(0.0, 3.0, 301)
+
+
+@pytest.fixture(scope="module")
+def launch() -> Iterator[Callable[[list[str]], Any]]:
+    """Starts a browser with arguments; all are closed in the end."""
+    try:
+        executable = find_chromium()
+    except BrowserError as error:
+        pytest.skip(str(error))
+    with sync_api.sync_playwright() as play:
+        browsers = []
+
+        def start(arguments: list[str]) -> Any:
+            browsers.append(play.chromium.launch(executable_path=executable, args=arguments))
+            return browsers[-1]
+
+        yield start
+        for browser in browsers:
+            browser.close()
+
+
+@pytest.fixture(scope="module")
+def browser(launch: Callable[[list[str]], Any]) -> Any:
+    return launch(launch_arguments())
+
+
+class Opened:
+    """A page with what it did."""
+
+    def __init__(self, browser: Any, file: Path, hash_text: str = "", size: tuple[int, int] = SIZE) -> None:
+        self.page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        self.said: list[str] = []
+        self.asked: list[str] = []
+        self.page.on("console", lambda message: self.said.append(f"{message.type}: {message.text}"))
+        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        self.page.on("request", lambda request: self.asked.append(request.url))
+        self.page.goto(file.resolve().as_uri() + hash_text)
+        self.page.evaluate("async () => { await window.player.ready; }")
+
+    def __call__(self, script: str, *values: Any) -> Any:
+        return self.page.evaluate(script, *values)
+
+    def seek(self, t: float) -> None:
+        self("t => window.player.seek(t)", t)
+
+    def picture(self) -> np.ndarray:
+        return np.asarray(Image.open(io.BytesIO(self.page.screenshot())).convert("RGB")).astype(int)
+
+    def place(self, point: list[float]) -> tuple[int, int]:
+        x, y = self("p => window.player.view.project(p)", point)
+        return round(x), round(y)
+
+
+@pytest.fixture(scope="module")
+def opened(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Opened]]:
+    """Opens recordings in pages that are closed in the end."""
+    pages: list[Opened] = []
+    folder = tmp_path_factory.mktemp("pages")
+
+    def open_page(*recordings: Recording, hash_text: str = "", size: tuple[int, int] = SIZE, **options: Any) -> Opened:
+        file = folder / f"page {len(pages)} äö.html"
+        write_page(file, recordings, options=options)
+        pages.append(Opened(browser, file, hash_text, size))
+        return pages[-1]
+
+    yield open_page
+    for page in pages:
+        page.page.close()
+
+
+@pytest.fixture(scope="module")
+def pair(opened: Callable[..., Opened]) -> Opened:
+    """A crank, and a faster one that ends before it as its ghost."""
+    other = crank(np.linspace(0.0, 2.5, 1001), 2.5, "faster </script><b>crank")
+    return opened(crank(TIMES), other, plots=["angle", "fx"], camera="orbit")
+
+
+def slider(t: float, speed: float = 2.0) -> float:
+    return float(0.5 * np.cos(speed * t) + np.sqrt(1.0 - (0.5 * np.sin(speed * t)) ** 2))
+
+
+def is_red(colour: np.ndarray) -> bool:
+    red, green, blue = colour
+    return bool(red > 1.5 * green + 20 and red > 1.5 * blue + 20)
+
+
+def test_it_opens_from_disk_without_a_complaint_and_asks_for_nothing(pair: Opened) -> None:
+    assert pair("player.problem") == ""
+    assert [line for line in pair.said if not line.startswith("warning: ")] == []
+    assert [url for url in pair.asked if not url.startswith(("file:", "blob:", "data:"))] == []
+    assert len([url for url in pair.asked if url.startswith("file:")]) == 1
+
+
+@pytest.mark.parametrize("t", [0.0, 0.515, 1.7])
+def test_at_a_time_the_slider_is_where_it_belongs(pair: Opened, t: float) -> None:
+    pair("player.player.showGhost(player.player.ghosts[0], false)")
+    pair.seek(t)
+    picture = pair.picture()
+    for x, there in ((slider(t), True), (slider(t) - 0.3, False), (slider(t) + 0.3, False)):
+        column, row = pair.place([x, 0.0, 0.1])
+        assert is_red(picture[row, column]) == there, (x, picture[row, column])
+    pair("player.player.showGhost(player.player.ghosts[0], true)")
+
+
+def test_a_ghost_moves_in_step_and_stands_still_after_its_end(pair: Opened) -> None:
+    pair("player.player.showGhost(player.player.ghosts[0], false)")
+    for t in (0.9, 2.9):
+        pair("player.player.showGhost(player.player.ghosts[0], false)")
+        pair.seek(t)
+        without = pair.picture()
+        pair("player.player.showGhost(player.player.ghosts[0], true)")
+        pair.seek(t)
+        with_it = pair.picture()
+        column, row = pair.place([slider(min(t, 2.5), 2.5), 0.0, 0.1])
+        assert np.abs(with_it[row, column] - without[row, column]).max() > 15
+        column, row = pair.place([0.9, -0.45, 0.0])
+        assert np.abs(with_it[row, column] - without[row, column]).max() < 5
+    assert "lasts from 0 s to 2.5 s" in pair.page.inner_text(".ali3-head")
+
+
+def test_names_are_shown_as_they_are(pair: Opened) -> None:
+    assert "faster </script><b>crank (ghost)" in pair.page.inner_text(".ali3-head")
+
+
+def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
+    pair("""() => { const s = document.querySelector('.ali3-slide'); s.value = '1.25';
+                    s.dispatchEvent(new Event('input')); }""")
+    assert pair("player.time") == pytest.approx(1.25)
+    pair.page.keyboard.press("ArrowRight")
+    assert pair("player.time") == pytest.approx(1.26)
+    pair.page.keyboard.press("Shift+ArrowLeft")
+    assert pair("player.time") == pytest.approx(1.16)
+    pair.page.keyboard.press("End")
+    assert pair("player.time") == pytest.approx(3.0)
+    pair.page.keyboard.press("Home")
+    assert pair("player.time") == 0.0
+    assert pair.page.inner_text(".ali3-time") == "0.00 / 3.00 s"
+    box = pair.page.locator(".u-over").first.bounding_box()
+    pair.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    assert pair("player.time") == pytest.approx(1.5, abs=0.02)
+    left = pair("document.querySelector('.ali3-now').style.transform")
+    assert float(left.removeprefix("translateX(").removesuffix("px)")) == pytest.approx(box["width"] / 2, abs=2)
+    shown = pair("document.querySelector('.ali3-legend output').textContent")
+    assert float(shown.removesuffix(" rad")) == pytest.approx(2.0 * pair("player.time"), abs=1e-3)
+
+
+def test_it_plays_in_time_and_stands_when_it_is_told(pair: Opened) -> None:
+    pair("player.seek(0)")
+    pair("player.speed(0.2)")
+    pair.page.keyboard.press(" ")
+    pair.page.wait_for_function("player.time > 0.05")
+    pair.page.keyboard.press(" ")
+    stands = pair("player.time")
+    pair.page.wait_for_timeout(200)
+    assert pair("player.time") == stands
+    pair("player.speed(1)")
+
+
+def test_the_difference_of_runs(pair: Opened) -> None:
+    pair.page.locator(".ali3-legend button").first.click()
+    t, difference = pair("player.plots.charts[0].plot.data.map(column => Array.from(column))")
+    shown = np.array([np.nan if x is None else x for x in difference])
+    np.testing.assert_allclose(shown[:251], 0.5 * np.array(t)[:251], atol=1e-5)
+    assert np.isnan(shown[251:]).all()
+    pair.page.locator(".ali3-legend button").first.click()
+    count = pair("player.plots.charts[0].plot.data.length")
+    assert count == 3
+
+
+def test_signals_are_searched_and_chosen(pair: Opened) -> None:
+    pair.page.fill(".ali3-find input", "crank qz")
+    assert pair.page.locator(".ali3-list label").count() == 1
+    pair.page.locator(".ali3-list input").click()
+    assert pair("player.plots.chosen") == ["angle", "fx", "crank.qz"]
+    assert pair.page.locator(".ali3-chart").count() == 3
+    pair.page.locator(".ali3-list input").click()
+    pair.page.fill(".ali3-find input", "nothing like it")
+    assert "no signal has these words" in pair.page.inner_text(".ali3-list")
+    pair.page.fill(".ali3-find input", "")
+    pair("document.activeElement.blur()")
+
+
+def test_the_address_names_what_is_shown(opened: Callable[..., Opened]) -> None:
+    page = opened(crank(TIMES), hash_text="#t=1.5&plots=fx&speed=0.5")
+    assert page("player.time") == 1.5
+    assert page("player.clock.speed") == 0.5
+    assert page("player.plots.chosen") == ["fx"]
+    page.seek(2.25)
+    page.page.wait_for_url("**#t=2.25&speed=0.5&plots=fx")
+
+
+@pytest.mark.parametrize("size", [(640, 360), (360, 640), (320, 480)])
+def test_it_fits_small_screens(opened: Callable[..., Opened], size: tuple[int, int]) -> None:
+    page = opened(crank(TIMES), size=size, plots=["angle"])
+    assert page("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == list(size)
+    for selector in (".ali3-view", ".ali3-bar", ".ali3-slide", ".ali3-chart canvas", ".ali3-group button"):
+        box = page.page.locator(selector).first.bounding_box()
+        assert box["width"] > 20, selector
+        assert box["x"] >= 0, selector
+        assert box["x"] + box["width"] <= size[0] + 1, selector
+        assert box["y"] < size[1], selector
+    assert page.page.locator(".ali3-view").bounding_box()["height"] > 100
+
+
+def test_a_gap_hides_the_body_and_cuts_the_line(opened: Callable[..., Opened]) -> None:
+    whole = crank(TIMES)
+    gap = np.where((TIMES > 0.5) & (TIMES < 1.0), np.nan, whole.columns["slider.x"])
+    recording = Recording(whole.scene, TIMES, dict(whole.columns) | {"slider.x": gap}, whole.units)
+    page = opened(recording, plots=["slider.x"])
+    for t, there in ((0.4, True), (0.75, False)):
+        page.seek(t)
+        column, row = page.place([slider(t), 0.0, 0.1])
+        assert is_red(page.picture()[row, column]) == there
+    data = page("player.plots.charts[0].plot.data[1].slice(50, 101)")
+    assert [value is None for value in data] == [False] + 49 * [True] + [False]
+    assert "values that are no numbers" in page.page.inner_text(".ali3-head")
+
+
+def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> None:
+    page = opened(crank(np.zeros(1)), plots=["angle"])
+    assert page("player.problem") == ""
+    assert page.said == []
+    page("player.play()")
+    assert page("player.clock.playing") is False
+    assert page.page.locator(".ali3-slide").is_disabled()
+
+
+def test_a_result_without_a_scene_has_its_diagrams(opened: Callable[..., Opened]) -> None:
+    page = opened(Recording(None, TIMES, {"x": np.sin(TIMES)}, {"x": "m"}, "foreign"), plots=["x"])
+    assert "no poses in this result" in page.page.inner_text(".ali3-head")
+    assert page.page.locator(".ali3-chart canvas").bounding_box()["height"] > 100
+    page.seek(1.0)
+    assert page("document.querySelector('.ali3-legend output').textContent") == "0.84147 m"
+    assert page.said == []
+
+
+def test_a_camera_that_is_not_there_is_told(opened: Callable[..., Opened]) -> None:
+    page = opened(crank(TIMES), camera="moon")
+    assert "There is no camera 'moon'" in page.page.inner_text(".ali3-head")
+
+
+def test_without_webgl_there_is_one_sentence_and_the_diagrams(
+    launch: Callable[[list[str]], Any], tmp_path: Path
+) -> None:
+    write_page(tmp_path / "p.html", crank(TIMES), options={"plots": ["fx"]})
+    arguments = [a for a in launch_arguments() if "angle" not in a and "swiftshader" not in a]
+    page = Opened(launch([*arguments, "--disable-3d-apis"]), tmp_path / "p.html")
+    assert "no WebGL" in page("player.problem")
+    assert "no WebGL" in page.page.inner_text(".ali3-view")
+    page.seek(1.0)
+    assert page.page.locator(".ali3-chart").count() == 1
+    assert [line for line in page.said if line.startswith("error")] == []
+
+
+def test_in_a_notebook_it_runs_in_its_frame(browser: Any, tmp_path: Path) -> None:
+    (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
+    page = browser.new_page(viewport={"width": 640, "height": 400})
+    said: list[str] = []
+    page.on("console", lambda message: said.append(message.text))
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto((tmp_path / "cell.html").as_uri())
+    frame = page.frames[1]
+    frame.wait_for_function("window.player !== undefined")
+    assert frame.evaluate("async () => { await player.ready; await player.seek(1.5); return player.problem; }") == ""
+    assert frame.evaluate("player.time") == 1.5
+    frame.evaluate("player.pause()")
+    assert [line for line in said if "GL Driver" not in line] == []
+    page.close()

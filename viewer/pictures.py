@@ -1,0 +1,109 @@
+"""Pictures of recordings: PNG files at single times."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from ali3.files import check_writable, whole_file
+from viewer.browser import screenshot
+from viewer.errors import ViewerError
+from viewer.page_file import notes_of, thinned, write_page
+from viewer.recording import MOST_TIMES, Recording
+
+
+def pictures(
+    recordings: Recording | Sequence[Recording],
+    times: Iterable[float],
+    size: tuple[int, int] = (1280, 720),
+    camera: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    most: int = MOST_TIMES,
+) -> Iterator[bytes]:
+    """Pictures of recordings without anything but the drawing.
+
+    Parameters
+    ----------
+    recordings : Recording or sequence of Recording
+        As `viewer.page_file.write_page` takes them.
+    times : iterable of float
+        s.
+    size : (int, int)
+        Pixels.
+    camera : str, optional
+        Its name.
+    options : mapping, optional
+        Of the player; ``controls`` is false if they do not say otherwise.
+    most : int
+        Times that a recording is thinned to.
+
+    Yields
+    ------
+    bytes
+        A PNG file for each time.
+
+    Raises
+    ------
+    ViewerError
+        There is nothing to draw.
+    BrowserError
+        There is no browser that draws.
+    """
+    shown = thinned(recordings, most)
+    if all(recording.scene is None for recording in shown):
+        raise ViewerError("There is nothing to draw: no recording has a scene.")
+    with tempfile.TemporaryDirectory(prefix="ali3_page_", ignore_cleanup_errors=True) as folder:
+        page = write_page(Path(folder, "page.html"), shown, options={"controls": False, **(options or {})}, most=most)
+        yield from screenshot(page.path, times, size, camera)
+
+
+def write_picture(
+    path: str | PathLike[str],
+    recordings: Recording | Sequence[Recording],
+    time: float,
+    size: tuple[int, int] = (1280, 720),
+    camera: str | None = None,
+    options: Mapping[str, Any] | None = None,
+) -> list[str]:
+    """Write a picture of recordings at one time, a PNG file; see `pictures`.
+
+    Parameters
+    ----------
+    path : path
+        File to write; one that is there is replaced when the new one is whole.
+    recordings : Recording or sequence of Recording
+    time : float
+        s; one outside the recordings is refused.
+    size : (int, int)
+        Pixels.
+    camera : str, optional
+        Its name.
+    options : mapping, optional
+        Of the player.
+
+    Returns
+    -------
+    list of str
+        Sentences: what is not drawn, thinning.
+
+    Raises
+    ------
+    ViewerError
+        There is nothing to draw, or nothing at that time.
+    BrowserError
+        There is no browser that draws.
+    FileError
+        The file cannot be written.
+    """
+    check_writable(path)
+    shown = thinned(recordings)
+    begin, end = min(r.t[0] for r in shown), max(r.t[-1] for r in shown)
+    if not begin <= time <= end:
+        raise ViewerError(f"There is no picture at {time:g} s; it was recorded from {begin:g} s to {end:g} s.")
+    (picture,) = pictures(shown, [time], size, camera, options)
+    with whole_file(path) as made:
+        made.write_bytes(picture)
+    return notes_of(shown)
