@@ -95,16 +95,11 @@ def film(name: str, path: Path, progress: bool | Callable[[float], None] | None 
 
 def recording_of(*runs: mbs.Trajectory) -> Recording:
     """Runs of one System, one after the other."""
-    columns = [_columns(run) for run in runs]
-    t = np.concatenate([run.poses.t for run in runs])
-    joined = {name: np.concatenate([part[name] for part in columns]) for name in columns[0]}
-    return Recording(runs[0].scene, t, joined)
-
-
-def _columns(run: mbs.Trajectory) -> dict[str, Any]:
-    poses = run.poses
-    sensors = {name: run[name][:: poses.every] for name in run}
-    return sensors | {column: poses[name] for name, column in poses.recorded_names.items()}
+    parts = [run.recording() for run in runs]
+    if len(parts) == 1:
+        return parts[0]
+    columns = {name: np.concatenate([part.columns[name] for part in parts]) for name in parts[0].columns}
+    return Recording(parts[0].scene, np.concatenate([part.t for part in parts]), columns, parts[0].units, parts[0].name)
 
 
 def _scene(build: Callable[[], Model], end: float, h: float, method: str | None = None) -> Callable[[], Recording]:
