@@ -42,7 +42,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     parser.add_argument("--no-open", action="store_true", help="write the page and do not open it")
     parser.add_argument("--geometry", type=Path, metavar="FILE", help="FMU (or scene) that results are drawn with")
     parser.add_argument("--times", type=number, nargs=2, metavar=("FROM", "TO"), help="only this part of the time, s")
-    parser.add_argument("--most", type=int, default=5000, metavar="N", help="times in the page; default: 5000")
+    parser.add_argument("--most", type=int, default=5001, metavar="N", help="times in the page at most; default: 5001")
     parser.add_argument(
         "--plot", action="append", default=[], metavar="NAME", help="signal that is plotted; repeatable"
     )

@@ -47,6 +47,6 @@ def html_of(
     told = [f"This animation takes {1e-6 * len(page.encode('utf-8')):.1f} MB of the notebook.", *notes_of(shown)]
     return (
         f'<iframe srcdoc="{html.escape(page, quote=True)}" style="width:100%;height:{height}px;border:0" '
-        'allow="fullscreen" allowfullscreen sandbox="allow-scripts allow-downloads"></iframe>'
+        'allow="fullscreen" sandbox="allow-scripts allow-downloads"></iframe>'
         f'<div style="font-size:smaller;opacity:0.7">{html.escape(" ".join(told))}</div>'
     )

@@ -13,7 +13,7 @@ from viewer.scene import check_scene, plain_scene
 from viewer.scene_columns import drawable, pose_columns
 from viewer.thinning import chosen_times, largest_gap_of_motion
 
-MOST_TIMES = 5000
+MOST_TIMES = 5001  # 10 s in steps of 2 ms
 _TURN = 2.0 * np.pi
 
 

@@ -192,7 +192,6 @@ class Wheel(Placed):
     """A wheel with tyre and rim, about `axis` of its frame."""
 
     kind: Literal["wheel"]
-    at: Vector = (0.0, 0.0, 0.0)
     radius: Positive
     width: Positive
     rim: Positive | None = None
@@ -205,7 +204,6 @@ class SteeringWheel(Placed):
     """A steering wheel, about the axis of its frame."""
 
     kind: Literal["steering_wheel"]
-    at: Vector = (0.0, 0.0, 0.0)
     radius: Positive
     at: Vector = (0.0, 0.0, 0.0)
     axis: Vector | None = None

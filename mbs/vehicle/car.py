@@ -194,6 +194,11 @@ class Car(Section):
             An argument is not what it must be, or the car has no frame for the fidelity; the message names it.
         """
         fidelity = Fidelity.of(fidelity)
+        if fidelity is not Fidelity.RIGID and not self.steering.on_flexible_chassis:
+            raise ModelError(
+                f"{self.steering.key('kind')} is '{self.steering.kind}', which needs a rigid chassis, fidelity "
+                f"{Fidelity.RIGID.value}; for fidelity {fidelity.value} take 'rack_by_angle'."
+            )
         flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
         b = self._builder(road)
         m = b.m
@@ -277,11 +282,13 @@ class Car(Section):
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
         """The models an FMU offers by its parameter `fidelity`.
 
-        The rigid one alone where the car has no frame; no load paths where the frame has no table of loads.
+        The rigid one alone where the car has no frame or a steering that needs a rigid chassis; no load paths where the
+        frame has no table of loads.
         """
         frame = self.chassis.frame
-        offered: tuple[Fidelity, ...] = OFFERED if frame is not None else OFFERED[:1]
-        if frame is not None and frame.loads is None:
+        bends = frame is not None and self.steering.on_flexible_chassis
+        offered: tuple[Fidelity, ...] = OFFERED if bends else OFFERED[:1]
+        if bends and frame is not None and frame.loads is None:
             offered = tuple(fidelity for fidelity in OFFERED if fidelity is not Fidelity.LOAD_PATHS)
         return {fidelity: partial(self.model, None, fidelity) for fidelity in offered}
 

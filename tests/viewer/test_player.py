@@ -13,6 +13,7 @@ from PIL import Image
 
 from tests.viewer.hand_scenes import crank
 from viewer.browser import BrowserError, find_chromium, launch_arguments
+from viewer.notebook import html_of
 from viewer.page_file import write_page
 from viewer.recording import Recording
 
@@ -156,7 +157,7 @@ def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
     assert pair("player.time") == pytest.approx(3.0)
     pair.page.keyboard.press("Home")
     assert pair("player.time") == 0.0
-    assert pair.page.inner_text(".ali3-time") == "0.000 / 3.000 s"
+    assert pair.page.inner_text(".ali3-time") == "0.00 / 3.00 s"
     box = pair.page.locator(".u-over").first.bounding_box()
     pair.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     assert pair("player.time") == pytest.approx(1.5, abs=0.02)
@@ -272,3 +273,19 @@ def test_without_webgl_there_is_one_sentence_and_the_diagrams(
     page.seek(1.0)
     assert page.page.locator(".ali3-chart").count() == 1
     assert [line for line in page.said if line.startswith("error")] == []
+
+
+def test_in_a_notebook_it_runs_in_its_frame(browser: Any, tmp_path: Path) -> None:
+    (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
+    page = browser.new_page(viewport={"width": 640, "height": 400})
+    said: list[str] = []
+    page.on("console", lambda message: said.append(message.text))
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto((tmp_path / "cell.html").as_uri())
+    frame = page.frames[1]
+    frame.wait_for_function("window.player !== undefined")
+    assert frame.evaluate("async () => { await player.ready; await player.seek(1.5); return player.problem; }") == ""
+    assert frame.evaluate("player.time") == 1.5
+    frame.evaluate("player.pause()")
+    assert [line for line in said if "GL Driver" not in line] == []
+    page.close()

@@ -10,7 +10,7 @@ import pytest
 
 from tests.viewer.hand_scenes import crank, everything
 from viewer.errors import ViewerError
-from viewer.recording import Recording
+from viewer.recording import MOST_TIMES, Recording
 from viewer.scene_columns import all_columns
 
 TIMES = np.linspace(0.0, 2.0, 21)
@@ -143,7 +143,7 @@ def test_a_million_times_in_bounded_memory() -> None:
     shown = recording.thinned()
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert len(shown.t) == 5000
+    assert len(shown.t) == MOST_TIMES
     assert peak < 100e6  # the record itself has 160 MB
 
 

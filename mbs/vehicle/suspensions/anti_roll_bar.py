@@ -71,13 +71,13 @@ class AntiRollBar(Section):
         corners : sequence of Corner
             Left and right side of the axle.
         """
-        levers = []
+        carrier, levers = b.chassis.lever_carrier, []
         for corner in corners:
             p = {name: corner.side.point(point) for name, point in self.points}
             levers.append(
                 b.m.drop_link(
                     f"{LINK}{corner.side.wheel}",
-                    b.chassis.body,
+                    carrier,
                     corner.parts[self.part],
                     axis=LEFT,
                     **p,

@@ -8,7 +8,8 @@ export class Bar {
   constructor(parent, player) {
     this.player = player;
     const { clock } = player;
-    this.digits = digitsOf(clock.end - clock.begin);
+    const { t } = player.runs[0];
+    this.digits = digitsOf((t[t.length - 1] - t[0]) / Math.max(1, t.length - 1));
     const button = (name, title, onclick) => element("button", { title, "aria-label": title, onclick }, [icon(name)]);
     this.playing = button("play", "play or pause (space)", () => player.toggle());
     this.slide = element("input", {
@@ -82,7 +83,7 @@ export class Bar {
   }
 }
 
-/** Digits of a time so that a thousandth of the run shows. @param {number} span s */
-export function digitsOf(span) {
-  return span > 0 ? Math.min(9, Math.max(0, Math.ceil(3 - Math.log10(span)))) : 3;
+/** Digits of a time so that each recorded one differs from the next. @param {number} step s */
+export function digitsOf(step) {
+  return step > 0 ? Math.min(9, Math.max(2, Math.ceil(-Math.log10(step) - 1e-3))) : 3;
 }
