@@ -8,6 +8,7 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from threading import Timer
 from typing import TYPE_CHECKING, Any
@@ -15,11 +16,16 @@ from typing import TYPE_CHECKING, Any
 from ali3.running import module_command, run_command
 from hosts.errors import HostError
 from hosts.numbers import number
-from hosts.options import add_setting_options, wishes
+from hosts.options import Wishes, add_setting_options
+from hosts.options import wishes as set_wishes
+from hosts.road import PARAMETER as ROAD
 
 if TYPE_CHECKING:
+    from hosts.manoeuvre import Manoeuvre
     from hosts.numbers import Value
     from hosts.page_parts import FmuParts
+    from hosts.variables import Variable
+    from viewer.recording import Recording
 
 _PATIENCE = 2.0
 _MOST_PICTURES = 4
@@ -42,6 +48,18 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.pa
     parser.add_argument(
         "--plot", action="append", default=[], metavar="NAME", help="input or output that is plotted; repeatable"
     )
+    parser.add_argument(
+        *("--manoeuvre", "-m"),
+        help="table of inputs over time that the page follows until a person takes them, as for the command drive",
+    )
+    parser.add_argument(
+        "--beside",
+        action="append",
+        default=[],
+        type=Path,
+        metavar="RESULT",
+        help="a result that is drawn beside; repeatable",
+    )
     parser.add_argument("--paused", action="store_true", help="the page waits until somebody starts it")
     add_setting_options(parser)
     options = parser.parse_args(arguments)
@@ -51,19 +69,26 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.pa
 def _page(options: argparse.Namespace) -> int:
     from ali3.files import check_writable, whole_file
     from hosts.page_parts import fmu_parts
-    from viewer.page_file import html_document
+    from hosts.page_text import Page
 
-    if len(options.fmus) > _MOST_PICTURES:
-        raise HostError(f"{len(options.fmus)} FMUs are too many for a page; it shows at most {_MOST_PICTURES}.")
+    if len(options.fmus) + len(options.beside) > _MOST_PICTURES:
+        count = len(options.fmus) + len(options.beside)
+        raise HostError(f"{count} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     file = options.out / ("_".join(dict.fromkeys(path.stem for path in options.fmus)) + ".html")
-    fmus = [fmu_parts(path) for path in options.fmus]
+    given = set_wishes(options)
+    road = next((text for name, text in reversed(given.values) if name == ROAD), "")
+    fmus = [fmu_parts(path, road) for path in options.fmus]
     check_writable(file)
-    titles = _titles(fmus, options.name)
-    title = options.title if options.title is not None else ", ".join(titles)
-    start = {"name": file.stem, **_page_options(fmus, options)}
-    parts = [with_binary(fmu).record(words) for fmu, words in zip(fmus, titles, strict=True)]
+    names = _names(fmus, options.name)
+    manoeuvre = _manoeuvre(fmus, options.manoeuvre)
+    start = {**({} if manoeuvre is None else manoeuvre.start), **_start(fmus, given)}
+    wanted = {"name": file.stem, **_page_options(fmus, options), "start": start}
+    recordings = _beside(options.beside, fmus[0])
+    ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
+    with_binaries = [with_binary(fmu) for fmu in fmus]
     with told_when_long("making the page"):
-        text = html_document(title, {"fmus": parts, "options": start}, "ALi3Viewer.drive")
+        page = Page(with_binaries, names, wanted, manoeuvre, recordings, ends)
+        text = page.text(options.title if options.title is not None else ", ".join(names))
     with whole_file(file) as made:
         made.write_text(text, encoding="utf-8", newline="\n")
     for fmu in fmus:
@@ -73,7 +98,46 @@ def _page(options: argparse.Namespace) -> int:
     return 0
 
 
-def _titles(fmus: Sequence[FmuParts], given: Sequence[str]) -> list[str]:
+def _manoeuvre(fmus: Sequence[FmuParts], given: str | None) -> Manoeuvre | None:
+    """Inputs over time, checked."""
+    if given is None:
+        return None
+    from hosts.manoeuvre import load_manoeuvre, with_names_of
+    from hosts.page_text import script_of
+
+    names = [name for fmu in fmus for name in fmu.variables.names]
+    manoeuvre = with_names_of(load_manoeuvre(given), names)
+    script_of(manoeuvre)
+    known = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _held(v)]
+    unknown = next((name for name in manoeuvre.inputs if name not in known), None)
+    if unknown is not None:
+        raise HostError(
+            f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is no input and no tunable parameter of "
+            f"{' or '.join(fmu.path.name for fmu in fmus)}."
+        )
+    return manoeuvre
+
+
+def _held(variable: Variable) -> bool:
+    return variable.causality == "input" or variable.variability == "tunable"
+
+
+def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
+    """Results that are drawn beside the first FMU, with its drawing where they have none."""
+    if not results:
+        return []
+    from hosts.view_sources import RunWishes, recordings_of
+
+    recordings, told = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
+    for line in told:
+        print(line)
+    undrawn = next((r.name for r in recordings if r.scene is None), None)
+    if undrawn is not None:
+        raise HostError(f"The result {undrawn} cannot be drawn with {fmu.path.name}.")
+    return recordings
+
+
+def _names(fmus: Sequence[FmuParts], given: Sequence[str]) -> list[str]:
     if len(given) > len(fmus):
         raise HostError(f"--name is given {len(given)} times for {len(fmus)} FMUs; give it once for each.")
     titles = [*given, *(fmu.name for fmu in fmus[len(given) :])]
@@ -85,7 +149,7 @@ def _titles(fmus: Sequence[FmuParts], given: Sequence[str]) -> list[str]:
 
 def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict[str, Any]:
     """What the page starts with, checked."""
-    found: dict[str, Any] = {"run": not options.paused, "start": _start(fmus, options)}
+    found: dict[str, Any] = {"run": not options.paused}
     if options.step is not None:
         if not 0.0 < options.step <= 1.0:
             raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
@@ -104,11 +168,10 @@ def _plottable(fmu: FmuParts, name: str) -> bool:
     return name in fmu.variables.names and fmu.variables[name].causality in ("input", "output")
 
 
-def _start(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict[str, Value]:
-    """Start values of the first FMU that has them; the others take those that they have too."""
+def _start(fmus: Sequence[FmuParts], wanted: Wishes) -> dict[str, Value]:
+    """Start values that the first FMU must have; the others take those that they have too."""
     from hosts.settings import Settings
 
-    wanted = wishes(options)
     settings = Settings(fmus[0].variables)
     for file in wanted.sets:
         settings.add_set(file)
@@ -135,19 +198,18 @@ def with_binary(fmu: FmuParts) -> FmuParts:
     if fmu.wasm is not None:
         return fmu
     with tempfile.TemporaryDirectory() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):
+        arguments = ("--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", folder)
+        command = module_command("fmu_src.build_command", *arguments)
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
         made = Path(folder, fmu.path.name)
-        arguments = (str(fmu.path), "--platform", PLATFORM, "--out", str(made))
-        done = subprocess.run(
-            module_command("fmu_src.native.add_platform", *arguments), capture_output=True, text=True, check=False
-        )
-        if done.returncode != 0 or not made.is_file():
-            lines = done.stderr.strip().splitlines()
-            why = lines[-1].removeprefix("error: ").rstrip(".") if lines else "the compiler said nothing"
-            raise HostError(
-                f"{fmu.path} has no binary in WebAssembly, and none could be added ({why}); build it with "
-                f"{build_line(fmu.path)}"
-            )
-        return fmu_parts(made)
+        if done.returncode == 0 and made.is_file():
+            return replace(fmu, wasm=fmu_parts(made).wasm)
+    lines = done.stderr.strip().splitlines()
+    why = lines[-1].removeprefix("error: ").rstrip(".") if lines else "the compiler said nothing"
+    raise HostError(
+        f"{fmu.path} has no binary in WebAssembly, and none could be added ({why}); build it with "
+        f"{build_line(fmu.path)}"
+    )
 
 
 @contextmanager

@@ -8,6 +8,7 @@ import json
 import math
 import re
 import zipfile
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,12 +18,14 @@ from fmpy.model_description import ModelDescription
 from ali3.running import command_name
 from hosts.errors import HostError
 from hosts.fmu import described
+from hosts.geometry import RESOURCE, scene_of
+from hosts.numbers import Value
+from hosts.road import PARAMETER as ROAD
 from hosts.variables import Variable, Variables
-from viewer.scene import check_scene
 
 PLATFORM = "wasm32"
-SCENE = "resources/geometry.json"
 _ROOM = "resources/"
+_ROADS = "roads/"
 
 
 @dataclass(frozen=True)
@@ -54,24 +57,36 @@ class FmuParts:
         """Of the model."""
         return str(self.description.modelName)
 
+    def roads(self) -> dict[str, list[Any]]:
+        """Roads of the drawing by what the parameter `road.file` may be set to: none, or a road file in the FMU."""
+        if ROAD not in self.variables.names:
+            return {}
+        names = ["", *(path.removeprefix(_ROADS) for path in self.resources if path.startswith(_ROADS))]
+        with ThreadPoolExecutor() as pool:
+            scenes = list(pool.map(lambda name: scene_of(self.path, {ROAD: name}), names))
+        return {name: scene["roads"] for name, scene in zip(names, scenes, strict=True) if scene is not None}
+
     def record(self, title: str) -> dict[str, Any]:
         """The FMU as JSON of the page; `wasm` must be there."""
         assert self.wasm is not None
         return {
             "title": title,
             "scene": self.scene,
+            "roads": packed(json.dumps(self.roads()).encode()),
             "description": description_record(self.description, self.variables),
             "wasm": packed(self.wasm),
             "resources": {path: packed(content) for path, content in self.resources.items()},
         }
 
 
-def fmu_parts(path: Path) -> FmuParts:
+def fmu_parts(path: Path, road: Value = "") -> FmuParts:
     """Read an FMU for a page.
 
     Parameters
     ----------
     path : Path
+    road : str
+        Of the parameter `road.file`, where the page starts with one of the FMU's.
 
     Raises
     ------
@@ -82,16 +97,17 @@ def fmu_parts(path: Path) -> FmuParts:
     _check_kind(path, description)
     with zipfile.ZipFile(path) as archive:
         names = archive.namelist()
-        if SCENE not in names:
+        if RESOURCE not in names:
             raise HostError(
-                f"{path} has no drawing of itself ({SCENE}): it was built by an older version; build it anew with "
+                f"{path} has no drawing of itself ({RESOURCE}): it was built by an older version; build it anew with "
                 f"{build_line(path)}"
             )
-        scene = _scene(archive.read(SCENE), path)
         binaries = [n for n in names if n.startswith(f"binaries/{PLATFORM}/") and n.endswith(".wasm")]
         wasm = archive.read(binaries[0]) if binaries else None
         files = [n for n in names if re.fullmatch(_ROOM + r"(?:[^/]+\.ali3|roads/.+\.road)", n)]
         resources = {name.removeprefix(_ROOM): archive.read(name) for name in sorted(files)}
+    scene = scene_of(path, {ROAD: str(road)})
+    assert scene is not None
     return FmuParts(path, description, Variables(description), scene, wasm, resources)
 
 
@@ -119,16 +135,6 @@ def _check_kind(path: Path, description: ModelDescription) -> None:
     kind = "the kind python, which needs a Python," if "PythonFMU" in tool else f"FMI {version}"
     if version != "2.0" or description.coSimulation is None or "PythonFMU" in tool:
         raise HostError(f"{path} is an FMU of {kind}; a page runs the kind native (FMI 2.0): {build_line(path)}")
-
-
-def _scene(content: bytes, path: Path) -> dict[str, Any]:
-    source = f"The drawing {SCENE} of {path}"
-    try:
-        scene = json.loads(content)
-    except ValueError as error:
-        raise HostError(f"{source} is no JSON: {error}.") from None
-    check_scene(scene, source)
-    return dict(scene)
 
 
 def packed(content: bytes) -> str:

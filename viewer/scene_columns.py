@@ -18,7 +18,7 @@ def columns_of(part: Mapping[str, Any]) -> list[str]:
     """
     found = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
     found += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
-    found += part.get("vector", ())
+    found += [name for name in part.get("vector", ()) if name is not None]
     for names in part.get("tyre", {}).values():
         found += names
     return found

@@ -78,7 +78,7 @@ def test_the_page_holds_what_the_fmu_has_and_no_more(tuned: Path, tmp_path: Path
         **{"name": "Tuned", "run": True, "start": {"spring.free_length": 0.7}, "step": 0.005, "plots": ["bob.y"]},
     }
     (part,) = data["fmus"]
-    assert part["scene"] == DRAWING
+    assert part["scene"] == DRAWING | {"roads": [], "missing": []}
     with zipfile.ZipFile(fmu) as archive:
         wasm = next(name for name in archive.namelist() if name.endswith(".wasm"))
         assert gzip.decompress(base64.b64decode(part["wasm"])) == archive.read(wasm)
@@ -158,4 +158,4 @@ def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture
     assert page.main([str(fmu), "--out", str(blocked)]) == 2
     assert "file is a file" in capsys.readouterr().err
     assert page.main([str(fmu)] * 5) == 2
-    assert "5 FMUs are too many for a page" in capsys.readouterr().err
+    assert "5 pictures are too many for a page" in capsys.readouterr().err

@@ -309,3 +309,63 @@ def test_the_command_as_a_program(reach: Path, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert "SprungReach.html: " in done.stdout
     assert " MB; it opens from disk" in done.stdout
+
+
+def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
+    reach: Path, chromium: Any, tmp_path: Path
+) -> None:
+    table = tmp_path / "pulled.csv"
+    table.write_text('"time","pull"\n0,0.1\n0.5,0.3\n0.5,0.2\n1,0.2\n# start: spring.free_length=0.25\n')
+    assert run.main([str(reach), "--input", str(table), "--step", "0.01", "--out", str(tmp_path)]) == 0
+    more = ["--paused", "--step", "0.01", "--manoeuvre", str(table), "--beside", str(tmp_path / f"{reach.stem}.csv")]
+    opened = Page(chromium, written([reach], tmp_path / "page", *more))
+    assert "follow a table of 1 s" in opened.text("section Inputs")
+    assert opened.page.locator(".a3-view canvas").count() == 2
+    opened.ask("player.advance(60)")
+    beside = opened.ask("player.stage.lookup(player.stage.parts[1], null, player.time)('bob.x')")
+    assert opened.get("bob.x")[0] == pytest.approx(beside, abs=1e-6)  # recorded in single precision
+    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path, "--step", "0.01")
+    assert columns(opened.ask("player.csv()"))["pull"][[0, 25, 50]].tolist() == [0.1, 0.2, 0.2]
+    opened.ask("player.set('pull', 0.4)")
+    opened.ask("player.advance(60)")
+    assert opened.get("pull_used") == [0.4]
+    assert "The recording ends at 1 s." in opened.page.locator('[data-a3="notice"]').nth(1).inner_text()
+    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path, "--step", "0.01")
+    opened.ask("player.reset()")
+    assert opened.get("pull") == [0.1]
+    assert not opened.page.locator('[data-a3="notice"]').nth(1).is_visible()
+    assert opened.wrong == []
+    opened.close()
+
+
+def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chromium: Any, tmp_path: Path) -> None:
+    opened = Page(chromium, written([car], tmp_path, "--paused"))
+    opened.page.locator('[data-a3="rate"]').select_option("0.1")
+    opened.page.locator('[data-a3="play"]').click()
+    opened.until("player.factor !== null && player.time > 0.05")
+    assert 0.05 < opened.ask("player.factor") < 0.15
+    assert "slow motion × 0.1" in opened.text("pace")
+    assert opened.text("behind") == ""
+    opened.ask("player.run(2000)")  # more than any machine does
+    opened.until("document.querySelector('[data-a3=\"behind\"]').textContent.includes('does not keep up')")
+    assert opened.ask("player.factor") < 1900.0
+    opened.ask("player.run(1)")
+    opened.page.locator('[data-a3="touch levers"]').click()
+    box = opened.page.locator('[data-a3="lever throttle"]').bounding_box()
+    opened.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.25)
+    opened.page.mouse.down()
+    opened.until("player.get('used.throttle') > 0.7 && player.get('used.throttle') < 0.8")
+    opened.page.mouse.up()
+    opened.until("player.get('used.throttle') === 0")
+    opened.ask(
+        "(Object.defineProperty(document, 'hidden', {value: true}),"
+        " document.dispatchEvent(new Event('visibilitychange')))"
+    )
+    assert opened.ask("player.running") is False
+    assert opened.text("banner") == "Paused, because the page was not on the screen."
+    before = opened.ask("player.session.pause().then(() => player.time)")
+    opened.page.keyboard.press(".")
+    opened.until(f"player.time > {before}")
+    assert opened.ask("player.time") == pytest.approx(before + STEP)
+    assert opened.wrong == []
+    opened.close()

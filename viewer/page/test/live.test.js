@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Engine } from "../src/live/engine.js";
+import { Engine, scriptAt } from "../src/live/engine.js";
 import { Gamepad, readSource, withDeadZone } from "../src/live/gamepad.js";
 import { Hand } from "../src/live/hand.js";
 import { paceWords } from "../src/live/hud.js";
@@ -91,6 +91,10 @@ test("sliders: the given range, a guess that says so, logarithmic where it is wi
   assert.deepEqual([pedal.low, pedal.high, pedal.guessed, pedal.log], [0, 1, false, false]);
   const torque = rangeOf({ start: 0, type: "Real", unit: "N.m" });
   assert.deepEqual([torque.low, torque.high, torque.guessed], [-100, 100, true]);
+  const tiny = rangeOf({ start: -1.4e-16, type: "Real", unit: "N.m" });
+  assert.deepEqual([tiny.low, tiny.high], [-100, 100]);
+  const moved = rangeOf({ start: 0, type: "Real", unit: "N.m", largest: 3.7 });
+  assert.deepEqual([moved.low, moved.high], [-8, 8]);
   const half = rangeOf({ min: 5, start: 0, type: "Real", unit: "m" });
   assert.deepEqual([half.low, half.high], [5, 25]);
   const spring = rangeOf({ min: 1e3, max: 9e5, start: 12360, type: "Real", unit: "N/m" });
@@ -212,4 +216,19 @@ test("what a browser lacks is one sentence", () => {
   assert.equal(missingParts({ WebAssembly: {}, DecompressionStream: class {} }), "");
   assert.match(missingParts({ DecompressionStream: class {} }), /^This browser has no WebAssembly.*\.$/);
   assert.match(missingParts({ WebAssembly: {} }), /^This browser has no DecompressionStream.*\.$/);
+});
+
+test("a script moves inputs until a hand takes them, and begins with its first row", () => {
+  const script = { t: [0, 1, 1, 2], columns: { u: [0.5, 1.5, -1, 0], gear: [1, 2, 3, 3] } };
+  const at = (time) => Object.values(scriptAt(script, time, new Set(["gear"])));
+  assert.deepEqual([at(-1), at(0.5), at(1), at(1.5), at(9)], [[0.5, 1], [1, 1], [-1, 3], [-0.5, 3], [0, 3]]);
+  const engine = new Engine([mass()], 0.25);
+  engine.script = { t: [0, 1], columns: { u: [0.1, 0.5] } };
+  engine.restart({});
+  const seen = [];
+  for (let n = 0; n < 3; n++) seen.push((engine.advance(), engine.held[0]));
+  engine.want("u", -0.2);
+  for (let n = 0; n < 2; n++) seen.push((engine.advance(), engine.held[0]));
+  assert.deepEqual(seen, [0.1, 0.2, 0.30000000000000004, -0.2, -0.2]);
+  assert.equal(engine.runs[0].slave.sets, 3);
 });

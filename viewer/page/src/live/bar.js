@@ -41,9 +41,15 @@ export class Bar {
       this._time,
       select("step size", "communication step", steps, (v) => act.stepSize(Number(v)), step),
     );
-    if (cameras.length) this.element.append(select("camera", "camera", cameras.map((c) => [c, c]), act.camera));
+    this._camera = select("camera", "camera", cameras.map((c) => [c, c]), act.camera);
+    if (cameras.length) this.element.append(this._camera);
     for (const { data, text, title, work } of views) this.element.append(button(data, text, title, work));
     this.element.append(button("csv", "Save CSV", "inputs and outputs of the run as a table", act.csv));
+  }
+
+  /** A camera was chosen. */
+  camera(name) {
+    this._camera.value = name;
   }
 
   /**

@@ -1,6 +1,7 @@
 // An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
+import { decoded } from "../player/decode.js";
 import { Bar } from "./bar.js";
-import { el } from "./dom.js";
+import { el, short } from "./dom.js";
 import { BACK } from "./engine.js";
 import { Gamepad } from "./gamepad.js";
 import { HELP, Keyboard } from "./keyboard.js";
@@ -22,7 +23,8 @@ const RESTART_MS = 250;
  * Fill an element with an FMU that runs.
  * @param {HTMLElement} container
  * @param {object} given - `{scene, description, wasm, resources, title}` of one FMU, or `fmus`: several of them side by
- *   side; `recordings`: `{scene, t, columns, title, end}` that go along; `options`.
+ *   side; `beside`: a page of recordings (viewer/page_data.py) that go along, `ends`: a sentence for the end of each;
+ *   `script`: inputs over time, packed JSON `{t, columns}`; `options`.
  * @returns {Drive}
  */
 export function drive(container, given) {
@@ -31,7 +33,7 @@ export function drive(container, given) {
 
 /** The page of an FMU. */
 class Drive {
-  constructor(container, { options = {}, fmus, recordings = [], ...one }) {
+  constructor(container, { options = {}, fmus, beside, ends = [], script, ...one }) {
     this.options = options;
     this.container = container;
     const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
@@ -45,7 +47,7 @@ class Drive {
       this.ready.catch(() => {});
       return;
     }
-    this.ready = this._open(parts, recordings);
+    this.ready = this._open(parts, { beside, ends, script });
     this.ready.catch((error) => this._tell(`${error.message}`));
   }
 
@@ -81,6 +83,7 @@ class Drive {
       return `There is no camera '${name}'; there are ${this.view.cameraNames.join(", ")}.`;
     }
     for (const part of this.stage.parts) if (part.view.cameraNames.includes(name)) part.view.camera(name);
+    this.bar?.camera(name);
     this.stage.dirty = true;
     return "";
   }
@@ -148,6 +151,7 @@ class Drive {
   draw() {
     const { session } = this;
     const { running, speed, step, pace } = session;
+    this.stage.survey(session.record);
     this.stage.show(session.record, session.shown, { running, speed, step, factor: pace.factor, cost: pace.cost });
     this.stage.render();
     this._showPanel();
@@ -162,22 +166,28 @@ class Drive {
     this.container.replaceChildren();
   }
 
-  async _open(parts, recordings) {
+  async _open(parts, { beside, ends, script }) {
+    const runs = beside ? (await decoded(beside)).runs : [];
+    const recordings = runs.map((run, k) => ({ title: `${run.name} (recorded)`, scene: run.scene, recording: { ...run, end: ends[k] } }));
+    const table = script ? JSON.parse(new TextDecoder().decode(await unpack(script))) : null;
+    this.script = table;
     const fmus = [];
     for (const part of parts) {
       const resources = {};
       for (const [path, packed] of Object.entries(part.resources ?? {})) resources[path] = await unpack(packed);
       fmus.push({ ...part, wasm: await unpack(part.wasm), resources });
     }
-    this.session = new Session(fmus, this.options, {
+    this.session = new Session(fmus, { ...this.options, script: table }, {
       started: () => this._started(),
       refused: (which, text, alive) => this._refused(which, text, alive),
       message: (which, text) => this._tell(text),
       error: (at, text) => this._error(at, text),
     });
-    const pictures = fmus.map(({ title, scene, description }) => {
-      return { title, scene, variables: new Map(description.variables.map((v) => [v.name, v])) };
-    });
+    const pictures = [];
+    for (const { title, scene, roads, description } of fmus) {
+      const choices = roads ? JSON.parse(new TextDecoder().decode(await unpack(roads))) : {};
+      pictures.push({ title, scene, roads: choices, variables: new Map(description.variables.map((v) => [v.name, v])) });
+    }
     this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep });
     this._layOut(fmus[0]);
     this.stage.open();
@@ -204,7 +214,10 @@ class Drive {
       this._hold(name);
       session.want([[name, value]]);
     };
-    this.inputPanel = inputPanel(this.inputs, want, this.isCar ? HELP : "");
+    const follows = this.script ? `Inputs follow a table of ${short(this.script.t.at(-1))} s until a hand moves them. ` : "";
+    const largest = (name) => Math.max(0, ...(this.script?.columns[name] ?? []).map(Math.abs));
+    const sliders = this.inputs.map((v) => ({ ...v, largest: largest(v.name) }));
+    this.inputPanel = inputPanel(sliders, want, follows + (this.isCar ? HELP : ""));
     const settable = (v) => v.causality === "parameter" || (v.causality === "input" && v.variability === "fixed");
     const parameters = [...session.variables.values()].filter(settable);
     const roads = Object.keys(first.resources).filter((path) => path.startsWith("roads/")).map((path) => path.slice(6));
@@ -244,11 +257,10 @@ class Drive {
     this.act = act;
     this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views });
     this.root.append(this.bar.element);
-    const set = (wishes) => {
-      for (const part of this.stage.parts) part.view.set?.(wishes);
-      this.stage.dirty = true;
-    };
-    const shown = picturePanel(this.stage.parts.map((part) => part.view.has ?? {}), set);
+    const camera = this.options.camera ?? (this.isCar ? "chase" : "");
+    if (this.view.cameraNames.includes(camera)) this.camera(camera);
+    const has = this.stage.parts.map((part) => part.view.has ?? {});
+    const shown = picturePanel(has, (wishes) => this.stage.set(wishes));
     if (shown) this.plots.element.before(shown);
   }
 
@@ -275,7 +287,8 @@ class Drive {
   }
 
   _started() {
-    this.stage?.bind(this.session.record, this.session.prefixes);
+    this.stage?.bind(this.session.record, this.session.prefixes, this.session.start);
+    this.stage?.chooseRoads(this.session.start["road.file"] ?? "");
     this._clear();
     this.keyboard?.clear();
     if (this.plots) this.plots.stale = true;
@@ -337,7 +350,7 @@ class Drive {
   }
 
   _letGo() {
-    if (!this.keyboard) return;
+    if (!this._keyed) return;
     this.keyboard.clear();
     this._wantKeys();
   }

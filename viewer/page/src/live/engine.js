@@ -32,6 +32,31 @@ function writer(slave, { name, type }) {
   return (value) => write([value]);
 }
 
+/**
+ * Inputs of a table at a time: straight between its rows, whole numbers as in the row before; at a time that stands twice
+ * the later row, outside the table its ends.
+ * @param {{t: number[], columns: Object<string, number[]>}} script
+ * @param {number} time - s.
+ * @param {Set<string>} [whole] - Names of whole numbers.
+ * @returns {Object<string, number>}
+ */
+export function scriptAt({ t, columns }, time, whole = new Set()) {
+  let [low, high] = [0, t.length]; // the first row that is later
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (t[middle] > time + 1e-9) high = middle;
+    else low = middle + 1;
+  }
+  const k = Math.min(Math.max(low, 1), t.length - 1);
+  const s = low === 0 ? 0 : low === t.length ? 1 : Math.max(time - t[k - 1], 0) / (t[k] - t[k - 1]);
+  const found = {};
+  for (const [name, values] of Object.entries(columns)) {
+    const [a, b] = t.length > 1 ? [values[k - 1], values[k]] : [values[0], values[0]];
+    found[name] = s === 1 ? b : whole.has(name) ? a : a + s * (b - a);
+  }
+  return found;
+}
+
 /** The run of one or more FMUs. */
 export class Engine {
   /**
@@ -45,8 +70,11 @@ export class Engine {
     const held = heldVariables(descriptions);
     this.heldNames = held.map((v) => v.name);
     this._whole = held.map((v) => v.type !== "Real");
+    this._wholeNames = new Set(this.heldNames.filter((_, i) => this._whole[i]));
     this.outputs = descriptions.map(outputNames);
     this.rows = new Float64Array(this.outputs.reduce((sum, names) => sum + names.length, 0));
+    this.script = null;
+    this._taken = new Set();
     this.runs = [];
     this._states = []; // [k, a state of each FMU, what was set in each], oldest first
   }
@@ -58,8 +86,9 @@ export class Engine {
    */
   restart(start) {
     this._forget();
-    this.start = { ...start };
+    this.start = { ...(this.script ? scriptAt(this.script, 0, this._wholeNames) : {}), ...start };
     this.k = 0;
+    this._taken.clear();
     this._past = new Map(); // what was held in step k, as far back as the states reach
     this.hand = new Hand(this.heldNames.map((name) => this._startOf(name)));
     if (!this.runs.length) this.runs = this._instances();
@@ -104,6 +133,7 @@ export class Engine {
    * @returns {{which: number, text: string}[]} FMUs that refused this step; each stays where it is.
    */
   advance() {
+    this._follow();
     // The first step has the values of the start: so a run that sets the same table from the start is the same.
     const hand = this.k === 0 ? this.hand.values : this.hand.move(this.step);
     const held = hand.map((value, i) => (this._whole[i] ? Math.round(value) : value));
@@ -116,6 +146,19 @@ export class Engine {
     this._read();
     if (this.k % Math.max(1, Math.round(SAVE_EVERY / this.step)) === 0) this._save();
     return refused;
+  }
+
+  /**
+   * What a hand wants of an input or parameter; the script no longer moves it.
+   * @param {string} name
+   * @param {number} value
+   * @param {number} [rate] - As `Hand.want` has it.
+   */
+  want(name, value, rate) {
+    const index = this.heldNames.indexOf(name);
+    if (index < 0) return;
+    this._taken.add(name);
+    this.hand.want(index, value, rate);
   }
 
   /**
@@ -179,6 +222,14 @@ export class Engine {
       }
     });
     return refused;
+  }
+
+  /** Inputs that no hand has taken follow the script. */
+  _follow() {
+    if (!this.script) return;
+    for (const [name, value] of Object.entries(scriptAt(this.script, this.time, this._wholeNames))) {
+      if (!this._taken.has(name)) this.hand.want(this.heldNames.indexOf(name), value);
+    }
   }
 
   _instances() {

@@ -5,20 +5,31 @@ const GUESSES = { m: 10, "m/s": 40, "m/s2": 10, rad: Math.PI, "rad/s": 10, N: 10
 /** Quotient of the ends of a range from which on a slider is logarithmic. */
 const LOGARITHMIC = 50;
 
+/** A start value below this share of a guess is taken for 0. */
+const TINY = 1e-3;
+
 /**
  * The range of a variable.
- * @param {{min?: number, max?: number, start?: number, unit?: string, type: string}} variable
+ * @param {{min?: number, max?: number, start?: number, unit?: string, type: string, largest?: number}} variable - With
+ *   the largest absolute value that is known to occur, if any.
  * @returns {{low: number, high: number, guessed: boolean, log: boolean, whole: boolean}}
  */
-export function rangeOf({ min, max, start, unit, type }) {
+export function rangeOf({ min, max, start, unit, type, largest = 0 }) {
   const whole = type === "Integer" || type === "Enumeration";
-  const begin = Number(start ?? 0);
-  const width = begin === 0 ? (whole ? 10 : (GUESSES[unit ?? "1"] ?? 10)) : 2 * Math.abs(begin);
+  const guess = whole ? 10 : (GUESSES[unit ?? "1"] ?? 10);
+  const begin = Math.max(Math.abs(Number(start ?? 0)), largest);
+  const width = begin < TINY * guess && !largest ? guess : rounded(2 * begin);
   let low = min ?? Math.min(-width, max === undefined ? 0 : max - 2 * width);
   let high = max ?? Math.max(width, min === undefined ? 0 : min + 2 * width);
   if (whole) [low, high] = [Math.ceil(low), Math.floor(high)];
   const guessed = min === undefined || max === undefined;
   return { low, high, guessed, log: !whole && low > 0 && high / low >= LOGARITHMIC, whole };
+}
+
+/** The next number of one digit that is not smaller. */
+function rounded(value) {
+  const unit = 10 ** Math.floor(Math.log10(value));
+  return Number((Math.ceil(value / unit - 1e-9) * unit).toPrecision(3));
 }
 
 /** Where a value is on a slider from 0 to 1. */

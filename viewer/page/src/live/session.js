@@ -11,7 +11,7 @@ const BEHIND = 0.03;
 export class Session {
   /**
    * @param {object[]} fmus - `{description, wasm, resources, title}` with unpacked bytes.
-   * @param {object} options - `step`, `start`, `worker`.
+   * @param {object} options - `step`, `start`, `script` (inputs over time), `worker`.
    * @param {object} hears - Functions: started, refused, message, error.
    */
   constructor(fmus, options, hears) {
@@ -33,7 +33,8 @@ export class Session {
     this._desk = new Desk((message) => this._take(message), options);
     this.threaded = this._desk.threaded;
     const given = fmus.map(({ description, wasm, resources }) => ({ description, wasm, resources }));
-    this.ready = this._ask("started", { do: "open", fmus: given, step: this.step, start: this.start });
+    const { script } = options;
+    this.ready = this._ask("started", { do: "open", fmus: given, step: this.step, start: this.start, script });
   }
 
   /** Time of the last row, s. */

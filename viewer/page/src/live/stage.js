@@ -4,6 +4,11 @@ import { el } from "./dom.js";
 import { Hud } from "./hud.js";
 import { between } from "./record.js";
 
+/** Instants of a run that are looked at. */
+const SURVEYED = 40;
+/** After this a camera stays where a person has put it, s of the run. */
+const SURVEYED_UNTIL = 20;
+
 /** Pictures that are drawn when something has changed. */
 export class Stage {
   /**
@@ -12,6 +17,7 @@ export class Stage {
    */
   constructor(items, options) {
     this.element = el("div.a3-stage");
+    this._surveyed = 0;
     this.parts = items.map((item) => {
       const holder = el("div.a3-picture");
       const notice = el("div.a3-notice", { data: "notice", hidden: true });
@@ -27,6 +33,7 @@ export class Stage {
   /** Make the pictures, once the element stands in the page. */
   open() {
     for (const part of this.parts) {
+      part.road ??= "";
       part.view = new SceneView(part.holder, part.scene, this._options);
       for (const event of ["pointerdown", "pointermove", "wheel"]) {
         part.holder.addEventListener(event, () => (this.dirty = true), { passive: true });
@@ -37,20 +44,66 @@ export class Stage {
     for (const part of this.parts) if (part.view.problem) this.tell(part, part.view.problem);
   }
 
-  /** Which columns of the record are those of the FMUs, by name. */
-  bind(record, prefixes) {
+  /** Draw the roads that belong to a value of the parameter `road.file`. */
+  chooseRoads(name) {
+    for (const part of this.parts) {
+      if (!part.view || part.road === name || !part.roads?.[name]) continue;
+      const camera = part.view.cameras?.name;
+      part.view.dispose();
+      part.road = name;
+      part.scene = { ...part.scene, roads: part.roads[name] };
+      part.view = new SceneView(part.holder, part.scene, this._options);
+      if (camera && !part.view.problem) part.view.camera(camera);
+      if (this._wishes) part.view.set?.(this._wishes);
+    }
+    this.dirty = true;
+  }
+
+  /** What the pictures show, as `SceneView.set` has it. */
+  set(wishes) {
+    this._wishes = { ...this._wishes, ...wishes };
+    for (const part of this.parts) part.view.set?.(wishes);
+    this.dirty = true;
+  }
+
+  /**
+   * Which columns of the record are those of the FMUs, by name; fixed parameters have the values of the start.
+   * @param {import("./record.js").Record} record
+   * @param {string[]} prefixes - Of the columns of each FMU.
+   * @param {Object<string, any>} start - Values that are not those of the FMUs.
+   */
+  bind(record, prefixes, start) {
+    this._surveyed = 0;
     for (const [which, part] of this.parts.filter((p) => p.variables).entries()) {
       const names = [...part.variables.values()].filter((v) => v.causality === "output").map((v) => v.name);
       const own = names.map((name) => [name, record.column(prefixes[which] + name)]);
       part.columns = new Map([...record.held.map((name, k) => [name, k]), ...own.filter(([, index]) => index >= 0)]);
       part.turning = turningColumns(part.scene);
+      const others = [...part.variables.values()].filter((v) => !part.columns.has(v.name));
+      part.fixed = new Map(others.map((v) => [v.name, start[v.name] ?? v.start]));
     }
   }
 
   /** What the numbers of a picture are at a time. */
   lookup(part, record, time) {
-    if (!part.recording) return between(record, time, part.columns, part.turning);
-    return lookupOf(part.recording, time);
+    if (part.recording) return lookupOf(part.recording, time);
+    const lookup = between(record, time, part.columns, part.turning);
+    return (name) => (part.columns.has(name) ? lookup(name) : part.fixed.get(name));
+  }
+
+  /**
+   * Ranges of arrows and stress, and what a camera that stands must see, from what the run has been; each time the run
+   * is twice as long.
+   */
+  survey(record) {
+    if (record.time < 2 * this._surveyed || this._surveyed > SURVEYED_UNTIL || record.end - record.first < 2) return;
+    this._surveyed = Math.max(0.25, record.time);
+    const times = Array.from({ length: SURVEYED }, (_, i) => record.first * record.step + (i / (SURVEYED - 1)) * record.time);
+    for (const part of this.parts) {
+      const { recording: run } = part;
+      const instants = run ? times.map((_, i) => run.t[0] + (i / (SURVEYED - 1)) * (run.t.at(-1) - run.t[0])) : times;
+      part.view.scan?.((i) => this.lookup(part, record, instants[i]), SURVEYED);
+    }
   }
 
   /** Draw the instant `time`. */

@@ -35,10 +35,11 @@ export class Runner {
     }
   }
 
-  async _open({ fmus, step, start }) {
+  async _open({ fmus, step, start, script }) {
     const loaded = [];
     for (const fmu of fmus) loaded.push(await loadFmu(fmu));
     this.engine = new Engine(loaded, step);
+    this.engine.script = script ?? null;
     this._restart({ start, step });
   }
 
@@ -72,10 +73,7 @@ export class Runner {
   }
 
   _want({ wants }) {
-    for (const [name, value, rate] of wants) {
-      const index = this.engine.heldNames.indexOf(name);
-      if (index >= 0) this.engine.hand.want(index, value, rate);
-    }
+    for (const [name, value, rate] of wants) this.engine.want(name, value, rate);
   }
 
   _back({ k }) {

@@ -1,0 +1,96 @@
+"""The pages of `docs/drive.md` that run FMUs, made when the site is built, and the list of them."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
+from sphinx.util import logging
+
+ROOT = Path(__file__).parents[2]
+PLACE = "live"
+PAGES = {
+    "prototype": "**The prototype car**: keys, gamepad or levers drive it; its parameters are sliders.",
+    "hatchback": "**The hatchback**: a front-driven electric car with struts and a twist beam.",
+    "double_four_bar": "**The double four-bar through its singular positions**, beside the same run of a method that "
+    "fails there.",
+    "puma": "**The PUMA robot**: its six torques follow a table until you move a slider.",
+}
+MARK = "<!-- live pages -->"
+MODE = "ALI3_LIVE_PAGES"
+"""Environment variable: ``required``, a page that cannot be made is an error; ``none``, no page is made."""
+SOURCES = ("mbs", "fmu_src", "hosts", "viewer", "docs/_site")
+SUFFIXES = {".py", ".c", ".h", ".js", ".css", ".toml", ".csv", ".json", ".mjs"}
+LEFT_OUT = {"node_modules", "bundle", "__pycache__", "lib"}
+
+logger = logging.getLogger(__name__)
+
+
+def digest() -> str:
+    """Of all that the pages are made from."""
+    found = hashlib.sha256()
+    for folder in SOURCES:
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix in SUFFIXES and not LEFT_OUT & set(path.parts):
+                found.update(f"{path.relative_to(ROOT)} {path.stat().st_size}\n".encode())
+                found.update(path.read_bytes())
+    return found.hexdigest()
+
+
+def make(name: str, out: Path) -> str:
+    """Make a page in a program of its own; what went wrong in one line, or nothing."""
+    command = [sys.executable, str(Path(__file__).with_name("make_live_page.py")), name, str(out)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    lines = done.stderr.strip().splitlines()
+    return "" if done.returncode == 0 else f"{name}: {lines[-1] if lines else f'exit code {done.returncode}'}"
+
+
+def build(app: Sphinx) -> None:
+    """Make the pages unless they are there, from the same sources."""
+    app.config.live_pages = []
+    mode = os.environ.get(MODE, "")
+    if app.builder.format != "html" or mode == "none":
+        return
+    out, began = Path(app.outdir) / PLACE, time.monotonic()
+    stamp, known = out / "sources.sha256", digest()
+    if not (stamp.is_file() and stamp.read_text() == known):
+        out.mkdir(parents=True, exist_ok=True)
+        stamp.unlink(missing_ok=True)
+        with ThreadPoolExecutor(2) as pool:
+            wrong = [words for words in pool.map(lambda name: make(name, out), PAGES) if words]
+        if wrong and mode == "required":
+            raise ExtensionError(f"Pages that run FMUs could not be made: {'; '.join(wrong)}")
+        if wrong:  # a plain line: the rest of the site is as good, also where warnings are errors
+            print(f"warning: pages that run FMUs are left out of the site: {'; '.join(wrong)}", file=sys.stderr)
+        else:
+            stamp.write_text(known)
+            logger.info("pages that run FMUs: %.0f s", time.monotonic() - began)
+    app.config.live_pages = [name for name in PAGES if (out / f"{name}.html").is_file()]
+
+
+def listed(app: Sphinx, page: str, source: list[str]) -> None:
+    """Put the list of the pages into the document that asks for it."""
+    if MARK not in source[0]:
+        return
+    there = [
+        f'- {PAGES[name]} <a href="{PLACE}/{name}.html">Open it</a> '
+        f"({(Path(app.outdir) / PLACE / f'{name}.html').stat().st_size / 1e6:.1f} MB)."
+        for name in app.config.live_pages
+    ]
+    absent = "This copy of the site was built without the pages; the commands below make them."
+    source[0] = source[0].replace(MARK, "\n".join(there) or absent)
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register the hooks."""
+    app.add_config_value("live_pages", [], "env")
+    app.connect("builder-inited", build)
+    app.connect("source-read", listed)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

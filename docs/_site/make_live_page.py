@@ -1,0 +1,109 @@
+"""Makes one page of `docs/drive.md`: ``python docs/_site/make_live_page.py NAME OUT``."""
+
+from __future__ import annotations
+
+import csv
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from importlib.resources import files
+from pathlib import Path
+
+import mbs
+from ali3.running import run_command
+from fmu_src.build_command import main as build
+from hosts import page
+from hosts.page_parts import FmuParts, fmu_parts
+from hosts.page_text import Page
+from mbs.scenes import double_four_bar
+from viewer.recording import Recording
+
+_FAILS = "ali3p_no_projection"
+
+
+def built(folder: Path, *what: str) -> FmuParts:
+    """An FMU for pages."""
+    if build([*what, "--kind", "native", "--platforms", "wasm32", "--out", str(folder)], "ali3 build"):
+        raise SystemExit(f"ali3 build {' '.join(what)} failed")
+    return fmu_parts(next(folder.glob("*.fmu")))
+
+
+def written(fmu: FmuParts, folder: Path, *more: str) -> str:
+    """The page that ``ali3 page`` writes."""
+    if page.main([str(fmu.path), "--out", str(folder), *more], "ali3 page"):
+        raise SystemExit(f"ali3 page {fmu.path.name} failed")
+    return (folder / f"{fmu.path.stem}.html").read_text(encoding="utf-8")
+
+
+def prototype(folder: Path) -> str:
+    """The paper's car."""
+    return written(built(folder, "--car", "prototype"), folder, "--title", "The prototype car")
+
+
+def hatchback(folder: Path) -> str:
+    """The other car of the package, its frame coloured by stress where it has one."""
+    fmu = built(folder, "--car", "hatchback")
+    more = ["--set", "fidelity=1"] if fmu.scene.get("flexible") else []
+    return written(fmu, folder, "--title", "The hatchback", *more)
+
+
+def double_four_bar_beside(folder: Path) -> str:
+    """The mechanism of the IFToMM benchmark A02, beside the run of a method that its singular positions stop."""
+    fmu = built(folder, "--scene", "double_four_bar")
+    system = mbs.compile(double_four_bar.build())
+    try:
+        mbs.simulate(system, 10.0, h=0.01, settings=mbs.Settings(method=_FAILS), progress=False)
+    except mbs.SimulationError as error:
+        run, why = error.trajectory, str(error).split(". Worst")[0]
+    else:
+        raise SystemExit(f"the double four-bar passes its singular positions with {_FAILS}")
+    recording = Recording(system.scene, run.poses.t, dict(run.poses.items()), name="the same without projections")
+    shown = Page(
+        *([fmu], ["ALi3 with projections: it runs on"]),
+        {"name": "double_four_bar", "run": True, "step": 0.01, "plots": ["energy.total", "B0.position.y"]},
+        recordings=[recording],
+        ends=[f"{why}."],
+    )
+    return shown.text("The double four-bar through its singular positions")
+
+
+def puma(folder: Path) -> str:
+    """The robot: the first two seconds of the paper's manoeuvre, backwards, and again."""
+    fmu = built(folder, "--scene", "puma")
+    text = files("mbs.scenes.puma").joinpath("manoeuvre.csv").read_text(encoding="utf-8")
+    rows = [[float(x) for x in row] for row in csv.reader(text.splitlines()[1:])]
+    there = [row[1:8] for row in rows if row[0] == 1]
+    table = folder / "manoeuvre.csv"
+    table.write_text("\n".join(["time," + ",".join(f"torque_{k}" for k in range(1, 7)), *_to_and_fro(there, 1)]))
+    small = ["--set", "step_size=0.002", "--step", "0.002"]
+    return written(fmu, folder, "--title", "The PUMA robot", "--manoeuvre", str(table), "--plot", "angle_2", *small)
+
+
+def _to_and_fro(rows: Sequence[Sequence[float]], times: int) -> list[str]:
+    """A motion without friction, and the same backwards: torques in the opposite order lead back to its start."""
+    length = rows[-1][0]
+    back = [[2.0 * length - row[0], *row[1:]] for row in reversed(rows[:-1])]
+    once = [*rows, *back]
+    all_rows = [[row[0] + 2.0 * length * k, *row[1:]] for k in range(times) for row in (once if k == 0 else once[1:])]
+    return [",".join(repr(x) for x in row) for row in all_rows]
+
+
+MAKERS: dict[str, Callable[[Path], str]] = {
+    "prototype": prototype,
+    "hatchback": hatchback,
+    "double_four_bar": double_four_bar_beside,
+    "puma": puma,
+}
+
+
+def main(name: str, out: Path) -> int:
+    """Make a page and put it into a folder; 0."""
+    with tempfile.TemporaryDirectory() as folder:
+        text = MAKERS[name](Path(folder))
+    out.mkdir(parents=True, exist_ok=True)
+    (out / f"{name}.html").write_text(text, encoding="utf-8", newline="\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(run_command(lambda: main(sys.argv[1], Path(sys.argv[2])), (RuntimeError, ValueError)))
