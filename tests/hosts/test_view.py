@@ -271,7 +271,7 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
     monkeypatch.setattr(recorded, "_MOST_VALUES", 0)
     status, text = said(result, "--no-open")
     assert status == 0
-    assert text.count("Every 10th of about 101 rows of MotorPendulum.csv was read.") == 1
+    assert text.count("One of every 10 of about 101 rows of MotorPendulum.csv was read.") == 1
     times = shown(Path("out/MotorPendulum.html"))[0]["columns"]["time"]
     np.testing.assert_allclose(times, 0.1 * np.arange(11))
 
