@@ -23,11 +23,12 @@ LINES = (ElementType.SPRING_DAMPER, ElementType.SPRING_DAMPER_TABLE)
 
 @dataclass(frozen=True)
 class Line:
-    """A spring, damper or rod between two anchors."""
+    """A spring, damper, rod or actuator between two anchors."""
 
     name: str
     ends: tuple[Anchor, Anchor]
     record: ElementRecord | None = None
+    drives: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,27 +60,33 @@ class Touched:
     points : dict of str to list of ndarray
         Places by frame, earth axes as drawn, m.
     pivots, slides, lines : list
+    sliding : list of str
+        Rods with an end that a guide slides.
     """
 
     points: dict[str, list[Vector]] = field(default_factory=dict)
     pivots: list[Pivot] = field(default_factory=list)
     slides: list[Slide] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
+    sliding: list[str] = field(default_factory=list)
 
 
 def touched(model: Model, names: FrameNames) -> Touched:
     """Joints, springs and wheels of a model, with the points at which they touch its bodies."""
     found = Touched()
     for joint in model.joints:
-        if joint.ends is None:
+        where = joint.ends or joint.actuator
+        if where is None:
             continue
-        bodies = joint.ends.bodies
-        places = [place_drawn(model, p) for p in joint.ends.points]
-        if joint.ends.rod:
+        bodies = where.bodies
+        places = [place_drawn(model, p) for p in where.points]
+        if where.rod and joint.equations[0].guides and joint.actuator is None:
+            found.sliding.append(joint.name)
+        elif where.rod:
             ends = (names.anchor(bodies[0], places[0]), names.anchor(bodies[1], places[1]))
-            found.lines.append(Line(joint.name, ends))
-        elif joint.ends.slides and joint.ends.axis is not None:
-            axis = in_space(joint.ends.axis.value(model.drawn()))
+            found.lines.append(Line(joint.name, ends, drives=joint.actuator is not None))
+        elif where.slides and where.axis is not None:
+            axis = in_space(where.axis.value(model.drawn()))
             found.slides.append(Slide(joint, bodies, places[0], axis))
         elif joint.type in ("revolute", "spherical", "universal"):
             found.pivots.append(Pivot(joint, bodies, places[0], _axis(model, joint)))

@@ -227,6 +227,41 @@ def test_a_beam_that_bends_is_drawn_where_its_nodes_are():
         np.testing.assert_allclose(tip[:, k], run[f"tip.{c}"], atol=2e-6)
 
 
+def test_none_hides_the_beams_of_a_flexible_body():
+    m = spinning_beam.build(2)
+    m.shape(m.bodies[0], "none")
+    m.shape(m.bodies[1], "sphere", radius=0.1)
+    scene = mbs.compile(m).scene
+    assert [part["frame"] for part in scene["flexible"]] == ["part 1"]
+    assert shapes_of(scene, kind="sphere", frame="part 1")
+
+
+def test_a_rod_whose_end_slides_is_said_to_be_missing():
+    m = mbs.Model("rack", dimension=2)
+    arm = m.body("arm", mass=1.0, com=(1.0, 0.5), inertia=0.1)
+    m.revolute("pin", m.ground, arm, point=(1.0, 0.0))
+    guide = m.guide_time("way", ([0.0, 1.0], [0.0, 0.1]), unit="m")
+    rack = m.slide("rack", m.ground, point=(0.0, 1.0), direction=(1.0, 0.0), guide=guide)
+    m.distance("tie rod", rack, (arm, (1.0, 1.0)))
+    scene = mbs.compile(m).scene
+    (missing,) = scene["missing"]
+    assert missing["name"] == "tie rod"
+    assert "slides" in missing["why"]
+    assert not shapes_of(scene, name="tie rod")
+
+
+def test_a_driven_distance_is_an_actuator():
+    m = mbs.Model("lift", dimension=2)
+    arm = m.body("arm", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    m.revolute("pin", m.ground, arm, point=(0.0, 0.0))
+    length = float(np.hypot(1.0, 1.0))
+    guide = m.guide_time("stroke", ([0.0, 1.0], [length, 1.2 * length]), unit="m")
+    m.drive("cylinder", ((m.ground, (0.0, -1.0)), (arm, (1.0, 0.0))), guide)
+    (actuator,) = shapes_of(mbs.compile(m).scene, kind="damper")
+    assert actuator["name"] == "cylinder"
+    assert actuator["ends"] == [["ground", [0.0, -1.0, 0.0]], ["arm", [0.5, 0.0, 0.0]]]
+
+
 def test_a_scene_for_other_columns():
     scene = mbs.compile(flyball.build()).scene
 

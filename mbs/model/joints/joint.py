@@ -154,6 +154,8 @@ class Joint:
         Of joints that can be part of a closed loop.
     rolls : RollingBody, RollingSpin or None
         Of a wheel that rolls.
+    actuator : JointEnds or None
+        Of a driven distance: its ends.
     """
 
     def __init__(
@@ -180,6 +182,7 @@ class Joint:
         self.switch: Switch | None = None
         self.ends: JointEnds | None = None
         self.drawing: Drawing | None = None
+        self.actuator: JointEnds | None = None
         self.rolls: RollingBody | RollingSpin | None = None
 
     @property
