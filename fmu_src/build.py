@@ -17,6 +17,8 @@ from pathlib import Path
 from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
 from fmu_src.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
+from fmu_src.arrays import array_names
+from fmu_src.geometry.geometry import geometry, geometry_file
 from fmu_src.native.ahead import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
@@ -164,9 +166,11 @@ class FmuBuilder:
         with told("finding what depends on what"):
             reach = probe(systems, table)
         version = importlib.metadata.version("ali3")
+        scene = geometry(systems[fidelity], table, fmu_name(name), description)
         self._contents = NativeContents(
             "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights, origin or {}
         )
+        self._scene = scene
         self._libraries: dict[tuple[str, str], bytes] = {}
         self._run: ReferenceRun | None = None
 
@@ -203,7 +207,9 @@ class FmuBuilder:
         Path
             The file.
         """
-        contents = replace(self._contents, model_name=fmu_name(self._name, kind))
+        names = array_names(self._contents.table) if kind == "fmi3" else {}
+        drawn = geometry_file(self._scene, names) if self._scene is not None else b""
+        contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=drawn)
         if kind == "python":
             from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
 

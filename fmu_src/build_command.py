@@ -56,6 +56,12 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         help="out of linux64, win64, darwin64, aarch64-linux and wasm32 (WebAssembly, of the kind native), or this: "
         "the one of this machine; default: all but wasm32 that the kind can have, that of this machine first",
     )
+    parser.add_argument(
+        "--poses",
+        choices=("wheels", "all"),
+        help="poses as outputs, for hosts that draw: wheels, those of the wheels of a car, which are always there; "
+        "all, of every body too, after all other outputs; default: wheels where they are enough to draw it, else all",
+    )
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
@@ -154,13 +160,13 @@ def _compiled(
 
         print(f"car {car_words(options.car)} ...", flush=True)
         with line.told("compiling the car"):
-            car = build_car(options.car)
+            car = build_car(options.car, options.poses)
         return car.name, car.systems, min(car.systems), car.description, car.files
     from fmu_src.scene_registry import load_fidelities
 
     print(f"scene {options.scene} ...", flush=True)
     with line.told("compiling the scene"):
-        return (*load_fidelities(options.scene), "", {})
+        return (*load_fidelities(options.scene, options.poses), "", {})
 
 
 def _write_parameters(parameters: ParameterSet, file: Path) -> bool:

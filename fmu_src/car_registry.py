@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from fmu_src.posed import posed_systems
 from fmu_src.scene_registry import SceneError
 from mbs.vehicle import Car, car_names, load
 
@@ -38,13 +39,15 @@ class BuiltCar:
     files: Mapping[str, bytes]
 
 
-def build_car(car: str) -> BuiltCar:
+def build_car(car: str, poses: str | None = None) -> BuiltCar:
     """Read a car and compile it.
 
     Parameters
     ----------
     car : str
         Name of a car of the package, a folder with a file car.toml, or such a file.
+    poses : {"wheels", "all"} or None
+        As `fmu_src.posed.posed_systems` takes it.
 
     Returns
     -------
@@ -58,7 +61,8 @@ def build_car(car: str) -> BuiltCar:
     made = load(Path(car) if _is_path(car) else car)
     where = f"{made.folder / _FILE}: the car '{made.name}' cannot be built"
     try:
-        systems: dict[int, mbs.System] = {number: mbs.compile(make()) for number, make in made.fidelities().items()}
+        makers = made.fidelities()
+        systems = posed_systems(makers, min(makers), poses)
     except (ValueError, RuntimeError) as error:
         raise SceneError(f"{where}: {error}") from error
     except (ArithmeticError, LookupError) as error:

@@ -18,6 +18,7 @@ from typing import Any
 
 import mbs
 import mbs.scenes
+from fmu_src.posed import posed_systems
 
 _ENGINE = Path(mbs.__file__).parent
 
@@ -58,12 +59,19 @@ def load_scene(scene: str) -> tuple[str, mbs.System]:
         return name, _system(scene, build)
 
 
-def load_fidelities(scene: str) -> tuple[str, dict[int, mbs.System], int]:
+def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int, mbs.System], int]:
     """Build and compile a scene in all the fidelities it offers.
 
     A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
     0 and on; the numbers may be members of an enumeration, whose names are then in the FMU. The one of `build` is the
     default of its argument `fidelity`. (The function may still be called `variants`, until the next release.)
+
+    Parameters
+    ----------
+    scene : str
+        As for `load_scene`.
+    poses : {"wheels", "all"} or None
+        As `fmu_src.posed.posed_systems` takes it.
 
     Returns
     -------
@@ -77,7 +85,7 @@ def load_fidelities(scene: str) -> tuple[str, dict[int, mbs.System], int]:
         module = sys.modules[build.__module__]
         offered = getattr(module, "fidelities", None) or getattr(module, "variants", None)
         if not callable(offered) or build.__name__ != "build":
-            return name, {0: _system(scene, build)}, 0
+            return name, posed_systems({0: lambda: _built(scene, build)}, 0, poses), 0
         makers = offered()
         numbers = sorted(makers)
         if numbers != list(range(len(makers))):
@@ -86,10 +94,15 @@ def load_fidelities(scene: str) -> tuple[str, dict[int, mbs.System], int]:
                 "on."
             )
         default = inspect.signature(build).parameters["fidelity"].default
-        return name, {k: mbs.compile(makers[k]()) for k in numbers}, int(default)
+        return name, posed_systems({k: makers[k] for k in numbers}, int(default), poses), int(default)
 
 
 def _system(scene: str, build: Callable[..., Any]) -> mbs.System:
+    made = _built(scene, build)
+    return mbs.compile(made) if isinstance(made, mbs.Model) else made
+
+
+def _built(scene: str, build: Callable[..., Any]) -> mbs.Model | mbs.System:
     missing = [
         p.name
         for p in inspect.signature(build).parameters.values()
@@ -101,13 +114,12 @@ def _system(scene: str, build: Callable[..., Any]) -> mbs.System:
             "or write a function without arguments that calls it."
         )
     result: Any = build()
-    if isinstance(result, mbs.Model):
-        result = mbs.compile(result)
-    if not isinstance(result, mbs.System):
+    if not isinstance(result, (mbs.Model, mbs.System)):
         raise SceneError(
             f"Scene '{scene}' returned a {type(result).__name__}; it must return an mbs.Model or mbs.System."
         )
-    return result
+    made: mbs.Model | mbs.System = result
+    return made
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any
@@ -175,6 +175,8 @@ class Drawing:
     base : mapping
         The scene in the format of `docs/animation.md`, without what is made late.
     places : Places
+    shared : sequence of (frame, place, frame, place)
+        Points that two frames share by their joint, each with its place in both, m.
     late : tuple of callable
         Each makes entries of the scene's ``flexible``, which takes as long as compiling a model and is not always
         wanted.
@@ -182,6 +184,7 @@ class Drawing:
 
     base: Mapping[str, Any]
     places: Places
+    shared: Sequence[tuple[str, Sequence[float], str, Sequence[float]]] = ()
     late: tuple[Callable[[], list[dict[str, Any]]], ...] = ()
 
     @cached_property
@@ -191,7 +194,7 @@ class Drawing:
 
     def to_bytes(self) -> bytes:
         """The array `drawing` of a System file: JSON, UTF-8."""
-        content = {"scene": self.scene, "places": self.places.to_json()}
+        content = {"scene": self.scene, "places": self.places.to_json(), "shared": [list(s) for s in self.shared]}
         return json.dumps(content, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
 
     @classmethod
@@ -207,7 +210,8 @@ class Drawing:
         places = Places.from_json(content["places"])
         if places.matrix.shape[1] != nq:
             raise ValueError(f"the drawing is of {places.matrix.shape[1]} coordinates, the System has {nq}")
-        return cls(dict(content["scene"]), places)
+        shared = [(str(a), [float(x) for x in p], str(b), [float(x) for x in q]) for a, p, b, q in content["shared"]]
+        return cls(dict(content["scene"]), places, shared)
 
 
 def quaternions(matrices: Array) -> Array:

@@ -17,7 +17,7 @@ def columns_of(part: Mapping[str, Any]) -> list[str]:
         Of a scene that was checked.
     """
     found = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
-    found += [part[key] for key in ("angle", "value", "computed") if key in part]
+    found += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
     found += part.get("vector", ())
     for names in part.get("tyre", {}).values():
         found += names

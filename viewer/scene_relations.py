@@ -98,8 +98,9 @@ def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
             if other not in known:
                 good = False
                 yield _no_frame(scene, (*path, "parent" if "parent" in frame else "on"), other)
-        if "axis" in frame:
-            yield from _direction(frame["axis"], (*path, "axis"))
+        for key in ("axis", "direction"):
+            if key in frame:
+                yield from _direction(frame[key], (*path, key))
         if isinstance(frame.get("start"), (list, tuple)):
             yield from _direction(frame["start"][1], (*path, "start", 1))
         if "points" in frame:

@@ -32,7 +32,8 @@ _OF_KEY: dict[str, type[BaseModel]] = {
 }
 # What a table that could be of several types must have.
 _CHOICES: dict[tuple[str | int, ...], str] = {
-    ("frames",): "the keys 'position' and 'quaternion', 'parent', 'axis' and 'angle', or 'points' and 'on'",
+    ("frames",): "the keys 'position' and 'quaternion', 'parent' with 'axis' and 'angle' or with 'direction' "
+    "and 'way', or 'points' and 'on'",
     ("arrows",): "the keys 'value' and 'between', 'vector' and 'at', or 'tyre'",
 }
 

@@ -54,11 +54,25 @@ class TurningFrame(Part):
     """Angle as drawn, for pictures without a run, rad."""
 
 
+class SlidingFrame(Part):
+    """A frame that slides along a line of its parent: its origin is at + way * direction, its axes are the parent's."""
+
+    parent: Name
+    at: Vector = (0.0, 0.0, 0.0)
+    """Its origin in the parent where the way is 0, m."""
+    direction: Vector
+    """Unit vector in the parent."""
+    way: Name
+    """Column of the way, m."""
+    start: Number | None = None
+    """Way as drawn, for pictures without a run, m."""
+
+
 class CarriedFrame(Part):
     """A frame without columns of its own: its three points lie on points of other frames."""
 
     points: Axes
-    """In the frame: the first is its origin, the second lies on its x axis, the third fixes the plane."""
+    """Places in the frame."""
     on: tuple[Anchor, Anchor, Anchor]
     """Where they lie."""
     start: tuple[Vector, Quaternion] | None = None
@@ -70,6 +84,7 @@ def _frame_kind(value: Any) -> str | None:
     if isinstance(value, Part):
         keys = set(type(value).model_fields)
     count = {
+        "SlidingFrame": 2 * len(keys & {"direction", "way"}),
         "TurningFrame": len(keys & {"parent", "axis", "angle", "at"}),
         "CarriedFrame": len(keys & {"points", "on"}),
         "MovingFrame": len(keys & {"position", "quaternion"}),
@@ -81,6 +96,7 @@ def _frame_kind(value: Any) -> str | None:
 Frame = Annotated[
     Annotated[MovingFrame, Tag("MovingFrame")]
     | Annotated[TurningFrame, Tag("TurningFrame")]
+    | Annotated[SlidingFrame, Tag("SlidingFrame")]
     | Annotated[CarriedFrame, Tag("CarriedFrame")],
     Discriminator(_frame_kind),
 ]

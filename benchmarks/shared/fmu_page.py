@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import base64
 import json
-import shutil
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import fmpy
+
+from viewer.browser import BrowserError, find_chromium, launch_arguments
 
 PAGE = Path(__file__).parents[2] / "viewer" / "page" / "src" / "wasm"
 
@@ -90,13 +91,13 @@ class ChromiumPage:
             from playwright.sync_api import sync_playwright
         except ImportError:
             raise NotHereError("Chromium is driven by playwright, which is not installed") from None
-        program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-        if program is None:
-            raise NotHereError("there is no Chromium here")
+        try:
+            program = find_chromium()
+        except BrowserError as error:
+            raise NotHereError(str(error)) from None
         self._folders = (PAGE, folder)
         self._playwright = sync_playwright().start()
-        arguments = ["--headless=new", "--no-sandbox"]
-        self._browser = self._playwright.chromium.launch(executable_path=program, args=arguments)
+        self._browser = self._playwright.chromium.launch(executable_path=program, args=launch_arguments())
         self.version = self._browser.version
         self._page = self._browser.new_page()
         self._page.route(f"{self._ORIGIN}**", self._serve)

@@ -23,6 +23,8 @@ from fmu_src.probe import Dependencies
 from fmu_src.text_variables import TextVariable, road_resources, text_table
 from fmu_src.variables import Variable, table_records
 
+GEOMETRY = "resources/geometry.json"
+"""Where the scene lies in an FMU."""
 Telling = Callable[..., AbstractContextManager[None]]
 
 
@@ -46,6 +48,8 @@ class NativeContents:
         Of the model, for its description; empty: the solver's.
     origin : mapping of str to bytes
         Files that the model was made from, by their paths in the FMU.
+    geometry : bytes
+        The scene of the FMU, JSON; empty: none.
     """
 
     model_name: str
@@ -59,6 +63,7 @@ class NativeContents:
     copyright: str = ""
     licence: str = ""
     origin: Mapping[str, bytes] = field(default_factory=dict)
+    geometry: bytes = b""
 
     def description_head(self, guid: str, **more: Any) -> Description:
         """Attributes of modelDescription.xml; what is not given of the rights is the solver's."""
@@ -102,7 +107,8 @@ class NativeContents:
         """Systems and roads as they lie in the FMU, and what they were made from."""
         contents = [system.to_bytes(drawing=False) for system in self.systems]
         systems = {f"resources/system_{k}.ali3": content for k, content in enumerate(contents)}
-        return systems | road_resources(self.system.meta) | dict(self.origin)
+        scene = {GEOMETRY: self.geometry} if self.geometry else {}
+        return systems | road_resources(self.system.meta) | dict(self.origin) | scene
 
     @property
     def origin_words(self) -> list[str]:

@@ -25,8 +25,8 @@ from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import Parameter, Target, new_parameter
-from mbs.model.shapes import ShapeVocabulary
 from mbs.model.slide import SlidingPoint
+from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.spin import Spin, spin
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
@@ -39,7 +39,7 @@ class Model(
     ForceSensorVocabulary,
     JointSensorVocabulary,
     ChannelSensorVocabulary,
-    ShapeVocabulary,
+    SlidingVocabulary,
 ):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.affine import AffineVector
+from mbs.affine import Affine, AffineVector
 from mbs.checks import one_of
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
@@ -135,7 +135,7 @@ class OrientationSensorVocabulary(SensorBase):
         name : str
             Unique among the sensors.
         body : Body
-            With axes, in a spatial model.
+            With axes; in the plane it turns about z.
         component : {"w", "x", "y", "z"}
             The scalar part is w.
         unit, description : str
@@ -149,13 +149,16 @@ class OrientationSensorVocabulary(SensorBase):
         Raises
         ------
         ModelError
-            The model is planar, the name is taken, the component is none, or the body has no axes or is not of this
-            model.
+            The name is taken, the component is none, or the body has no axes or is not of this model.
         """
-        self._spatial_only(name)
         one_of(component, ("w", "x", "y", "z"), f"The component of sensor '{name}'")
         self.owned(body, f"The sensor '{name}'")
-        axes = [s for e in np.eye(3) for s in body.vector(e).components]
+        if self.dimension == 2:
+            nought, one = Affine({}, 0.0), Affine({}, 1.0)
+            in_plane = [[*body.vector(e).components, nought] for e in np.eye(2)]
+            axes = [*in_plane[0], *in_plane[1], nought, nought, one]
+        else:
+            axes = [s for e in np.eye(3) for s in body.vector(e).components]
         return self._sense(name, unit, description, SensorType.QUATERNION, axes, integers=["wxyz".index(component)])
 
     def sense_angle_between(

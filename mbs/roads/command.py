@@ -1,8 +1,9 @@
-"""Makes, checks and shows road files: ``ali3 road INPUT [OUTPUT.road] [--picture FILE]``."""
+"""Makes, checks and shows road files: ``ali3 road INPUT [OUTPUT.road] [--picture FILE] [--part FILE]``."""
 
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import sys
 from collections.abc import Sequence
@@ -52,6 +53,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.road
         "--friction-range", type=_number, nargs=2, metavar=("BLACK", "WHITE"), help="frictions in a picture"
     )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the road, a PNG")
+    parser.add_argument(
+        "--part", type=Path, metavar="FILE", help="write the road as an entry of a scene's roads, JSON: what draws it"
+    )
     options = parser.parse_args(arguments)
     return run_command(lambda: _work(options), (ValueError,))
 
@@ -64,7 +68,7 @@ def _number(text: str) -> float:
 
 
 def _work(options: argparse.Namespace) -> int:
-    from ali3.files import whole_file
+    from ali3.files import whole_file, write_text
     from mbs.roads.read_road import read_road
     from mbs.roads.road_file import RoadFile
     from mbs.roads.write_road import write_road
@@ -81,9 +85,13 @@ def _work(options: argparse.Namespace) -> int:
 
         with whole_file(options.picture) as made:
             draw_road(road, made, options.input.name)
+    if options.part is not None:
+        from mbs.roads.scene_part import scene_part
+
+        write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
     for line in _lines(road):
         print(line)
-    for file in (output, options.picture):
+    for file in (output, options.picture, options.part):
         if file is not None:
             print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
     return 0

@@ -5,20 +5,52 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from mbs.kernel.header import SensorType
+from mbs.affine import Affine
+from mbs.kernel.header import ElementType, SensorType
 from mbs.model.model import Model
 from mbs.model.sensors import Sensor
 from mbs.shapes.frames import FrameNames, place_drawn
 from mbs.shapes.joint_points import Line
 
 Arrow = dict[str, Any]
+TYRE = {
+    "contact": [f"contact_{c}" for c in "xyz"],
+    "normal": [f"normal_{c}" for c in "xyz"],
+    "forces": ["longitudinal_force", "lateral_force", "vertical_force"],
+}
+"""Outputs of a tyre that its arrow takes."""
 
 
 def arrows_of(model: Model, names: FrameNames, lines: Sequence[Line]) -> list[Arrow]:
     """Forces of springs and rods along their lines, tension pulling the ends together, and of joints on their first
     bodies, of which sensors read all components.
     """
-    return [*_along_lines(model, lines), *_of_joints(model, names)]
+    return [*_along_lines(model, lines), *_of_tyres(model), *_of_joints(model, names)]
+
+
+def _of_tyres(model: Model) -> list[Arrow]:
+    """Forces of tyres whose contact, forces and axis sensors read."""
+    outputs: dict[tuple[int, str], str] = {}
+    vectors: dict[tuple[tuple[int, float], ...], str] = {}
+    for sensor in model.sensors:
+        if sensor.type == SensorType.ELEMENT_OUTPUT and sensor.reals[0] == 1.0:
+            element, k = sensor.integers
+            outputs.setdefault((element, model.elements[element].outputs[k].name), sensor.name)
+        elif sensor.type == SensorType.SIGNAL and list(sensor.reals) == [1.0]:
+            vectors.setdefault(_key(sensor.signals[0]), sensor.name)
+    found = []
+    for k, record in enumerate(model.elements):
+        if record.type != ElementType.TYRE:
+            continue
+        read = {part: [outputs.get((k, name)) for name in names] for part, names in TYRE.items()}
+        read["axis"] = [vectors.get(_key(record.signals[3 + i])) for i in range(3)]
+        if all(name is not None for names in read.values() for name in names):
+            found.append({"name": record.name, "unit": "N", "tyre": read})
+    return found
+
+
+def _key(signal: Affine) -> tuple[tuple[int, float], ...]:
+    return (*sorted(signal.terms.items()), (-1, signal.constant))
 
 
 def _along_lines(model: Model, lines: Sequence[Line]) -> list[Arrow]:

@@ -17,6 +17,7 @@ from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.model import Model
 from mbs.model.shapes import Owner, Turning, in_space, origin_of
+from mbs.model.sliding_shapes import Sliding
 from mbs.model.spin import Spin
 
 Anchor = tuple[str, list[float]]
@@ -106,11 +107,12 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
             "start": [numbers(pose[:3]), numbers(pose[3:])],
         }
     for turn in turns_of(model):
+        along, value = ("direction", "way") if isinstance(turn, Sliding) else ("axis", "angle")
         frames[names.turns[turn.name]] = {
             "parent": names.of_body(turn.carrier),
             "at": numbers(origin_of(turn) - origin_of(turn.carrier)),
-            "axis": numbers(turn.axis_reference),
-            "angle": _angle_column(turn, names),
+            along: numbers(turn.axis_reference),
+            value: _angle_column(turn, names),
         }
     return frames
 

@@ -15,11 +15,13 @@ from mbs.flexible.scene_part import flexible_parts
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Shape
+from mbs.roads.scene_part import base64_of
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import touched
-from mbs.shapes.roads import base64_of, roads_of
+from mbs.shapes.roads import roads_of
+from mbs.shapes.shared_points import shared_points
 
 SLIDES = "one of its ends slides by a guide, whose value is in no column"
 Scene = dict[str, Any]
@@ -63,12 +65,12 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "frames": frames,
         "shapes": shapes,
         "meshes": meshes,
-        "flexible": [],
+        "flexible": list(model.flexible_scene),
         "arrows": arrows_of(model, names, found.lines),
         "roads": roads_of(model),
         "missing": [{"name": name, "why": SLIDES} for name in found.sliding if name not in named],
     }
-    return Drawing(scene, places, _flexible(model, names, places, q))
+    return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
 
 
 def rebound(scene: Mapping[str, Any], binding: Binding) -> Scene:

@@ -7,6 +7,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Field, PrivateAttr
 
 from mbs.elements.road import Road
@@ -21,6 +22,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.changes import changed_content
+from mbs.vehicle.chassis.amplitudes import amplitude_outputs
 from mbs.vehicle.chassis.attachments import attachments
 from mbs.vehicle.chassis.build import build_chassis, stress_outputs
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
@@ -37,11 +39,20 @@ from mbs.vehicle.drives import Drive
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 from mbs.vehicle.names import CarName, Name, Text
-from mbs.vehicle.outputs import chassis_outputs, health_outputs, used_inputs, wheel_outputs, wheel_poses, work_outputs
+from mbs.vehicle.outputs import (
+    chassis_outputs,
+    health_outputs,
+    lever_outputs,
+    used_inputs,
+    wheel_outputs,
+    wheel_poses,
+    work_outputs,
+)
 from mbs.vehicle.payload import Payload
 from mbs.vehicle.quantities import Length, Mass, Point
 from mbs.vehicle.road import RoadSection, level_within
 from mbs.vehicle.section import Section, sections_of
+from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering import Steering
@@ -183,6 +194,11 @@ class Car(Section):
             An argument is not what it must be, or the car has no frame for the fidelity; the message names it.
         """
         fidelity = Fidelity.of(fidelity)
+        if fidelity is not Fidelity.RIGID and not self.steering.on_flexible_chassis:
+            raise ModelError(
+                f"{self.steering.key('kind')} is '{self.steering.kind}', which needs a rigid chassis, fidelity "
+                f"{Fidelity.RIGID.value}; for fidelity {fidelity.value} take 'rack_by_angle'."
+            )
         flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
         b = self._builder(road)
         m = b.m
@@ -198,7 +214,25 @@ class Car(Section):
         self._outputs(b, steered, spins, fidelity)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
+        car_shapes(b, spins)
+        if self.chassis.frame is not None:
+            m.more_poses.append(partial(self._frame_poses, b))
         return m
+
+    def _frame_poses(self, b: CarBuilder) -> list[dict[str, Any]]:
+        """Amplitudes of the frame as outputs, and its parts of the scene."""
+        amplitude_outputs(b.m, b.chassis, self.flexible_frame)
+        shift = np.subtract(self.vehicle.reference_point, b.chassis.frame.com)
+        return [
+            part | {"nodes": [[float(x) for x in np.add(node, shift)] for node in part["nodes"]]}
+            for part in self._flexible_parts
+        ]
+
+    @cached_property
+    def _flexible_parts(self) -> list[dict[str, Any]]:
+        from mbs.vehicle.chassis.stress_scene import flexible_part  # it compiles a car
+
+        return flexible_part(self)
 
     def _builder(self, road: Road | RoadFile | None) -> CarBuilder:
         """An empty model with road and inputs."""
@@ -248,11 +282,13 @@ class Car(Section):
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
         """The models an FMU offers by its parameter `fidelity`.
 
-        The rigid one alone where the car has no frame; no load paths where the frame has no table of loads.
+        The rigid one alone where the car has no frame or a steering that needs a rigid chassis; no load paths where the
+        frame has no table of loads.
         """
         frame = self.chassis.frame
-        offered: tuple[Fidelity, ...] = OFFERED if frame is not None else OFFERED[:1]
-        if frame is not None and frame.loads is None:
+        bends = frame is not None and self.steering.on_flexible_chassis
+        offered: tuple[Fidelity, ...] = OFFERED if bends else OFFERED[:1]
+        if bends and frame is not None and frame.loads is None:
             offered = tuple(fidelity for fidelity in OFFERED if fidelity is not Fidelity.LOAD_PATHS)
         return {fidelity: partial(self.model, None, fidelity) for fidelity in offered}
 
@@ -299,6 +335,13 @@ class Car(Section):
     def _paths(self) -> list[str]:
         return [section.key(field) for section in sections_of(self) for field in type(section).model_fields]
 
+    @property
+    def rack_ends(self) -> Coordinates:
+        """Inner end of the left tie rod of the front axle, m."""
+        suspension = self.front.suspension
+        assert not isinstance(suspension, TwistBeam), "refused with the file"
+        return suspension.steering_arm_inner
+
     def _rack_way(self) -> float:
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
         suspension = self.front.suspension
@@ -337,3 +380,4 @@ class Car(Section):
         steered.torque_outputs()
         for name, spin in spins.items():
             wheel_poses(b, spin, name)
+        lever_outputs(b)

@@ -17,6 +17,7 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.errors import CarFileError, CarWarning
+from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.files import text_of
 from mbs.vehicle.schema_version import check_version
 from mbs.vehicle.sentences import Sentences, one_line
@@ -147,7 +148,7 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     if car.chassis.frame is not None:
         try:
             frame = car.flexible_frame
-            if frame.section.loads is not None:
+            if Fidelity.LOAD_PATHS in car.fidelities():
                 frame.recorded_loads()
         except ModelError as error:
             raise CarFileError(_told(what, [str(error)])) from error

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.affine import AffineVector
+from mbs.affine import Affine, AffineVector
 from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.spin import Spin
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
+from mbs.vehicle.suspensions.anti_roll_bar import LINK
 
 
 def chassis_outputs(b: CarBuilder) -> None:
@@ -179,6 +180,24 @@ def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
     for name in ("contact", "normal"):
         for c in "xyz":
             m.sense_element(f"wheel_{w}.{name}_{c}", f"tyre {w}", f"{name}_{c}")
+
+
+def lever_outputs(b: CarBuilder) -> None:
+    """Angles of the levers of anti-roll bars.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The car so far.
+    """
+    for index, coordinate in enumerate(b.m.coordinates):
+        if coordinate.name.startswith(LINK):
+            b.m.sense_coordinate(
+                f"anti_roll_bar_{coordinate.name.removeprefix(LINK)}.angle",
+                Affine({index: 1.0}),
+                unit="rad",
+                description="angle of the lever from the drawing, about the vehicle's y axis",
+            )
 
 
 WORKS = {  # what works on the car: first words of the names of its elements, description

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from benchmarks import handling
+from benchmarks import frame_stiffness, handling
 from benchmarks.car import __main__ as car
 from benchmarks.car.accuracy import verdict
 from benchmarks.car.measures import MEASURES
@@ -71,3 +71,13 @@ def test_measures_of_a_car(tmp_path, capsys):
     assert all(set(row) == {"measure", "unit", "hatchback", "usual", "meaning"} for row in rows)
     assert picture.stat().st_size > 10_000
     assert "roll_gradient" in capsys.readouterr().out
+
+
+def test_the_stiffness_of_a_frame_is_measured_and_written(tmp_path):
+    file = tmp_path / "stiffness.json"
+    assert frame_stiffness.main(["prototype", "--json", str(file)]) == 0
+    (row,) = json.loads(file.read_text())["rows"]
+    assert row["between"] == "TFL and TRL"
+    # with the rear towers held against all motion it is 2.37 kN m/deg
+    assert row["kN m/deg"] == pytest.approx(2.07, abs=0.01)
+    assert row["f1, Hz"] == pytest.approx(15.20, abs=0.01)

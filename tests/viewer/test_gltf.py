@@ -19,7 +19,7 @@ from tests.viewer import hand_scenes, moving_car
 from viewer import bundle
 from viewer.errors import ViewerError
 from viewer.gltf import write_gltf
-from viewer.gltf.flexible import stress_colors
+from viewer.gltf.flexible import VIRIDIS, stress_colors
 from viewer.gltf.materials import KINDS, linear
 from viewer.gltf.roads import road_solid
 from viewer.recording import Recording
@@ -257,6 +257,20 @@ def test_what_thinning_costs_is_said(tmp_path):
         assert written.angle_error < 1e-6
 
 
+def test_slow_motion(tmp_path):
+    path = tmp_path / "slow.glb"
+    t = np.linspace(0.0, 0.05, 501)
+    fast = write_gltf(path, hand_scenes.crank(t, 40.0))
+    assert fast.times == 4
+    assert any("a lower speed keeps more times" in note for note in fast.notes)
+    slow = write_gltf(path, hand_scenes.crank(t, 40.0), speed=0.01)
+    assert slow.times == 301
+    assert slow.position_error < 0.01 * fast.position_error
+    assert "A second of the file is 0.01 s of the recording." in slow.notes
+    found = TO_EARTH.T @ world(path, [2.5], "crank")[0, :3, :3]  # of this scene y is up
+    assert np.arctan2(found[1, 0], found[0, 0]) == pytest.approx(40.0 * 0.025, abs=1e-5)
+
+
 def test_a_million_times_are_thinned(tmp_path):
     t = np.linspace(0.0, 100.0, 1_000_001)
     written = write_gltf(tmp_path / "long.glb", hand_scenes.crank(t))
@@ -289,6 +303,12 @@ def test_materials_are_those_of_the_page():
     assert linear("#808080")[0] == pytest.approx(0.2158605, abs=1e-6)
 
 
+def test_the_colour_map_is_that_of_the_page():
+    file = PAGE / "src" / "looks" / "colour_map.js"
+    stops = re.search(r'STOPS =\s+"([0-9a-f ]+)"', file.read_text(encoding="utf-8"))[1]
+    assert tuple(stops.split()) == VIRIDIS
+
+
 @pytest.mark.parametrize("up", [[0.0, 0, 1], [0, 1, 0]])
 @pytest.mark.parametrize("kind", ["flat", "plane", "profile", "grid"])
 def test_roads_face_up_and_have_their_heights(up, kind):
@@ -314,6 +334,8 @@ def test_roads_face_up_and_have_their_heights(up, kind):
     expected = {"flat": 0.2 + 0 * at, "plane": 0.2 - 0.1 * at, "grid": 0.2 + 0 * at}
     expected["profile"] = np.where(at <= 1.0, 0.2, np.where(at > 2.0, 0.3, heights))
     assert np.abs(heights - expected[kind]).max() < 1e-6
+    far, _ = road_solid(roads["profile"] | {"kind": "profile", "origin": [1e6, 0, 0]}, up, np.zeros(3), 20.0)
+    assert np.abs(far.positions).max() < 21.0
     if kind == "profile":
         assert set(heights[np.isclose(at, 2.0)].round(9)) == {0.5, 0.3}
 

@@ -57,8 +57,11 @@ def _profile(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: float)
     side = np.cross(up, forward)
     stations, heights = np.asarray(road["stations"], dtype=float), np.asarray(road["heights"], dtype=float)
     here = float(forward @ (centre - origin))
-    ends = min(stations[0], here - half) - 1.0, max(stations[-1], here + half) + 1.0
-    stations, heights = np.array([ends[0], *stations, ends[1]]), np.array([heights[0], *heights, heights[-1]])
+    near = np.abs(stations - here) < half  # a kerb may be far away
+    ends = np.array([here - half, here + half])
+    beside = np.interp(ends, stations, heights)
+    stations = np.array([ends[0], *stations[near], ends[1]])
+    heights = np.array([beside[0], *heights[near], beside[1]])
     wide = 0.5 * float(road["width"]) if road.get("width") else half
     line = origin + stations[:, None] * forward + heights[:, None] * up
     points = np.stack([line - wide * side, line + wide * side], axis=1).reshape(-1, 3)

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".glb", ".gltf")
 MOST_RATE = 240.0
 _LOOKED_AT = 20_000  # times of a recording that errors are found at, at least two for each that is written
+_FAR = 2e-3  # of the size of the scene: what a reader would see
 _ROAD = Look("road", (0.08, 0.08, 0.085, 1.0), 0.0, 0.9)
 _WHITE = Look("stress", (1.0, 1.0, 1.0, 1.0), 0.1, 0.6)
 _FRAME = Look("steel", (0.27, 0.31, 0.34, 1.0), 0.85, 0.42)
@@ -65,6 +66,7 @@ def write_gltf(
     recording: Recording,
     *,
     rate: float = 60.0,
+    speed: float = 1.0,
     deformation: float = 1.0,
     road: bool = True,
 ) -> WrittenGltf:
@@ -82,7 +84,10 @@ def write_gltf(
     recording : Recording
         With a scene.
     rate : float
-        Times a second that are kept at most, 1 to 240 Hz; a part that turns far between two of them has more.
+        Times a second of the file that are kept at most, 1 to 240 Hz; a part that turns far between two of them has
+        more.
+    speed : float
+        Of the animation; 1 is real time, 0.01 slow motion.
     deformation : float
         Factor of the drawn deformation.
     road : bool
@@ -101,9 +106,9 @@ def write_gltf(
         The file cannot be written; an older one is then unchanged.
     """
     target = Path(path)
-    scene = _checked(target, recording, rate, deformation)
+    scene = _checked(target, recording, rate, speed, deformation)
     check_writable(path)
-    writer = _Writer(scene, recording, rate)
+    writer = _Writer(scene, recording, rate, float(speed))
     writer.add_shapes(deformation)
     if not (writer.parts.fixed or writer.parts.free or writer.flexible):
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
@@ -119,14 +124,15 @@ def write_gltf(
     return WrittenGltf(target, size, writer.times, 1000.0 * writer.error[0], math.degrees(writer.error[1]), notes)
 
 
-def _checked(target: Path, recording: Recording, rate: float, deformation: float) -> dict[str, Any]:
+def _checked(target: Path, recording: Recording, rate: float, speed: float, deformation: float) -> dict[str, Any]:
     if target.suffix.lower() not in SUFFIXES:
         raise ViewerError(f"{target} must end with .glb or .gltf.")
     if not isinstance(recording, Recording):
         raise ViewerError(f"A recording is needed; this is an object of type {type(recording).__name__}.")
     if recording.scene is None:
         raise ViewerError(f"{recording.name!r} has no scene: there are no shapes to write to {target}.")
-    for name, value, low, high in (("rate", rate, 1.0, MOST_RATE), ("deformation", deformation, 0.0, 1e6)):
+    limits = (("rate", rate, 1.0, MOST_RATE), ("speed", speed, 1e-6, 1e4), ("deformation", deformation, 0.0, 1e6))
+    for name, value, low, high in limits:
         good = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
         if not good or not low <= value <= high:
             raise ViewerError(f"The {name} is {value!r}; it must be a number from {low:g} to {high:g}.")
@@ -144,14 +150,15 @@ def _document(name: str) -> Document:
 class _Writer:
     """Collects shapes, then writes nodes, frames before what hangs on them."""
 
-    def __init__(self, scene: dict[str, Any], recording: Recording, rate: float) -> None:
+    def __init__(self, scene: dict[str, Any], recording: Recording, rate: float, speed: float) -> None:
         self.document = _document(recording.name)
         self._scene = scene
         self._rate = rate
-        t = recording.t
-        span = float(t[-1] - t[0])
+        t = (recording.t - recording.t[0]) / speed
+        span = float(t[-1])
         looked = kept_times(t, max(2.0 * rate, min(8.0 * rate, _LOOKED_AT / span)) if span > 0.0 else rate)
-        self._t: Vectors = t[looked] - t[0]
+        self._t: Vectors = t[looked]
+        self._speed = speed
         self._columns: Mapping[str, NDArray[Any]] = {name: values[looked] for name, values in recording.columns.items()}
         self.parts = Parts(FramePoses(scene, self._columns, len(self._t)), scene)
         self.flexible: list[tuple[dict[str, Any], float]] = []
@@ -162,9 +169,10 @@ class _Writer:
         up = np.array(scene.get("up") or (0.0, 0.0, 1.0), dtype=float)
         self._up: Vectors = up / np.linalg.norm(up)
         turn = shortest_turns(self._up[None], np.array([[0.0, 1.0, 0.0]]))[0]
-        self._root = self.document.node(recording.name, None)
+        taken = recording.name in scene["frames"]  # frames have their names
+        self._root = self.document.node(f"scene {recording.name}" if taken else recording.name, None)
         self.document.place(self._root, "rotation", turn)
-        self._begin = float(t[0])
+        self._begin = float(recording.t[0])
 
     def add_shapes(self, deformation: float) -> None:
         for shape in self._scene["shapes"]:
@@ -204,6 +212,13 @@ class _Writer:
         made = list(self.parts.notes)
         if self._begin != 0.0:
             made.append(f"Time 0 of the file is {self._begin:g} s of the recording.")
+        if self._speed != 1.0:
+            made.append(f"A second of the file is {self._speed:g} s of the recording.")
+        if self.error[0] > _FAR * float(self._scene["extent"]):
+            made.append(
+                f"Between the {self.times} times that were kept, something is up to {1000.0 * self.error[0]:.3g} mm "
+                "from where it was recorded; a higher rate or a lower speed keeps more times."
+            )
         for name in self._nodes:
             shown = self.parts.poses.of(name).shown
             if not shown.all():
@@ -282,7 +297,7 @@ class _Writer:
             unit = part["stress"].get("unit", "Pa")
             self.parts.notes.append(
                 f"The colours of {name} are those of its largest stress, {stress:.3g} {unit}, at "
-                f"{self._t[time] + self._begin:.3g} s."
+                f"{self._t[time] * self._speed + self._begin:.3g} s."
             )
 
     def _count(self, off: tuple[float, float]) -> None:

@@ -43,4 +43,5 @@ mkdirSync(out, { recursive: true });
 // Inside <script> nothing may look like the end of it.
 const code = result.outputFiles[0].text.replace(/<\/script/gi, "<\\/script").replace(/<!--/g, "<\\!--");
 writeFileSync(join(out, "THIRD_PARTY_LICENSES.txt"), notice);
-writeFileSync(join(out, "ali3-viewer.js"), `${code}/*!\n${notice.replace(/\*\//g, "* /")}*/\n`);
+const comment = notice.replace(/\*\//g, "* /").replace(/\u00a9/g, "(c)").replace(/[^\0-\x7f]/g, "?");
+writeFileSync(join(out, "ali3-viewer.js"), `${code}/*!\n${comment}*/\n`);

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.resources import files
 
@@ -13,6 +14,7 @@ from mbs.scenes.puma.robot_data import FOREARM_EXCESS, GRAVITY, HAND_POINT, LINK
 from mbs.settings import Settings
 from mbs.simulation import Simulation
 from mbs.system import System
+from mbs.trajectory import Trajectory
 
 PIN = "hand"
 TORQUES = tuple(f"torque.{k}" for k in range(1, 7))
@@ -108,22 +110,43 @@ def replay(system: System, h: float | tuple[float, float, float], settings: Sett
     SimulationError
         When a step fails.
     """
-    simulation = Simulation(system, settings=settings)
+    jumps: list[float] = []
+    runs = list(stages(Simulation(system, settings=settings), h, jumps))
+    hand = [np.column_stack([run[f"hand.position.{c}"] for c in "xyz"]) for run in runs]
+    return Replay(np.concatenate([run.t for run in runs]), np.concatenate(hand), (jumps[0], jumps[1]))
+
+
+def stages(
+    simulation: Simulation, h: float | tuple[float, float, float], jumps: list[float] | None = None
+) -> Iterator[Trajectory]:
+    """The three runs of the replay, one after the other.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        Of the System of `build`, at its start.
+    h : float or tuple of float
+        s; one step, or one for each stage.
+    jumps : list, optional
+        Takes the change of the kinetic energy when the pin closes and when it opens, J.
+
+    Yields
+    ------
+    Trajectory
+    """
     table, end = _table(), 0.0
-    times, hand, jumps = [], [], []
     steps = h if isinstance(h, tuple) else (h,) * len(STAGES_S)
     for stage, (duration, step) in enumerate(zip(STAGES_S, steps, strict=True), start=1):
         part = table[table[:, 0] == stage]
         if stage > 1:
             for name, value in zip(TORQUES, part[0, 2:8].tolist(), strict=True):
                 simulation.set_input(name, value)
-            jumps.append(simulation.set_switch(PIN, stage == 2))
+            jump = simulation.set_switch(PIN, stage == 2)
+            if jumps is not None:
+                jumps.append(jump)
         end += duration
         inputs = {name: (part[:, 1], part[:, 2 + k]) for k, name in enumerate(TORQUES)}
-        run = simulation.run(end, step, inputs=inputs, progress=False)
-        times.append(run.t)
-        hand.append(np.column_stack([run[f"hand.position.{c}"] for c in "xyz"]))
-    return Replay(np.concatenate(times), np.concatenate(hand), (jumps[0], jumps[1]))
+        yield simulation.run(end, step, inputs=inputs, progress=False)
 
 
 def held_at() -> NDArray[np.float64]:

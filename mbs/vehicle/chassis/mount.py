@@ -5,9 +5,53 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
+from mbs.checks import vector
 from mbs.model.body import Body
+
+
+class LeverCarrier(Body):
+    """A chassis that may bend, for levers: its points are joints of the frame, its axes those of the mean frame.
+
+    What a lever does to the axes loads the frame as forces at the joints of the suspension. The floating frame is one
+    node, and a node at the lever alone would take the torque of the bar, which its bushes do not have.
+
+    Parameters
+    ----------
+    chassis : Body
+        Has the points.
+    axes : list of AffineVector
+        x, y and z axis.
+    """
+
+    is_flexible = True
+
+    def __init__(self, chassis: Body, axes: list[AffineVector]) -> None:
+        super().__init__(chassis.model, chassis.name, chassis.com, chassis.start)
+        self._chassis, self._axes = chassis, axes
+
+    def point(self, position: ArrayLike) -> AffineVector:
+        """Point of the chassis.
+
+        Parameters
+        ----------
+        position : array_like, shape (3,)
+            Earth axes in the reference configuration, m.
+        """
+        return self._chassis.point(position)
+
+    def vector(self, components: ArrayLike) -> AffineVector:
+        """Vector in the mean axes.
+
+        Parameters
+        ----------
+        components : array_like, shape (3,)
+            Earth axes in the reference configuration.
+        """
+        x, y, z = (float(v) for v in vector(components, 3, "a vector of the chassis"))
+        return self._axes[0] * x + self._axes[1] * y + self._axes[2] * z
 
 
 @dataclass(frozen=True)
@@ -36,3 +80,8 @@ class Mount:
     origin: tuple[float, float, float]
     drive_axes: tuple[AffineVector, AffineVector]
     contact_frame: tuple[AffineVector, list[AffineVector], np.ndarray]
+
+    @property
+    def lever_carrier(self) -> Body:
+        """What levers of anti-roll bars turn on."""
+        return self.body if self.body is self.frame else LeverCarrier(self.body, self.contact_frame[1])

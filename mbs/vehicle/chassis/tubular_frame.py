@@ -161,7 +161,7 @@ class TubularFrame:
             return masses
         for row in read_table(self.folder, self.section.masses, self.section.key("masses"), ("joint", "mass")):
             _known(row, row["joint"], joints, "joint", self.section.key("joints"))
-            for joint in dict.fromkeys((row["joint"], mirrored(row["joint"]))):
+            for joint in _carrying(row):
                 masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, MOST_MASS, "kg")
         return masses
 
@@ -175,6 +175,14 @@ def mirrored(name: str) -> str:
         Of the joint; its last letter is its side.
     """
     return name[:-1] + IMAGE[name[-1]]
+
+
+def _carrying(row: Row) -> tuple[str, ...]:
+    """Joints that carry the mass of a line: the named one and its image, unless the column `image` says no."""
+    joint, image = row["joint"], row.cells.get("image") or "yes"
+    if image not in ("yes", "no"):
+        raise ModelError(f"{row.where}: image is {image!r}; it must be yes or no, or left empty for yes.")
+    return (joint,) if image == "no" else tuple(dict.fromkeys((joint, mirrored(joint))))
 
 
 def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:

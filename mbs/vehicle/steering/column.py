@@ -9,7 +9,6 @@ from typing import Literal
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.elements.spring_damper import EndStops
 from mbs.elements.torsion_bar import TorsionBar
-from mbs.errors import ModelError
 from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.core import Coordinate
@@ -74,6 +73,11 @@ class Column(RackSection):
             )
 
     @property
+    def on_flexible_chassis(self) -> bool:
+        """The housing of the rack is rigid."""
+        return False
+
+    @property
     def moving_mass(self) -> float:
         """Mass of the rack, kg."""
         return self.rack_mass
@@ -92,17 +96,8 @@ class Column(RackSection):
         -------
         Steered
             Ends of the rack, and its outputs.
-
-        Raises
-        ------
-        ModelError
-            The chassis is not rigid.
         """
         m, per_radian = b.m, way * self.rack_per_turn / (2.0 * math.pi)
-        if b.chassis.body is not b.chassis.frame:
-            raise ModelError(
-                f"{self.key('kind')} is 'column', which needs a rigid chassis; on a flexible one take 'rack_by_angle'."
-            )
         demand = angle_demand(m, self.wheel_angle_max)
         torque = m.input(
             "steering_torque",

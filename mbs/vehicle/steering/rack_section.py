@@ -28,6 +28,11 @@ class RackSection(Section):
         return 2.0 * math.pi * self.rack_travel / self.rack_per_turn
 
     @property
+    def on_flexible_chassis(self) -> bool:
+        """Whether the chassis may bend or have ports."""
+        return True
+
+    @property
     def moving_mass(self) -> float:
         """Mass of what is a body of its own, kg."""
         return 0.0

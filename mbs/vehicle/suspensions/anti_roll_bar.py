@@ -15,6 +15,8 @@ from mbs.vehicle.geometry import LEAST
 from mbs.vehicle.quantities import Factor, Point, TorsionalStiffness
 from mbs.vehicle.section import Section
 
+LINK = "anti-roll link "
+"""Begins the names of links, and of the angles of their levers; the wheel's name follows."""
 DEAD_POINT = 0.2  # sine between lever and link, seen along the bar
 
 
@@ -69,13 +71,13 @@ class AntiRollBar(Section):
         corners : sequence of Corner
             Left and right side of the axle.
         """
-        levers = []
+        carrier, levers = b.chassis.lever_carrier, []
         for corner in corners:
             p = {name: corner.side.point(point) for name, point in self.points}
             levers.append(
                 b.m.drop_link(
-                    f"anti-roll link {corner.side.wheel}",
-                    b.chassis.body,
+                    f"{LINK}{corner.side.wheel}",
+                    carrier,
                     corner.parts[self.part],
                     axis=LEFT,
                     **p,

@@ -67,6 +67,11 @@ class LowerArmStrut(Section):
         """Outer end of the tie rod of the left side, m."""
         return self.points.toe_link_outer
 
+    @property
+    def steering_arm_inner(self) -> Point:
+        """Inner end of it, m."""
+        return self.points.toe_link_inner
+
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left side, then the right one.
 

@@ -29,6 +29,20 @@ test("a quaternion and its rotation are each other's inverse in all four branche
   assert.equal(fromQuaternion([0, 0, 0, 0]), null);
 });
 
+test("a rack slides along a line of its parent", () => {
+  const chassis = { position: ["x", "y", "z"], quaternion: ["qw", "qx", "qy", "qz"] };
+  const rack = { parent: "chassis", at: [1, 0, 0], direction: [0, 1, 0], way: "way" };
+  const frames = new Frames({ frames: { rack, chassis } });
+  const half = Math.SQRT1_2; // a quarter turn about z: y of the chassis is -x of the earth
+  const now = { x: 10, y: 20, z: 30, qw: half, qx: 0, qy: 0, qz: half, way: 0.25 };
+  frames.update((name) => now[name]);
+  const found = frames.point("rack", [0, 0, 0.5]);
+  [9.75, 21, 30.5].forEach((value, k) => assert.ok(Math.abs(found[k] - value) < 1e-12));
+  frames.update((name) => (name === "way" ? undefined : now[name]));
+  assert.equal(frames.point("rack", [0, 0, 0]), null);
+  assert.match(frames.pose("rack").why, /'way'/);
+});
+
 test("a frame of columns, a wheel turned about the axis of its carrier, a body held at three points", () => {
   const scene = {
     frames: {

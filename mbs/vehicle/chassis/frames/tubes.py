@@ -51,7 +51,7 @@ class TubesFrame(FrameSection):
     tubes: str
     """Table of the tubes: from, to, section, elements."""
     masses: str | None = None
-    """Table of the masses that joints carry: joint, mass."""
+    """Table of the masses that joints carry: joint, mass; in a column image, no keeps a mass to its joint alone."""
     material: MaterialSection
     """Material of all tubes."""
     sections: dict[str, TubeSection]

@@ -31,7 +31,7 @@ export function gridSurface({ x, y, step, reach, color, ink, lit }) {
   };
   const settings = { color, transparent: true, depthWrite: false };
   const material = lit
-    ? new THREE.MeshStandardMaterial({ ...settings, roughness: 0.75, metalness: 0 })
+    ? new THREE.MeshLambertMaterial(settings) // a floor fills the picture: it is lit the cheapest way
     : new THREE.MeshBasicMaterial({ ...settings, toneMapped: false, fog: false });
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
@@ -40,7 +40,9 @@ export function gridSurface({ x, y, step, reach, color, ink, lit }) {
       "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;",
     );
     const head = "uniform vec3 aX, aY, aInk;\nuniform vec2 aOffset[2];\nuniform float aStep, aReach;\nvarying vec3 vGround;\n";
-    shader.fragmentShader = (head + shader.fragmentShader).replace("#include <map_fragment>", `#include <map_fragment>\n${CODE}`);
+    shader.fragmentShader = (head + shader.fragmentShader)
+      .replace("#include <map_fragment>", `#include <map_fragment>\n${CODE}`)
+      .replace("#include <lights_fragment_end>", "#include <lights_fragment_end>\nreflectedLight.indirectDiffuse += 0.26 * diffuseColor.rgb;");
   };
   material.customProgramCacheKey = () => `ali3-grid-${lit}`;
   const mesh = new THREE.Mesh(new THREE.PlaneGeometry(2 * reach, 2 * reach), material);

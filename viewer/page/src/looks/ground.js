@@ -45,7 +45,6 @@ roughnessFactor = mix(0.86 + 0.12 * patches - 0.1 * speck, 0.16 + 0.12 * patches
 
 /** Grain as relief, where it is near enough to be seen. */
 const RELIEF = /* glsl */ `
-#ifdef A_RELIEF
 float fade = clamp(1.0 - 60.0 * max(fwidth(plane.x), fwidth(plane.y)), 0.0, 1.0);
 if (fade > 0.0) {
   vec2 at = (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)};
@@ -54,14 +53,18 @@ if (fade > 0.0) {
   vec3 tilt = (viewMatrix * vec4(aX * slope.x + aY * slope.y, 0.0)).xyz;
   normal = normalize(normal - fade * (1.0 - vWet) * 0.55 * tilt);
 }
-#endif
 `;
+
+/** Light of the sky, where none is mirrored. */
+const SKYLIGHT = "reflectedLight.indirectDiffuse += vec3(0.34, 0.39, 0.47) * diffuseColor.rgb;";
+
 
 /**
  * The material of roads and ground. `follow(origin)` keeps its pattern on the earth.
- * @param {{noise: THREE.Texture, up: number[], paint?: number, grass?: boolean, relief?: boolean}} options
+ * @param {{noise: THREE.Texture, up: number[], paint?: number, grass?: boolean, fine?: boolean}} options
+ *   fine: with relief and gloss; otherwise lit the cheapest way
  */
-export function groundMaterial({ noise, up, paint = 0, grass = false, relief = false }) {
+export function groundMaterial({ noise, up, paint = 0, grass = false, fine = false }) {
   const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? axisAcross(up, [1, 0, 0]) : across(up);
   const y = cross(up, x);
   const uniforms = {
@@ -72,19 +75,20 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, relief = f
     aPaint: { value: paint },
     aGrass: { value: new THREE.Color(0.105, 0.125, 0.052) },
   };
-  const material = new THREE.MeshStandardMaterial({ color: "#ffffff", roughness: 1, metalness: 0 });
-  material.defines = { ...(grass ? { A_GRASS: 1 } : {}), ...(relief ? { A_RELIEF: 1 } : {}) };
-  material.customProgramCacheKey = () => `ali3-ground-${grass}-${relief}`;
+  const material = fine ? new THREE.MeshStandardMaterial({ metalness: 0 }) : new THREE.MeshLambertMaterial();
+  material.defines = { ...material.defines, ...(grass ? { A_GRASS: 1 } : {}) };
+  material.customProgramCacheKey = () => `ali3-ground-${grass}-${fine}`;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     shader.vertexShader = `attribute float wet;\nvarying vec3 vGround;\nvarying float vWet;\n${shader.vertexShader}`.replace(
       "#include <begin_vertex>",
       "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;\nvWet = wet;",
     );
-    shader.fragmentShader = (PARAMETERS + shader.fragmentShader)
-      .replace("#include <map_fragment>", `#include <map_fragment>\n${ASPHALT}`)
-      .replace("#include <roughnessmap_fragment>", `#include <roughnessmap_fragment>\n${ROUGHNESS}`)
-      .replace("#include <normal_fragment_maps>", `#include <normal_fragment_maps>\n${RELIEF}`);
+    const pieces = { map_fragment: ASPHALT, ...(fine ? { roughnessmap_fragment: ROUGHNESS, normal_fragment_maps: RELIEF } : { lights_fragment_end: SKYLIGHT }) };
+    shader.fragmentShader = PARAMETERS + shader.fragmentShader;
+    for (const [name, code] of Object.entries(pieces)) {
+      shader.fragmentShader = shader.fragmentShader.replace(`#include <${name}>`, `#include <${name}>\n${code}`);
+    }
   };
   /** @param {number[]} origin earth position of the picture's origin */
   const follow = (origin) => {

@@ -34,8 +34,8 @@ export function outdoors(view, fine) {
     world.environmentIntensity = 0.75;
   };
   bake();
-  const asphalt = groundMaterial({ noise, up, paint: 1, relief: fine });
-  const road = groundMaterial({ noise, up, relief: fine });
+  const asphalt = groundMaterial({ noise, up, paint: 1, fine });
+  const road = groundMaterial({ noise, up, fine });
   const grass = groundMaterial({ noise, up, grass: true });
   const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material, extent });
   world.add(roads.group);

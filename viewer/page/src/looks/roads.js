@@ -6,6 +6,8 @@ import { alongY, turn } from "../shapes/place.js";
 
 /** Half the side of a road without end, in metres. */
 const ENDLESS = 1500;
+/** Metres that the focus goes before a profile is built about it anew. */
+const STEP = 200;
 /** Cells of a grid in one piece: pieces are left out where they are not in the picture. */
 const PIECE = 64;
 
@@ -59,24 +61,53 @@ function plane(road, { up, asphalt }) {
   return endless(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt);
 }
 
-/** Levels along a direction of travel; before the first and after the last the road goes on level. */
+/** Levels along a direction of travel; before the first and after the last the road goes on level, under the focus too. */
 function profile(road, { up, road: material }) {
-  const { stations, heights } = road;
   const forward = unit(road.direction ?? [1, 0, 0]);
   const side = cross(up, forward);
-  const half = (road.width ?? 2 * ENDLESS) / 2;
   const base = road.origin ?? [0, 0, 0];
-  const along = [stations[0] - ENDLESS, ...stations, stations[stations.length - 1] + ENDLESS];
-  const levels = [heights[0], ...heights, heights[heights.length - 1]];
-  const positions = [];
-  const middle = stations[0];
-  along.forEach((s, i) => {
-    for (const way of [-1, 1]) positions.push(...add(add(scale(forward, s - middle), scale(up, levels[i])), scale(side, way * half)));
-  });
+  const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
+  let built = null;
+  const follow = (origin) => {
+    const to = subtract(origin, base);
+    const [s, aside] = [dot(to, forward), road.width === undefined ? dot(to, side) : 0];
+    if (built === null || Math.abs(s - built.s) > STEP || Math.abs(aside - built.aside) > STEP) {
+      built = { s, aside, at: add(base, add(scale(forward, s), scale(side, aside))) };
+      rebuild(mesh.geometry, strip(road, s, ENDLESS), { forward, side, up, half: (road.width ?? 2 * ENDLESS) / 2 });
+    }
+    mesh.position.set(...subtract(built.at, origin));
+  };
+  return [{ mesh, follow }];
+}
+
+/**
+ * The part of a profile around a place: pairs of station (from that place) and level.
+ * @param {{stations: number[], heights: number[]}} road @param {number} s the place @param {number} reach
+ */
+export function strip({ stations, heights }, s, reach) {
+  const last = stations.length - 1;
+  const level = (at) => {
+    if (at <= stations[0]) return heights[0];
+    if (at >= stations[last]) return heights[last];
+    const i = stations.findIndex((station) => station > at) - 1;
+    return heights[i] + ((at - stations[i]) / (stations[i + 1] - stations[i])) * (heights[i + 1] - heights[i]);
+  };
+  const inside = stations.flatMap((station, i) => (Math.abs(station - s) < reach ? [[station - s, heights[i]]] : []));
+  return [[-reach, level(s - reach)], ...inside, [reach, level(s + reach)]];
+}
+
+function rebuild(geometry, pairs, { forward, side, up, half }) {
+  const positions = pairs.flatMap(([s, level]) =>
+    [-1, 1].flatMap((way) => add(add(scale(forward, s), scale(up, level)), scale(side, way * half))),
+  );
   const triangles = [];
-  for (let i = 0; i + 1 < along.length; i++) triangles.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
-  const at = add(base, scale(forward, middle));
-  return [piece(at, positions, triangles, null, material)];
+  for (let i = 0; i + 1 < pairs.length; i++) triangles.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
+  geometry.dispose();
+  geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
+  geometry.setIndex(triangles);
+  geometry.computeVertexNormals();
+  geometry.computeBoundingSphere();
+  dry(geometry);
 }
 
 /** Heights on a grid, in pieces; what has little friction is wet or ice. Around it lies grass. */

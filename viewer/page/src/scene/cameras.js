@@ -21,6 +21,7 @@ export class Cameras {
     this.wheels = [...new Set(shapes.filter(({ kind }) => kind === "wheel").map(({ frame }) => frame))];
     this.seat = shapes.find(({ kind }) => kind === "steering_wheel");
     this.names = scene.planar ? ["orbit"] : this.#names(scene.focus);
+    this.aspect = 1;
     this.home();
     this.controls = new OrbitControls(this.free, element);
     this.controls.enableDamping = false;
@@ -32,6 +33,7 @@ export class Cameras {
     } else {
       this.controls.maxPolarAngle = 0.497 * Math.PI;
     }
+    this.controls.addEventListener("start", () => (this.moved = true));
     this.current = this.free;
     this.name = "orbit";
   }
@@ -45,15 +47,17 @@ export class Cameras {
     return /^wheel/.test(frame) ? frame : `wheel ${frame}`;
   }
 
-  /** Puts the free camera to its first place. */
+  /** Puts the free camera to its first place, unless somebody has moved it. */
   home() {
+    if (this.moved) return;
     const { extent, up, scene } = this.view;
     if (scene.planar) {
       this.free.position.set(0, 0, extent);
     } else {
       const [left, forward] = this.#axes();
       const from = unit(add(add(scale(forward, 0.78), scale(left, -1)), scale(up, 0.34)));
-      this.free.position.set(...scale(from, extent * 1.7));
+      const half = (VIEW_ANGLES.orbit / 2) * (Math.PI / 180);
+      this.free.position.set(...scale(from, (0.98 * this.view.radius) / Math.sin(half * Math.min(1, this.aspect))));
     }
     this.free.lookAt(0, 0, 0);
   }
@@ -125,16 +129,18 @@ export class Cameras {
   }
 
   resize(width, height) {
-    this.rig.aspect = width / height;
+    this.aspect = this.rig.aspect = width / height;
     this.rig.updateProjectionMatrix();
     if (this.free.isPerspectiveCamera) {
       this.free.aspect = width / height;
     } else {
-      const half = 0.62 * this.view.extent;
-      const [x, y] = width > height ? [(half * width) / height, half] : [half, (half * height) / width];
+      const [wide, high] = this.view.reach;
+      const y = 0.62 * Math.max(high, wide / this.aspect);
+      const x = y * this.aspect;
       Object.assign(this.free, { left: -x, right: x, top: y, bottom: -y });
     }
     this.free.updateProjectionMatrix();
+    this.home();
   }
 
   dispose() {

@@ -36,6 +36,7 @@ export class Frames {
   }
 
   #poseOf(name, frame, lookup) {
+    if (frame.way !== undefined) return this.#slid(name, frame, lookup);
     if (frame.parent !== undefined) return this.#turned(name, frame, lookup);
     const columned = frame.position !== undefined;
     if (columned && lookup !== null) return fromColumns(name, frame, lookup);
@@ -61,6 +62,15 @@ export class Frames {
     const turn = aboutAxis(frame.axis ?? [0, 0, 1], angle);
     if (turn === null) return hidden(`the axis of the frame '${name}' has no direction`);
     return pose(add(parent.position, rotate(parent.rotation, frame.at ?? [0, 0, 0])), product(parent.rotation, turn));
+  }
+
+  #slid(name, frame, lookup) {
+    const parent = this.pose(frame.parent);
+    if (!parent.shown) return parent;
+    const way = lookup === null ? (frame.start ?? 0) : lookup(frame.way);
+    if (!Number.isFinite(way)) return hidden(absent(name, [frame.way]));
+    const at = add(frame.at ?? [0, 0, 0], frame.direction.map((part) => way * part));
+    return pose(add(parent.position, rotate(parent.rotation, at)), parent.rotation);
   }
 
   #onPoints(name, frame) {

@@ -19,6 +19,12 @@ export class Notes {
     container.append(this.layer);
   }
 
+  /** @param {boolean} wanted whether sentences stand over the picture; they are said to the listener in any case */
+  words(wanted) {
+    this.worded = wanted;
+    this.list.style.display = wanted ? "" : "none";
+  }
+
   /** Sentences that have been said. @returns {string[]} */
   get said() {
     return [...this.#said];

@@ -17,6 +17,7 @@ export class SceneView {
    * @param {"high" | "low" | "auto"} [options.quality] auto: by the measured time of a picture
    * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
    * @param {string} [options.camera] the first camera
+   * @param {boolean} [options.words] sentences over the picture, true by default; legends of what is drawn stay
    * @param {boolean} [options.keep] the picture can be read from the canvas after it is drawn
    * @param {(sentence: string) => void} [options.onMessage] told what is not drawn, once each
    */
@@ -29,13 +30,14 @@ export class SceneView {
     if (getComputedStyle(container).position === "static") container.style.position = "relative";
     this.notes = new Notes(container, options.onMessage);
     const tell = (sentence) => this.notes.tell(sentence);
+    this.notes.words(options.words !== false);
     this.legends = new Legends(this.notes.legend);
     this.parts = new Parts(scene, { tell });
     this.ghosts = [];
     this.up = unit(scene.up ?? [0, 0, 1]) ?? [0, 0, 1];
     this.#measure();
     const { renderer, software, problem } = makeRenderer(container, {
-      antialias: options.quality === "high" ? true : undefined,
+      antialias: options.quality === "high" || scene.planar ? true : undefined,
       keep: options.keep,
     });
     if (problem !== undefined) {
@@ -93,7 +95,10 @@ export class SceneView {
       const [low, high] = parts.bounds() ?? this.bounds;
       box = box ? [low.map((a, k) => Math.min(a, box[0][k])), high.map((a, k) => Math.max(a, box[1][k]))] : [low, high];
     }
-    if (box !== null) this.#fit(box);
+    if (box !== null) {
+      this.#fit(box);
+      this.resize();
+    }
     this.update(count > 0 ? lookupAt(0) : null);
   }
 
@@ -125,15 +130,17 @@ export class SceneView {
    * @param {boolean} [wish.stress] colours of stress
    * @param {number} [wish.stressMost] the stress at the end of the colours, in its unit; 0: the largest so far
    * @param {number} [wish.deformation] displacements of flexible bodies are drawn so many times
+   * @param {boolean} [wish.words] sentences over the picture
    * @param {"high" | "low" | "auto"} [wish.quality]
    */
-  set({ arrows, arrowScale, stress, stressMost, deformation, quality }) {
+  set({ arrows, arrowScale, stress, stressMost, deformation, words, quality }) {
     const { parts } = this;
     if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? this.arrowNames : arrows || []);
     if (arrowScale !== undefined) parts.arrows.factor = arrowScale;
     if (stress !== undefined) parts.bending.coloured = stress;
     if (stressMost !== undefined) parts.bending.most = stressMost;
     if (deformation !== undefined) for (const { bending } of [parts, ...this.ghosts]) bending.factor = deformation;
+    if (words !== undefined) this.notes.words(words);
     if (quality !== undefined) this.look?.choose(quality);
     this.update(this.lookup);
   }
@@ -149,7 +156,7 @@ export class SceneView {
     const units = [...new Set(arrows.now.map((force) => force.unit))];
     const scales = units.map((of) => ({ unit: of, ...arrows.scaleOf(of), colour: arrows.colourOf(of) }));
     this.legends.put("arrows", arrowLegend(scales));
-    this.legends.put("grid", this.look?.caption ?? "");
+    this.legends.put("grid", this.notes.worded ? (this.look?.caption ?? "") : "");
   }
 
   /**
@@ -232,12 +239,16 @@ export class SceneView {
     this.extent = this.scene.extent > 0 ? this.scene.extent : size;
     this.parts.arrows.extent = this.extent;
     this.#fit(bounds);
+    this.reach = [this.extent, this.extent];
   }
 
   /** Centre and floor of a box of the earth. @param {number[][]} bounds low and high corner */
   #fit(bounds) {
     this.bounds = bounds;
     const [low, high] = bounds;
+    const sides = subtract(high, low);
+    this.reach = [Math.max(sides[0], 0.3 * this.extent), Math.max(sides[1], 0.3 * this.extent)];
+    this.radius = Math.max(Math.hypot(...sides), 0.5 * this.extent) / 2;
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     const centre = middle(low, high);
     this.floor = Math.min(...[low, high].map((corner) => dot(corner, this.up))) - 0.002 * this.extent;

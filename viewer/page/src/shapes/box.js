@@ -6,7 +6,7 @@ import { turnByAxes } from "./place.js";
 export function box(shape, { materials }) {
   const [x, y, z] = shape.size;
   const edge = Math.min(0.06 * Math.max(x, y, z), 0.12 * Math.min(x, y, z));
-  const mesh = new THREE.Mesh(new RoundedBoxGeometry(x, y, z, 3, edge), materials.of(shape));
+  const mesh = new THREE.Mesh(new RoundedBoxGeometry(x, y, z, 2, edge), materials.of(shape));
   mesh.position.set(...(shape.at ?? [0, 0, 0]));
   turnByAxes(mesh, shape.axes);
   return { object: mesh, frame: shape.frame };

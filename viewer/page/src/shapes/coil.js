@@ -1,8 +1,8 @@
 // The wire of a coil spring: points and normals for any length; pure numbers.
 import { add, cross, scale } from "../scene/math.js";
 
-const AROUND = 8;
-const PER_TURN = 20;
+const AROUND = 7;
+const PER_TURN = 18;
 
 /**
  * Height of the wire's middle over a turn: end coils lie flat, the active ones share what is left.

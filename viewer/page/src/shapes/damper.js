@@ -9,11 +9,11 @@ const SHARE = 0.6;
 /** A telescopic damper between two points: a tube at the first end, a rod at the second. @param {object} shape */
 export function damper(shape, { materials, frames }) {
   const { radius, ends } = shape;
-  const unitBody = new THREE.LatheGeometry(bevelled(1, 1), 28);
+  const unitBody = new THREE.LatheGeometry(bevelled(1, 1), 20);
   const body = new THREE.Mesh(unitBody, materials.of(shape, "dark_paint"));
   const collar = new THREE.Mesh(unitBody, materials.named("steel"));
   const rod = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 20), materials.named("chrome"));
-  const eye = new THREE.SphereGeometry(0.75 * radius, 20, 12);
+  const eye = new THREE.SphereGeometry(0.75 * radius, 12, 8);
   const eyes = [0, 1].map(() => new THREE.Mesh(eye, materials.named("steel")));
   const object = new THREE.Group().add(body, collar, rod, ...eyes);
   const drawn = ends.map(([frame, local]) => frames.point(frame, local));

@@ -8,7 +8,7 @@ export function steeringWheel(shape, { materials, frames, scene }) {
   const axis = unit(shape.axis ?? scene.frames?.[frame]?.axis ?? [0, 0, 1]) ?? [0, 0, 1];
   const rim = 0.09 * radius;
   const dark = materials.of({ color: "#1c1e20", ...shape }, "plastic");
-  const ring = new THREE.Mesh(new THREE.TorusGeometry(radius - rim, rim, 16, 64), dark);
+  const ring = new THREE.Mesh(new THREE.TorusGeometry(radius - rim, rim, 10, 48), dark);
   const hub = new THREE.Mesh(new THREE.CylinderGeometry(0.26 * radius, 0.3 * radius, 0.2 * radius, 32).rotateX(Math.PI / 2), dark);
   const spoke = new THREE.BoxGeometry(0.72 * radius, 0.16 * radius, 0.07 * radius).translate(0.55 * radius, 0, 0);
   const spokes = [0, Math.PI, -Math.PI / 2].map((angle) => {

@@ -1,13 +1,13 @@
 import * as THREE from "three";
 import { stretch } from "./place.js";
 
-const rod = (material) => new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 16, 1, true), material);
+const rod = (material) => new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 12, 1, true), material);
 
 /** Round tubes between points with balls where they meet; `place` puts them to points relative to the origin. */
 export function roundTubes(count, closed, radius, material) {
   const group = new THREE.Group();
   const rods = Array.from({ length: closed ? count : count - 1 }, () => rod(material));
-  const ball = new THREE.SphereGeometry(radius, 16, 10);
+  const ball = new THREE.SphereGeometry(radius, 12, 8);
   const balls = Array.from({ length: count }, () => new THREE.Mesh(ball, material));
   group.add(...rods, ...balls);
   const place = (points) => {

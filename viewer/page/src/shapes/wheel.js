@@ -10,12 +10,12 @@ const vectors = (list) => list.map(([r, y]) => new THREE.Vector2(r, y));
 function halfProfile(r, rim, w) {
   const side = r - rim;
   const bead = [[rim, 0.34 * w], [rim, 0.41 * w], [rim + 0.06 * side, 0.44 * w]]; // prettier-ignore
-  const wall = Array.from({ length: 9 }, (_, i) => {
-    const a = (i / 8) * 0.82 * Math.PI;
-    return [rim + side * (0.12 + 0.62 * (i / 8)), w * (0.445 + 0.055 * Math.sin(a))];
+  const wall = Array.from({ length: 7 }, (_, i) => {
+    const a = (i / 6) * 0.82 * Math.PI;
+    return [rim + side * (0.12 + 0.62 * (i / 6)), w * (0.445 + 0.055 * Math.sin(a))];
   });
-  const shoulder = Array.from({ length: 7 }, (_, i) => {
-    const a = ((i + 1) / 7) * (Math.PI / 2);
+  const shoulder = Array.from({ length: 5 }, (_, i) => {
+    const a = ((i + 1) / 5) * (Math.PI / 2);
     return [r - side * (0.26 - 0.24 * Math.sin(a)), w * (0.36 + 0.11 * Math.cos(a))];
   });
   const groove = 0.06 * side;
@@ -27,7 +27,7 @@ function halfProfile(r, rim, w) {
 function tyre(r, rim, w, materials) {
   const { half, start } = halfProfile(r, rim, w);
   const profile = [...half.map(([x, y]) => [x, -y]), ...half.slice(0, -1).reverse()];
-  const geometry = new THREE.LatheGeometry(vectors(profile), 72);
+  const geometry = new THREE.LatheGeometry(vectors(profile), 56);
   const material = materials.named("rubber").clone();
   if (!materials.options.ghost) {
     material.color.set("#48494c");
@@ -50,7 +50,7 @@ function face(rim, thickness) {
     disc.holes.push(hole);
   }
   const bevel = 0.035 * rim;
-  const shape = { depth: thickness, bevelEnabled: true, bevelThickness: bevel, bevelSize: bevel, bevelSegments: 2, curveSegments: 14 };
+  const shape = { depth: thickness, bevelEnabled: true, bevelThickness: bevel, bevelSize: bevel, bevelSegments: 1, curveSegments: 10 };
   return new THREE.ExtrudeGeometry(disc, shape).rotateX(-Math.PI / 2).translate(0, -thickness / 2, 0);
 }
 
@@ -59,7 +59,7 @@ function rimParts(rim, w, out, materials) {
   const barrel = vectors([[0.93 * rim, -0.4 * w], [rim, -0.43 * w], [rim, -0.36 * w], [0.9 * rim, -0.3 * w], [0.86 * rim, 0], [0.9 * rim, 0.3 * w],
     [rim, 0.36 * w], [rim, 0.43 * w], [0.93 * rim, 0.4 * w]]); // prettier-ignore
   const parts = [
-    new THREE.Mesh(new THREE.LatheGeometry(barrel, 56), materials.named("rim", undefined, undefined, true)),
+    new THREE.Mesh(new THREE.LatheGeometry(barrel, 44), materials.named("rim", undefined, undefined, true)),
     new THREE.Mesh(face(rim * 0.94, 0.08 * w).translate(0, 0.2 * w * out, 0), metal),
     new THREE.Mesh(new THREE.CylinderGeometry(0.17 * rim, 0.19 * rim, 0.56 * w, 28), materials.named("dark_paint")),
   ];

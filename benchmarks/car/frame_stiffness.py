@@ -1,0 +1,75 @@
+"""Torsional stiffness and natural frequencies of the frame of a car."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.flexible import FiniteElementModel, natural_modes
+from mbs.flexible.fixed_interface import FixedInterface
+from mbs.vehicle import Car
+
+COUPLE = 1e3  # N m; the frame is linear
+RIGID = 6
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """What `stiffness` measures.
+
+    Attributes
+    ----------
+    joints : tuple of str
+        Left joints that take the couples, in front and behind: the highest of each axle.
+    torsion : float
+        Couple per angle between the axles, N m/deg.
+    frequencies : ndarray
+        Of the free frame with all that it carries, Hz.
+    """
+
+    joints: tuple[str, str]
+    torsion: float
+    frequencies: NDArray[np.float64]
+
+
+def stiffness(car: Car, modes: int = 4) -> Stiffness:
+    """Twist the free frame by opposite couples at the axles, and find its lowest frequencies.
+
+    Parameters
+    ----------
+    car : Car
+        With a flexible frame.
+    modes : int
+        How many frequencies.
+    """
+    flexible = car.flexible_frame
+    model = flexible.model
+    middle = 0.5 * (car.front.wheel.centre[0] + car.rear.wheel.centre[0])
+    left = [name for name in flexible.interfaces if flexible.place(name)[1] > 0.0]
+    front, rear = (
+        max((n for n in left if (flexible.place(n)[0] > middle) == ahead), key=lambda n: float(flexible.place(n)[2]))
+        for ahead in (True, False)
+    )
+    load = np.zeros((model.n_dof, 1))
+    for name, sign in ((front, 1.0), (rear, -1.0)):
+        load[_up(model, flexible.place(name)), 0] = sign * COUPLE / _width(flexible.place(name)) * np.array([1.0, -1.0])
+    # the couples balance each other: what holds the frame takes no force
+    moved = FixedInterface(model, flexible.reference, ()).solve(load)[:, 0]
+    turned = [
+        float(np.array([1.0, -1.0]) @ moved[_up(model, flexible.place(n))]) / _width(flexible.place(n))
+        for n in (front, rear)
+    ]
+    hertz, _ = natural_modes(model, RIGID + modes)
+    return Stiffness((front, rear), COUPLE / float(np.degrees(turned[0] - turned[1])), hertz[RIGID:])
+
+
+def _width(place: NDArray[np.float64]) -> float:
+    return 2.0 * float(place[1])
+
+
+def _up(model: FiniteElementModel, place: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Freedoms along z of the node at a place and of its image."""
+    found = [int(np.linalg.norm(model.positions - place * [1.0, side, 1.0], axis=1).argmin()) for side in (1.0, -1.0)]
+    return np.array(model.dof[found, 2])

@@ -1,0 +1,98 @@
+"""How fast a page draws, by the processor: ``python -m benchmarks.page_rate [--json FILE]``; at 1280 x 720 pixels.
+
+A picture of each scene is drawn again and again in a Chromium without a window, whose WebGL is SwiftShader; each time
+one pixel is read, so that the picture is there. On a machine with a graphics card a page is faster by far.
+"""
+
+from __future__ import annotations
+
+import statistics
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ali3.running import run_command
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from mbs.compiler import compile
+from mbs.model import Model
+from mbs.scenes import double_four_bar, prototype_car, puma
+from viewer import browser
+from viewer.bundle import bundle
+
+SIZE = (1280, 720)
+SCENES: dict[str, Callable[[], Model]] = {
+    "prototype_car": prototype_car.build,
+    "puma": puma.build,
+    "double_four_bar": double_four_bar.build,
+}
+QUALITIES = ("low", "high")
+MEASURE = """([scene, quality, count]) => {
+  const began = performance.now();
+  const view = new ALi3Viewer.SceneView(document.getElementById('picture'), scene, { quality });
+  if (view.problem) throw new Error(view.problem);
+  const gl = view.renderer.getContext();
+  const draw = () => {
+    view.update(null);
+    view.render();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  };
+  draw();
+  const first = performance.now() - began;
+  const times = [];
+  for (let i = 0; i < count; i++) {
+    const start = performance.now();
+    draw();
+    times.push(performance.now() - start);
+  }
+  const { render } = view.renderer.info;
+  const info = gl.getExtension('WEBGL_debug_renderer_info');
+  const found = { first, times, triangles: render.triangles, calls: render.calls };
+  found.renderer = gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  view.dispose();
+  return found;
+}"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = parser_of("page_rate", __doc__)
+    parser.add_argument("--pictures", type=int, default=20, metavar="N", help="of each scene; default: 20")
+    options = parser.parse_args(arguments)
+    if options.pictures < 1:
+        parser.error("the number of pictures is positive")
+    from playwright.sync_api import sync_playwright
+
+    executable = browser.find_chromium()
+    script = bundle().read_text(encoding="utf-8")
+    rows, renderers = [], set()
+    with sync_playwright() as play:
+        chromium = play.chromium.launch(executable_path=executable, args=browser.launch_arguments())
+        version = chromium.version
+        page = chromium.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
+        page.set_content("<body style='margin:0'><div id='picture' style='width:100vw;height:100vh'></div></body>")
+        page.add_script_tag(content=script)
+        for name, quality in watched([(name, quality) for name in SCENES for quality in QUALITIES]):
+            found = page.evaluate(MEASURE, [compile(SCENES[name]()).scene, quality, options.pictures])
+            renderers.add(found["renderer"])
+            rows.append(_row(name, quality, found))
+        chromium.close()
+    print_table(rows, {"scene": "", "quality": "", "ms": ".3g", "best_ms": ".3g", "rate": ".3g", "first_s": ".3g"})
+    print(
+        f"\nms: median of a picture of {SIZE[0]} x {SIZE[1]}; rate: pictures a second; first_s: until the first picture"
+    )
+    print(f"Chromium {version}, {', '.join(sorted(renderers))}; script: {len(script) / 1e3:.0f} kB")
+    meta = describe("page_rate", repeats=options.pictures, warm_up=1, chromium=version, renderers=sorted(renderers))
+    save_rows(options.json, {**meta, "size": SIZE, "script_bytes": len(script)}, rows)
+    return 0
+
+
+def _row(name: str, quality: str, found: dict[str, Any]) -> dict[str, Any]:
+    ms = statistics.median(found["times"])
+    row = {"scene": name, "quality": quality, "ms": ms, "best_ms": min(found["times"]), "rate": 1000.0 / ms}
+    return row | {"first_s": found["first"] / 1000.0, "triangles": found["triangles"], "calls": found["calls"]}
+
+
+if __name__ == "__main__":
+    sys.exit(run_command(main))

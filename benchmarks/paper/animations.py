@@ -1,0 +1,166 @@
+"""Animations of the scenes for the documentation: what is run, and how it is filmed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import mbs
+from benchmarks.car import fidelity_runs, manoeuvres
+from mbs.model import Model
+from mbs.scenes import (
+    bicycle,
+    bricard,
+    cart_pole,
+    double_four_bar,
+    flyball,
+    pendulum,
+    puma,
+    slider_crank,
+    spatial_chain,
+    spatial_slider_crank,
+    spinning_beam,
+    squeezer,
+)
+from mbs.vehicle import Fidelity
+from viewer.recording import Recording
+from viewer.video import WrittenFilm, write_mp4
+
+SIZE = (384, 216)
+FPS = 15.0
+
+
+@dataclass(frozen=True)
+class Animation:
+    """A film of a scene.
+
+    Parameters
+    ----------
+    title : str
+        What is seen.
+    record : callable
+        Runs the scene.
+    begin, end : float
+        Of the film, s of the run.
+    speed : float
+        1 is real time.
+    camera : str, optional
+        Its name; by default the first.
+    options : mapping
+        Of the page.
+    size : (int, int)
+        Pixels.
+    """
+
+    title: str
+    record: Callable[[], Recording]
+    begin: float
+    end: float
+    speed: float = 1.0
+    camera: str | None = None
+    options: Mapping[str, Any] = field(default_factory=dict)
+    size: tuple[int, int] = SIZE
+
+
+def film(name: str, path: Path, progress: bool | Callable[[float], None] | None = None) -> WrittenFilm:
+    """Run a scene and write its film.
+
+    Parameters
+    ----------
+    name : str
+        Of `ANIMATIONS`.
+    path : Path
+        ``.webp``, ``.gif`` or ``.mp4``.
+    progress : bool or callable, optional
+        As of `viewer.video.write_mp4`.
+    """
+    a = ANIMATIONS[name]
+    return write_mp4(
+        path,
+        a.record(),
+        fps=FPS,
+        size=a.size,
+        camera=a.camera,
+        speed=a.speed,
+        begin=a.begin,
+        end=a.end,
+        options=a.options,
+        progress=progress,
+    )
+
+
+def recording_of(*runs: mbs.Trajectory) -> Recording:
+    """Runs of one System, one after the other."""
+    columns = [_columns(run) for run in runs]
+    t = np.concatenate([run.poses.t for run in runs])
+    joined = {name: np.concatenate([part[name] for part in columns]) for name in columns[0]}
+    return Recording(runs[0].scene, t, joined)
+
+
+def _columns(run: mbs.Trajectory) -> dict[str, Any]:
+    poses = run.poses
+    sensors = {name: run[name][:: poses.every] for name in run}
+    return sensors | {column: poses[name] for name, column in poses.recorded_names.items()}
+
+
+def _scene(build: Callable[[], Model], end: float, h: float, method: str | None = None) -> Callable[[], Recording]:
+    def record() -> Recording:
+        settings = None if method is None else mbs.Settings(method=method)
+        every = max(1, round(0.002 * end / h / 4))
+        return recording_of(mbs.simulate(mbs.compile(build()), end, h, settings=settings, every=every, progress=False))
+
+    return record
+
+
+def _manoeuvre(name: str, h: float = 0.002) -> Callable[[], Recording]:
+    return lambda: recording_of(manoeuvres.run(name, h, every=5))
+
+
+def _kerb_test() -> Recording:
+    return recording_of(fidelity_runs.run("kerb_test", Fidelity.DYNAMIC, 0.005))
+
+
+def _puma() -> Recording:
+    simulation = mbs.Simulation(mbs.compile(puma.build()))
+    return recording_of(*puma.stages(simulation, 0.01))
+
+
+ANIMATIONS = {
+    "double_four_bar": Animation(
+        "The double four-bar passes its singular positions", _scene(double_four_bar.build, 5.0, 0.005), 0.0, 5.0
+    ),
+    "four_bar_40": Animation("Forty windows", _scene(lambda: double_four_bar.build(40), 5.0, 0.005), 0.0, 5.0),
+    "slider_crank": Animation("The slider-crank with equal arms", _scene(slider_crank.build, 5.0, 0.001), 0.0, 5.0),
+    "spatial_slider_crank": Animation(
+        "The spatial slider-crank", _scene(spatial_slider_crank.build, 5.0, 0.001), 0.0, 5.0
+    ),
+    "bricard": Animation("Bricard's mechanism", _scene(bricard.build, 5.0, 0.005), 0.0, 5.0),
+    "bicycle": Animation("The bicycle", _scene(bicycle.build, 5.0, 0.005), 0.0, 5.0),
+    "flyball": Animation("The flyball governor", _scene(flyball.build, 5.0, 0.002), 0.0, 5.0),
+    "puma": Animation("The PUMA robot, its hand pinned from 2 s to 6 s", _puma, 0.0, 8.0, 1.6),
+    "squeezer": Animation("Andrews' squeezer, 100 times slower", _scene(squeezer.build, 0.05, 1e-5), 0.0, 0.05, 0.01),
+    "pendulum": Animation("The pendulum", _scene(pendulum.build, 4.0, 0.002), 0.0, 4.0),
+    "cart_pole": Animation("The cart-pole with a light cart", _scene(cart_pole.build, 1.0, 2e-5), 0.0, 1.0, 0.25),
+    "spatial_chain": Animation("A chain of ten links", _scene(spatial_chain.build, 5.0, 0.005), 0.0, 5.0),
+    "spinning_beam": Animation(
+        "The beam on a hub that starts to turn", _scene(spinning_beam.build, 20.0, 0.01), 0.0, 20.0, 4.0
+    ),
+    "double_lane_change": Animation(
+        "The prototype car, double lane change", _manoeuvre("double_lane_change_replay"), 1.0, 6.0, size=(480, 270)
+    ),
+    "kerb_test": Animation(
+        "The car falls from the kerb; stress in the frame, its deformation 30 times larger",
+        _kerb_test,
+        7.4,
+        9.4,
+        0.4,
+        options={"stress": True, "deformation": 30.0},
+    ),
+    "drop": Animation("The car is dropped", _manoeuvre("drop"), 0.0, 2.5, 0.5),
+    "slalom": Animation("Slalom", _manoeuvre("slalom"), 2.0, 7.0),
+}
+"""By the name of their file."""

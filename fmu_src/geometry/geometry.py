@@ -1,0 +1,139 @@
+"""From the drawing of a System to the scene of its FMU."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import mbs
+from fmu_src.geometry.binding import bind
+from fmu_src.geometry.moved_places import moved_part
+from fmu_src.geometry.roads import with_parameters
+from fmu_src.variables import Variable
+from mbs.kernel.header import ElementType
+from mbs.shapes.scene import frames_used
+
+COLUMNS = ("position", "quaternion", "angle", "way", "value", "vector", "tyre", "amplitudes", "computed")
+"""Keys of frames, arrows and flexible parts that name variables."""
+FRAME_TUBE = "frame tube"
+"""Name of shapes that a flexible part draws too."""
+
+
+def geometry(system: mbs.System, table: Sequence[Variable], name: str, description: str) -> dict[str, Any] | None:
+    """The scene of an FMU: its columns are variables of the FMU.
+
+    Parameters
+    ----------
+    system : mbs.System
+        The default one.
+    table : sequence of Variable
+        Of the FMU.
+    name, description : str
+        Of the model.
+
+    Returns
+    -------
+    dict or None
+        None where the System carries no drawing.
+    """
+    if system.drawing is None:
+        return None
+    scene = system.scene
+    bound = bind(system, scene["frames"], system.drawing.shared)
+    known = {v.name for v in table}
+    here = {"ground", *bound.frames}
+
+    def kept(parts: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+        return [moved_part(part, bound.moved) for part in parts if frames_used(part) <= here]
+
+    parts = [
+        part | {"amplitudes": [bound.amplitudes.get(name, name) for name in part["amplitudes"]]}
+        for part in kept(scene["flexible"])
+    ]
+    bending = [part for part in parts if set(part["amplitudes"]) <= known]
+    shapes = kept(scene["shapes"])
+    if bending:
+        shapes = [shape for shape in shapes if shape.get("name") != FRAME_TUBE]
+    shapes += [tube for part in parts if part not in bending for tube in _stiff(part)]
+    used = {shape["mesh"] for shape in shapes if shape["kind"] == "mesh"}
+    drawn = {frame for shape in scene["shapes"] for frame in frames_used(shape)}
+    return scene | {
+        "name": name,
+        "description": description,
+        "frames": bound.frames,
+        "shapes": shapes,
+        "meshes": {key: mesh for key, mesh in scene["meshes"].items() if key in used},
+        "flexible": bending,
+        "arrows": [arrow for arrow in kept(scene["arrows"]) if set(_columns(arrow)) <= known],
+        "roads": with_parameters(scene["roads"], system, known),
+        "focus": scene["focus"] if scene["focus"] in bound.frames else "",
+        "missing": [
+            *scene["missing"],
+            *({"name": frame, "why": why} for frame, why in bound.lost.items() if frame in drawn),
+        ],
+    }
+
+
+def _renamed(part: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
+    """A frame, arrow or flexible part with other names of its variables."""
+
+    def new(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: new(item) for key, item in value.items()}
+        return names.get(value, value) if isinstance(value, str) else [new(item) for item in value]
+
+    return {key: new(value) if key in COLUMNS else value for key, value in part.items()}
+
+
+def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Tubes of a flexible part whose amplitudes are no outputs."""
+    frame, nodes = part["frame"], part["nodes"]
+    return [
+        {"kind": "tube", "points": [[frame, nodes[i]], [frame, nodes[j]]], "radius": radius, "body": frame}
+        for (i, j), radius in zip(part["beams"], part["radii"], strict=True)
+    ]
+
+
+def lost_frames(system: mbs.System) -> list[str]:
+    """Frames of a drawing that carry shapes and that no output of the System moves, or that bend without an output.
+
+    What bends is enough as it is drawn where the outputs are those of wheels.
+
+    Parameters
+    ----------
+    system : mbs.System
+        Without a drawing it has none.
+    """
+    if system.drawing is None:
+        return []
+    scene = system.drawing.scene
+    bound = bind(system, scene["frames"], system.drawing.shared)
+    drawn = {frame for part in (*scene["shapes"], *scene["flexible"]) for frame in frames_used(part)}
+    wheels = int(ElementType.SPIN_ANGLE) in system.arrays["el_type"]
+    stiff = [p["frame"] for p in scene["flexible"] if not (wheels or set(p["amplitudes"]) <= set(bound.amplitudes))]
+    return [frame for frame in bound.frames | bound.lost if frame in drawn and (frame in bound.lost or frame in stiff)]
+
+
+def _columns(arrow: Mapping[str, Any]) -> list[str]:
+    """Names of the variables of an arrow."""
+    if "tyre" in arrow:
+        return [name for names in arrow["tyre"].values() for name in names]
+    return [arrow["value"]] if "value" in arrow else [name for name in arrow["vector"] if name is not None]
+
+
+def geometry_file(scene: Mapping[str, Any], names: Mapping[str, str] | None = None) -> bytes:
+    """The scene as it lies in the FMU.
+
+    Parameters
+    ----------
+    scene : mapping
+        From `geometry`.
+    names : mapping of str to str, optional
+        Other names of variables: those of elements of arrays, which FMI 3.0 has.
+    """
+    if names:
+        moving = {key: [_renamed(part, names) for part in scene[key]] for key in ("flexible", "arrows")}
+        frames = {name: _renamed(frame, names) for name, frame in scene["frames"].items()}
+        scene = dict(scene) | moving | {"frames": frames}
+    return json.dumps(scene, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()

@@ -1,0 +1,63 @@
+"""Roads of a scene with the parameters of the FMU that move or exchange them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import mbs
+from fmu_src.text_variables import ROADS
+from mbs.kernel.header import RoadType
+
+POSITION, STEP = 0, 2  # of the numbers of a kerb
+TARGET_ROAD = 2
+
+
+def with_parameters(
+    roads: Sequence[Mapping[str, Any]], system: mbs.System, known: Collection[str]
+) -> list[dict[str, Any]]:
+    """Roads as a host may change them.
+
+    Parameters
+    ----------
+    roads : sequence of mapping
+        Of the drawing; the first are those of the System in its order.
+    system : mbs.System
+        Has the parameters.
+    known : collection of str
+        Names of the FMU's variables that are numbers.
+
+    Returns
+    -------
+    list of dict
+        With the keys `variables`, the parameters by what they set: `kerb_x`, `kerb_height`, `file`; paths are those in
+        the FMU.
+    """
+    files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
+    found = []
+    for k, road in enumerate(roads):
+        made = dict(road)
+        if made["kind"] == "file" and made.get("path"):
+            made["path"] = f"{ROADS}/{Path(made['path']).name}"
+        variables = {}
+        if k < len(system.arrays["road_type"]) and RoadType(int(system.arrays["road_type"][k])) == RoadType.KERB:
+            first = int(system.arrays["road_real_ptr"][k])
+            for name, real in (("kerb_x", POSITION), ("kerb_height", STEP)):
+                parameter = _writing(system, first + real)
+                if parameter in known:
+                    variables[name] = parameter
+        if k in files and made["kind"] != "file":
+            variables["file"] = files[k]["name"]
+        found.append(made | ({"variables": variables} if variables else {}))
+    return found
+
+
+def _writing(system: mbs.System, real: int) -> str:
+    """The parameter that writes a number of the roads as it is; empty: none."""
+    a = system.arrays
+    for k in range(len(a["par_target"])):
+        if int(a["par_target"][k]) == TARGET_ROAD and int(a["par_index"][k]) == real and a["par_scale"][k] == 1.0:
+            owner = next(p for p in range(len(a["par_ptr"]) - 1) if a["par_ptr"][p] <= k < a["par_ptr"][p + 1])
+            return str(system.meta["parameters"][owner]["name"])
+    return ""

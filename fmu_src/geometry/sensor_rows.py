@@ -1,0 +1,157 @@
+"""What sensors of a System read, as rows over its coordinates, so that poses are found by their meaning."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mbs
+from mbs.drawing import BodyPlace
+from mbs.kernel.header import ElementType, SensorType
+
+Array = NDArray[np.float64]
+CLOSE = 1e-9  # parts of the largest number: rows that differ by less are one
+AXES = "xyz"
+QUATERNION = "wxyz"
+
+
+@dataclass(frozen=True)
+class Body:
+    """Full coordinates of a body as rows.
+
+    Parameters
+    ----------
+    origin : array of shape (3, nq + 1)
+        Components of its position; the last column is the constant.
+    axes : array of shape (3, 3, nq + 1) or None
+        Components of its three axes; None of a particle.
+    """
+
+    origin: Array
+    axes: Array | None
+
+
+class SensorRows:
+    """Rows of the sensors and bodies of a System.
+
+    Parameters
+    ----------
+    system : mbs.System
+        With a drawing.
+    """
+
+    def __init__(self, system: mbs.System) -> None:
+        self._arrays, self._nq = system.arrays, system.nq
+        assert system.drawing is not None, "asked for before"
+        self._places = system.drawing.places
+        self.names = [str(entry["name"]) for entry in system.meta["sensors"]]
+        self._types = [SensorType(kind) for kind in system.arrays["sen_type"]]
+        self._linear = {
+            name: float(self._reals(k)[0]) * self._signal(self._integers(k)[0])
+            for k, (name, kind) in enumerate(zip(self.names, self._types, strict=True))
+            if kind == SensorType.SIGNAL
+        }
+
+    def body(self, place: BodyPlace) -> Body:
+        """Rows of a body in space; those of a planar one are filled up."""
+        planar, turns = place.kind.startswith("planar"), not place.kind.endswith("point")
+        d = 2 if planar else 3
+        origin = np.zeros((3, self._nq + 1))
+        origin[:d] = self._full(place.row, d)
+        if not turns:
+            return Body(origin, None)
+        axes = np.zeros((3, 3, self._nq + 1))
+        if planar:
+            cosine, sine = self._full(place.row + 2, 2)
+            axes[0, 0], axes[0, 1], axes[1, 0], axes[1, 1] = cosine, sine, -sine, cosine
+            axes[2, 2, -1] = 1.0
+        else:
+            axes[:] = self._full(place.row + 3, 9).reshape(3, 3, -1)
+        return Body(origin, axes)
+
+    def points(self) -> list[tuple[str, ...]]:
+        """Names of sensors that may be the three components of a point: alike but for x, y, z."""
+        found = []
+        for name in self._linear:
+            for end in (".x", "_x"):
+                three = tuple(name.removesuffix(end) + end[0] + c for c in AXES)
+                if name.endswith(end) and all(each in self._linear for each in three):
+                    found.append(three)
+        return found
+
+    def place_of(self, names: Sequence[str], body: Body) -> Array | None:
+        """The place in a body, from its origin, m, whose components these sensors are; None: none is."""
+        wanted = np.array([self._linear[name] for name in names]) - body.origin
+        if body.axes is None:
+            return np.zeros(3) if _same(wanted, 0.0 * wanted, body.origin) else None
+        matrix = body.axes.transpose(1, 2, 0).reshape(-1, 3)
+        found: Array = np.asarray(np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0], float)
+        return found if _same(matrix @ found, wanted.ravel(), wanted) else None
+
+    def quaternions(self) -> list[tuple[tuple[str, ...], Array]]:
+        """Names of sensors of a quaternion with the rows of the axes that it orients."""
+        groups: dict[tuple[int, ...], dict[int, str]] = {}
+        for k, kind in enumerate(self._types):
+            if kind == SensorType.QUATERNION:
+                part, *signals = self._integers(k)
+                groups.setdefault(tuple(signals), {}).setdefault(part, self.names[k])
+        return [
+            (tuple(parts[k] for k in range(4)), np.array([self._signal(s) for s in signals]).reshape(3, 3, -1))
+            for signals, parts in groups.items()
+            if len(parts) == len(QUATERNION)
+        ]
+
+    def unturned(self, names: Sequence[str]) -> bool:
+        """Whether these sensors are the constants 1, 0, 0, 0."""
+        rows = [self._linear.get(name) for name in names]
+        return all(row is not None and _same(row, _constant(row, k == 0), row) for k, row in enumerate(rows))
+
+    def angle(self, row: int) -> str | None:
+        """The sensor of an angle, from its row among the places."""
+        wanted = self._full(row, 1)[0]
+        return next((name for name, found in self._linear.items() if _same(found, wanted, wanted)), None)
+
+    def spin_angle(self, row: int) -> str | None:
+        """The sensor of the angle of a wheel on its carrier, from the row of its spin."""
+        wanted, arrays = self._full(row, 1)[0], self._arrays
+        for k, kind in enumerate(self._types):
+            if kind != SensorType.ELEMENT_OUTPUT or self._reals(k)[0] != 1.0:
+                continue
+            element = self._integers(k)[0]
+            if ElementType(arrays["el_type"][element]) == ElementType.SPIN_ANGLE:
+                spin = self._signal(int(arrays["el_sig"][int(arrays["el_sig_ptr"][element]) + 6]))
+                if _same(spin[:-1], wanted[:-1], wanted):
+                    return self.names[k]
+        return None
+
+    def _full(self, first: int, count: int) -> Array:
+        part = slice(first, first + count)
+        return np.column_stack([self._places.matrix[part].toarray(), self._places.constant[part]])
+
+    def _signal(self, i: int) -> Array:
+        a, row = self._arrays, np.zeros(self._nq + 1)
+        part = slice(int(a["sig_ptr"][i]), int(a["sig_ptr"][i + 1]))
+        np.add.at(row, a["sig_col"][part], a["sig_val"][part])
+        row[-1] = a["sig_const"][i]
+        return row
+
+    def _integers(self, sensor: int) -> list[int]:
+        a = self._arrays
+        return [int(v) for v in a["sen_int"][int(a["sen_int_ptr"][sensor]) : int(a["sen_int_ptr"][sensor + 1])]]
+
+    def _reals(self, sensor: int) -> list[float]:
+        a = self._arrays
+        return [float(v) for v in a["sen_real"][int(a["sen_real_ptr"][sensor]) : int(a["sen_real_ptr"][sensor + 1])]]
+
+
+def _same(a: Array, b: Array, scale: Array) -> bool:
+    return bool(np.all(np.abs(a - b) <= CLOSE * max(1.0, float(np.max(np.abs(scale), initial=0.0)))))
+
+
+def _constant(row: Array, value: float) -> Array:
+    found = np.zeros_like(row)
+    found[-1] = value
+    return found

@@ -1,0 +1,141 @@
+"""Looks beyond those of bodies: what slides along a body, and meshes that are computed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.checks import instance_of, shown
+from mbs.errors import ModelError
+from mbs.model.body import Body
+from mbs.model.shapes import Owner, Shape, ShapeVocabulary, Turning
+
+
+@dataclass(frozen=True)
+class Sliding(Turning):
+    """Something that slides along a line of a body without being one itself, such as a rack.
+
+    Attributes
+    ----------
+    axis_reference : tuple of float
+        Direction of the line.
+    angle : str
+        The sensor of the way along it, m.
+    """
+
+
+class SlidingVocabulary(ShapeVocabulary):
+    """What slides on a body, and computed meshes.
+
+    Parameters
+    ----------
+    name, dimension, gravity, length
+        See `Model`.
+    """
+
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
+        super().__init__(name, dimension, gravity, length=length)
+        self.more_poses: list[Callable[[], list[dict[str, Any]]]] = []
+        self.flexible_scene: list[dict[str, Any]] = []
+
+    def sliding(self, name: str, body: Body, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
+        """Something that only its looks slide along a line of a body, such as a rack that a guide moves.
+
+        Parameters
+        ----------
+        name : str
+            Unique among the bodies and the spins.
+        body : Body
+            What it slides on.
+        at : array_like, shape (dimension,)
+            Its origin where the way is 0, earth axes in the reference configuration, m.
+        direction : array_like, shape (3,)
+            Of any length.
+        way : str
+            Name of the sensor of its way along the direction, m.
+
+        Returns
+        -------
+        Sliding
+            For `shape`.
+
+        Raises
+        ------
+        ModelError
+            The name is taken, the body or the sensor is not of this model, or a number is not one.
+        """
+        if not isinstance(way, str):
+            raise ModelError(f"The way of the sliding '{name}' must be the name of a sensor, not {shown(way)}.")
+        made = self.turning(name, body, at=at, axis=direction, angle=way)
+        slides = Sliding(made.name, made.carrier, made.centre, made.axis_reference, way)
+        self.turnings[-1] = slides
+        return slides
+
+    def mesh_shape(
+        self,
+        body: Owner,
+        positions: ArrayLike,
+        triangles: ArrayLike,
+        *,
+        name: str,
+        color: str | None = None,
+        material: str | None = None,
+        opacity: float = 1.0,
+    ) -> Shape:
+        """A mesh that was computed, as `shape` with the kind "mesh" for one from a file.
+
+        Parameters
+        ----------
+        body : Body, Spin, Turning or Sliding
+            What it is of.
+        positions : array_like, shape (n, 3)
+            Corners, earth axes in the reference configuration, m.
+        triangles : array_like of int, shape (k, 3)
+            Their corners, counter-clockwise from outside.
+        name : str
+            Of the mesh.
+        color, material, opacity
+            As of `shape`.
+
+        Returns
+        -------
+        Shape
+            As it stands in the model.
+
+        Raises
+        ------
+        ModelError
+            The body is not one of this model, or the arrays are not what they must be.
+        """
+        what = f"The mesh '{instance_of(str, name, 'The name of a mesh', 'text')}'"
+        places, corners = (
+            _numbers(positions, float, f"The positions of {what}"),
+            _numbers(triangles, np.int64, f"The triangles of {what}"),
+        )
+        if not np.all(np.isfinite(places)):
+            raise ModelError(f"{what} has a position that is no finite number.")
+        if len(corners) and not (corners.min() >= 0 and corners.max() < len(places)):
+            raise ModelError(f"{what} has {len(places)} positions; a triangle has the corner {corners.max()}.")
+        ball = self.shape(body, "sphere", radius=1.0, name=name, color=color, material=material, opacity=opacity)
+        self.shapes.pop()
+        looks = {k: v for k, v in ball.fields.items() if k not in ("radius", "at")}
+        at = self._local(ball.owner, np.zeros(self.dimension), f"the origin of {what}")
+        mesh: dict[str, Any] = {"at": at, "positions": places, "triangles": corners, "file": name}
+        self.shapes.append(Shape("mesh", ball.owner, looks | mesh))
+        return self.shapes[-1]
+
+
+def _numbers(values: ArrayLike, kind: type, what: str) -> np.ndarray:
+    try:
+        found: np.ndarray[Any, Any] = np.asarray(values, dtype=kind)
+    except (TypeError, ValueError, OverflowError):
+        raise ModelError(f"{what} must be rows of three numbers, not {shown(values)}.") from None
+    if found.ndim != 2 or found.shape[1] != 3:
+        raise ModelError(f"{what} must be rows of three numbers; their shape is {found.shape}.")
+    return found

@@ -1,0 +1,113 @@
+"""A road as an entry of the list `roads` of a scene: what draws it needs no road file."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.roads.read_road import read_road
+
+MOST = 400
+"""Points along a side of a grid; of a larger one every so many are left, as its note says."""
+EDGE = 1e-3  # m, along which the step of a kerb is drawn
+
+
+def scene_part(road: PlaneRoad | KerbRoad | GridRoad, most: int = MOST) -> dict[str, Any]:
+    """A road as what draws reads it.
+
+    Parameters
+    ----------
+    road : PlaneRoad, KerbRoad or GridRoad
+        As `mbs.roads.read_road` reads it, or of a model.
+    most : int
+        Points of a grid along a side.
+
+    Returns
+    -------
+    dict
+        An entry of `roads` of the scene's format: flat, plane, profile or grid.
+    """
+    if isinstance(road, PlaneRoad):
+        return _plane(road)
+    if isinstance(road, KerbRoad):
+        return _kerb(road)
+    return _grid(road, most)
+
+
+def drawn_roads(roads: Sequence[Mapping[str, Any]], most: int = MOST) -> list[dict[str, Any]]:
+    """Roads of a scene with those of files read.
+
+    Parameters
+    ----------
+    roads : sequence of mapping
+        Of a scene; the path of an entry of the kind "file" is one of this machine.
+    most : int
+        Points of a grid along a side.
+
+    Returns
+    -------
+    list of dict
+        What can be drawn without the files.
+
+    Raises
+    ------
+    mbs.roads.RoadFileError
+        A file cannot be read.
+    """
+    return [
+        scene_part(read_road(road["path"]), most) if road["kind"] == "file" and road.get("path") else dict(road)
+        for road in roads
+    ]
+
+
+def base64_of(values: ArrayLike, kind: str = "<f4") -> str:
+    """Numbers as base64 of little-endian float32 or, with ``<u4``, uint32."""
+    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode()
+
+
+def _plane(road: PlaneRoad) -> dict[str, Any]:
+    if road.grade_x == 0.0 and road.grade_y == 0.0:
+        return {"kind": "flat", "height": float(road.height)}
+    normal = np.array([-road.grade_x, -road.grade_y, 1.0])
+    unit = [float(x) + 0.0 for x in normal / np.linalg.norm(normal)]
+    return {"kind": "plane", "point": [0.0, 0.0, float(road.height)], "normal": unit}
+
+
+def _kerb(road: KerbRoad) -> dict[str, Any]:
+    low, high = float(road.lower_height), float(road.lower_height + road.step)
+    before, after = (high, low) if road.upper == "before" else (low, high)
+    return {
+        "kind": "profile",
+        "stations": [-0.5 * EDGE, 0.5 * EDGE],
+        "heights": [before, after],
+        "direction": [1.0, 0.0, 0.0],
+        "origin": [float(road.position), 0.0, 0.0],
+    }
+
+
+def _grid(road: GridRoad, most: int) -> dict[str, Any]:
+    heights = np.asarray(road.heights, float)
+    frictions = np.broadcast_to(np.asarray(road.frictions, float), heights.shape)
+    every = [max(1, -(-(n - 1) // (most - 1))) for n in heights.shape]
+    part = tuple(slice(None, None, k) for k in every)
+    thin = heights[part]
+    found: dict[str, Any] = {
+        "kind": "grid",
+        "origin": [float(x) for x in road.origin],
+        "spacing": [float(d) * k for d, k in zip(road.spacing, every, strict=True)],
+        "shape": list(thin.shape),
+        "heights": base64_of(thin),
+    }
+    if frictions.min() != frictions.max():
+        found["frictions"] = base64_of(frictions[part])
+    if max(every) > 1:
+        found["note"] = (
+            f"the road has {heights.shape[0]} x {heights.shape[1]} points; {thin.shape[0]} x {thin.shape[1]} of them "
+            "are drawn"
+        )
+    return found

@@ -1,0 +1,78 @@
+"""Poses of all bodies of a model as outputs, last of all, so that whatever moves can be drawn."""
+
+from __future__ import annotations
+
+import re
+
+from mbs.model.body import Body
+from mbs.model.flexible import FlexibleBody
+from mbs.model.model import Model
+
+
+def pose_outputs(model: Model) -> None:
+    """Add position and quaternion of every body, and the angle of every wheel that is not a body.
+
+    The names are `body.NAME.x` to `.z`, m, of the centre of mass as drawn, `body.NAME.qw` to `.qz`, scalar first, and
+    `body.NAME.angle`; NAME is that in the model, with underscores for all but letters and digits. Planar bodies have
+    z = 0 and turn about z, particles do not turn. A flexible body adds its amplitudes, `body.NAME.mode_1` and on,
+    unless the model names others (`Model.more_poses`).
+
+    Parameters
+    ----------
+    model : Model
+        Not compiled yet.
+    """
+    sensed = {sensor.name for sensor in model.sensors}
+    for body in model.bodies:
+        stem = _stem(body.name, sensed, ("x", "qw"))
+        moving = body.frame if isinstance(body, FlexibleBody) else body
+        _position(model, body.name, moving, stem)
+        _orientation(model, body.name, moving, stem)
+        sensed |= {f"{stem}.x", f"{stem}.qw"}
+    for spin in model.spins:
+        stem = _stem(spin.name, sensed, ("angle",))
+        text = f"angle by which {spin.name} has turned on its carrier since the start, not wrapped"
+        model.sense_spin_angle(f"{stem}.angle", spin, description=text)
+        sensed.add(f"{stem}.angle")
+    for more in model.more_poses:
+        model.flexible_scene += more()
+    if not model.more_poses:
+        for body in model.bodies:
+            if isinstance(body, FlexibleBody):
+                _amplitudes(model, body, sensed)
+
+
+def _amplitudes(model: Model, body: FlexibleBody, sensed: set[str]) -> None:
+    stem = _stem(body.name, sensed, ("mode_1",))
+    for k, mode in enumerate(body.reduced.mode_names):
+        row = [float(j == k) for j in range(body.n_modes)]
+        model.sense_recovery(f"{stem}.mode_{k + 1}", body, row, "1", f"amplitude of mode '{mode}' of {body.name}")
+
+
+def _stem(name: str, taken: set[str], parts: tuple[str, ...]) -> str:
+    word = re.sub(r"\W", "_", name, flags=re.ASCII)
+    word, k = word if word[:1].isalpha() else f"_{word}", 2
+    stem = f"body.{word}"
+    while any(f"{stem}.{part}" in taken for part in parts):
+        stem, k = f"body.{word}_{k}", k + 1
+    return stem
+
+
+def _position(model: Model, called: str, body: Body, stem: str) -> None:
+    place = body.point(body.com)
+    for k, c in enumerate("xyz"):
+        name, text = f"{stem}.{c}", f"{c} of the centre of mass of {called} as drawn, earth"
+        if k < model.dimension:
+            model.sense_coordinate(name, place[k], unit="m", description=text)
+        else:
+            model.sense_constant(name, 0.0, "m", text)
+
+
+def _orientation(model: Model, called: str, body: Body, stem: str) -> None:
+    for k, c in enumerate("wxyz"):
+        name = f"{stem}.q{c}"
+        text = f"q{c} of the orientation of {called} since the drawing, scalar first (qw), to earth axes"
+        if body.is_point:
+            model.sense_constant(name, float(k == 0), "1", text)
+        else:
+            model.sense_quaternion(name, body, c, description=text)

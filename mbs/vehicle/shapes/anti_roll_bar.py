@@ -1,0 +1,43 @@
+"""Looks of an anti-roll bar: a bar between its bushes, levers that turn, links to the suspension."""
+
+from __future__ import annotations
+
+from mbs.vehicle.axes import LEFT
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.shapes.looks import BARE, CAST, Looks
+from mbs.vehicle.side import sides
+
+BODIES = {"half": "half axle"}  # parts of a suspension whose bodies have another name in the model
+
+
+def anti_roll_bar_shapes(looks: Looks, name: str, axle: Axle) -> None:
+    """Draw the bar of an axle, if it has one.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    name : str
+        "front" or "rear".
+    axle : Axle
+        Of the car.
+    """
+    bar = axle.anti_roll_bar
+    if bar is None:
+        return
+    pivots = []
+    for side in sides(name):
+        w = side.wheel
+        pivot, lever_end, link_end = (
+            side.point(point) for point in (bar.points.pivot, bar.points.lever_end, bar.points.link_end)
+        )
+        part = looks.body(f"{BODIES.get(bar.part, bar.part.replace('_', ' '))} {w}")
+        lever = looks.m.turning(
+            f"anti-roll lever {w}", looks.chassis, at=pivot, axis=LEFT, angle=f"anti_roll_bar_{w}.angle"
+        )
+        looks.tube((lever, pivot), (lever, lever_end), radius=0.010, **BARE)
+        looks.tube((lever, lever_end), (part, link_end), radius=0.006, name=f"anti-roll link {w}", **CAST)
+        for of, place in ((lever, lever_end), (part, link_end), (looks.chassis, pivot)):
+            looks.ball((of, place), 0.013)
+        pivots.append((looks.chassis, pivot))
+    looks.tube(*pivots, radius=0.010, name=f"anti-roll bar {name}", **BARE)

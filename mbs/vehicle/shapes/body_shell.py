@@ -1,0 +1,216 @@
+"""Looks of a car without a frame of tubes: a hatchback's body lofted over its wheels, from length, width and axles.
+
+The shares in the tables are those of no car: a picture, as everything here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.vehicle.shapes.loft import interpolated, loft
+from mbs.vehicle.shapes.looks import ACCENT, DARK, Looks, Paint
+
+if TYPE_CHECKING:
+    from mbs.vehicle.car import Car
+
+GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
+LAMP: Paint = {"material": "glass", "color": "#eef4ff"}
+TAIL_LAMP: Paint = {"material": "plastic", "color": "#a3101c"}
+# place from the rear end over the length; height of the deck over that of the car, half width over the largest
+DECK = (
+    (0.000, 0.500, 0.82),
+    (0.010, 0.560, 0.88),
+    (0.035, 0.630, 0.93),
+    (0.120, 0.640, 0.97),
+    (0.300, 0.640, 1.00),
+    (0.620, 0.625, 1.00),
+    (0.730, 0.620, 0.99),
+    (0.880, 0.535, 0.96),
+    (0.960, 0.455, 0.87),
+    (0.990, 0.395, 0.76),
+    (1.000, 0.330, 0.68),
+)
+# likewise: height of the roof, half width of the roof over the largest
+ROOF = (
+    (0.030, 0.620, 0.80),
+    (0.060, 0.760, 0.76),
+    (0.120, 0.925, 0.70),
+    (0.180, 0.957, 0.68),
+    (0.430, 1.000, 0.68),
+    (0.550, 0.975, 0.69),
+    (0.640, 0.830, 0.75),
+    (0.735, 0.612, 0.84),
+)
+PANEL = 0.115, 0.565  # ends of the roof's panel
+PILLAR = 0.36  # between the side windows
+ARCH = 0.055  # m between tyre and arch
+SILL = 0.62  # height of the sill over the radius of the tyres
+FRONT_OVERHANG = 0.53  # share of both overhangs
+SLIM = 0.36  # height over length where nothing tells it
+
+
+@dataclass(frozen=True)
+class BodyShell:
+    """Surfaces of the body.
+
+    Parameters
+    ----------
+    car : Car
+        Its outline.
+    """
+
+    car: Car
+
+    @property
+    def height(self) -> float:
+        """Of the roof, m: that of the highest point that may touch the ground, if the file has one up there."""
+        contact = self.car.chassis.ground_contact
+        points = (
+            [p[2] + contact.radius for p in contact.points if not isinstance(p, str)] if contact is not None else []
+        )
+        highest = max(points, default=0.0)
+        return highest if highest > 0.25 * self.car.vehicle.length else SLIM * self.car.vehicle.length
+
+    @property
+    def rear_end(self) -> float:
+        """Its x, m."""
+        car = self.car
+        overhangs = car.vehicle.length - car.wheelbase
+        return car.rear.wheel.centre[0] - (1.0 - FRONT_OVERHANG) * overhangs
+
+    def place(self, share: float | NDArray[np.float64]) -> NDArray[np.float64]:
+        """x at a share of the length from the rear end, m."""
+        return np.asarray(self.rear_end + share * self.car.vehicle.length)
+
+    def share(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The other way round."""
+        return np.asarray((x - self.rear_end) / self.car.vehicle.length)
+
+    def deck(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Height and half width of the lower body, m."""
+        height, width = interpolated(DECK, self.share(x)).T
+        return height * self.height, 0.5 * width * self.car.vehicle.width
+
+    def roof(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Height and half width of the roof, m."""
+        height, width = interpolated(ROOF, self.share(x)).T
+        return height * self.height, 0.5 * width * self.car.vehicle.width
+
+    def lower_edge(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Height of sills, bumpers and arches, m."""
+        sill = SILL * self.car.front.tyre.radius
+        share = self.share(x)
+        edge = sill + 0.10 * np.clip((0.06 - share) / 0.06, 0.0, 1.0) + 0.04 * np.clip((share - 0.95) / 0.05, 0.0, 1.0)
+        for axle in (self.car.front, self.car.rear):
+            cx, _, cz = axle.wheel.centre
+            inside = (axle.tyre.radius + ARCH) ** 2 - (x - cx) ** 2
+            edge = np.where(inside > 0.0, np.maximum(edge, cz + np.sqrt(np.maximum(inside, 0.0))), edge)
+        return np.asarray(edge)
+
+    def stations(self) -> NDArray[np.float64]:
+        """x of the cross-sections, m: dense along the arches."""
+        ways = [self.place(np.linspace(0.0, 1.0, 29)), self.place(np.array([0.005, 0.015, 0.985, 0.995]))]
+        for axle in (self.car.front, self.car.rear):
+            radius = axle.tyre.radius + ARCH
+            ways.append(axle.wheel.centre[0] + radius * np.cos(np.linspace(0.0, np.pi, 17)))
+            ways.append(axle.wheel.centre[0] + radius * np.array([-1.002, 1.002]))
+        return np.unique(np.concatenate(ways))
+
+    def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Sides, bonnet and tail."""
+        x = self.stations()
+        top, half = self.deck(x)
+        low = np.minimum(self.lower_edge(x), top - 0.02)
+        rise = top - low
+        return loft(
+            [
+                np.array(
+                    [
+                        (x[k], 0.94 * half[k], low[k]),
+                        (x[k], half[k], low[k] + 0.35 * rise[k]),
+                        (x[k], half[k], low[k] + 0.62 * rise[k]),
+                        (x[k], 0.975 * half[k], low[k] + 0.86 * rise[k]),
+                        (x[k], 0.91 * half[k], top[k]),
+                        (x[k], 0.55 * half[k], top[k] + 0.015),
+                        (x[k], 0.0, top[k] + 0.022),
+                    ]
+                )
+                for k in range(len(x))
+            ],
+            ends=True,
+        )
+
+    def edge(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lower and upper edge of the side windows, left: arrays of shape (n, 3), m."""
+        x = self.place(share)
+        top, half = self.deck(x)
+        roof, roof_half = self.roof(x)
+        lower = np.column_stack([x, 0.90 * half, top - 0.01])
+        share_up = np.clip((roof - 0.045 - lower[:, 2]) / np.maximum(self.height - lower[:, 2], 1e-6), 0.0, 1.0)
+        y = lower[:, 1] + (roof_half - lower[:, 1]) * np.maximum(share_up, 0.0)
+        return lower, np.column_stack([x, y, np.maximum(roof - 0.045, lower[:, 2])])
+
+    def windows(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Everything between deck and roof."""
+        share = np.linspace(ROOF[0][0], ROOF[-1][0], 25)
+        return loft(self._above(share, 0.0))
+
+    def panel(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """The roof."""
+        return loft([section[1:] for section in self._above(np.linspace(*PANEL, 15), 0.006)])
+
+    def _above(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
+        lower, upper = self.edge(share)
+        height = np.maximum(self.roof(lower[:, 0])[0], lower[:, 2] + 0.004)
+        sections = []
+        for low, up, top in zip(lower, upper, height, strict=True):
+            outer = up + np.array([0.0, lifted, 0.5 * lifted])
+            inner = up[0], 0.82 * up[1], top + lifted
+            sections.append(np.array([low, outer, inner, (up[0], 0.0, top + lifted + 0.012)]))
+        return sections
+
+
+def body_shell_shapes(looks: Looks) -> None:
+    """Draw the body.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    """
+    car, chassis, m = looks.b.car, looks.chassis, looks.m
+    shell = BodyShell(car)
+    m.mesh_shape(chassis, *shell.lower_body(), name="body", **ACCENT)
+    m.mesh_shape(chassis, *shell.windows(), name="windows", **GLASS)
+    m.mesh_shape(chassis, *shell.panel(), name="roof", **ACCENT)
+    half = 0.5 * car.vehicle.width
+    x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
+    floor = SILL * car.front.tyre.radius + 0.03
+    m.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
+    lower, upper = shell.edge(
+        np.concatenate([np.linspace(PANEL[1], ROOF[-1][0], 7), [PILLAR], np.linspace(0.04, PANEL[0], 7)])
+    )
+    rail = shell.edge(np.linspace(*PANEL, 9))[1]
+    for side in (1.0, -1.0):
+        mirror = np.array([1.0, side, 1.0])
+        lines = [upper[:7] * mirror, np.array([lower[7], upper[7]]) * mirror, upper[8:] * mirror, rail * mirror]
+        for line in lines:
+            looks.tube(*((chassis, point) for point in line), radius=0.019 / looks.scale, **ACCENT)
+        _details(looks, shell, side)
+
+
+def _details(looks: Looks, shell: BodyShell, side: float) -> None:
+    """Lamps and a mirror."""
+    chassis, half = looks.chassis, 0.5 * looks.b.car.vehicle.width
+    for share, across, height, size, paint in (
+        (0.972, 0.62, 0.41, (0.10, 0.30, 0.09), LAMP),
+        (0.012, 0.70, 0.53, (0.06, 0.22, 0.16), TAIL_LAMP),
+        (0.985, 0.30, 0.24, (0.08, 0.50, 0.10), DARK),
+        (0.660, 1.06, 0.66, (0.10, 0.16, 0.10), ACCENT),
+    ):
+        place = float(shell.place(share)), side * across * half, height * shell.height
+        looks.m.shape(chassis, "box", at=place, size=size, **paint)

@@ -1,0 +1,56 @@
+"""All shapes of a car: each part draws its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from mbs.model.flexible import FlexibleBody
+from mbs.model.spin import Spin
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.chassis.frames.tubes import TubesFrame
+from mbs.vehicle.shapes.anti_roll_bar import anti_roll_bar_shapes
+from mbs.vehicle.shapes.body_shell import body_shell_shapes
+from mbs.vehicle.shapes.double_wishbone import double_wishbone_shapes
+from mbs.vehicle.shapes.looks import Looks
+from mbs.vehicle.shapes.occupants import occupant_shapes
+from mbs.vehicle.shapes.powertrain import powertrain_shapes
+from mbs.vehicle.shapes.steering import rack_of, steering_shapes
+from mbs.vehicle.shapes.struts import lower_arm_strut_shapes, macpherson_shapes
+from mbs.vehicle.shapes.tube_frame import tube_frame_shapes
+from mbs.vehicle.shapes.twist_beam import twist_beam_shapes
+from mbs.vehicle.shapes.wheels import wheel_shapes
+
+SUSPENSIONS: Mapping[str, Callable[[Looks, str, Axle], None]] = {
+    "double_wishbone": double_wishbone_shapes,
+    "lower_arm_strut": lower_arm_strut_shapes,
+    "macpherson": macpherson_shapes,
+    "twist_beam": twist_beam_shapes,
+}
+"""Looks of suspensions by their kind."""
+
+
+def car_shapes(b: CarBuilder, spins: Mapping[str, Spin]) -> None:
+    """Draw a car whose model has all bodies and sensors.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        The whole car.
+    spins : mapping of str to Spin
+        Its wheels by name.
+    """
+    car = b.car
+    b.m.default_shapes = False
+    looks = Looks(b, spins, rack_of(b))
+    for name, axle in (("front", car.front), ("rear", car.rear)):
+        SUSPENSIONS[axle.suspension.kind](looks, name, axle)
+        anti_roll_bar_shapes(looks, name, axle)
+        wheel_shapes(looks, name, axle)
+    steering_shapes(looks)
+    powertrain_shapes(looks)
+    occupant_shapes(looks)
+    if isinstance(car.chassis.frame, TubesFrame):
+        tube_frame_shapes(looks, car.tubular_frame, bends=isinstance(b.chassis.body, FlexibleBody))
+    else:
+        body_shell_shapes(looks)

@@ -1,0 +1,44 @@
+"""Looks of what carries a wheel: hub, arms to its joints, arm of the tie rod."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mbs.model.body import Body
+from mbs.vehicle.shapes.looks import CAST, Anchor, Looks, inboard
+from mbs.vehicle.side import Side
+
+HUB = 0.055, 0.030  # m: length and radius of the hub of a small car
+DISC = 0.62, 0.012  # radius of the brake disc over that of the tyre, thickness, m
+
+
+def knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], arm: Anchor | None) -> None:
+    """Draw hub and arms on the carrier, the brake disc on the wheel.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    side : Side
+        Of the axle.
+    carrier : Body
+        Of the wheel.
+    joints : sequence of (body, point)
+        Of the carrier, from the lowest to the highest.
+    arm : (body, point) or None
+        Outer end of the rod that steers it.
+    """
+    axle = getattr(looks.b.car, side.axle)
+    centre = side.point(axle.wheel.centre)
+    length, radius = (looks.scale * size for size in HUB)
+    hub = inboard(centre, length)
+    below = [joint for joint in joints if joint[1][2] <= hub[2]]
+    above = [joint for joint in joints if joint[1][2] > hub[2]]
+    looks.tube(*below, (carrier, hub), *above, radius=0.020, **CAST)
+    looks.cylinder(carrier, (inboard(hub, 0.02), centre), radius)
+    if arm is not None:
+        looks.tube((carrier, hub), arm, radius=0.013, **CAST)
+    spin, (share, thickness) = looks.spins[side.wheel], DISC
+    place = inboard(centre, 0.45 * length)
+    disc = share * (axle.tyre.bottoming_radius - 0.01)
+    looks.cylinder(spin, (place, inboard(place, thickness)), 1.25 * disc, material="steel", color="#71767d")

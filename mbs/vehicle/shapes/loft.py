@@ -1,0 +1,67 @@
+"""Surfaces through cross-sections."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Positions = NDArray[np.float64]
+Triangles = NDArray[np.int64]
+
+
+def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Positions, Triangles]:
+    """Both sides of a surface through the left halves of cross-sections.
+
+    Parameters
+    ----------
+    sections : sequence of array of shape (n, 3)
+        Each from its lower outer edge to the plane of symmetry, y = 0; from the rear to the front.
+    ends : bool
+        Whether the first and the last section are closed by a flat cap.
+
+    Returns
+    -------
+    positions, triangles : array of shape (m, 3), array of shape (k, 3)
+        The triangles are seen from outside counter-clockwise.
+    """
+    left = [np.asarray(section, float) for section in sections]
+    whole = [np.vstack([section, section[-2::-1] * [1.0, -1.0, 1.0]]) for section in left]
+    n = len(whole[0])
+    positions = [np.vstack(whole)]
+    triangles = [
+        t
+        for k in range(len(whole) - 1)
+        for i in range(n - 1)
+        for a in [k * n + i]
+        for t in ((a, a + n, a + n + 1), (a, a + n + 1, a + 1))
+    ]
+    if ends:
+        for section, flip in ((whole[0], False), (whole[-1], True)):
+            first = sum(map(len, positions))
+            positions += [section, section.mean(axis=0, keepdims=True)]
+            middle = first + n
+            ring = [(first + i, first + (i + 1) % n) for i in range(n)]
+            triangles += [(middle, b, a) if flip else (middle, a, b) for a, b in ring]
+    return np.vstack(positions), np.array(triangles)
+
+
+def interpolated(table: Sequence[tuple[float, ...]], at: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Columns of a table at values of its first one, by cubics without overshoot.
+
+    Parameters
+    ----------
+    table : sequence of tuple of float
+        Rows, the first number rising.
+    at : array of shape (n,)
+        Values of the first column.
+
+    Returns
+    -------
+    array of shape (n, columns - 1)
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    rows = np.array(table, float)
+    return np.asarray(PchipInterpolator(rows[:, 0], rows[:, 1:], axis=0)(np.clip(at, rows[0, 0], rows[-1, 0])))

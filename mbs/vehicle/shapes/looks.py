@@ -1,0 +1,107 @@
+"""What the shapes of a car share: its bodies by name, how thick its tubes are drawn, how they are painted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from mbs.model import Model
+from mbs.model.body import Body
+from mbs.model.shapes import Owner
+from mbs.model.spin import Spin
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.side import Point
+
+Paint: TypeAlias = "dict[str, Any]"
+"""Material and colour."""
+Anchor: TypeAlias = "tuple[Owner, Sequence[float]]"
+"""A point of a body, or of what slides or turns on one: earth axes as drawn, m."""
+
+BARE: Paint = {"material": "steel", "color": "#5d646e"}
+POLISHED: Paint = {"material": "chrome"}
+CAST: Paint = {"material": "steel", "color": "#8a9098"}
+COIL: Paint = {"material": "paint", "color": "#d8a12a"}
+DARK: Paint = {"material": "plastic", "color": "#23262b"}
+PAINT: Paint = {"material": "paint", "color": "#b3202c"}
+ACCENT: Paint = {"material": "paint", "color": "#1f5f9e"}
+CLOTH: Paint = {"material": "plastic", "color": "#3a3f47"}
+SMALL_CAR = 600.0  # kg: parts of a car of this mass are drawn as thick as they are given here
+
+
+@dataclass(frozen=True)
+class Looks:
+    """Draws on a finished model of a car.
+
+    Parameters
+    ----------
+    b : CarBuilder
+        With all its bodies.
+    spins : mapping of str to Spin
+        Wheels by name.
+    rack : Owner
+        What the inner ends of the tie rods of the steered axle move with.
+    """
+
+    b: CarBuilder
+    spins: Mapping[str, Spin]
+    rack: Owner
+    steered: tuple[str, ...] = field(default=("front",))
+
+    @property
+    def m(self) -> Model:
+        """The model."""
+        return self.b.m
+
+    @property
+    def chassis(self) -> Body:
+        """Its axes and points do not deform."""
+        return self.b.chassis.frame
+
+    @cached_property
+    def scale(self) -> float:
+        """Thickness of parts over that of a small car's."""
+        return float(np.cbrt(self.b.car.vehicle.mass / SMALL_CAR))
+
+    def body(self, name: str) -> Body:
+        """A body by its name in the model."""
+        return next(body for body in self.m.bodies if body.name == name)
+
+    def rod_end(self, axle: str) -> Owner:
+        """What the inner end of a tie rod or toe link of an axle is on."""
+        return self.rack if axle in self.steered else self.chassis
+
+    def tube(self, *points: Anchor, radius: float, name: str = "", **looks: Any) -> None:
+        """A round tube through points, `radius` that of a small car."""
+        self.m.shape(
+            points[0][0], "tube", points=list(points), radius=self.scale * radius, name=name, **(looks or BARE)
+        )
+
+    def ball(self, of: Anchor, radius: float, **looks: Any) -> None:
+        """A joint."""
+        self.m.shape(of[0], "sphere", at=of[1], radius=self.scale * radius, **(looks or CAST))
+
+    def cylinder(self, of: Owner, ends: tuple[Sequence[float], Sequence[float]], radius: float, **looks: Any) -> None:
+        """A round part in one frame, its radius in m."""
+        self.m.shape(of, "cylinder", ends=ends, radius=radius, **(looks or CAST))
+
+
+def between(a: Sequence[float], b: Sequence[float], share: float) -> Point:
+    """The point at a share of the way from one to another."""
+    x, y, z = np.asarray(a, float) + share * np.subtract(b, a)
+    return float(x), float(y), float(z)
+
+
+def inboard(point: Sequence[float], way: float) -> Point:
+    """A point so far nearer to the middle of the car, m."""
+    side = 1.0 if point[1] > 0.0 else -1.0
+    return point[0], point[1] - side * way, point[2]
+
+
+def share_along(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
+    """Where the foot of a point lies on the line from `a` (0) to `b` (1)."""
+    line = np.subtract(b, a)
+    return float(line @ np.subtract(p, a) / (line @ line))

@@ -1,0 +1,38 @@
+"""Looks of engine or motor, and of the shafts to the driven wheels."""
+
+from __future__ import annotations
+
+from mbs.vehicle.shapes.looks import BARE, CAST, DARK, Looks
+from mbs.vehicle.side import sides
+
+ENGINE = 0.44, 0.46, 0.36  # m, of a small car
+MOTOR = 0.13, 0.34  # m, radius and length of a motor across the car
+INNER = 0.16  # m from the middle of the car: inner joints of the shafts
+
+
+def powertrain_shapes(looks: Looks) -> None:
+    """Draw engine or motor between the driven wheels, and their shafts.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    """
+    car, chassis = looks.b.car, looks.chassis
+    name = car.drive.wheels
+    axle = getattr(car, name)
+    x, _, z = axle.wheel.centre
+    inward = -1.0 if name == "front" else 1.0
+    if car.drive.kind == "electric":
+        radius, length = (looks.scale * size for size in MOTOR)
+        looks.cylinder(chassis, ((x, -0.5 * length, z), (x, 0.5 * length, z)), radius)
+        looks.m.shape(chassis, "box", at=(x, 0.0, z + 1.4 * radius), size=(1.8 * radius, length, 0.7 * radius), **DARK)
+    else:
+        size = tuple(looks.scale * edge for edge in ENGINE)
+        at = x + inward * (0.5 * size[0] + 0.10), 0.0, z + 0.25 * size[2]
+        looks.m.shape(chassis, "box", at=at, size=size, **CAST)
+        looks.ball((chassis, (x, 0.0, z)), 0.11, **CAST)
+    for side in sides(name):
+        inner = x, side.sign * INNER, z
+        carrier = looks.spins[side.wheel].carrier
+        looks.tube((chassis, inner), (carrier, side.point(axle.wheel.centre)), radius=0.012, **BARE)

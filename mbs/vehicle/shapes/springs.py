@@ -1,0 +1,50 @@
+"""Looks of springs and dampers: coils that compress around rods that slide."""
+
+from __future__ import annotations
+
+import math
+
+from mbs.vehicle.shapes.looks import COIL, POLISHED, Anchor, Looks, between
+
+COIL_RADIUS, WIRE, DAMPER_RADIUS = 0.046, 0.011, 0.020  # m, of a small car
+PITCH = 0.038  # m from coil to coil
+LONGEST = 0.42  # m: longer springs are drawn with a seat on the tube of the damper
+
+
+def spring_and_damper(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> None:
+    """A coil spring around its damper.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    name : str
+        Of the spring in the model.
+    lower, upper : (body, point)
+        Its ends.
+    """
+    damper(looks, lower, upper)
+    length = math.dist(lower[1], upper[1])
+    seat = lower if length <= LONGEST else (lower[0], between(lower[1], upper[1], 1.0 - LONGEST / length))
+    coil(looks, name, seat, upper)
+
+
+def coil(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> None:
+    """A coil spring alone."""
+    scale = looks.scale
+    coils = max(3, round(math.dist(lower[1], upper[1]) / (scale * PITCH)))
+    looks.m.shape(
+        lower[0],
+        "spring",
+        ends=(lower, upper),
+        radius=scale * COIL_RADIUS,
+        wire=scale * WIRE,
+        coils=coils,
+        name=name,
+        **COIL,
+    )
+
+
+def damper(looks: Looks, lower: Anchor, upper: Anchor) -> None:
+    """A telescopic damper."""
+    looks.m.shape(lower[0], "damper", ends=(lower, upper), radius=looks.scale * DAMPER_RADIUS, **POLISHED)

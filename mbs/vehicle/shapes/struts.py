@@ -1,0 +1,60 @@
+"""Looks of suspensions by a lower arm and a strut that is fixed in the upright."""
+
+from __future__ import annotations
+
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.shapes.knuckle import knuckle
+from mbs.vehicle.shapes.looks import CAST, Looks, between, share_along
+from mbs.vehicle.shapes.springs import spring_and_damper
+from mbs.vehicle.side import sides
+
+
+def lower_arm_strut_shapes(looks: Looks, name: str, axle: Axle) -> None:
+    """Draw both sides of a suspension whose strut stands on the ball joint and which a toe link steers.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    name : str
+        "front" or "rear".
+    axle : Axle
+        With such a suspension.
+    """
+    _strut_shapes(looks, name, axle, "lower_ball_joint", "toe_link")
+
+
+def macpherson_shapes(looks: Looks, name: str, axle: Axle) -> None:
+    """Draw both sides of a MacPherson suspension.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    name : str
+        "front" or "rear".
+    axle : Axle
+        With such a suspension.
+    """
+    _strut_shapes(looks, name, axle, "strut_lower", "tie_rod")
+
+
+def _strut_shapes(looks: Looks, name: str, axle: Axle, foot: str, rod: str) -> None:
+    for side in sides(name):
+        w = side.wheel
+        p = {key: side.point(point) for key, point in axle.suspension.points}
+        arm, upright = looks.body(f"lower arm {w}"), looks.body(f"upright {w}")
+        ball, bottom, top = p["lower_ball_joint"], p[foot], p["strut_top"]
+        looks.tube((arm, p["lower_pivot_front"]), (arm, ball), (arm, p["lower_pivot_rear"]), radius=0.015)
+        for pivot in ("lower_pivot_front", "lower_pivot_rear", "lower_ball_joint"):
+            looks.ball((arm, p[pivot]), 0.023)
+        # the tube of the strut stands in the upright from the wheel's height on
+        share = max(share_along(bottom, top, side.point(axle.wheel.centre)), 0.0)
+        clamp = between(bottom, top, min(share + 0.05, 0.5))
+        knuckle(looks, side, upright, [(upright, ball), (upright, clamp)], (upright, p[f"{rod}_outer"]))
+        looks.tube((upright, bottom), (upright, clamp), radius=0.024, **CAST)
+        looks.tube(
+            (upright, p[f"{rod}_outer"]), (looks.rod_end(name), p[f"{rod}_inner"]), radius=0.009,
+            name=f"{rod.replace('_', ' ')} {w}", **CAST,
+        )  # fmt: skip
+        spring_and_damper(looks, f"spring {w}", (upright, bottom), (looks.chassis, top))

@@ -1,0 +1,40 @@
+"""Looks of a frame of tubes: its tubes and a floor between the lowest of its joints."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from mbs.vehicle.chassis.tubular_frame import TubularFrame
+from mbs.vehicle.shapes.looks import BARE, PAINT, Looks
+
+FRAME = "frame tube"
+"""Name of the shapes of the tubes; where the frame is drawn as it bends they are left out."""
+LOW = 0.05  # m above the lowest joint: what the floor lies on
+
+
+def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None:
+    """Draw the tubes, if nothing else does, and the floor.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    frame : TubularFrame
+        Tables of the car.
+    bends : bool
+        Whether the chassis of the model is a flexible body, whose beams are drawn.
+    """
+    joints = frame.joint_places()
+    if not bends:
+        for tube in frame.frame(carried_masses=False)[1]:
+            points = [(looks.chassis, joints[name]) for name in (tube.start, tube.end)]
+            radius = 0.5 * frame.section.sections[tube.section].diameter
+            looks.m.shape(looks.chassis, "tube", points=points, radius=radius, name=FRAME, **PAINT)
+    places = np.array(list(joints.values()))
+    low = places[places[:, 2] < places[:, 2].min() + LOW]
+    try:
+        corners = low[ConvexHull(low[:, :2]).vertices]
+    except (QhullError, ValueError):  # no area
+        return
+    looks.m.shape(looks.chassis, "plate", points=[(looks.chassis, p) for p in corners], thickness=0.004, **BARE)

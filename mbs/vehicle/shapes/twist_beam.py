@@ -1,0 +1,39 @@
+"""Looks of a twist beam."""
+
+from __future__ import annotations
+
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.shapes.knuckle import knuckle
+from mbs.vehicle.shapes.looks import BARE, Looks
+from mbs.vehicle.shapes.springs import coil, damper
+from mbs.vehicle.side import sides
+
+
+def twist_beam_shapes(looks: Looks, name: str, axle: Axle) -> None:
+    """Draw trailing arms and cross-beam.
+
+    Parameters
+    ----------
+    looks : Looks
+        Draws.
+    name : str
+        "front" or "rear".
+    axle : Axle
+        With such a suspension.
+    """
+    ends = []
+    for side in sides(name):
+        w = side.wheel
+        p = {key: side.point(point) for key, point in axle.suspension.points}
+        half = looks.body(f"half axle {w}")
+        centre = side.point(axle.wheel.centre)
+        spindle = centre[0], p["damper_lower"][1], centre[2]
+        looks.ball((half, p["pivot"]), 0.034)
+        looks.tube((half, p["pivot"]), (half, p["cross_beam"]), (half, spindle), radius=0.026)
+        looks.tube((half, p["cross_beam"]), (half, p["spring_lower"]), (half, spindle), radius=0.016)
+        looks.tube((half, spindle), (half, p["damper_lower"]), radius=0.016)
+        knuckle(looks, side, half, [(half, spindle)], None)
+        coil(looks, f"spring {w}", (half, p["spring_lower"]), (looks.chassis, p["spring_upper"]))
+        damper(looks, (half, p["damper_lower"]), (looks.chassis, p["damper_upper"]))
+        ends.append((half, p["cross_beam"]))
+    looks.tube(*ends, radius=0.030, name=f"cross-beam {name}", **BARE)

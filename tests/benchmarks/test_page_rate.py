@@ -1,0 +1,27 @@
+"""`python -m benchmarks.page_rate`: a figure for every scene and quality, printed and in the file."""
+
+import json
+
+import pytest
+
+pytest.importorskip("playwright")
+
+from benchmarks import page_rate
+from viewer import browser, bundle
+
+
+@pytest.mark.slow
+def test_the_rate_of_every_scene_is_printed_and_kept(tmp_path, capsys):
+    try:
+        browser.find_chromium()
+        bundle.bundle()
+    except RuntimeError as error:
+        pytest.skip(str(error))
+    file = tmp_path / "rate.json"
+    assert page_rate.main(["--pictures", "1", "--json", str(file)]) == 0
+    rows = json.loads(file.read_text(encoding="utf-8"))["rows"]
+    assert [(row["scene"], row["quality"]) for row in rows] == [
+        (scene, quality) for scene in page_rate.SCENES for quality in page_rate.QUALITIES
+    ]
+    assert all(row["ms"] > 0 and row["triangles"] > 1000 for row in rows)
+    assert "ms: median of a picture of 1280 x 720" in capsys.readouterr().out

@@ -1,0 +1,170 @@
+"""The frame of the hatchback: size and stiffness, equilibrium, kerb, and what meshes and steps leave open."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import mbs.vehicle.car
+from benchmarks.car.frame_stiffness import stiffness
+from mbs import Simulation, System, Trajectory, compile
+from mbs.flexible import natural_modes
+from mbs.scenes import kerb_test
+from mbs.vehicle import Fidelity, load
+from mbs.vehicle.car import Car
+from mbs.vehicle.chassis.amplitudes import amplitude_outputs
+from mbs.vehicle.chassis.build import stress_outputs
+from mbs.vehicle.chassis.stress_scene import flexible_part
+from tests.scene_numbers import amplitudes, rows_of_stress, stress
+
+WHEELS = ("FL", "FR", "RL", "RR")
+GAUGES = ("SG1", "SG2", "SG3", "SG4", "SG5", "SG6")
+FLEXIBLE = (1, 2, 3)
+
+
+@cache
+def car() -> Car:
+    return load("hatchback")
+
+
+@cache
+def system(fidelity: int) -> System:
+    return compile(car().model(fidelity=fidelity))
+
+
+@cache
+def kerb(fidelity: int, h: float = kerb_test.STEP) -> Trajectory:
+    """Down the kerb with both axles."""
+    return Simulation(compile(kerb_test.build(fidelity, car()))).run(9.0, h)
+
+
+def peak(run: Trajectory, gauge: str) -> float:
+    """Largest change of the stress at a gauge, Pa."""
+    stress = run[f"stress.{gauge}"]
+    return float(np.abs(stress - stress[0]).max())
+
+
+def test_the_frame_is_the_rigid_chassis_in_mass_centre_and_inertia() -> None:
+    mass, chassis = car().flexible_frame.model.mass, car().chassis
+    total = mass.masses.sum()
+    assert total == pytest.approx(chassis.mass, abs=0.01)
+    np.testing.assert_allclose(mass.masses @ mass.positions / total, chassis.com, rtol=0, atol=1e-5)
+    arms = mass.positions - np.array(chassis.com)
+    second = (mass.masses[:, None] * arms).T @ arms
+    np.testing.assert_allclose(np.trace(second) * np.eye(3) - second, chassis.tensor, rtol=0, atol=0.05)
+
+
+def test_it_is_as_stiff_as_bodies_of_the_class() -> None:
+    found = stiffness(car())
+    assert found.joints == ("STL", "DTL")
+    assert 12e3 < found.torsion < 25e3
+    assert found.torsion == pytest.approx(24.7e3, abs=50.0)
+    np.testing.assert_allclose(found.frequencies, [27.0, 28.0, 36.4, 40.3], rtol=0, atol=0.06)
+
+
+def test_a_finer_mesh_has_the_same_frequencies() -> None:
+    """Those of the free frame that the gauges feel; halves of the elements move them by less than two parts in 1000."""
+    tubular = car().tubular_frame
+    coarse, fine = (natural_modes(tubular.frame(refinement=n)[0].finite_element_model(), 14)[0][6:] for n in (1, 2))
+    np.testing.assert_allclose(coarse, fine, rtol=2e-3)
+    assert (coarse >= fine * (1.0 - 1e-9)).all()
+
+
+def test_every_fidelity_stands_as_drawn_and_reads_the_same_stresses() -> None:
+    assert list(car().fidelities()) == [Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.LOAD_PATHS, Fidelity.DYNAMIC]
+    rest = {fidelity: Simulation(system(fidelity)).sensors for fidelity in (0, *FLEXIBLE)}
+    for fidelity in FLEXIBLE:
+        for wheel in WHEELS:
+            assert rest[fidelity][f"wheel_{wheel}.Fz"] == pytest.approx(rest[0][f"wheel_{wheel}.Fz"], rel=2e-4)
+        for gauge in GAUGES:
+            expected = rest[1][f"stress.{gauge}"]
+            assert abs(expected) > 1e6
+            assert rest[fidelity][f"stress.{gauge}"] == pytest.approx(expected, rel=3e-3)
+            assert rest[0][f"stress.{gauge}"] == 0.0
+
+
+@pytest.mark.parametrize("payload", ["rear_left", "luggage"])
+def test_all_forces_on_the_chassis_enter_by_its_ports(payload: str) -> None:
+    """Weight and no moment about its centre of mass: the bars twist under a load on one side, and their levers give
+    the chassis the forces of their bushes, no torque past the ports.
+    """
+    load_on = {f"payload.{payload}.mass": 200.0}
+    simulation = Simulation(system(1), parameters=load_on)
+    names = [row["name"] for row in simulation.system.meta["rows"]]
+    lam = simulation.state.lam * simulation.system.arrays["row_scale"]
+    interfaces, chassis = car().flexible_frame.joints.interfaces, car().chassis
+    force = {j: lam[[k for k, row in enumerate(names) if row == f"chassis.{j}"]] for j in interfaces}
+    weight = 9.81 * chassis.mass
+    np.testing.assert_allclose(sum(force.values()), (0.0, 0.0, weight), rtol=0, atol=1e-6 * weight)
+    roll, pitch = (simulation.sensors[f"chassis.{angle}"] for angle in ("roll", "pitch"))
+    assert max(abs(roll), abs(pitch)) > 0.002
+    q = np.array([simulation.sensors[f"chassis.q{c}"] for c in "wxyz"])
+    w, v = q[0], q[1:]
+
+    def turned(x: np.ndarray) -> np.ndarray:
+        return np.asarray(x + 2.0 * np.cross(v, np.cross(v, x) + w * x))
+
+    moment = sum(np.cross(turned(np.subtract(place, chassis.com)), force[j]) for j, place in interfaces.items())
+    np.testing.assert_allclose(moment, 0.0, rtol=0, atol=1e-5 * weight)
+
+
+def test_the_kerb_gives_every_fidelity_the_same_stresses() -> None:
+    for gauge in GAUGES:
+        expected = peak(kerb(3), gauge)
+        assert expected > 1e6
+        for fidelity in (1, 2):
+            assert peak(kerb(fidelity), gauge) == pytest.approx(expected, rel=0.06)
+    for name, gap in (("chassis.z", 1e-3), ("chassis.pitch", 1e-3), ("wheel_FL.travel", 2e-3)):
+        np.testing.assert_allclose(kerb(3)[name], kerb(0)[name], rtol=0, atol=gap, err_msg=name)
+
+
+def test_stresses_on_the_kerb_converge_with_the_step() -> None:
+    steps = (0.01, 0.005, 0.0025, 0.00125)
+    peaks = np.array([[peak(kerb(3, h), gauge) for gauge in ("SG1", "SG2", "SG5")] for h in steps])
+    errors = np.abs(peaks[:-1] / peaks[-1] - 1.0).max(axis=1)
+    assert errors[0] < 0.2
+    assert (errors[1:] < 0.6 * errors[:-1]).all()
+
+
+def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -> None:
+    """Damping of the frame is no work of the list; it is a small part of what the tyres and dampers take."""
+    run = Simulation(system(3)).run(3.0, 0.001, inputs={"throttle": 0.6, "steering": 0.2})
+    works = sum(run[f"energy.{name}"] for name in ("drive", "brakes", "tyres", "dampers", "drag", "ground"))
+    left = run["energy.total"] - run["energy.total"][0] - works
+    assert run["energy.drive"][-1] > 2e4
+    assert np.abs(left).max() < 2e-3 * run["energy.drive"][-1]
+
+
+@pytest.mark.parametrize(("fidelity", "tolerance"), [(1, 8e-3), (2, 1e-6), (3, 1e-6)])
+def test_the_scene_gives_the_gauges_of_every_fidelity(
+    fidelity: int, tolerance: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bending of sill and rail and pull of the roof rail, from the rows of stress and the amplitudes alone.
+
+    In a turn the quasi-static frame also bends by the speed of rotation, which is not quite in the modes.
+    """
+
+    def outputs(m: Any, mount: Any, flexible: Any, which: Any) -> None:
+        stress_outputs(m, mount, flexible, which)
+        amplitude_outputs(m, mount, flexible)
+
+    monkeypatch.setattr(mbs.vehicle.car, "stress_outputs", outputs)
+    (part,) = flexible_part(car())
+    model = car().model(fidelity=fidelity)
+    run = Simulation(compile(model)).run(2.0, 0.01, inputs={"steering": 0.4, "throttle": 0.7})
+    eta = amplitudes(part, run)
+    _, tubes = car().tubular_frame.frame()
+    for gauge in car().tubular_frame.strain_gauges(tubes):
+        ends = rows_of_stress(part, eta)[:, gauge.element]
+        axial, about_y, about_z = np.moveaxis((1.0 - gauge.xi) * ends[:, 0] + gauge.xi * ends[:, 1], -1, 0)
+        assert gauge.fibre is not None
+        y, z = np.array(gauge.fibre) / np.hypot(*gauge.fibre)
+        found = axial if gauge.name in ("SG5", "SG6") else 2.0 * (z * about_y - y * about_z)
+        expected = run[f"stress.{gauge.name}"]
+        largest = np.abs(expected).max()
+        assert largest > 1e6
+        np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance * largest, err_msg=gauge.name)
+    assert stress(part, eta).max() < part["stress"]["range"] < part["stress"]["limit"]
