@@ -23,7 +23,7 @@ from mbs.shapes.joint_points import touched
 from mbs.shapes.roads import roads_of
 from mbs.shapes.shared_points import shared_points
 
-SLIDES = "one of its ends slides by a guide, whose value is in no column"
+SLIDES = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
 Scene = dict[str, Any]
 Binding = Callable[[str, Mapping[str, Any]], "Mapping[str, Any] | str"]
 """``binding(name, frame)`` gives a frame with other columns, or in a few words why there are none."""
@@ -53,6 +53,8 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         owned = {names.of_owner(s.owner) for s in model.shapes}
         shapes += defaults.all(owned, named)
     frames = frames_of(model, names, places, q)
+    used = {frame for shape in shapes for frame in frames_used(shape)}
+    frames |= {name: frame for name, frame in found.frames.items() if name in used}
     scene: Scene = {
         "format": "ALi3 scene",
         "version": 1,

@@ -18,6 +18,7 @@ from mbs.model.reactions import Turning
 if TYPE_CHECKING:
     from mbs.model.body import Body
     from mbs.model.ends import PointPair
+    from mbs.model.slide import SlidingPoint
     from mbs.model.spin import Spin
     from mbs.model.switches import Switch
 
@@ -156,6 +157,8 @@ class Joint:
         Of a wheel that rolls.
     actuator : JointEnds or None
         Of a driven distance: its ends.
+    slide : (int, SlidingPoint) or None
+        Of a distance: the number of the end that a guide slides, and what it is.
     """
 
     def __init__(
@@ -183,6 +186,7 @@ class Joint:
         self.ends: JointEnds | None = None
         self.drawing: Drawing | None = None
         self.actuator: JointEnds | None = None
+        self.slide: tuple[int, SlidingPoint] | None = None
         self.rolls: RollingBody | RollingSpin | None = None
 
     @property
