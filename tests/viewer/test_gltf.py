@@ -14,12 +14,14 @@ from scipy.spatial.transform import Rotation
 from ali3.errors import FileError
 from tests.viewer import hand_scenes, moving_car
 from tests.viewer.gltf_files import PAGE, TO_EARTH, accessor, content, run_node, world
+from tests.viewer.hand_scenes import floats, indices
 from viewer.errors import ViewerError
 from viewer.gltf import write_gltf
 from viewer.gltf.flexible import VIRIDIS, stress_colors
 from viewer.gltf.materials import KINDS, linear
 from viewer.gltf.roads import road_solid
 from viewer.recording import Recording
+from viewer.solids import box
 
 T = np.linspace(0.0, 2.0, 201)
 
@@ -291,6 +293,19 @@ def test_roads_face_up_and_have_their_heights(up, kind):
     assert np.abs(far.positions).max() < 21.0
     if kind == "profile":
         assert set(heights[np.isclose(at, 2.0)].round(9)) == {0.5, 0.3}
+
+
+def test_a_mesh_that_is_inside_out_is_turned(tmp_path):
+    block = box((1.0, 2.0, 3.0))
+    for sense in (1, -1):
+        scene = hand_scenes.crank(T).scene
+        mesh = {"positions": floats(block.positions), "triangles": indices(block.triangles[:, ::sense])}
+        shapes = [{"kind": "mesh", "frame": "crank", "mesh": "block"}]
+        recording = hand_scenes.crank(T)
+        recording.scene = scene | {"meshes": {"block": mesh}, "shapes": shapes}
+        write_gltf(tmp_path / "block.glb", recording)
+        made = trimesh.load_scene(tmp_path / "block.glb").to_mesh()
+        assert made.volume == pytest.approx(6.0)
 
 
 def test_a_second_writing_gives_the_same_bytes(tmp_path):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viewer import solids
 from viewer.gltf.materials import Look, look
@@ -87,9 +88,11 @@ def _mesh(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
         normals = normals / length if (length > 0.0).all() else None
     a, b, c = triangles.T
     proper = triangles[(a != b) & (b != c) & (c != a)]
+    if _volume(positions, proper) < 0.0:  # inside out
+        proper = proper[:, ::-1]
     if len(proper):
         made = Solid(positions, normals, proper).placed(_axes(shape), _at(shape))
-        parts.fixed.append((shape["frame"], name, [(made, look(shape))]))
+        parts.fixed.append((shape["frame"], name, [(made, look(shape, double=True))]))
 
 
 def _tube(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
@@ -249,6 +252,12 @@ def _rod(ends: Vectors, radius: float, sections: int = 32) -> Solid:
     to = ends[1] - ends[0]
     length = float(np.linalg.norm(to))
     return solids.cylinder(radius, 0.0, length, sections).placed(along(to / length), ends[0])
+
+
+def _volume(positions: Vectors, triangles: NDArray[np.int64]) -> float:
+    """Six times the volume that triangles enclose, negative where they face inwards."""
+    a, b, c = (positions[triangles[:, k]] - positions.mean(axis=0) for k in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)))
 
 
 def _unit(vector: Any) -> Vectors:
