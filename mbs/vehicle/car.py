@@ -215,7 +215,7 @@ class Car(Section):
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
         car_shapes(b, spins)
-        if self.chassis.frame is not None:
+        if Fidelity.DYNAMIC in self.fidelities():
             m.more_poses.append(partial(self._frame_poses, b))
         return m
 

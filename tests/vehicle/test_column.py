@@ -10,6 +10,7 @@ import pytest
 
 from mbs import Pose, Simulation, System, compile
 from mbs.errors import ModelError
+from mbs.shapes.pose_outputs import pose_outputs
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.car_file import CarFileError
 from tests.vehicle.column_car import COLUMN, column_car
@@ -181,6 +182,10 @@ def test_a_car_with_a_frame_and_a_column_is_rigid_only():
     for name in alone:
         np.testing.assert_array_equal(framed[name], alone[name], err_msg=name)
     assert not framed["stress.computed"].any()
+    posed = with_frame.model()
+    pose_outputs(posed)
+    assert not posed.flexible_scene
+    assert not any(sensor.name.startswith("chassis.mode_") for sensor in posed.sensors)
 
 
 def test_bad_numbers_are_refused():

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
 
-import mbs.vehicle.car
 from benchmarks.car.frame_stiffness import stiffness
 from mbs import Simulation, System, Trajectory, compile
 from mbs.flexible import natural_modes
 from mbs.scenes import kerb_test
+from mbs.shapes.pose_outputs import pose_outputs
 from mbs.vehicle import Fidelity, load
 from mbs.vehicle.car import Car
-from mbs.vehicle.chassis.amplitudes import amplitude_outputs
-from mbs.vehicle.chassis.build import stress_outputs
-from mbs.vehicle.chassis.stress_scene import flexible_part
 from tests.scene_numbers import amplitudes, rows_of_stress, stress
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -139,21 +135,15 @@ def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -
 
 
 @pytest.mark.parametrize(("fidelity", "tolerance"), [(1, 8e-3), (2, 1e-6), (3, 1e-6)])
-def test_the_scene_gives_the_gauges_of_every_fidelity(
-    fidelity: int, tolerance: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: float) -> None:
     """Bending of sill and rail and pull of the roof rail, from the rows of stress and the amplitudes alone.
 
     In a turn the quasi-static frame also bends by the speed of rotation, which is not quite in the modes.
     """
 
-    def outputs(m: Any, mount: Any, flexible: Any, which: Any) -> None:
-        stress_outputs(m, mount, flexible, which)
-        amplitude_outputs(m, mount, flexible)
-
-    monkeypatch.setattr(mbs.vehicle.car, "stress_outputs", outputs)
-    (part,) = flexible_part(car())
     model = car().model(fidelity=fidelity)
+    pose_outputs(model)
+    (part,) = model.flexible_scene
     run = Simulation(compile(model)).run(2.0, 0.01, inputs={"steering": 0.4, "throttle": 0.7})
     eta = amplitudes(part, run)
     _, tubes = car().tubular_frame.frame()

@@ -8,13 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-import mbs.vehicle.car
 from benchmarks.car.stress_picture import motion_of
 from mbs import Simulation, Trajectory, compile
 from mbs.model.flexible import FlexibleBody
 from mbs.scenes import kerb_test, prototype_car
-from mbs.vehicle.chassis.amplitudes import amplitude_outputs
-from mbs.vehicle.chassis.build import stress_outputs
+from mbs.shapes.pose_outputs import pose_outputs
 from mbs.vehicle.chassis.stress_scene import flexible_part
 from tests.scene_numbers import amplitudes, places, rows_of_stress, stress, turned
 
@@ -29,19 +27,16 @@ def part() -> dict[str, Any]:
     return dict(found)
 
 
-def kerb_run(fidelity: int, monkeypatch: pytest.MonkeyPatch) -> Trajectory:
+def kerb_run(fidelity: int) -> Trajectory:
     """Down the kerb with both axles."""
-
-    def outputs(m: Any, mount: Any, flexible: Any, which: Any) -> None:
-        stress_outputs(m, mount, flexible, which)
-        amplitude_outputs(m, mount, flexible)
-        if isinstance(mount.body, FlexibleBody):
+    m = kerb_test.build(fidelity)
+    for body in m.bodies:
+        if isinstance(body, FlexibleBody):
             for node in NODES:
                 for c in "xyz":
-                    m.sense_position(f"node.{node}.{c}", mount.body.interface(node), component=c)
-
-    monkeypatch.setattr(mbs.vehicle.car, "stress_outputs", outputs)
-    return Simulation(compile(kerb_test.build(fidelity))).run(8.9, kerb_test.STEP)
+                    m.sense_position(f"node.{node}.{c}", body.interface(node), component=c)
+    pose_outputs(m)
+    return Simulation(compile(m)).run(8.9, kerb_test.STEP)
 
 
 def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
@@ -55,9 +50,9 @@ def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
 
 
 def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
-    part: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+    part: dict[str, Any],
 ) -> None:
-    run = kerb_run(3, monkeypatch)
+    run = kerb_run(3)
     eta = amplitudes(part, run)
     frame, _ = prototype_car.car().tubular_frame.frame()
     motion = motion_of(frame, prototype_car.car().flexible_frame.reduced(3), run.t, eta, 1.0)
@@ -80,9 +75,9 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
 
 @pytest.mark.parametrize(("fidelity", "tolerance"), [(2, STRESS), (1, 3e-3)])
 def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
-    fidelity: int, tolerance: float, part: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+    fidelity: int, tolerance: float, part: dict[str, Any]
 ) -> None:
-    run = kerb_run(fidelity, monkeypatch)
+    run = kerb_run(fidelity)
     eta = amplitudes(part, run)
     assert run["stress.computed"].min() == 1.0
     for name in ("SG1", "SG2", "SG3", "SG4"):
@@ -92,9 +87,9 @@ def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
 
 
 def test_a_rigid_chassis_has_the_same_outputs_and_says_that_nothing_is_computed(
-    part: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+    part: dict[str, Any],
 ) -> None:
-    run = kerb_run(0, monkeypatch)
+    run = kerb_run(0)
     assert part["computed"] == "stress.computed"
     assert run["stress.computed"].max() == 0.0
     assert not amplitudes(part, run).any()

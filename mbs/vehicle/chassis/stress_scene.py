@@ -22,7 +22,7 @@ OVER_REST = 2.0
 
 
 def flexible_part(car: Car) -> list[dict[str, Any]]:
-    """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`; empty without a frame.
+    """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`; empty where it is rigid only.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def flexible_part(car: Car) -> list[dict[str, Any]]:
     ModelError
         The car has a frame that does not fit it.
     """
-    if car.chassis.frame is None:
+    if Fidelity.DYNAMIC not in car.fidelities():
         return []
     flexible = car.flexible_frame
     body, start, full_scale = flexible.drawn, _standing(car), None
