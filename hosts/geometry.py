@@ -86,7 +86,7 @@ def _roads(
 
 
 def _moved(road: dict[str, Any], variables: Mapping[str, str], settings: Mapping[str, Value]) -> dict[str, Any]:
-    """A road with a kerb where the parameters have it: the higher side stays the higher one."""
+    """A road with a kerb where the parameters have it: the higher side stays where it is."""
     if road["kind"] != "profile" or len(road["heights"]) != 2:
         return road
     made = dict(road)
@@ -94,7 +94,8 @@ def _moved(road: dict[str, Any], variables: Mapping[str, str], settings: Mapping
         made["origin"] = [float(settings[variables["kerb_x"]]), *list(road.get("origin", (0.0, 0.0, 0.0)))[1:]]
     if variables.get("kerb_height") in settings:
         first, last = road["heights"][0], road["heights"][-1]
-        low, high = min(first, last), min(first, last) + float(settings[variables["kerb_height"]])
+        high = max(first, last)
+        low = high - float(settings[variables["kerb_height"]])
         # Where both sides were level, the kerb is one to drive down, as it is by default.
         made["heights"] = [low, high] if first < last else [high, low]
     return made

@@ -84,7 +84,7 @@ def _read(path: Path, text: Iterator[str], rows: int) -> Table:
         raise HostError(f"{path} is no table of results: {_words(str(error), every)}.") from None
     if data.shape[1] != len(names):
         raise HostError(f"{path}: {data.shape[1]} values in a row where the heading has {len(names)} columns.")
-    note = f"Every {every}th of about {rows - 1} rows of {path.name} was read." if every > 1 else ""
+    note = f"One of every {every} of about {rows - 1} rows of {path.name} was read." if every > 1 else ""
     columns = {name: np.ascontiguousarray(data[:, k]) for k, name in enumerate(names) if k}
     return Table(np.ascontiguousarray(data[:, 0]), columns, units, note)
 

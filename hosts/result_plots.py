@@ -171,7 +171,8 @@ def _shown(result: Result, name: str) -> np.ndarray:
 
 def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
     groups: dict[str, list[str]] = {}
-    for name in result.names:
+    # Poses of bodies are there to be drawn; they would fill the page.
+    for name in [n for n in result.names if not n.startswith("body.")] or result.names:
         groups.setdefault(result.units[name], []).append(name)
     panels = [(unit, names[k : k + 5]) for unit, names in groups.items() for k in range(0, len(names), 5)][:_MAX_PANELS]
     columns = 3 if len(panels) + 1 > 4 else 2

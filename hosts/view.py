@@ -49,6 +49,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     parser.add_argument("--camera", metavar="NAME", help="camera at the start, and of pictures")
     parser.add_argument("--at", type=number, metavar="T", help="time at the start, and of the picture, s")
     parser.add_argument("--arrows", action="store_true", help="draw forces as arrows")
+    parser.add_argument("--deformation", type=number, metavar="N", help="deformations are drawn N times; default: 1")
     parser.add_argument("--png", type=Path, metavar="FILE", help="write a picture at the time --at")
     parser.add_argument("--mp4", type=Path, metavar="FILE", help="write a film")
     parser.add_argument("--gltf", type=Path, metavar="FILE", help="write the first as an animation, .glb or .gltf")
@@ -105,9 +106,15 @@ def _page(options: argparse.Namespace) -> Path | None:
     return Path(folder, f"{first.stem}{'_compared' if len(options.what) > 1 else ''}.html")
 
 
+def _look(options: argparse.Namespace) -> dict[str, Any]:
+    """How things are drawn."""
+    factor = {} if options.deformation is None else {"deformation": options.deformation}
+    return {"arrows": options.arrows} | factor
+
+
 def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict[str, Any]:
     """Options of the player."""
-    start: dict[str, Any] = {"arrows": options.arrows}
+    start = _look(options)
     plots = list(options.plot)
     if not plots and all(recording.scene is None for recording in recordings):
         plots = list(recordings[0].columns)[:_PLOTTED]
@@ -131,7 +138,7 @@ def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.N
 
 def _exports(recordings: Sequence[Recording], options: argparse.Namespace) -> Iterator[Path]:
     """Write the pictures, films and animations that were asked for, and print what there is to say of them."""
-    start = {"arrows": options.arrows}
+    start = _look(options)
     size = (options.size[0], options.size[1])
     notes: list[str] = []
     if options.gltf is not None:

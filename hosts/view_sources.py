@@ -117,6 +117,8 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
     told: list[str] = []
     scene: dict[str, Any] | None = None
     settings = {entry["name"]: entry["new"] for entry in record["set"]} if record is not None else {}
+    if geometry is None and record is None and record_file.is_file():
+        geometry = record_file  # a scene, as it is read below
     if geometry is not None:
         scene = scene_from(geometry, settings)
         if scene is None:
@@ -132,8 +134,8 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
             told.append(f"{fmu} was built anew since {name} was recorded; what is drawn is that of the new build.")
     else:
         told.append(
-            f"{table_file} has no record {record_file.name} beside it that names its FMU: its signals can be plotted, "
-            "and nothing is drawn; --geometry FMU names one."
+            f"{table_file} has no record {record_file.name} beside it that names its FMU, and no scene of that name: "
+            "its signals can be plotted, and nothing is drawn; --geometry FILE names an FMU or a scene."
         )
     recording = Recording(scene, table.t, table.columns, units, name)
     if scene is not None and recording.scene is not None and scene["shapes"] and not recording.scene["shapes"]:

@@ -101,7 +101,7 @@ class Animation:
         path : path
             ``.glb`` or ``.gltf``.
         **settings
-            Of `viewer.gltf.write_gltf`: ``rate``, ``deformation``, ``road``.
+            Of `viewer.gltf.write_gltf`: ``rate``, ``speed``, ``road``, ``deformation`` (by default that of the options).
 
         Returns
         -------
@@ -117,7 +117,8 @@ class Animation:
         """
         from viewer.gltf import write_gltf
 
-        return write_gltf(path, self.recordings[0], **settings)
+        factor = {"deformation": self.options["deformation"]} if "deformation" in self.options else {}
+        return write_gltf(path, self.recordings[0], **(factor | settings))
 
     def to_mp4(self, path: str | os.PathLike[str], **settings: Any) -> WrittenFilm:
         """Write a film, drawn by a Chromium without a window.

@@ -20,7 +20,9 @@ from mbs.accuracy import Accuracy
 from mbs.checks import flag, shown, whole
 from mbs.control import Control
 from mbs.drawing import Drawing
+from mbs.elements.road import Road
 from mbs.poses import Poses
+from mbs.roads.scene_part import drawn_roads, scene_part
 from mbs.run_report import Report
 from mbs.settings import Settings
 
@@ -63,6 +65,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Of all bodies.
     drawing : Drawing, optional
         What `mbs.animate` draws.
+    roads : mapping of int to road or str, optional
+        Roads of the run that are not those of the drawing, by their numbers: moved by parameters, or paths of files.
     """
 
     def __init__(
@@ -80,6 +84,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         control: Control | None = None,
         poses: Poses | None = None,
         drawing: Drawing | None = None,
+        roads: Mapping[int, Road | str] | None = None,
     ) -> None:
         self.t = t
         self.units = dict(zip(names, units, strict=True))
@@ -91,6 +96,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.branch_change = branch_change
         self.control = control
         self.drawing = drawing
+        self.roads = dict(roads or {})
         self._poses = poses
         self._columns = {name: values[:, i] for i, name in enumerate(names)}
 
@@ -143,6 +149,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             The run has no scene and none is given.
         viewer.errors.ViewerError
             The scene is not of the format.
+        mbs.RoadFileError
+            The file of its road cannot be read any more.
         """
         from viewer.recording import Recording
 
@@ -153,6 +161,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                     "animate(run, scene=system)."
                 )
             scene = self.drawing.scene
+        scene = {**scene, "roads": self._drawn_roads(scene.get("roads", []))}
         poses = self._poses
         every = 1 if poses is None else poses.every
         columns, units = {n: v[::every] for n, v in self._columns.items()}, dict(self.units)
@@ -164,6 +173,14 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         if every > 1:
             found.notes.append(f"Poses were kept of one of {every} samples of the run.")
         return found
+
+    def _drawn_roads(self, roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+        """Roads of a scene as this run had them, those of files read."""
+        found = [dict(road) for road in roads]
+        for number, road in self.roads.items():
+            if number < len(found):
+                found[number] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
+        return drawn_roads(found)
 
     def _repr_html_(self) -> str | None:
         """In a notebook a run shows itself."""
@@ -201,7 +218,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         names, units = list(self.units), list(self.units.values())
         rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
         poses = None if self._poses is None else self._poses.thinned(every)
-        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.drawing)
+        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.drawing, self.roads)
 
     @property
     def realtime_factor(self) -> float:

@@ -64,9 +64,12 @@ def largest_gap_of_motion(
             far, moves = (off, name) if off > far else (far, moves)
             q = np.stack([columns[column] for column in frame["quaternion"]])
             angle = _turn_off(q[:, a], q[:, b], q[:, looked], share)
-        elif "angle" in frame:
-            x = columns[frame["angle"]]
-            angle = _largest(np.abs(x[looked] - (x[a] + share * (x[b] - x[a]))))
+        elif "angle" in frame or "way" in frame:
+            x = columns[frame.get("angle", frame.get("way"))]
+            angle = off = _largest(np.abs(x[looked] - (x[a] + share * (x[b] - x[a]))))
+            if "way" in frame:
+                angle = 0.0
+                far, moves = (off, name) if off > far else (far, moves)
         else:
             continue
         turned, turns = (angle, name) if angle > turned else (turned, turns)

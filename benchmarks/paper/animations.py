@@ -23,7 +23,6 @@ from mbs.scenes import (
     slider_crank,
     spatial_chain,
     spatial_slider_crank,
-    spinning_beam,
     squeezer,
 )
 from mbs.vehicle import Fidelity
@@ -95,16 +94,11 @@ def film(name: str, path: Path, progress: bool | Callable[[float], None] | None 
 
 def recording_of(*runs: mbs.Trajectory) -> Recording:
     """Runs of one System, one after the other."""
-    columns = [_columns(run) for run in runs]
-    t = np.concatenate([run.poses.t for run in runs])
-    joined = {name: np.concatenate([part[name] for part in columns]) for name in columns[0]}
-    return Recording(runs[0].scene, t, joined)
-
-
-def _columns(run: mbs.Trajectory) -> dict[str, Any]:
-    poses = run.poses
-    sensors = {name: run[name][:: poses.every] for name in run}
-    return sensors | {column: poses[name] for name, column in poses.recorded_names.items()}
+    parts = [run.recording() for run in runs]
+    if len(parts) == 1:
+        return parts[0]
+    columns = {name: np.concatenate([part.columns[name] for part in parts]) for name in parts[0].columns}
+    return Recording(parts[0].scene, np.concatenate([part.t for part in parts]), columns, parts[0].units, parts[0].name)
 
 
 def _scene(build: Callable[[], Model], end: float, h: float, method: str | None = None) -> Callable[[], Recording]:
@@ -116,8 +110,8 @@ def _scene(build: Callable[[], Model], end: float, h: float, method: str | None 
     return record
 
 
-def _manoeuvre(name: str, h: float = 0.002) -> Callable[[], Recording]:
-    return lambda: recording_of(manoeuvres.run(name, h, every=5))
+def _manoeuvre(name: str, car: str = manoeuvres.PROTOTYPE) -> Callable[[], Recording]:
+    return lambda: recording_of(manoeuvres.run(name, 0.002, car=car, every=5))
 
 
 def _kerb_test() -> Recording:
@@ -146,9 +140,6 @@ ANIMATIONS = {
     "pendulum": Animation("The pendulum", _scene(pendulum.build, 4.0, 0.002), 0.0, 4.0),
     "cart_pole": Animation("The cart-pole with a light cart", _scene(cart_pole.build, 1.0, 2e-5), 0.0, 1.0, 0.25),
     "spatial_chain": Animation("A chain of ten links", _scene(spatial_chain.build, 5.0, 0.005), 0.0, 5.0),
-    "spinning_beam": Animation(
-        "The beam on a hub that starts to turn", _scene(spinning_beam.build, 20.0, 0.01), 0.0, 20.0, 4.0
-    ),
     "double_lane_change": Animation(
         "The prototype car, double lane change", _manoeuvre("double_lane_change_replay"), 1.0, 6.0, size=(480, 270)
     ),
@@ -159,8 +150,11 @@ ANIMATIONS = {
         9.4,
         0.4,
         options={"stress": True, "deformation": 30.0},
+        size=(480, 270),
     ),
     "drop": Animation("The car is dropped", _manoeuvre("drop"), 0.0, 2.5, 0.5),
-    "slalom": Animation("Slalom", _manoeuvre("slalom"), 2.0, 7.0),
+    "hatchback_slalom": Animation(
+        "The hatchback, slalom", _manoeuvre("slalom", "hatchback"), 2.0, 7.0, size=(480, 270)
+    ),
 }
 """By the name of their file."""

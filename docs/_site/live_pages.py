@@ -18,7 +18,8 @@ ROOT = Path(__file__).parents[2]
 PLACE = "live"
 PAGES = {
     "prototype": "**The prototype car**: keys, gamepad or levers drive it; its parameters are sliders.",
-    "hatchback": "**The hatchback**: a front-driven electric car with struts and a twist beam.",
+    "hatchback": "**The hatchback**, a front-driven electric car: the colours of its frame are stresses, which are "
+    "computed while it is driven.",
     "double_four_bar": "**The double four-bar through its singular positions**, beside the same run of a method that "
     "fails there.",
     "puma": "**The PUMA robot**: its six torques follow a table until you move a slider.",

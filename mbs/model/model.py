@@ -69,7 +69,7 @@ class Model(
     stop_time, step : float
         What an FMU of the System proposes as its stop time and its step, s.
     default_shapes : bool
-        Set it to False to draw nothing but what `shape` says.
+        Set it to False to draw nothing but what `shape` says and the beams of flexible bodies.
 
     Raises
     ------

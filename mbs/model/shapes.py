@@ -163,7 +163,8 @@ class ShapeVocabulary(BodyVocabulary):
         """What a body looks like; a body may have several shapes. It does not change its motion.
 
         A body without shapes is drawn by its joints: tubes, plates, wheels. The first shape of a body takes the place
-        of that, "none" leaves it away. A spring, a damper or a rod is drawn unless a shape has its name.
+        of that; the beams of a flexible body stay, but "none" leaves both away. A spring, a damper, a rod or a joint is
+        drawn unless a shape has its name.
 
         Parameters
         ----------

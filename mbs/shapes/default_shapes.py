@@ -200,6 +200,8 @@ class Defaults:
 
     def _line(self, line: Line) -> list[Shape]:
         ends = [list(end) for end in line.ends]
+        if line.drives:
+            return [{"kind": "damper", "ends": ends, "radius": 1.2 * self.tube, "color": ROD, "name": line.name}]
         if line.record is None:
             return [{"kind": "tube", "points": ends, "radius": 0.6 * self.tube, "color": ROD, "name": line.name}]
         real = dict(zip(line.record.real_names, line.record.real, strict=False))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.shapes import in_space, origin_of
-from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, place_drawn
+from mbs.model.slide import SlidingPoint
+from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, numbers, place_drawn
 
 SAME = 1e-6  # parts of the extent: nearer points are one
 LINES = (ElementType.SPRING_DAMPER, ElementType.SPRING_DAMPER_TABLE)
@@ -23,11 +25,12 @@ LINES = (ElementType.SPRING_DAMPER, ElementType.SPRING_DAMPER_TABLE)
 
 @dataclass(frozen=True)
 class Line:
-    """A spring, damper or rod between two anchors."""
+    """A spring, damper, rod or actuator between two anchors."""
 
     name: str
     ends: tuple[Anchor, Anchor]
     record: ElementRecord | None = None
+    drives: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,27 +62,44 @@ class Touched:
     points : dict of str to list of ndarray
         Places by frame, earth axes as drawn, m.
     pivots, slides, lines : list
+    sliding : list of str
+        Rods with an end that a guide slides, which no sensor reads.
+    frames : dict of str to dict
+        Frames of such ends that one reads.
     """
 
     points: dict[str, list[Vector]] = field(default_factory=dict)
     pivots: list[Pivot] = field(default_factory=list)
     slides: list[Slide] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
+    sliding: list[str] = field(default_factory=list)
+    frames: dict[str, dict[str, Any]] = field(default_factory=dict)
 
 
 def touched(model: Model, names: FrameNames) -> Touched:
     """Joints, springs and wheels of a model, with the points at which they touch its bodies."""
     found = Touched()
     for joint in model.joints:
-        if joint.ends is None:
+        where = joint.ends or joint.actuator
+        if where is None:
             continue
-        bodies = joint.ends.bodies
-        places = [place_drawn(model, p) for p in joint.ends.points]
-        if joint.ends.rod:
+        bodies = where.bodies
+        places = [place_drawn(model, p) for p in where.points]
+        if where.rod:
             ends = (names.anchor(bodies[0], places[0]), names.anchor(bodies[1], places[1]))
-            found.lines.append(Line(joint.name, ends))
-        elif joint.ends.slides and joint.ends.axis is not None:
-            axis = in_space(joint.ends.axis.value(model.drawn()))
+            if joint.slide is not None:
+                number, slide = joint.slide
+                way = _way(model, slide)
+                if not way:
+                    found.sliding.append(joint.name)
+                    continue
+                sliding = _sliding_frame(model, names, slide, way)
+                found.frames |= sliding
+                end = next(iter(sliding)), [0.0, 0.0, 0.0]
+                ends = (end, ends[1]) if number == 0 else (ends[0], end)
+            found.lines.append(Line(joint.name, ends, drives=joint.actuator is not None))
+        elif where.slides and where.axis is not None:
+            axis = in_space(where.axis.value(model.drawn()))
             found.slides.append(Slide(joint, bodies, places[0], axis))
         elif joint.type in ("revolute", "spherical", "universal"):
             found.pivots.append(Pivot(joint, bodies, places[0], _axis(model, joint)))
@@ -94,6 +114,28 @@ def touched(model: Model, names: FrameNames) -> Touched:
     for spin in model.spins:
         found.points.setdefault(names.of_body(spin.carrier), []).append(origin_of(spin))
     return found
+
+
+def _way(model: Model, slide: SlidingPoint) -> str:
+    """The sensor that reads the way of a sliding point in m; empty where none does."""
+    for sensor in model.sensors:
+        if (
+            sensor.type == SensorType.GUIDE
+            and list(sensor.integers) == [slide.guide, 0]
+            and list(sensor.reals) == [1.0]
+        ):
+            return sensor.name
+    return ""
+
+
+def _sliding_frame(model: Model, names: FrameNames, slide: SlidingPoint, way: str) -> dict[str, dict[str, Any]]:
+    """The frame of a sliding point, by its name."""
+    parent, at = names.anchor(slide.body, place_drawn(model, slide.start))
+    direction = numbers(place_drawn(model, slide.direction))
+    start = model.guides[slide.guide].start
+    taken = {"ground", *names.bodies.values(), *names.turns.values()}
+    name = f"end of {slide.name}" if slide.name in taken else slide.name
+    return {name: {"parent": parent, "at": at, "direction": direction, "way": way, "start": float(start)}}
 
 
 def _axis(model: Model, joint: Joint) -> Vector | None:

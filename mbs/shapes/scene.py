@@ -23,6 +23,7 @@ from mbs.shapes.joint_points import touched
 from mbs.shapes.roads import roads_of
 from mbs.shapes.shared_points import shared_points
 
+SLIDES = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
 Scene = dict[str, Any]
 Binding = Callable[[str, Mapping[str, Any]], "Mapping[str, Any] | str"]
 """``binding(name, frame)`` gives a frame with other columns, or in a few words why there are none."""
@@ -47,10 +48,13 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
     defaults = Defaults(model, names, found, extent)
     for shape in shapes:
         _fill(shape, defaults)
+    named = {s.name for s in model.shapes} - {""}
     if model.default_shapes:
         owned = {names.of_owner(s.owner) for s in model.shapes}
-        shapes += defaults.all(owned, {s.name for s in model.shapes} - {""})
+        shapes += defaults.all(owned, named)
     frames = frames_of(model, names, places, q)
+    used = {frame for shape in shapes for frame in frames_used(shape)}
+    frames |= {name: frame for name, frame in found.frames.items() if name in used}
     scene: Scene = {
         "format": "ALi3 scene",
         "version": 1,
@@ -66,7 +70,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "flexible": list(model.flexible_scene),
         "arrows": arrows_of(model, names, found.lines),
         "roads": roads_of(model),
-        "missing": [],
+        "missing": [{"name": name, "why": SLIDES} for name in found.sliding if name not in named],
     }
     return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
 
@@ -170,7 +174,10 @@ def _flexible(
     """What makes beams, modes and rows of stress of what bends."""
     found = []
     bodies = [body for body in model.bodies if isinstance(body, FlexibleBody)]
+    hidden = {shape.owner for shape in model.shapes if shape.kind == "none"}
     for body, of in zip(bodies, places.amplitudes, strict=True):
+        if body in hidden:
+            continue
         start = places.rows(q[None], of.row, len(of.modes))[0]
         frame = names.of_body(body)
         found.append(partial(flexible_parts, body.reduced, frame, of.columns, axes=body.axes, start=start))

@@ -26,6 +26,7 @@ from mbs.simulation.method_choice import choose
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.refusal import refusal
+from mbs.simulation.run_roads import run_roads
 from mbs.simulation.step_choice import StepChoice, choose_step
 from mbs.simulation.stepping import Simulation
 from mbs.trajectory import Trajectory
@@ -264,5 +265,5 @@ def _trajectory(
     record.fill(positions)
     return Trajectory(
         times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control,
-        record.poses(times), record.drawing,
+        record.poses(times), record.drawing, run_roads(ended.system, ended.instance, ended.road_paths),
     )  # fmt: skip

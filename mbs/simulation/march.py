@@ -26,6 +26,7 @@ from mbs.simulation.arguments import (
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
+from mbs.simulation.run_roads import run_roads
 from mbs.system import System
 from mbs.trajectory import Trajectory
 
@@ -170,6 +171,7 @@ def _trajectory(
         branch_change=simulation.branch_change,
         poses=record.poses(t),
         drawing=record.drawing,
+        roads=run_roads(simulation.system, simulation.instance, simulation.road_paths),
     )
 
 

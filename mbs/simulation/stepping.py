@@ -88,6 +88,7 @@ class Simulation:
         self.instance.set_settings(**self.settings.kernel_fields())
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
         self._started = False
+        self.road_paths: dict[int, str] = {}  # of files in place of roads
         for name, entry in self._road_files.items():
             if entry["start"] and name not in check_values(parameters, "The parameters"):
                 self.set_parameter(name, entry["start"])
@@ -203,10 +204,12 @@ class Simulation:
             raise ValueError(f"Parameter {name!r} is fixed: give the file of a road to the Simulation's constructor.")
         if not isinstance(value, str | os.PathLike):
             raise ValueError(f"Parameter {name!r} is set to {shown(value)}; it is the path of a road file.")
+        path = road_path(value)
         try:
-            self.instance.set_road(entry["road"], road_path(value))
+            self.instance.set_road(entry["road"], path)
         except KernelError as error:
             raise ValueError(f"Parameter {name!r}: {error.message}") from None
+        self.road_paths[entry["road"]] = path
 
     def set_switch(self, name: str, on: bool) -> float:
         """Turn the rows of a switch on or off.

@@ -17,7 +17,7 @@ import pytest
 
 import mbs
 from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.scene_registry import load_fidelities, load_scene
 from hosts import view
 from hosts.run import main as run_fmu
 from tests.viewer.test_page_text import data_of, numbers
@@ -50,8 +50,8 @@ def with_resources(fmu: Path, made: Path, geometry: str | None) -> Path:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
-    return build_fmu(system, name, tmp_path_factory.mktemp("built"), [fmpy.platform])
+    name, systems, fidelity = load_fidelities(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
+    return build_fmu(systems, name, tmp_path_factory.mktemp("built"), [fmpy.platform], fidelity=fidelity)
 
 
 @pytest.fixture
@@ -159,7 +159,7 @@ def test_a_run_of_mbs_is_shown_by_the_geometry_of_an_fmu(pendulum: Path, said: S
     mbs.simulate(system, 0.5, 0.01, progress=False).to_csv("run.csv")
     status, text = said("run.csv", "--no-open")
     assert status == 0
-    assert "run.csv has no record run.json beside it that names its FMU" in text
+    assert "run.csv has no record run.json beside it that names its FMU, and no scene of that name" in text
     (run,) = shown(Path("run.html"))
     assert run["scene"] is None
     assert run["units"]["rod.angle"] == "rad"
@@ -168,6 +168,34 @@ def test_a_run_of_mbs_is_shown_by_the_geometry_of_an_fmu(pendulum: Path, said: S
     Path("scene.json").write_text(json.dumps(SCENE))
     assert said("run.csv", "--no-open", "--geometry", "scene.json")[0] == 0
     assert list(shown(Path("run.html"))[0]["scene"]["frames"]) == ["rod"]
+
+
+def test_a_run_of_mbs_with_poses_is_shown_by_its_own_scene_beside_it(work: Path, said: Said) -> None:
+    _, system = load_scene(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
+    run = mbs.simulate(system, 0.5, 0.01, progress=False)
+    run.to_csv("run.csv", poses=True)
+    Path("run.json").write_text(json.dumps(system.scene))
+    status, text = said("run.csv", "--no-open")
+    assert (status, text) == (0, f"written: run.html ({1e-6 * Path('run.html').stat().st_size:.2g} MB)\n")
+    (shown_run,) = shown(Path("run.html"))
+    assert shown_run["missing"] == []
+    np.testing.assert_array_equal(shown_run["columns"]["rod.x"], run.poses["rod.x"])
+    Path("run.json").write_text("{}")
+    status, text = said("run.csv", "--no-open")
+    assert status == 2
+    assert "run.json is neither an FMU nor a scene: run.json: format is missing" in text
+
+
+def test_an_fmu_that_was_built_is_drawn_where_it_moves(built: Path, work: Path, said: Said) -> None:
+    status, text = said(built, "--stop-time", "1", "--set", "torque=4", "--no-open")
+    assert status == 0, text
+    (run,) = shown(Path("out/MotorPendulum.html"))
+    assert run["missing"] == []
+    x, y, _ = (run["columns"][name] for name in run["scene"]["frames"]["rod"]["position"])
+    angle = run["columns"]["rod.angle"]
+    assert np.ptp(angle) > 0.5
+    np.testing.assert_allclose(x, 0.5 * np.sin(angle), atol=1e-6)
+    np.testing.assert_allclose(y, -0.5 * np.cos(angle), atol=1e-6)
 
 
 def test_an_fmu_that_has_moved_or_is_another_build(result: Path, said: Said, pendulum: Path) -> None:
@@ -239,11 +267,11 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
 ) -> None:
     from hosts import recorded
 
-    monkeypatch.setattr(recorded, "_FEWEST_ROWS", 10)
-    monkeypatch.setattr(recorded, "_MOST_VALUES", 100)
+    monkeypatch.setattr(recorded, "_FEWEST_ROWS", 11)
+    monkeypatch.setattr(recorded, "_MOST_VALUES", 0)
     status, text = said(result, "--no-open")
     assert status == 0
-    assert text.count("Every 10th of about 101 rows of MotorPendulum.csv was read.") == 1
+    assert text.count("One of every 10 of about 101 rows of MotorPendulum.csv was read.") == 1
     times = shown(Path("out/MotorPendulum.html"))[0]["columns"]["time"]
     np.testing.assert_allclose(times, 0.1 * np.arange(11))
 

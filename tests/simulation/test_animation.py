@@ -149,3 +149,28 @@ def test_poses_of_a_body_whose_sensor_has_its_name_come_back(tmp_path):
     assert read.poses.bodies == ("rod",)
     np.testing.assert_array_equal(read.poses["rod.x"], run.poses["rod.x"])
     assert mbs.animate(read, scene=system).recordings[0].missing == []
+
+
+def rolling_brick() -> mbs.Model:
+    from mbs.elements.contact_points import ContactPoints
+    from mbs.elements.road import KerbRoad
+
+    m = mbs.Model("brick")
+    brick = m.body("brick", mass=1.0, com=(0, 0, 2.0), inertia=(0.1, 0.1, 0.1))
+    road = m.road(KerbRoad(3.0, 0.1, -0.1), file="road.file")
+    m.contact_point("foot", brick, (0, 0, 1.0), road=road, contact=ContactPoints.for_mass(1.0))
+    m.parameter("kerb", 3.0, 0.0, 10.0, "m", targets=[(("road", road), "position", 2.0, 1.0)])
+    m.floating = True
+    return m
+
+
+@pytest.mark.parametrize("how", [{"h": 0.01}, {"tolerance": 1e-2}])
+def test_the_road_is_drawn_as_the_run_had_it(how):
+    system = mbs.compile(rolling_brick())
+    (road,) = mbs.simulate(system, 0.1, **how).recording().scene["roads"]
+    assert road["origin"] == [3.0, 0.0, 0.0]
+    (road,) = mbs.simulate(system, 0.1, parameters={"kerb": 4.0}, **how).recording().scene["roads"]
+    assert road["origin"] == [9.0, 0.0, 0.0]
+    assert road["heights"] == [0.0, -0.1]
+    (road,) = mbs.simulate(system, 0.1, parameters={"road.file": "rough.road"}, **how).recording().scene["roads"]
+    assert road["kind"] == "grid"

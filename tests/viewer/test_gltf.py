@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import base64
-import json
 import re
 import struct
-import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,59 +13,17 @@ from scipy.spatial.transform import Rotation
 
 from ali3.errors import FileError
 from tests.viewer import hand_scenes, moving_car
-from viewer import bundle
+from tests.viewer.gltf_files import PAGE, TO_EARTH, accessor, content, run_node, world
+from tests.viewer.hand_scenes import floats, indices
 from viewer.errors import ViewerError
 from viewer.gltf import write_gltf
 from viewer.gltf.flexible import VIRIDIS, stress_colors
 from viewer.gltf.materials import KINDS, linear
 from viewer.gltf.roads import road_solid
 from viewer.recording import Recording
+from viewer.solids import box
 
-PAGE = Path(bundle.__file__).parent / "page"
 T = np.linspace(0.0, 2.0, 201)
-TO_EARTH = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # from glTF's axes, y up
-
-
-def run_node(script, *arguments):
-    try:
-        bundle.packages(PAGE)
-        node = bundle.node()[0]
-    except RuntimeError as error:
-        pytest.skip(str(error))
-    command = [node, str(PAGE / "test" / script), *map(str, arguments)]
-    result = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
-    assert result.returncode == 0, result.stderr
-    return [json.loads(line) for line in result.stdout.splitlines()]
-
-
-def content(path):
-    """JSON and bytes of a file, read by hand."""
-    data = path.read_bytes()
-    if path.suffix == ".gltf":
-        made = json.loads(data)
-        return made, base64.b64decode(made["buffers"][0]["uri"].partition(",")[2])
-    length = struct.unpack_from("<I", data, 12)[0]
-    return json.loads(data[20 : 20 + length]), data[28 + length :]
-
-
-def accessor(path, index):
-    made, raw = content(path)
-    found = made["accessors"][index]
-    kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[found["componentType"]]
-    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[found["type"]]
-    start = made["bufferViews"][found["bufferView"]].get("byteOffset", 0)
-    return np.frombuffer(raw, kind, found["count"] * width, start).reshape(-1, width).astype(float)
-
-
-def world(path, times, name):
-    """Earth matrices of the node of a name as three.js has them at times, (n, 4, 4)."""
-    answer = run_node("read_gltf.mjs", path, *times)[0]
-    index = [str(k) for k, node in enumerate(content(path)[0]["nodes"]) if node["name"] == name]
-    assert len(index) == 1
-    made = np.array([row[index[0]]["matrix"] for row in answer]).reshape(-1, 4, 4).transpose(0, 2, 1)
-    turn = np.eye(4)
-    turn[:3, :3] = TO_EARTH
-    return turn @ made
 
 
 def still():
@@ -228,7 +183,7 @@ def test_colours_are_those_of_the_largest_stress(tmp_path):
     made = content(path)[0]
     mesh = next(m for m in made["meshes"] if m["name"] == "frame")
     colors = accessor(path, mesh["primitives"][0]["attributes"]["COLOR_0"])
-    expected = stress_colors(stress[peak] / 2.5e8)
+    expected = stress_colors(stress[peak] / stress.max())
     for beam in range(3):
         found = np.unique(colors[24 * beam : 24 * beam + 24].round(6), axis=0)
         assert np.abs(found - np.unique(expected[beam].round(6), axis=0)).max() < 1e-5
@@ -338,6 +293,19 @@ def test_roads_face_up_and_have_their_heights(up, kind):
     assert np.abs(far.positions).max() < 21.0
     if kind == "profile":
         assert set(heights[np.isclose(at, 2.0)].round(9)) == {0.5, 0.3}
+
+
+def test_a_mesh_that_is_inside_out_is_turned(tmp_path):
+    block = box((1.0, 2.0, 3.0))
+    for sense in (1, -1):
+        scene = hand_scenes.crank(T).scene
+        mesh = {"positions": floats(block.positions), "triangles": indices(block.triangles[:, ::sense])}
+        shapes = [{"kind": "mesh", "frame": "crank", "mesh": "block"}]
+        recording = hand_scenes.crank(T)
+        recording.scene = scene | {"meshes": {"block": mesh}, "shapes": shapes}
+        write_gltf(tmp_path / "block.glb", recording)
+        made = trimesh.load_scene(tmp_path / "block.glb").to_mesh()
+        assert made.volume == pytest.approx(6.0)
 
 
 def test_a_second_writing_gives_the_same_bytes(tmp_path):

@@ -6,7 +6,6 @@ import csv
 import json
 import subprocess
 import sys
-import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -17,7 +16,7 @@ import pytest
 
 import mbs
 from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.scene_registry import load_fidelities, load_scene
 from hosts import page, run
 from hosts.fmu import Fmu
 from mbs.scenes import prototype_car
@@ -28,28 +27,17 @@ PLATFORMS = [fmpy.platform, "wasm32"]
 STEP = 0.002
 
 
-def drawn(fmu: Path) -> Path:
-    """The FMU with a drawing, where its builder makes none."""
-    with zipfile.ZipFile(fmu, "a") as archive:
-        if "resources/geometry.json" not in archive.namelist():
-            ball = {"kind": "sphere", "frame": "ground", "at": [0.0, 0.0, 0.0], "radius": 0.1}
-            scene = {"format": "ALi3 scene", "version": 1, "name": fmu.stem, "up": [0, 0, 1], "planar": False}
-            scene |= {"extent": 3.0, "focus": "", "frames": {}, "shapes": [ball]}
-            archive.writestr("resources/geometry.json", json.dumps(scene))
-    return fmu
-
-
 @pytest.fixture(scope="module")
 def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("car")
-    return drawn(build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, PLATFORMS))
+    return build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, PLATFORMS)
 
 
 @pytest.fixture(scope="module")
 def reach(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A mass on a rod and a cable that a winch pulls beyond its reach, if it is told to."""
     name, system = load_scene(f"{SCENES}:sprung_reach")
-    return drawn(build_fmu(system, name, tmp_path_factory.mktemp("reach"), PLATFORMS))
+    return build_fmu(system, name, tmp_path_factory.mktemp("reach"), PLATFORMS)
 
 
 @pytest.fixture(scope="module")
@@ -367,5 +355,48 @@ def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chro
     opened.page.keyboard.press(".")
     opened.until(f"player.time > {before}")
     assert opened.ask("player.time") == pytest.approx(before + STEP)
+    assert opened.wrong == []
+    opened.close()
+
+
+@pytest.fixture(scope="module")
+def mechanisms(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    made = {}
+    for scene in ("double_four_bar", "puma"):
+        name, systems, default = load_fidelities(scene)
+        made[scene] = build_fmu(systems[default], name, tmp_path_factory.mktemp(scene), PLATFORMS)
+    return made
+
+
+def test_the_double_four_bar_is_drawn_where_its_outputs_are(
+    mechanisms: dict[str, Path], chromium: Any, tmp_path: Path
+) -> None:
+    fmu = mechanisms["double_four_bar"]
+    opened = Page(chromium, written([fmu], tmp_path, "--paused"))
+    assert "This FMU has no inputs." in opened.text("section Inputs")
+    for steps in (95, 405):  # past a singular position, and past five of them
+        opened.ask(f"player.advance({steps})")
+        tip = opened.ask("player.view.parts.frames.point('crank 0', [0, 0.5, 0]).slice(0, 2)")
+        assert tip == pytest.approx(opened.get("B0.position.x", "B0.position.y"), abs=1e-9)
+    assert opened.ask("player.time") == 5.0
+    assert_same_bits(fmu, opened.ask("player.csv()"), tmp_path)
+    place, size = opened.ask("[player.view.project([0, 0, 0]), player.view.size]")
+    assert 0 < place[0] < size[0]
+    assert 0 < place[1] < size[1]
+    assert opened.wrong == []
+    opened.close()
+
+
+def test_the_puma_is_moved_by_its_torques(mechanisms: dict[str, Path], chromium: Any, tmp_path: Path) -> None:
+    fmu = mechanisms["puma"]
+    opened = Page(chromium, written([fmu], tmp_path, "--paused", "--set", "step_size=0.002", "--step", "0.002"))
+    field = opened.page.locator('[data-a3="control torque_2"] [data-a3="number"]')
+    assert float(field.input_value()) == pytest.approx(44.0155)  # holds the arm
+    (before,) = opened.get("angle_2")
+    field.fill("60")
+    opened.page.keyboard.press("Tab")
+    opened.ask("player.advance(100)")
+    assert opened.get("angle_2")[0] > before + 0.01
+    assert_same_bits(fmu, opened.ask("player.csv()"), tmp_path, "--step", "0.002")
     assert opened.wrong == []
     opened.close()

@@ -190,6 +190,22 @@ def test_the_difference_of_runs(pair: Opened) -> None:
     assert count == 3
 
 
+def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[..., Opened]) -> None:
+    page = opened(crank(TIMES), arrows=False)
+    page.page.locator(".ali3-bar button", has_text="settings").click()
+    box = page.page.locator(".ali3-panel input[type=checkbox]").first
+    assert not box.is_checked()
+    page.page.keyboard.press("a")
+    assert box.is_checked()
+    assert page("player.player.look.arrows") is True
+    page("player.set({arrowScale: 5})")
+    assert "5×" in page.page.inner_text(".ali3-panel")
+    page.page.locator(".ali3-panel input[type=range]").first.fill("1")
+    assert page("player.player.look.arrowScale") == 10
+    page.page.keyboard.press("Escape")
+    assert not page.page.locator(".ali3-panel").is_visible()
+
+
 def test_signals_are_searched_and_chosen(pair: Opened) -> None:
     pair.page.fill(".ali3-find input", "crank qz")
     assert pair.page.locator(".ali3-list label").count() == 1

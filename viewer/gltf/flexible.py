@@ -40,7 +40,7 @@ class FlexiblePart:
         Linear.
     reduction_error : float
         Largest distance of a node from where all modes put it, m.
-    peak : (time index, stress) or None
+    peak : (time index, largest stress, stress of the last colour) or None
         Of the colours.
     """
 
@@ -49,7 +49,7 @@ class FlexiblePart:
     weights: Vectors
     colors: Vectors | None
     reduction_error: float
-    peak: tuple[int, float] | None
+    peak: tuple[int, float, float] | None
 
 
 def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], deformation: float) -> FlexiblePart:
@@ -84,9 +84,10 @@ def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], 
     if part.get("stress") and computed.any():
         stress = computed[looked, None, None] * _stress(part["stress"], amplitudes[looked], len(beams))
         time = int(stress.max(axis=(1, 2)).argmax())
-        limit = float(part["stress"].get("limit") or stress.max() or 1.0)
-        colors = stress_colors(stress[time] / limit)[owner, ends]
-        peak = int(looked[time]), float(stress[time].max())
+        most = float(stress[time].max())
+        end = float(part["stress"].get("range") or most or 1.0)
+        colors = stress_colors(stress[time] / end)[owner, ends]
+        peak = int(looked[time]), most, end
     corner = beams[owner, ends]
     targets = [deformation * made[corner, :, k] for k in range(made.shape[2])]
     return FlexiblePart(solid, targets, weights, colors, deformation * error, peak)

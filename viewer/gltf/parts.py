@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viewer import solids
 from viewer.gltf.materials import Look, look
@@ -20,6 +21,7 @@ Meshes = list[tuple[Solid, Look]]
 _CONSTANT = 1e-5  # of a length: what does not change more is rigid
 _TUBE = 0.6  # length of a damper's tube, as a share of the damper as drawn
 _SPOKES = 5
+_RINGS = 6  # of the balls at the ends of tubes, of which a car has hundreds
 
 
 @dataclass
@@ -86,9 +88,11 @@ def _mesh(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
         normals = normals / length if (length > 0.0).all() else None
     a, b, c = triangles.T
     proper = triangles[(a != b) & (b != c) & (c != a)]
+    if _volume(positions, proper) < 0.0:  # inside out
+        proper = proper[:, ::-1]
     if len(proper):
         made = Solid(positions, normals, proper).placed(_axes(shape), _at(shape))
-        parts.fixed.append((shape["frame"], name, [(made, look(shape))]))
+        parts.fixed.append((shape["frame"], name, [(made, look(shape, double=True))]))
 
 
 def _tube(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
@@ -97,13 +101,17 @@ def _tube(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
     frame = points[0][0]
     if all(anchor[0] == frame for anchor in points):
         local = np.array([anchor[1] for anchor in points], dtype=float)
-        rods = [_rod(local[i : i + 2], radius) for i in range(len(local) - 1) if (local[i] != local[i + 1]).any()]
-        made = joined([*rods, *(solids.sphere(radius, 8).placed(np.eye(3), p) for p in local)])
+        rods = [
+            _rod(local[i : i + 2], radius, 2 * _RINGS)
+            for i in range(len(local) - 1)
+            if (local[i] != local[i + 1]).any()
+        ]
+        made = joined([*rods, *(solids.sphere(radius, _RINGS).placed(np.eye(3), p) for p in local)])
         parts.fixed.append((frame, name, [(made, surface)]))
         return
     for k in range(len(points) - 1):
         a, b = (parts.poses.points(anchor) for anchor in points[k : k + 2])
-        _link(parts, name, a, b, surface, lambda length: solids.cylinder(radius, 0.0, length))
+        _link(parts, name, a, b, surface, lambda length: solids.cylinder(radius, 0.0, length, 2 * _RINGS))
     for anchor in points:
         _ball(parts, anchor, radius, name, surface)
 
@@ -237,13 +245,19 @@ def _link(parts: Parts, name: str, a: Vectors, b: Vectors, surface: Look, make: 
 
 
 def _ball(parts: Parts, anchor: Sequence[Any], radius: float, name: str, surface: Look) -> None:
-    parts.fixed.append((anchor[0], name, [(solids.sphere(radius, 8).placed(np.eye(3), anchor[1]), surface)]))
+    parts.fixed.append((anchor[0], name, [(solids.sphere(radius, _RINGS).placed(np.eye(3), anchor[1]), surface)]))
 
 
-def _rod(ends: Vectors, radius: float) -> Solid:
+def _rod(ends: Vectors, radius: float, sections: int = 32) -> Solid:
     to = ends[1] - ends[0]
     length = float(np.linalg.norm(to))
-    return solids.cylinder(radius, 0.0, length).placed(along(to / length), ends[0])
+    return solids.cylinder(radius, 0.0, length, sections).placed(along(to / length), ends[0])
+
+
+def _volume(positions: Vectors, triangles: NDArray[np.int64]) -> float:
+    """Six times the volume that triangles enclose, negative where they face inwards."""
+    a, b, c = (positions[triangles[:, k]] - positions.mean(axis=0) for k in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)))
 
 
 def _unit(vector: Any) -> Vectors:

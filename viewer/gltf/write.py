@@ -293,11 +293,11 @@ class _Writer:
         off = made.reduction_error
         self._count((self._frame_errors[part["frame"]][0] + off, 0.0))
         if made.peak is not None:
-            time, stress = made.peak
+            time, stress, end = made.peak
             unit = part["stress"].get("unit", "Pa")
             self.parts.notes.append(
                 f"The colours of {name} are those of its largest stress, {stress:.3g} {unit}, at "
-                f"{self._t[time] * self._speed + self._begin:.3g} s."
+                f"{self._t[time] * self._speed + self._begin:.3g} s; they go from 0 to {end:.3g} {unit}."
             )
 
     def _count(self, off: tuple[float, float]) -> None:

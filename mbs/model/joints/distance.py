@@ -67,6 +67,7 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
         rows_weight=length,
     )
     joint.ends = JointEnds(bodies, (p1, p2), rod=True)
+    joint.slide = None if slide is None else (0 if slide_1 is not None else 1, slide)
     if slide is None:
         joint.drawing = _drawing(model, name, end_1, end_2, length)
     return joint

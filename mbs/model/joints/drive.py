@@ -44,7 +44,9 @@ def _drive(model: BodyVocabulary, name: str, driven: Coordinate | Affine | tuple
         row = Equation(
             name, "driven_distance", rod.equations[0].products, guides=[GuideTerm(g, 2, linear=minus_one * 0.5)]
         )
-        return Joint(name, "drive", [row])
+        joint = Joint(name, "drive", [row])
+        joint.actuator = rod.ends
+        return joint
     if not isinstance(driven, (Coordinate, Affine)):
         raise ModelError(
             f"The {what} needs a coordinate, a component of a point or two ends of a distance, got {shown(driven)}."

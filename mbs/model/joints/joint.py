@@ -18,6 +18,7 @@ from mbs.model.reactions import Turning
 if TYPE_CHECKING:
     from mbs.model.body import Body
     from mbs.model.ends import PointPair
+    from mbs.model.slide import SlidingPoint
     from mbs.model.spin import Spin
     from mbs.model.switches import Switch
 
@@ -154,6 +155,10 @@ class Joint:
         Of joints that can be part of a closed loop.
     rolls : RollingBody, RollingSpin or None
         Of a wheel that rolls.
+    actuator : JointEnds or None
+        Of a driven distance: its ends.
+    slide : (int, SlidingPoint) or None
+        Of a distance: the number of the end that a guide slides, and what it is.
     """
 
     def __init__(
@@ -180,6 +185,8 @@ class Joint:
         self.switch: Switch | None = None
         self.ends: JointEnds | None = None
         self.drawing: Drawing | None = None
+        self.actuator: JointEnds | None = None
+        self.slide: tuple[int, SlidingPoint] | None = None
         self.rolls: RollingBody | RollingSpin | None = None
 
     @property

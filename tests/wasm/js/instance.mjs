@@ -83,6 +83,11 @@ for (let k = 0; k < 3000; k++) car.getState(kept[k % 4]);
 for (let k = 0; k < 500; k++) car.get(["chassis.x", "gear"]);
 for (let k = 0; k < 200; k++) {
   const other = fmu.instantiate();
+  other.reader(outputs);
+  other.writer(["steering"])([0.1]);
+  other.deserialise(bytes);
+  other.getState().free();
+  other.getState();
   other.free();
 }
 told.grown = fmu.exports.memory.buffer.byteLength - memory;

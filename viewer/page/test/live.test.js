@@ -8,6 +8,7 @@ import { Keyboard } from "../src/live/keyboard.js";
 import { Pacer } from "../src/live/pacer.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "../src/live/ranges.js";
 import { between, Record } from "../src/live/record.js";
+import { movedRoads } from "../src/live/roads.js";
 import { missingParts } from "../src/live/unpack.js";
 
 test("a pacer keeps absolute deadlines: a late wake makes up for what it missed", () => {
@@ -231,4 +232,14 @@ test("a script moves inputs until a hand takes them, and begins with its first r
   for (let n = 0; n < 2; n++) seen.push((engine.advance(), engine.held[0]));
   assert.deepEqual(seen, [0.1, 0.2, 0.30000000000000004, -0.2, -0.2]);
   assert.equal(engine.runs[0].slave.sets, 3);
+});
+
+test("a kerb stands where the parameters have it, down as it was drawn", () => {
+  const kerb = { kind: "profile", stations: [0, 0.001], heights: [0, -0.08], direction: [1, 0, 0], origin: [1e6, 0, 0] };
+  const road = { ...kerb, variables: { kerb_x: "road.kerb_x", kerb_height: "road.kerb_height" } };
+  const at = (x, h) => movedRoads([road], (name) => (name.endsWith("x") ? x : h));
+  const [moved] = at(20, 0.1).roads;
+  assert.deepEqual([moved.origin, moved.heights], [[20, 0, 0], [0, -0.1]]);
+  assert.notEqual(at(20, 0.1).key, at(21, 0.1).key);
+  assert.deepEqual(movedRoads([kerb], () => 5).roads, [kerb]);
 });

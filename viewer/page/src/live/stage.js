@@ -3,6 +3,7 @@ import { SceneView } from "../scene/scene_view.js";
 import { el } from "./dom.js";
 import { Hud } from "./hud.js";
 import { between } from "./record.js";
+import { movedRoads } from "./roads.js";
 
 /** Instants of a run that are looked at. */
 const SURVEYED = 40;
@@ -44,19 +45,24 @@ export class Stage {
     for (const part of this.parts) if (part.view.problem) this.tell(part, part.view.problem);
   }
 
-  /** Draw the roads that belong to a value of the parameter `road.file`. */
+  /** Draw the roads that belong to a value of the parameter `road.file`, moved by other parameters. */
   chooseRoads(name) {
-    for (const part of this.parts) {
-      if (!part.view || part.road === name || !part.roads?.[name]) continue;
-      const camera = part.view.cameras?.name;
-      part.view.dispose();
-      part.road = name;
-      part.scene = { ...part.scene, roads: part.roads[name] };
-      part.view = new SceneView(part.holder, part.scene, this._options);
-      if (camera && !part.view.problem) part.view.camera(camera);
-      if (this._wishes) part.view.set?.(this._wishes);
-    }
-    this.dirty = true;
+    for (const part of this.parts) if (part.roads?.[name]) part.road = name;
+  }
+
+  _drawRoads(part, lookup) {
+    if (part.view.problem || !part.variables) return;
+    const { roads, key } = movedRoads(part.roads?.[part.road] ?? part.scene.roads ?? [], lookup);
+    const drawn = `${part.road} ${key}`;
+    if (part.drawn === drawn) return;
+    const first = part.drawn === undefined && JSON.stringify(roads) === JSON.stringify(part.scene.roads ?? []);
+    part.drawn = drawn;
+    if (first) return;
+    const camera = part.view.cameras?.name;
+    part.view.dispose();
+    part.view = new SceneView(part.holder, { ...part.scene, roads }, this._options);
+    if (camera && !part.view.problem) part.view.camera(camera);
+    if (this._wishes) part.view.set?.(this._wishes);
   }
 
   /** What the pictures show, as `SceneView.set` has it. */
@@ -110,6 +116,7 @@ export class Stage {
   show(record, time, pace) {
     for (const part of this.parts) {
       const lookup = this.lookup(part, record, time);
+      this._drawRoads(part, lookup);
       part.view.update(lookup);
       const end = part.recording ? part.recording.t[part.recording.t.length - 1] : Infinity;
       part.hud.show(lookup, Math.min(time, end), pace);

@@ -49,6 +49,15 @@ export class Materials {
     return this.#made.get(key);
   }
 
+  /** Through glass one sees better from within. @param {boolean} within */
+  clear(within) {
+    for (const [key, material] of this.#made) {
+      if (!key.startsWith("glass|")) continue;
+      material.userData.opacity ??= material.opacity;
+      material.opacity = material.userData.opacity * (within ? 0.3 : 1);
+    }
+  }
+
   dispose() {
     for (const material of this.#made.values()) material.dispose();
     this.#made.clear();

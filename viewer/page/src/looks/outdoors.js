@@ -13,7 +13,7 @@ export function outdoors(view, fine) {
   const { world, renderer, up, extent, scene } = view;
   const x = across(up);
   const direction = unit(add(scale(up, 0.72), add(scale(x, 0.62), scale(cross(up, x), -0.38))));
-  const sun = sunLight({ direction, reach: 0.75 * extent, strength: 3.4, color: "#fff1dc", size: fine ? 2048 : 1024 });
+  const sun = sunLight({ direction, reach: 1.2 * view.radius, strength: 3.4, color: "#fff1dc", size: fine ? 2048 : 1024 });
   world.add(sun);
   renderer.toneMapping = THREE.ACESFilmicToneMapping;
   renderer.toneMappingExposure = 1.15;

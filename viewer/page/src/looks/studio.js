@@ -16,7 +16,7 @@ export function studio(view, fine) {
   const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? unit([1, 0, 0].map((a, i) => a - up[0] * up[i])) : across(up);
   const y = cross(up, x);
   const direction = unit(add(scale(up, 1.3), add(scale(x, 0.55), scale(y, -0.75))));
-  const sun = sunLight({ direction, reach: 1.1 * extent, strength: 3.1, color: "#fffaf2", size: fine ? 2048 : 1024 });
+  const sun = sunLight({ direction, reach: 1.5 * view.radius, strength: 3.1, color: "#fffaf2", size: fine ? 2048 : 1024 });
   world.add(sun);
   world.background = new THREE.Color(BACKGROUND);
   renderer.toneMapping = THREE.NeutralToneMapping;

@@ -12,7 +12,7 @@ export function sunLight({ direction, reach, strength, color, size }) {
   Object.assign(light.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5 * reach, far: 9 * reach });
   light.shadow.mapSize.set(size, size);
   light.shadow.bias = -2e-4;
-  light.shadow.normalBias = (2.5 * reach) / size;
+  light.shadow.normalBias = (5 * reach) / size;
   light.shadow.radius = 2.5;
   light.shadow.intensity = 0.95;
   return light;

@@ -122,6 +122,7 @@ export class Player {
 
   loop(on) {
     this.clock.loop = on;
+    this.settings?.refresh({ loop: on });
   }
 
   /** @param {string} name @returns {string} a sentence if there is no such camera, else empty */
@@ -139,6 +140,7 @@ export class Player {
   set(look) {
     Object.assign(this.look, look);
     this.view?.set?.(look);
+    this.settings?.refresh(look);
     this.dirty = true;
   }
 

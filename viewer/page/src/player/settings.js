@@ -6,6 +6,8 @@ export class Settings {
   /** @param {HTMLElement} parent @param {object} player */
   constructor(parent, player) {
     this.player = player;
+    /** Shows a value that was set elsewhere, by its name. */
+    this.shown = {};
     this.panel = element("div", { class: "ali3-panel", hidden: true });
     parent.append(this.panel);
     this.#fill();
@@ -16,6 +18,11 @@ export class Settings {
     this.player.bar.settings.setAttribute("aria-pressed", String(open));
   }
 
+  /** @param {object} look values that were set, by their names */
+  refresh(look) {
+    for (const [key, value] of Object.entries(look)) this.shown[key]?.(value);
+  }
+
   #fill() {
     const { player } = this;
     const { look } = player;
@@ -24,35 +31,36 @@ export class Settings {
       const box = element("input", { type: "checkbox", onchange: () => change(box.checked) });
       box.checked = value;
       rows.push(element("label", { class: "ali3-wide" }, [box, ` ${text}`]));
+      return (now) => (box.checked = now === true || now?.length > 0);
     };
     // A factor from 1/range to range, in equal steps of its logarithm.
     const factor = (text, key, low, high) => {
-      const shown = element("output", { text: `${Number(look[key].toPrecision(3))}×` });
+      const shown = element("output");
       const range = element("input", { type: "range", min: Math.log10(low), max: Math.log10(high), step: 0.05, "aria-label": text });
-      range.value = String(Math.log10(Math.max(look[key], low)));
+      this.shown[key] = (value) => {
+        shown.textContent = `${Number(value.toPrecision(3))}×`;
+        range.value = String(Math.log10(Math.max(value, low)));
+      };
+      this.shown[key](look[key]);
       range.addEventListener("input", () => {
         const value = Number((10 ** Number(range.value)).toPrecision(3));
-        shown.textContent = `${value}×`;
         player.set({ [key]: value });
       });
       rows.push(element("span", { text }), range, shown);
-      return range;
+      return (value) => player.set({ [key]: value });
     };
     if (player.has.arrows) {
-      check("forces as arrows (a)", look.arrows, (arrows) => player.set({ arrows }));
-      factor("length of the arrows", "arrowScale", 0.05, 20);
+      this.shown.arrows = check("forces as arrows (a)", look.arrows, (arrows) => player.set({ arrows }));
+      factor("length of the arrows", "arrowScale", 0.1, 10);
     }
-    if (player.has.stress) check("colours of the stress", look.stress, (stress) => player.set({ stress }));
+    if (player.has.stress) this.shown.stress = check("colours of the stress", look.stress, (stress) => player.set({ stress }));
     if (player.has.deformation) {
-      const range = factor("deformation", "deformation", 1, 1000);
-      const fit = () => {
-        range.value = String(Math.log10(player.view.fittingDeformation));
-        range.dispatchEvent(new Event("input"));
-      };
+      const deform = factor("deformation", "deformation", 1, 1000);
+      const fit = () => deform(player.view.fittingDeformation);
       rows.push(element("span"), element("button", { text: "make it visible", onclick: fit }), element("span"));
     }
     for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
-    check("begin again at the end (l)", player.clock.loop, (loop) => player.loop(loop));
+    this.shown.loop = check("begin again at the end (l)", player.clock.loop, (loop) => player.loop(loop));
     const theme = element("select", { onchange: () => player.theme(theme.value) });
     theme.append(...["auto", "light", "dark"].map((name) => element("option", { value: name, text: name })));
     theme.value = player.themeName;

@@ -79,6 +79,7 @@ export class Cameras {
     this.name = name;
     this.current = name === "orbit" ? this.free : this.rig;
     this.controls.enabled = name === "orbit";
+    this.view.parts.materials.clear(name === "driver");
     this.rig.fov = VIEW_ANGLES[name] ?? VIEW_ANGLES.wheel;
     this.rig.updateProjectionMatrix();
     this.follow();
@@ -87,13 +88,14 @@ export class Cameras {
   /** Goes along with what is followed. */
   follow() {
     if (this.name === "orbit") return;
-    const { extent, up } = this.view;
+    const { up } = this.view;
+    const extent = Math.min(this.view.extent, 2 * this.view.radius);
     const [left, forward] = this.#axes();
     const mix = (ahead, aside, above) => add(add(scale(forward, ahead * extent), scale(left, aside * extent)), scale(up, above * extent));
     const north = Math.abs(up[1]) > 0.7 ? [0, 0, -1] : [0, 1, 0];
-    if (this.name === "chase") this.#look(mix(-1.75, 0, 0.5), mix(0.6, 0, 0.06), up);
+    if (this.name === "chase") this.#look(mix(-1.6, 0, 0.42), mix(0.6, 0, 0.06), up);
     else if (this.name === "side") this.#look(mix(0, -2.1, 0.14), [0, 0, 0], up);
-    else if (this.name === "top") this.#look(scale(up, 5 * extent), [0, 0, 0], north);
+    else if (this.name === "top") this.#look(scale(up, 4 * extent), [0, 0, 0], north);
     else if (this.name === "driver") this.#drive();
     else this.#watchWheel(this.wheels.find((frame) => this.#wheelName(frame) === this.name));
   }
@@ -117,7 +119,8 @@ export class Cameras {
 
   /** A wheel and its suspension from ahead and outside. */
   #watchWheel(frame) {
-    const { parts, up, origin, extent } = this.view;
+    const { parts, up, origin } = this.view;
+    const extent = Math.min(this.view.extent, 2 * this.view.radius);
     const place = parts.frames.point(frame, [0, 0, 0]);
     if (place === null) return;
     const at = subtract(place, origin);

@@ -4,6 +4,7 @@ import { Materials } from "../looks/materials.js";
 import { Arrows } from "../shapes/arrows.js";
 import { Flexible } from "../shapes/flexible.js";
 import { makeShape } from "../shapes/index.js";
+import { join } from "../shapes/joined.js";
 import { turn, shaded } from "../shapes/place.js";
 import { niceAbove } from "./forces.js";
 import { Frames } from "./frames.js";
@@ -33,6 +34,7 @@ export class Parts {
     this.bending = { factor: 1, coloured: true, most: Math.max(0, ...this.flexible.map(({ bending }) => bending.range)) };
     this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []), options.extent ?? 1);
     this.group.add(this.arrows.group);
+    for (const carrier of this.carriers.values()) join(carrier);
     for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why.replace(/\.$/, "")}.`);
   }
 
@@ -111,11 +113,11 @@ export class Parts {
     this.place([0, 0, 0]);
     this.group.updateMatrixWorld(true);
     const box = new THREE.Box3();
-    for (const { object, frames } of this.shapes) {
-      if (frames.every((name) => this.frames.pose(name).shown)) box.expandByObject(object);
+    for (const [name, carrier] of this.carriers) {
+      if (this.frames.pose(name).shown) box.expandByObject(carrier);
     }
-    for (const { frame, object } of this.flexible) {
-      if (this.frames.pose(frame).shown) box.expandByObject(object);
+    for (const { object, update, frames } of this.shapes) {
+      if (update !== undefined && frames.every((name) => this.frames.pose(name).shown)) box.expandByObject(object);
     }
     return box.isEmpty() ? null : [box.min.toArray(), box.max.toArray()];
   }

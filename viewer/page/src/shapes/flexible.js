@@ -18,6 +18,7 @@ export class Flexible {
     this.coloured = headlight({ map: this.map });
     this.object = new THREE.Mesh(this.tubes.geometry, this.plain);
     this.object.frustumCulled = false;
+    this.object.userData.alone = true; // it bends
     this.colours = !materials.options.ghost;
     this.absent = "";
     this.update(null, 1);

@@ -1,6 +1,7 @@
 import * as THREE from "three";
 import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { floats, integers } from "../scene/data.js";
+import { cross, dot } from "../scene/math.js";
 import { turnByAxes } from "./place.js";
 
 /** Edges sharper than this stay edges where a mesh brings no normals. */
@@ -12,11 +13,26 @@ export function mesh(shape, { materials, scene }) {
   if (data === undefined) throw new Error(`The mesh '${shape.mesh}' is not in the scene.`);
   let geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(floats(data.positions), 3));
-  geometry.setIndex(new THREE.BufferAttribute(integers(data.triangles), 1));
+  const [points, triangles] = [geometry.getAttribute("position").array, integers(data.triangles)];
+  if (insideOut(points, triangles)) for (let i = 0; i < triangles.length; i += 3) [triangles[i], triangles[i + 1]] = [triangles[i + 1], triangles[i]];
+  geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
   if (data.normals !== undefined) geometry.setAttribute("normal", new THREE.BufferAttribute(floats(data.normals), 3));
   else geometry = toCreasedNormals(geometry, CREASE);
   const object = new THREE.Mesh(geometry, materials.of(shape, "plastic", { double: true }));
   object.position.set(...(shape.at ?? [0, 0, 0]));
   turnByAxes(object, shape.axes);
   return { object, frame: shape.frame };
+}
+
+/**
+ * Whether triangles look inwards: the volume that they enclose about their middle is negative.
+ * @param {Float32Array} points @param {Uint32Array} triangles
+ */
+export function insideOut(points, triangles) {
+  const middle = [0, 0, 0];
+  points.forEach((x, i) => (middle[i % 3] += (3 * x) / points.length));
+  const at = (i) => [0, 1, 2].map((k) => points[3 * i + k] - middle[k]);
+  let volume = 0;
+  for (let i = 0; i < triangles.length; i += 3) volume += dot(at(triangles[i]), cross(at(triangles[i + 1]), at(triangles[i + 2])));
+  return volume < 0;
 }

@@ -17,6 +17,7 @@ class FmuState {
   free() {
     if (this.address === 0) return;
     this.instance._withPointer(this.address, (p, c, e) => e.fmi2FreeFMUstate(c, p), "Freeing a state");
+    this.instance._owned.delete(this);
     this.address = 0;
   }
 }
@@ -27,6 +28,7 @@ export class FmuInstance {
     this.fmu = fmu;
     this._component = component;
     this._room = fmu.memory.block(16); // for one value or pointer
+    this._owned = new Set(); // states and transfers, whose memory goes with the instance
     this._phase = "new";
     this._startTime = 0;
     this._started = false;
@@ -119,6 +121,7 @@ export class FmuInstance {
    */
   reader(names) {
     const transfer = new Transfer(this, names);
+    this._owned.add(transfer);
     return () => transfer.read();
   }
 
@@ -129,6 +132,7 @@ export class FmuInstance {
    */
   writer(names) {
     const transfer = new Transfer(this, names);
+    this._owned.add(transfer);
     return (values) => transfer.write(values);
   }
 
@@ -179,6 +183,7 @@ export class FmuInstance {
   getState(state = new FmuState(this)) {
     state.address = this._withPointer(state.address, (p, c, e) => e.fmi2GetFMUstate(c, p), "Getting the state");
     state.phase = this._phase;
+    this._owned.add(state);
     return state;
   }
 
@@ -219,6 +224,7 @@ export class FmuInstance {
     const work = (p, c, e) => e.fmi2DeSerializeFMUstate(c, block, bytes.length, p);
     try {
       state.address = this._withPointer(0, work, "Reading a state");
+      this._owned.add(state);
       return state;
     } finally {
       memory.free(block);
@@ -237,9 +243,10 @@ export class FmuInstance {
     this._call("Ending the run", () => this.fmu.exports.fmi2Terminate(this._component));
   }
 
-  /** Gives the memory of the instance back; nothing can be done with it afterwards. */
+  /** Gives the memory of the instance and its states back; nothing can be done with them afterwards. */
   free() {
     if (this._component === 0) return;
+    for (const each of [...this._owned]) each.free();
     this.fmu.call(() => this.fmu.exports.fmi2FreeInstance(this._component));
     this.fmu.memory.free(this._room);
     this._component = 0;

@@ -1,0 +1,47 @@
+"""Roads of a run that are not those of its model: files, and what parameters moved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from mbs.elements.road import KerbRoad, PlaneRoad, Road
+from mbs.kernel.binding import Instance
+from mbs.kernel.header import ParameterTarget, RoadType
+from mbs.system import System
+
+
+def run_roads(system: System, instance: Instance, files: Mapping[int, str]) -> dict[int, Road | str]:
+    """Roads by their numbers; of a file its path.
+
+    Parameters
+    ----------
+    system : System
+    instance : Instance
+        With the values of the parameters.
+    files : mapping of int to str
+        Paths of files in place of roads; empty: none.
+    """
+    a = system.arrays
+    found: dict[int, Road | str] = {k: path for k, path in files.items() if path}
+    if not len(a["road_type"]):
+        return found
+    real = np.array(a["road_real"])
+    values = [instance.get_parameter(k) for k in range(len(a["par_value"]))]
+    for k in np.flatnonzero(np.array(values) != a["par_value"]):
+        for n in range(a["par_ptr"][k], a["par_ptr"][k + 1]):
+            if a["par_target"][n] == ParameterTarget.ROAD:
+                offset = a["par_offset"][n] if len(a["par_offset"]) else 0.0
+                real[a["par_index"][n]] = values[k] * a["par_scale"][n] + offset
+    for road, kind in enumerate(a["road_type"]):
+        part = slice(a["road_real_ptr"][road], a["road_real_ptr"][road + 1])
+        if road in found or np.array_equal(real[part], a["road_real"][part]):
+            continue
+        numbers = real[part].tolist()
+        if kind == RoadType.PLANE:
+            found[road] = PlaneRoad(*numbers)
+        elif kind == RoadType.KERB:
+            position, lower, step, side, *rest = numbers
+            found[road] = KerbRoad(position, step, lower, "before" if side > 0.0 else "after", *rest)
+    return found

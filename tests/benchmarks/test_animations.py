@@ -1,0 +1,53 @@
+"""Films of the scenes: the command writes what it says, and the documentation has all of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from benchmarks import animations
+from benchmarks.paper.animations import ANIMATIONS, FPS
+from viewer import browser, bundle
+
+DOCS = Path(__file__).parents[2] / "docs"
+LARGEST, ALL = 600_000, 8_000_000  # bytes
+
+
+@pytest.mark.parametrize("name", ANIMATIONS)
+def test_the_documentation_has_every_film(name):
+    film = ANIMATIONS[name]
+    path = DOCS / "images" / "animations" / f"{name}.webp"
+    assert f"](images/animations/{name}.webp)" in (DOCS / "scenes.md").read_text(encoding="utf-8")
+    assert path.stat().st_size < LARGEST
+    with Image.open(path) as file:
+        assert file.size == film.size
+        # equal pictures that follow each other are one
+        assert 0.5 < file.n_frames / ((film.end - film.begin) / film.speed * FPS) < 1.1
+
+
+def test_the_films_are_small():
+    files = list((DOCS / "images" / "animations").iterdir())
+    assert {file.stem for file in files} == set(ANIMATIONS)
+    assert sum(file.stat().st_size for file in files) < ALL
+
+
+@pytest.mark.slow
+def test_the_command_films(tmp_path, capsys):
+    try:
+        browser.find_chromium()
+        bundle.bundle()
+    except RuntimeError as error:
+        pytest.skip(str(error))
+    assert animations.main(["--out", str(tmp_path / "films"), "--only", "pendulum"]) == 0
+    said = capsys.readouterr().out
+    assert "pendulum.webp  61 pictures, 4.1 s" in said
+    with Image.open(tmp_path / "films" / "pendulum.webp") as file:
+        assert file.n_frames > 30
+
+
+def test_the_command_names_its_films(capsys):
+    with pytest.raises(SystemExit):
+        animations.main(["--only", "opera"])
+    assert "double_four_bar" in capsys.readouterr().err

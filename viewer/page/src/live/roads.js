@@ -1,0 +1,26 @@
+// Roads of a picture that parameters choose and move.
+
+/**
+ * Roads with their kerbs where parameters have them; the higher side stays where it is.
+ * @param {object[]} roads - Of a scene; `variables` names the parameters.
+ * @param {(name: string) => number | undefined} lookup
+ * @returns {{roads: object[], key: string}} `key` is another one when they look different.
+ */
+export function movedRoads(roads, lookup) {
+  const key = [];
+  const moved = roads.map((road) => {
+    const { kerb_x: along, kerb_height: high } = road.variables ?? {};
+    if (road.kind !== "profile" || road.heights.length !== 2 || !(along || high)) return road;
+    const made = { ...road };
+    const [x, height] = [along && lookup(along), high && lookup(high)];
+    if (Number.isFinite(x)) made.origin = [x, ...(road.origin ?? [0, 0, 0]).slice(1)];
+    if (Number.isFinite(height)) {
+      const [first, last] = road.heights;
+      const top = Math.max(first, last);
+      made.heights = first < last ? [top - height, top] : [top, top - height];
+    }
+    key.push(x, height);
+    return made;
+  });
+  return { roads: moved, key: key.join(" ") };
+}

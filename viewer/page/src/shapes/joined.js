@@ -1,0 +1,44 @@
+// Fewer things to draw: what is fixed in one frame and of one material becomes one mesh.
+import * as THREE from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
+
+/**
+ * Join the meshes under a group that moves as one; transparent ones stay single, so that they can be sorted.
+ * @param {THREE.Group} carrier
+ */
+export function join(carrier) {
+  carrier.updateMatrixWorld(true);
+  const toCarrier = carrier.matrixWorld.clone().invert();
+  const kinds = new Map();
+  carrier.traverse((part) => {
+    if (!part.isMesh || part.userData.alone || part.material.transparent) return;
+    const key = `${part.material.uuid} ${part.castShadow} ${part.receiveShadow}`;
+    kinds.set(key, [...(kinds.get(key) ?? []), part]);
+  });
+  for (const meshes of kinds.values()) {
+    if (meshes.length > 1) carrier.add(joined(meshes, toCarrier));
+  }
+}
+
+function joined(meshes, toCarrier) {
+  const { material, castShadow, receiveShadow } = meshes[0];
+  const pieces = meshes.map((mesh) => plain(mesh, new THREE.Matrix4().multiplyMatrices(toCarrier, mesh.matrixWorld)));
+  const whole = new THREE.Mesh(mergeGeometries(pieces), material);
+  Object.assign(whole, { castShadow, receiveShadow });
+  for (const piece of pieces) piece.dispose();
+  for (const mesh of meshes) {
+    mesh.removeFromParent();
+    mesh.geometry.dispose();
+  }
+  return whole;
+}
+
+/** A geometry of positions, normals and an index, in the axes of the carrier. */
+function plain(mesh, matrix) {
+  const { geometry } = mesh;
+  const copy = new THREE.BufferGeometry();
+  for (const name of ["position", "normal", ...(mesh.material.map ? ["uv"] : [])]) copy.setAttribute(name, geometry.getAttribute(name).clone());
+  const count = geometry.getAttribute("position").count;
+  copy.setIndex(geometry.index ? geometry.index.clone() : [...Array(count).keys()]);
+  return copy.applyMatrix4(matrix);
+}
