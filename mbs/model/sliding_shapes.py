@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.checks import array, instance_of, shown
+from mbs.checks import array, named, shown
 from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.shapes import Owner, Shape, ShapeVocabulary, Turning
@@ -113,7 +113,7 @@ class SlidingVocabulary(ShapeVocabulary):
         ModelError
             The body is not one of this model, or the arrays are not what they must be.
         """
-        what = f"mesh '{instance_of(str, name, 'The name of a mesh', 'text')}'"
+        what = f"mesh '{named(name, 'a mesh')}'"
         places = array(positions, (None, 3), f"the positions of {what}")
         given = array(triangles, (None, 3), f"the triangles of {what}")
         corners = given.astype(np.int64)

@@ -276,3 +276,15 @@ def test_a_coarse_picture_shows_the_same_as_a_fine_one(drawn):
     drawn.ask("view.set({ quality: 'low' })")
     assert red(drawn.picture()) == pytest.approx(red(fine), abs=1)
     assert drawn.ask("view.look.quality") == "low"
+
+
+def test_a_picture_fits_its_element_again_when_that_changes_without_being_asked(drawn):
+    drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
+    resize = "width => { document.getElementById('picture').style.width = `${width}px`; }"
+    drawn.ask(resize, 200)
+    try:
+        drawn.page.wait_for_function("view.size[0] === 200")
+        assert drawn.project((0, 0, 0)) == pytest.approx((100, 90), abs=1)
+        assert red(drawn.picture()) == pytest.approx((100, 90), abs=2)
+    finally:
+        drawn.ask(resize, 320)
