@@ -53,7 +53,10 @@ def carrier(run: mbs.Trajectory, wheel: str) -> Rotation:
 def test_they_are_the_last_outputs_at_every_fidelity(car: str) -> None:
     wanted = [f"wheel_{w}.{part}" for w in WHEELS for part in PARTS]
     for make in load(car).fidelities().values():
-        assert [s["name"] for s in mbs.compile(make()).meta["sensors"]][-len(wanted) :] == wanted
+        names = [s["name"] for s in mbs.compile(make()).meta["sensors"]]
+        while names[-1].startswith("anti_roll_bar_"):  # the levers of those cars that have them
+            names.pop()
+        assert names[-len(wanted) :] == wanted
 
 
 @pytest.mark.parametrize("car", CARS)
