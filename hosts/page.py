@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from ali3.running import module_command, run_command
 from hosts.errors import HostError
 from hosts.numbers import number
-from hosts.options import Wishes, add_setting_options
+from hosts.options import Wishes, add_road_option, add_setting_options
 from hosts.options import wishes as set_wishes
 from hosts.road import PARAMETER as ROAD
 
@@ -62,11 +62,18 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.pa
     )
     parser.add_argument("--paused", action="store_true", help="the page waits until somebody starts it")
     add_setting_options(parser)
+    add_road_option(parser)
     options = parser.parse_args(arguments)
     return run_command(lambda: _page(options))
 
 
 def _page(options: argparse.Namespace) -> int:
+    with tempfile.TemporaryDirectory() as folder:
+        given = set_wishes(argparse.Namespace(**{**vars(options), "out": Path(folder)}))
+        return _written(options, given)
+
+
+def _written(options: argparse.Namespace, given: Wishes) -> int:
     from ali3.files import check_writable, whole_file
     from hosts.page_parts import fmu_parts
     from hosts.page_text import Page
@@ -75,13 +82,14 @@ def _page(options: argparse.Namespace) -> int:
         count = len(options.fmus) + len(options.beside)
         raise HostError(f"{count} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     file = options.out / ("_".join(dict.fromkeys(path.stem for path in options.fmus)) + ".html")
-    given = set_wishes(options)
     road = next((text for name, text in reversed(given.values) if name == ROAD), "")
     fmus = [fmu_parts(path, road) for path in options.fmus]
     check_writable(file)
     names = _names(fmus, options.name)
     manoeuvre = _manoeuvre(fmus, options.manoeuvre)
     start = {**({} if manoeuvre is None else manoeuvre.start), **_start(fmus, given)}
+    if fmus[0].own_road is not None:
+        start[ROAD] = fmus[0].own_road.name
     wanted = {"name": file.stem, **_page_options(fmus, options), "start": start}
     recordings = _beside(options.beside, fmus[0])
     ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]

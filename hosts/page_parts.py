@@ -43,6 +43,8 @@ class FmuParts:
         The binary; None: the FMU has none.
     resources : dict of str to bytes
         Files that the binary reads, by their paths inside the folder of the resources.
+    own_road : Path, optional
+        A road file of the user among them.
     """
 
     path: Path
@@ -51,6 +53,7 @@ class FmuParts:
     scene: dict[str, Any]
     wasm: bytes | None
     resources: dict[str, bytes]
+    own_road: Path | None = None
 
     @property
     def name(self) -> str:
@@ -62,8 +65,11 @@ class FmuParts:
         if ROAD not in self.variables.names:
             return {}
         names = ["", *(path.removeprefix(_ROADS) for path in self.resources if path.startswith(_ROADS))]
+        places = {name: name for name in names}
+        if self.own_road is not None:
+            places[self.own_road.name] = str(self.own_road)
         with ThreadPoolExecutor() as pool:
-            scenes = list(pool.map(lambda name: scene_of(self.path, {ROAD: name}), names))
+            scenes = list(pool.map(lambda name: scene_of(self.path, {ROAD: places[name]}), names))
         return {name: scene["roads"] for name, scene in zip(names, scenes, strict=True) if scene is not None}
 
     def record(self, title: str) -> dict[str, Any]:
@@ -86,7 +92,7 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
     ----------
     path : Path
     road : str
-        Of the parameter `road.file`, where the page starts with one of the FMU's.
+        Of the parameter `road.file`: the name of a road in the FMU, or a road file, which goes into the page.
 
     Raises
     ------
@@ -108,7 +114,10 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
         resources = {name.removeprefix(_ROOM): archive.read(name) for name in sorted(files)}
     scene = scene_of(path, {ROAD: str(road)})
     assert scene is not None
-    return FmuParts(path, description, Variables(description), scene, wasm, resources)
+    own_road = Path(str(road)) if road and Path(str(road)).is_file() else None
+    if own_road is not None:
+        resources[_ROADS + own_road.name] = own_road.read_bytes()
+    return FmuParts(path, description, Variables(description), scene, wasm, resources, own_road)
 
 
 def build_line(path: Path) -> str:

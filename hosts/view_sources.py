@@ -206,9 +206,9 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
         car = set(ACTS) <= set(fmu.names("input")) and set(SENSES) <= set(fmu.names("output"))
         if given is None and car and wanted.stop_time is None:
             given = _CAR_MANOEUVRE
+            told.append(f"{path} is driven through {given}; --manoeuvre names another.")
         if given is not None:
             manoeuvre = with_names_of(load_manoeuvre(given), fmu.variables)
-            told.append(f"{path} is driven through {manoeuvre.name}; --manoeuvre names another.")
         else:
             manoeuvre = run_manoeuvre(fmu, None, wanted.stop_time)
         check_columns(fmu, manoeuvre)

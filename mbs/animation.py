@@ -101,7 +101,7 @@ class Animation:
         path : path
             ``.glb`` or ``.gltf``.
         **settings
-            Of `viewer.gltf.write_gltf`: ``rate``, ``speed``, ``road``, ``deformation`` (by default that of the options).
+            Of `viewer.gltf.write_gltf`: ``rate``, ``speed``, ``road``, ``deformation`` (else that of the options).
 
         Returns
         -------

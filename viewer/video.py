@@ -27,7 +27,7 @@ SUFFIXES = (".mp4", ".webp", ".gif")
 MOST_FRAMES = 20_000
 Progress = Callable[[float], None]
 _QUALITY = 7.5  # of MP4, 0 to 10
-_WEBP = {"quality": 70, "method": 4, "allow_mixed": True, "minimize_size": True}
+_WEBP = {"quality": 65, "method": 4, "allow_mixed": True}
 
 
 class FilmError(UserError, RuntimeError):

@@ -150,7 +150,7 @@ ANIMATIONS = {
         9.4,
         0.4,
         options={"stress": True, "deformation": 30.0},
-        size=(480, 270),
+        size=(640, 360),
     ),
     "drop": Animation("The car is dropped", _manoeuvre("drop"), 0.0, 2.5, 0.5),
     "hatchback_slalom": Animation(

@@ -19,11 +19,11 @@ from mbs.checks import (
     capital,
     direction,
     is_number,
+    named,
     number,
     one_of,
     positive,
     shown,
-    text,
     whole,
 )
 from mbs.errors import ModelError
@@ -155,7 +155,7 @@ class ShapeVocabulary(BodyVocabulary):
         coils: int | None = None,
         file: str | Path | None = None,
         scale: float | None = None,
-        name: str = "",
+        name: str | None = None,
         color: str | None = None,
         material: str | None = None,
         opacity: float = 1.0,
@@ -204,7 +204,7 @@ class ShapeVocabulary(BodyVocabulary):
             Of a mesh: STL, OBJ, PLY, OFF or glTF. It is read at once.
         scale : float, optional
             Metres of a unit of the file, 0.001 for millimetres.
-        name : str
+        name : str, optional
             For the list of shapes; that of a spring or rod takes the place of its default.
         color : str, optional
             ``"#rrggbb"``.
@@ -236,10 +236,10 @@ class ShapeVocabulary(BodyVocabulary):
             if value is not None
         }  # fmt: skip
         one_of(kind, tuple(KINDS), "The kind of a shape")
-        what = f"shape '{name}'" if isinstance(name, str) and name else f"{kind} of {_owner_text(body)}"
+        what = f"{kind} of {_owner_text(body)}" if name is None else f"shape '{named(name, 'a shape')}'"
         owner = self._owner(body, what)
         _check_arguments(kind, given, what)
-        looks = {"name": name} if text(name, f"The name of {what}") else {}
+        looks = {} if name is None else {"name": name}
         made = self._made(kind, owner, given, what, looks | _looks(color, material, opacity, what))
         self.shapes.append(made)
         return made
@@ -315,21 +315,24 @@ class ShapeVocabulary(BodyVocabulary):
         given = place_of(place, self.dimension, what)
         return np.asarray(given - origin)
 
-    def _anchors(self, owner: Owner, places: object, count: tuple[int, int], what: str) -> list[tuple[Owner, Vector]]:
+    def _anchors(
+        self, owner: Owner, places: object, key: str, count: tuple[int, int], what: str
+    ) -> list[tuple[Owner, Vector]]:
         least, most = count
         words = f"{least} points" if least == most else f"{least} points or more"
         if not isinstance(places, (list, tuple, np.ndarray)) or not least <= len(places) <= most:
-            raise ModelError(f"The {what} needs {words}, not {shown(places)}.")
+            raise ModelError(f"The {key} of {what} must be {words}, not {shown(places)}.")
         found = []
-        for place in places:
+        for number_, place in enumerate(places, start=1):
+            at = f"number {number_} of the {key} of {what}"
             if isinstance(place, (tuple, list)) and len(place) == 2 and not is_number(place[0]):
-                of = self._owner(place[0], what)
-                found.append((of, self._local(of, place[1], f"a point of {what}")))
+                of = self._owner(place[0], at)
+                found.append((of, self._local(of, place[1], at)))
             elif isinstance(place, Body):
-                of = self._owner(place, what)
+                of = self._owner(place, at)
                 found.append((of, np.zeros(3)))
             else:
-                found.append((owner, self._local(owner, place, f"a point of {what}")))
+                found.append((owner, self._local(owner, place, at)))
         return found
 
     def _made(self, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]) -> Shape:
@@ -341,9 +344,9 @@ class ShapeVocabulary(BodyVocabulary):
         if "coils" in given:
             fields["coils"] = whole(given["coils"], f"The coils of {what}", 1, 1000)
         if "points" in given:
-            anchors = self._anchors(owner, given["points"], (3 if kind == "plate" else 2, 10_000), what)
+            anchors = self._anchors(owner, given["points"], "points", (3 if kind == "plate" else 2, 10_000), what)
         if "ends" in given:
-            anchors = self._anchors(owner, given["ends"], (2, 2), what)
+            anchors = self._anchors(owner, given["ends"], "ends", (2, 2), what)
         if kind == "cylinder" and any(of is not owner for of, _ in anchors):
             raise ModelError(f"The {what} is of one body; through points of several bodies goes a tube.")
         if kind in ("box", "sphere", "mesh", "wheel", "steering_wheel"):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.checks import instance_of, shown
+from mbs.checks import array, named, shown
 from mbs.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.shapes import Owner, Shape, ShapeVocabulary, Turning
@@ -113,15 +113,15 @@ class SlidingVocabulary(ShapeVocabulary):
         ModelError
             The body is not one of this model, or the arrays are not what they must be.
         """
-        what = f"The mesh '{instance_of(str, name, 'The name of a mesh', 'text')}'"
-        places, corners = (
-            _numbers(positions, float, f"The positions of {what}"),
-            _numbers(triangles, np.int64, f"The triangles of {what}"),
-        )
-        if not np.all(np.isfinite(places)):
-            raise ModelError(f"{what} has a position that is no finite number.")
-        if len(corners) and not (corners.min() >= 0 and corners.max() < len(places)):
-            raise ModelError(f"{what} has {len(places)} positions; a triangle has the corner {corners.max()}.")
+        what = f"mesh '{named(name, 'a mesh')}'"
+        places = array(positions, (None, 3), f"the positions of {what}")
+        given = array(triangles, (None, 3), f"the triangles of {what}")
+        corners = given.astype(np.int64)
+        if len(corners) and (np.any(corners != given) or corners.min() < 0 or corners.max() >= len(places)):
+            raise ModelError(
+                f"The triangles of {what} must be numbers of its {len(places)} positions, from 0; they go from "
+                f"{given.min():g} to {given.max():g}."
+            )
         ball = self.shape(body, "sphere", radius=1.0, name=name, color=color, material=material, opacity=opacity)
         self.shapes.pop()
         looks = {k: v for k, v in ball.fields.items() if k not in ("radius", "at")}
@@ -129,13 +129,3 @@ class SlidingVocabulary(ShapeVocabulary):
         mesh: dict[str, Any] = {"at": at, "positions": places, "triangles": corners, "file": name}
         self.shapes.append(Shape("mesh", ball.owner, looks | mesh))
         return self.shapes[-1]
-
-
-def _numbers(values: ArrayLike, kind: type, what: str) -> np.ndarray:
-    try:
-        found: np.ndarray[Any, Any] = np.asarray(values, dtype=kind)
-    except (TypeError, ValueError, OverflowError):
-        raise ModelError(f"{what} must be rows of three numbers, not {shown(values)}.") from None
-    if found.ndim != 2 or found.shape[1] != 3:
-        raise ModelError(f"{what} must be rows of three numbers; their shape is {found.shape}.")
-    return found

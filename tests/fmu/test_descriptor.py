@@ -152,6 +152,15 @@ def test_names_that_fmi_does_not_allow_are_refused(name: str) -> None:
         variable_table(META | {"sensors": [{"name": name, "unit": "m"}]}, pose=False, step_size=0.01)
 
 
+def test_a_dot_before_a_digit_is_an_underscore() -> None:
+    sensors = [{"name": name, "unit": "rad"} for name in ("angle.1", "arm.2.x", "wheel_1.x1")]
+    table = variable_table(META | {"sensors": sensors}, pose=False, step_size=0.01)
+    assert [v.name for v in table if v.source == "sensor"] == ["angle_1", "arm_2.x", "wheel_1.x1"]
+    twice = [{"name": name, "unit": "rad"} for name in ("angle.1", "angle_1")]
+    with pytest.raises(ValueError, match="Two variables are named 'angle_1'"):
+        variable_table(META | {"sensors": twice}, pose=False, step_size=0.01)
+
+
 def test_double_names_are_refused() -> None:
     entry = {"name": "a.x", "unit": "m"}
     with pytest.raises(ValueError, match=r"Two variables are named 'a\.x'"):

@@ -119,6 +119,20 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "link_end": (0.5, 0.3, 1.5),
     },
     "relative_angle": lambda b: between(b, axis=Y, zero=0.5),
+    "shape": lambda b: {
+        "body": b.arm,
+        "kind": "box",
+        "at": X,
+        "size": (1.0, 2.0, 3.0),
+        "axes": np.eye(3),
+        **dict.fromkeys(
+            ("axis", "ends", "points", "radius", "thickness", "width", "rim", "wire", "coils", "file", "scale")
+        ),
+        "name": "new",
+        "color": "#c03020",
+        "material": "steel",
+        "opacity": 0.5,
+    },
     "armature": lambda b: {"name": "new", "coordinate": b.angle, "inertia": 1.0},
     "shaft": lambda b: {"name": "new", "inertia": 1.0},
     "spin": lambda b: {
@@ -247,6 +261,17 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "sense_input": lambda b: seen(b, input=b.pedal),
     "sense_guide": lambda b: seen(b, guide=b.guide, order=1, scale=2.0),
     "sense_solver": lambda b: {"name": "new", "kind": "violation", "description": "what it is"},
+    "turning": lambda b: {"name": "new", "body": b.arm, "at": X, "axis": Y, "angle": b.angle},
+    "sliding": lambda b: {"name": "new", "body": b.arm, "at": X, "direction": Y, "way": "place"},
+    "mesh_shape": lambda b: {
+        "body": b.arm,
+        "positions": [X, Y, Z],
+        "triangles": [(0, 1, 2)],
+        "name": "new",
+        "color": "#c03020",
+        "material": "paint",
+        "opacity": 0.5,
+    },
     "notice": lambda b: {"sensor": b.sensor, "text": "The arm is away"},
     "add": lambda b: {"element": Drag(1.0).record("new", b.arm.point(X))},
     "joint_named": lambda b: {"name": "hinge"},

@@ -8,6 +8,7 @@ import pytest
 import mbs
 from ali3.errors import UserError
 from mbs.model.shapes import KINDS
+from tests.wrong_values import problems_of
 
 
 def model(dimension: int = 3) -> tuple[mbs.Model, mbs.model.body.Body]:
@@ -143,8 +144,8 @@ REFUSED = [
     ("box", {"size": (1, 1)}, "size of box of 'arm' has shape"),
     ("box", {"size": (1, 1, 1), "axes": np.diag([1.0, 1.0, -1.0])}, "rotation matrix"),
     ("box", {"size": (1, 1, 1), "at": (1, 2)}, "must be 3 numbers"),
-    ("tube", {"points": [(0, 0, 0)]}, "needs 2 points or more"),
-    ("plate", {"points": [(0, 0, 0), (1, 0, 0)]}, "needs 3 points or more"),
+    ("tube", {"points": [(0, 0, 0)]}, "points of tube of 'arm' must be 2 points or more"),
+    ("plate", {"points": [(0, 0, 0), (1, 0, 0)]}, "points of plate of 'arm' must be 3 points or more"),
     ("wheel", {"radius": 0.3, "width": 0.1, "rim": 0.3}, "rim 0.3 m"),
     ("wheel", {"radius": 0.3, "width": 0.1, "axis": (0, 0, 0)}, "must have a direction"),
     ("spring", {"ends": ((0, 0, 0), (0, 0, 1)), "coils": 1.5}, "coils"),
@@ -159,6 +160,23 @@ def test_refused_shapes(kind, given, words):
     m, arm = model()
     with pytest.raises(mbs.ModelError, match=words.replace("(", r"\(")):
         m.shape(arm, kind, **given)
+    assert m.shapes == []
+
+
+@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"none", "mesh"}))
+def test_wrong_values_of_every_kind_are_refused(kind):
+    m, arm = model()
+    more = {"box": {"at": (0, 0, 0), "axes": np.eye(3)}, "sphere": {"at": (0, 0, 0)}, "tube": {"radius": 0.1}}
+    more |= {"plate": {"thickness": 0.1}, "spring": {"radius": 0.1, "wire": 0.01}, "damper": {"radius": 0.1}}
+    more |= {"wheel": {"at": (0, 0, 0), "axis": (0, 1, 0), "rim": 0.1}, "steering_wheel": {"at": (0, 0, 0)}}
+    given = GOOD[kind] | more.get(kind, {})
+    m.shape(arm, kind, **given)
+    m.shapes.clear()
+    for name in given:
+        needed = name in KINDS[kind].needs
+        optional = lambda label, value, needed=needed: value is None and not needed  # noqa: E731
+        problems = problems_of(lambda value, name=name: m.shape(arm, kind, **(given | {name: value})), name, optional)
+        assert problems == []
     assert m.shapes == []
 
 

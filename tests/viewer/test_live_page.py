@@ -19,6 +19,7 @@ from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_fidelities, load_scene
 from hosts import page, run
 from hosts.fmu import Fmu
+from hosts.geometry import scene_of
 from mbs.scenes import prototype_car
 from viewer.browser import BrowserError, find_chromium, launch_arguments
 
@@ -398,5 +399,31 @@ def test_the_puma_is_moved_by_its_torques(mechanisms: dict[str, Path], chromium:
     opened.ask("player.advance(100)")
     assert opened.get("angle_2")[0] > before + 0.01
     assert_same_bits(fmu, opened.ask("player.csv()"), tmp_path, "--step", "0.002")
+    assert opened.wrong == []
+    opened.close()
+
+
+def test_a_road_of_the_user_is_in_the_page_and_under_the_car(car: Path, chromium: Any, tmp_path: Path) -> None:
+    bumps = tmp_path / "bumps.toml"
+    bumps.write_text(
+        'kind = "washboard"\nstart = 5.0\nlength = 40.0\nwidth = 6.0\namplitude = 0.02\nwavelength = 1.0\n'
+    )
+    more = ["--paused", "--road", str(bumps), "--set", "initial.speed=10"]
+    opened = Page(chromium, written([car], tmp_path / "page", *more))
+    assert opened.ask("player.session.start['road.file']") == "bumps.road"
+    assert opened.ask("player.view.scene.roads.map((road) => road.kind)") == ["grid"]
+    opened.ask("player.advance(500)")
+    rough = opened.ask("player.session.record.series(player.session.record.column('chassis.az'), 100, 1)[1]")
+    assert np.ptp(rough) > 1.0
+    assert opened.ask("player.set('road.file', '').then(() => player.view.scene.roads[0].kind)") == "profile"
+    opened.ask("player.advance(500)")
+    level = opened.ask("player.session.record.series(player.session.record.column('chassis.az'), 100, 1)[1]")
+    assert np.ptp(level) < 0.5
+    opened.ask("player.set('road.kerb_height', 0.2)")
+    opened.ask("player.advance(1)")
+    assert opened.ask("player.view.scene.roads[0].heights") == [0.0, -0.2]
+    drawn = scene_of(car, {"road.kerb_height": 0.2})
+    assert drawn is not None
+    assert drawn["roads"][0]["heights"] == [0.0, -0.2]  # the car stands on the upper level, at 0
     assert opened.wrong == []
     opened.close()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag
 
@@ -56,6 +56,8 @@ class Chassis(Section):
     """Point that carries a floating frame."""
     accelerometers: dict[Name, Point] = Field(default_factory=dict)
     """Accelerometers by name."""
+    body: Literal["auto", "open", "clear", "closed"] = "auto"
+    """How the body is drawn: open (none), clear (the frame shows), closed; auto: open with a frame of tubes."""
     frame: Frame | None = None
     """Flexible frame; without it the chassis is rigid and has no stresses."""
     ground_contact: GroundContact | None = None

@@ -50,7 +50,8 @@ def car_shapes(b: CarBuilder, spins: Mapping[str, Spin]) -> None:
     steering_shapes(looks)
     powertrain_shapes(looks)
     occupant_shapes(looks)
-    if isinstance(car.chassis.frame, TubesFrame):
+    tubes = isinstance(car.chassis.frame, TubesFrame)
+    if tubes:
         tube_frame_shapes(looks, car.tubular_frame, bends=isinstance(b.chassis.body, FlexibleBody))
-    else:
-        body_shell_shapes(looks)
+    if car.chassis.body in ("clear", "closed") or (car.chassis.body == "auto" and not tubes):
+        body_shell_shapes(looks, clear=car.chassis.body == "clear")

@@ -35,7 +35,7 @@ def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Position
         for k in range(len(whole) - 1)
         for i in range(n - 1)
         for a in [k * n + i]
-        for t in ((a, a + n, a + n + 1), (a, a + n + 1, a + 1))
+        for t in ((a, a + n + 1, a + n), (a, a + 1, a + n + 1))
     ]
     if ends:
         for section, flip in ((whole[0], False), (whole[-1], True)):
@@ -43,7 +43,7 @@ def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Position
             positions += [section, section.mean(axis=0, keepdims=True)]
             middle = first + n
             ring = [(first + i, first + (i + 1) % n) for i in range(n)]
-            triangles += [(middle, b, a) if flip else (middle, a, b) for a, b in ring]
+            triangles += [(middle, a, b) if flip else (middle, b, a) for a, b in ring]
     return np.vstack(positions), np.array(triangles)
 
 

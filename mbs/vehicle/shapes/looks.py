@@ -74,7 +74,7 @@ class Looks:
         """What the inner end of a tie rod or toe link of an axle is on."""
         return self.rack if axle in self.steered else self.chassis
 
-    def tube(self, *points: Anchor, radius: float, name: str = "", **looks: Any) -> None:
+    def tube(self, *points: Anchor, radius: float, name: str | None = None, **looks: Any) -> None:
         """A round tube through points, `radius` that of a small car."""
         self.m.shape(
             points[0][0], "tube", points=list(points), radius=self.scale * radius, name=name, **(looks or BARE)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from mbs.vehicle.chassis.tubular_frame import TubularFrame
-from mbs.vehicle.shapes.looks import BARE, PAINT, Looks
+from mbs.vehicle.shapes.looks import BARE, CAST, PAINT, Looks
 
 FRAME = "frame tube"
 """Name of the shapes of the tubes; where the frame is drawn as it bends they are left out."""
@@ -26,11 +26,12 @@ def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None
         Whether the chassis of the model is a flexible body, whose beams are drawn.
     """
     joints = frame.joint_places()
+    paint = PAINT if looks.b.car.chassis.body in ("auto", "open") else CAST
     if not bends:
         for tube in frame.frame(carried_masses=False)[1]:
             points = [(looks.chassis, joints[name]) for name in (tube.start, tube.end)]
             radius = 0.5 * frame.section.sections[tube.section].diameter
-            looks.m.shape(looks.chassis, "tube", points=points, radius=radius, name=FRAME, **PAINT)
+            looks.m.shape(looks.chassis, "tube", points=points, radius=radius, name=FRAME, **paint)
     places = np.array(list(joints.values()))
     low = places[places[:, 2] < places[:, 2].min() + LOW]
     try:

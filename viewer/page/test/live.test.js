@@ -10,6 +10,7 @@ import { choicesOf, fromSlider, rangeOf, toSlider } from "../src/live/ranges.js"
 import { between, Record } from "../src/live/record.js";
 import { movedRoads } from "../src/live/roads.js";
 import { missingParts } from "../src/live/unpack.js";
+import { Runner } from "../src/live/worker.js";
 
 test("a pacer keeps absolute deadlines: a late wake makes up for what it missed", () => {
   const pacer = new Pacer(0.002);
@@ -242,4 +243,26 @@ test("a kerb stands where the parameters have it, down as it was drawn", () => {
   assert.deepEqual([moved.origin, moved.heights], [[20, 0, 0], [0, -0.1]]);
   assert.notEqual(at(20, 0.1).key, at(21, 0.1).key);
   assert.deepEqual(movedRoads([kerb], () => 5).roads, [kerb]);
+});
+
+test("an FMU that has broken is loaded again when it begins anew", async () => {
+  const loads = [];
+  const told = [];
+  const runner = new Runner((message) => told.push(message));
+  runner._load = async (step) => {
+    const fmu = mass();
+    loads.push(fmu);
+    runner.engine = new Engine([fmu], step);
+  };
+  await runner.take({ do: "open", fmus: [], step: 0.01, start: {} });
+  await runner.take({ do: "restart", start: {} });
+  assert.equal(loads.length, 1);
+  loads[0].broken = "a trap";
+  await runner.take({ do: "restart", start: { u: 1 } });
+  assert.equal(loads.length, 2);
+  await runner.take({ do: "step", count: 3 });
+  assert.deepEqual(told.map((message) => message.is), ["started", "started", "started", "paused"]);
+  assert.equal(told.at(-1).count, 3);
+  await runner.take({ do: "back", k: 1 });
+  assert.deepEqual([told.at(-1).is, told.at(-1).k], ["back", 1]);
 });

@@ -132,6 +132,7 @@ class Drive {
     const anew = await this.session.set(name, value);
     this._tell(anew ? `The run began anew with ${name} = ${value}.` : "", 3000);
     this.parameters?.show(name, value);
+    if (anew) this.draw();
     return undefined;
   }
 
@@ -428,6 +429,9 @@ class Drive {
   }
 
   _download() {
+    const { record } = this.session;
+    const begin = record.first * record.step;
+    if (begin > 0) this._tell(`The table begins at ${short(begin)} s: what was before did not fit into the memory, so it cannot be repeated.`);
     const url = URL.createObjectURL(new Blob(this.session.csv(), { type: "text/csv" }));
     const name = (this.options.name ?? "run").replace(/[^\w.-]+/g, "_");
     const link = el("a", { href: url, download: `${name}.csv` });

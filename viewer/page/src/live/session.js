@@ -21,7 +21,7 @@ export class Session {
     this.prefixes = fmus.map((f, k) => (k ? `${f.title}: ` : ""));
     this.held = heldVariables(descriptions);
     this.outputs = descriptions.flatMap((d, k) => outputNames(d).map((name) => this.prefixes[k] + name));
-    this.variables = new Map(descriptions.toReversed().flatMap((d) => d.variables.map((v) => [v.name, v])));
+    this.variables = new Map(descriptions.slice().reverse().flatMap((d) => d.variables.map((v) => [v.name, v])));
     this.running = false;
     this.speed = 1;
     this.pace = { at: 0, factor: null, slow: 0, cost: 0 };

@@ -36,15 +36,22 @@ export class Runner {
   }
 
   async _open({ fmus, step, start, script }) {
+    this._given = { fmus, script };
+    await this._load(step);
+    await this._restart({ start, step });
+  }
+
+  async _load(step) {
+    const { fmus, script } = this._given;
     const loaded = [];
     for (const fmu of fmus) loaded.push(await loadFmu(fmu));
     this.engine = new Engine(loaded, step);
     this.engine.script = script ?? null;
-    this._restart({ start, step });
   }
 
-  _restart({ start, step }) {
+  async _restart({ start, step }) {
     this._halt();
+    if (this.engine.fmus.some((fmu) => fmu.broken)) await this._load(this.engine.step);
     this.engine.step = step ?? this.engine.step;
     this.pacer = new Pacer(this.engine.step);
     this._rows = [];

@@ -33,7 +33,9 @@ if (aPaint > 0.0) {
   stone = mix(stone, vec3(0.62) * (0.75 + 0.3 * patches), aPaint * max(on.x, on.y) * (0.55 + 0.45 * grain));
 }
 vec3 ice = vec3(0.55, 0.66, 0.74) * (0.8 + 0.3 * patches);
-stone = vWet < 0.5 ? mix(stone, stone * 0.42, vWet * 2.0) : mix(stone * 0.42, ice, (vWet - 0.5) * 2.0);
+float wetNess = max(vWet, 0.0);
+stone = mix(stone, vec3(0.46, 0.455, 0.44) * (0.7 + 0.45 * grain), clamp(-vWet, 0.0, 1.0));
+stone = vWet < 0.5 ? mix(stone, stone * 0.42, wetNess * 2.0) : mix(stone * 0.42, ice, (vWet - 0.5) * 2.0);
 diffuseColor.rgb *= stone;
 `;
 
@@ -51,7 +53,7 @@ if (fade > 0.0) {
   float e = 1.0 / 256.0;
   vec2 slope = vec2(texture2D(aNoise, at + vec2(e, 0.0)).r - grain, texture2D(aNoise, at + vec2(0.0, e)).r - grain);
   vec3 tilt = (viewMatrix * vec4(aX * slope.x + aY * slope.y, 0.0)).xyz;
-  normal = normalize(normal - fade * (1.0 - vWet) * 0.55 * tilt);
+  normal = normalize(normal - fade * (1.0 - wetNess) * 0.55 * tilt);
 }
 `;
 

@@ -23,7 +23,9 @@ export function makeLook(view) {
   for (const sentence of look.tell) view.notes.tell(sentence);
   const apply = () => {
     look.quality(pace.high);
-    if (view.size) view.resize();
+    if (!view.size) return;
+    view.resize();
+    if (view.drawn) view.render();
   };
   pace.changed = apply;
   return {

@@ -1,5 +1,6 @@
 // Roads of a scene: flat, inclined, with a profile, or a grid of heights.
 import * as THREE from "three";
+import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
 import { floats } from "../scene/data.js";
 import { alongY, turn } from "../shapes/place.js";
@@ -96,18 +97,56 @@ export function strip({ stations, heights }, s, reach) {
   return [[-reach, level(s - reach)], ...inside, [reach, level(s + reach)]];
 }
 
+/** Width of the stone along the upper edge of a kerb, in metres. */
+const STONE = 0.15;
+
+/**
+ * Surfaces between stations, each with both ends and whether it is a kerb: a face steeper than 1 in 2, or its stone.
+ * @param {number[][]} pairs of station and level
+ */
+export function surfaces(pairs) {
+  const steep = ([s0, h0], [s1, h1]) => Math.abs(h1 - h0) > 0.5 * (s1 - s0);
+  const found = [];
+  for (let i = 0; i + 1 < pairs.length; i++) {
+    let [from, to] = [pairs[i], pairs[i + 1]];
+    const kerb = steep(from, to);
+    const at = (s) => [s, from[1] + ((s - from[0]) / (to[0] - from[0])) * (to[1] - from[1])];
+    const long = to[0] - from[0] > 3 * STONE;
+    if (!kerb && long && i > 0 && steep(pairs[i - 1], from) && pairs[i - 1][1] < from[1]) {
+      const edge = at(from[0] + STONE);
+      found.push({ from, to: edge, kerb: true });
+      from = edge;
+    }
+    if (!kerb && long && i + 2 < pairs.length && steep(to, pairs[i + 2]) && pairs[i + 2][1] < to[1]) {
+      const edge = at(to[0] - STONE);
+      found.push({ from, to: edge, kerb: false }, { from: edge, to, kerb: true });
+    } else found.push({ from, to, kerb });
+  }
+  return found;
+}
+
+/** Edges sharper than this stay edges. */
+const CREASE = Math.PI / 8;
+
 function rebuild(geometry, pairs, { forward, side, up, half }) {
-  const positions = pairs.flatMap(([s, level]) =>
-    [-1, 1].flatMap((way) => add(add(scale(forward, s), scale(up, level)), scale(side, way * half))),
-  );
-  const triangles = [];
-  for (let i = 0; i + 1 < pairs.length; i++) triangles.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
+  const positions = [];
+  const wets = [];
+  const point = ([s, level], way) => add(add(scale(forward, s), scale(up, level)), scale(side, way * half));
+  for (const { from, to, kerb } of surfaces(pairs)) {
+    const corners = [point(from, -1), point(to, -1), point(to, 1), point(from, 1)];
+    for (const i of [0, 1, 2, 0, 2, 3]) {
+      positions.push(...corners[i]);
+      wets.push(kerb ? -1 : 0); // below zero: a kerb's stone
+    }
+  }
+  const flat = new THREE.BufferGeometry();
+  flat.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
+  const creased = toCreasedNormals(flat, CREASE);
   geometry.dispose();
-  geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
-  geometry.setIndex(triangles);
-  geometry.computeVertexNormals();
+  geometry.setAttribute("position", creased.getAttribute("position"));
+  geometry.setAttribute("normal", creased.getAttribute("normal"));
+  geometry.setAttribute("wet", new THREE.BufferAttribute(Float32Array.from(wets), 1));
   geometry.computeBoundingSphere();
-  dry(geometry);
 }
 
 /** Heights on a grid, in pieces; what has little friction is wet or ice. Around it lies grass. */

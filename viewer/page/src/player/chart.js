@@ -108,7 +108,9 @@ export class Chart {
   #legend() {
     const entries = this.curves.map((curve) => {
       curve.output = element("output");
-      const swatch = element("span", { class: "ali3-swatch", style: `background:${curve.colour}` });
+      const dashed = `repeating-linear-gradient(90deg, ${curve.colour} 0 4px, transparent 4px 6px)`;
+      const style = `background:${curve.dash.length > 0 ? dashed : curve.colour}`;
+      const swatch = element("span", { class: "ali3-swatch", style });
       return element("span", {}, [swatch, curve.label, curve.output]);
     });
     const legend = element("div", { class: "ali3-legend" }, entries);

@@ -10,6 +10,9 @@ import { niceAbove } from "./forces.js";
 import { Frames } from "./frames.js";
 import { subtract } from "./math.js";
 
+/** Radius of the thinnest tube of a flexible body that is seen, beside the size of the drawing. */
+const THINNEST = 0.003;
+
 /** The moving things of a scene: the run itself, or a ghost of another run. */
 export class Parts {
   /**
@@ -52,7 +55,7 @@ export class Parts {
   }
 
   #bend(body, { ghost = false }) {
-    const flexible = new Flexible(body, this.materials);
+    const flexible = new Flexible(body, this.materials, THINNEST * (this.scene.extent ?? 0));
     if (!ghost) shaded(flexible.object);
     this.#carrier(body.frame).add(flexible.object);
     return flexible;

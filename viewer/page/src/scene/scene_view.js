@@ -17,6 +17,7 @@ export class SceneView {
    * @param {"high" | "low" | "auto"} [options.quality] auto: by the measured time of a picture
    * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
    * @param {string} [options.camera] the first camera
+   * @param {boolean} [options.antialias] smooth edges; by default where a graphics card draws, on boards and in high quality
    * @param {boolean} [options.words] sentences over the picture, true by default; legends of what is drawn stay
    * @param {boolean} [options.keep] the picture can be read from the canvas after it is drawn
    * @param {(sentence: string) => void} [options.onMessage] told what is not drawn, once each
@@ -37,7 +38,7 @@ export class SceneView {
     this.up = unit(scene.up ?? [0, 0, 1]) ?? [0, 0, 1];
     this.#measure();
     const { renderer, software, problem } = makeRenderer(container, {
-      antialias: options.quality === "high" || scene.planar ? true : undefined,
+      antialias: options.antialias ?? (options.quality === "high" || scene.planar ? true : undefined),
       keep: options.keep,
     });
     if (problem !== undefined) {
@@ -52,7 +53,7 @@ export class SceneView {
     this.look = makeLook(this);
     this.#watchContext();
     this.camera(options.camera ?? this.cameras.names[0]);
-    this.observer = new ResizeObserver(() => this.resize());
+    this.observer = new ResizeObserver(() => this.#resized());
     this.observer.observe(container);
     this.resize();
     this.update(null);
@@ -184,6 +185,7 @@ export class SceneView {
     this.cameras.follow();
     this.look.follow();
     this.renderer.render(this.world, this.cameras.current);
+    this.drawn = true;
     this.look.after();
   }
 
@@ -216,6 +218,14 @@ export class SceneView {
     this.renderer.setPixelRatio(this.look.pixelRatio);
     this.renderer.setSize(...this.size, false);
     this.cameras.resize(...this.size);
+  }
+
+  /** A canvas that changes its size is empty until something is drawn. */
+  #resized() {
+    const { clientWidth, clientHeight } = this.container;
+    if (clientWidth === this.size[0] && clientHeight === this.size[1]) return;
+    this.resize();
+    if (this.drawn) this.render();
   }
 
   /** Free what the graphics card holds and take the picture out of the page. */

@@ -7,12 +7,16 @@ import { FrameTubes } from "./frame_tubes.js";
 
 /** One entry of a scene's `flexible`, drawn. */
 export class Flexible {
-  /** @param {object} body @param {import("../looks/materials.js").Materials} materials */
-  constructor(body, materials) {
+  /**
+   * @param {object} body
+   * @param {import("../looks/materials.js").Materials} materials
+   * @param {number} [thinnest] radius below which tubes would not be seen
+   */
+  constructor(body, materials, thinnest = 0) {
     this.frame = body.frame;
     this.name = body.name ?? body.frame;
     this.bending = new Bending(body);
-    this.tubes = new FrameTubes(body.nodes, body.beams, body.radii ?? []);
+    this.tubes = new FrameTubes(body.nodes, body.beams, (body.radii ?? []).map((r) => Math.max(r, thinnest)));
     this.plain = materials.named("steel");
     this.map = colourTexture();
     this.coloured = headlight({ map: this.map });

@@ -1,0 +1,81 @@
+"""The list of the pages that run FMUs, on a site with and without them."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def live_pages() -> ModuleType:
+    pytest.importorskip("sphinx")
+    spec = importlib.util.spec_from_file_location("live_pages", ROOT / "docs" / "_site" / "live_pages.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def site(out: Path) -> SimpleNamespace:
+    builder = SimpleNamespace(format="html")
+    return SimpleNamespace(outdir=str(out), builder=builder, config=SimpleNamespace(live_pages=None))
+
+
+def text(live_pages: ModuleType, app: SimpleNamespace) -> str:
+    source = [(ROOT / "docs" / "drive.md").read_text(encoding="utf-8")]
+    live_pages.listed(app, "drive", source)
+    assert live_pages.MARK not in source[0]
+    return source[0]
+
+
+def test_pages_that_cannot_be_made_are_left_out_with_one_line(
+    live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    made = {"prototype"}
+
+    def make(name: str, out: Path) -> str:
+        if name not in made:
+            return f"{name}: there is no compiler"
+        (out / f"{name}.html").write_text("x" * 1_600_000)
+        return ""
+
+    monkeypatch.setattr(live_pages, "make", make)
+    monkeypatch.delenv(live_pages.MODE, raising=False)
+    app = site(tmp_path)
+    live_pages.build(app)
+    said = capsys.readouterr().err
+    assert said.startswith("warning: pages that run FMUs are left out of the site: hatchback: there is no compiler; ")
+    assert said.count("\n") == 1
+    shown = text(live_pages, app)
+    assert '<a href="live/prototype.html">Open it</a> (1.6 MB)' in shown
+    assert "puma.html" not in shown
+
+    monkeypatch.setenv(live_pages.MODE, "required")
+    with pytest.raises(Exception, match="could not be made: hatchback: there is no compiler"):
+        live_pages.build(app)
+
+    monkeypatch.delenv(live_pages.MODE)
+    made |= set(live_pages.PAGES)
+    live_pages.build(app)
+    assert capsys.readouterr().err == ""
+    made.clear()  # not made again from the same sources
+    live_pages.build(app)
+    assert app.config.live_pages == list(live_pages.PAGES)
+
+
+def test_a_site_without_them_says_so(live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(live_pages.MODE, "none")
+    app = site(tmp_path)
+    live_pages.build(app)
+    assert "This copy of the site was built without the pages" in text(live_pages, app)
+
+
+def test_every_page_of_the_list_can_be_made(live_pages: ModuleType) -> None:
+    source = (ROOT / "docs" / "_site" / "make_live_page.py").read_text(encoding="utf-8")
+    assert all(f'"{name}":' in source for name in live_pages.PAGES)

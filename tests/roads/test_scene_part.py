@@ -1,0 +1,92 @@
+"""Roads as entries of a scene: the heights that are drawn are those of the physics."""
+
+from __future__ import annotations
+
+import base64
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbs.elements import GridRoad, KerbRoad, PlaneRoad
+from mbs.roads import write_road
+from mbs.roads.command import main
+from mbs.roads.scene_part import drawn_roads, scene_part
+from tests.elements.harness import contacts
+from viewer.scene import scene_errors
+
+SCENE = {"format": "ALi3 scene", "version": 1, "name": "roads", "extent": 1.0, "frames": {}, "shapes": []}
+
+
+def valid(part: dict[str, Any]) -> dict[str, Any]:
+    assert scene_errors(SCENE | {"roads": [part]}) == []
+    return part
+
+
+def under(road: object, x: float, y: float) -> float:
+    """Height by a disc that touches the road there."""
+    z = 10.0
+    for _ in range(30):
+        z = float(contacts(road, [x, y, z], [0.0, 1.0, 0.0], 1e-9)[0]["point"][2])  # type: ignore[arg-type]
+    return z
+
+
+def test_level_and_inclined_planes() -> None:
+    assert valid(scene_part(PlaneRoad(0.3))) == {"kind": "flat", "height": 0.3}
+    road = PlaneRoad(0.3, 0.08, -0.05)
+    part = valid(scene_part(road))
+    point, normal = np.array(part["point"]), np.array(part["normal"])
+    for x, y in ((3.0, 4.0), (-2.0, 7.0)):
+        assert normal @ (np.array([x, y, under(road, x, y)]) - point) == pytest.approx(0.0, abs=1e-9)
+    assert normal[2] > 0.0
+
+
+@pytest.mark.parametrize(("upper", "heights"), [("before", [0.0, -0.08]), ("after", [-0.08, 0.0])])
+def test_a_kerb_is_a_step_where_it_is(upper: str, heights: list[float]) -> None:
+    part = valid(scene_part(KerbRoad(7.5, 0.08, -0.08, upper)))  # type: ignore[arg-type]
+    assert part["heights"] == heights
+    assert part["origin"] == [7.5, 0.0, 0.0]
+    assert part["stations"][0] < 0.0 < part["stations"][1]
+
+
+def grid(nx: int, ny: int) -> GridRoad:
+    x, y = np.meshgrid(np.arange(nx) * 0.5 - 3.0, np.arange(ny) * 0.25 + 2.0, indexing="ij")
+    return GridRoad((-3.0, 2.0), (0.5, 0.25), 0.01 * x + 0.02 * y + 0.001 * x * y, 0.5 + 0.001 * x)
+
+
+def test_a_grid_keeps_its_points() -> None:
+    road = grid(7, 9)
+    part = valid(scene_part(road))
+    assert part["shape"] == [7, 9]
+    assert "note" not in part
+    heights = np.frombuffer(base64.b64decode(part["heights"]), "<f4").reshape(7, 9)
+    for i, j in ((0, 0), (3, 4), (6, 8)):
+        x, y = (part["origin"][k] + n * part["spacing"][k] for k, n in enumerate((i, j)))
+        assert heights[i, j] == pytest.approx(under(road, x, y), abs=1e-6)
+    frictions = np.frombuffer(base64.b64decode(part["frictions"]), "<f4")
+    assert np.allclose(frictions.reshape(7, 9), road.frictions)
+
+
+def test_a_large_grid_is_thinned_and_says_so() -> None:
+    road = grid(1001, 90)
+    part = valid(scene_part(road))
+    assert part["shape"] == [334, 90]
+    assert part["spacing"] == [1.5, 0.25]
+    assert part["note"] == "the road has 1001 x 90 points; 334 x 90 of them are drawn"
+    heights = np.frombuffer(base64.b64decode(part["heights"]), "<f4").reshape(334, 90)
+    assert np.allclose(heights, np.asarray(road.heights)[::3], atol=1e-6)
+
+
+def test_the_command_writes_what_the_function_gives(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    road, file, out = grid(20, 30), tmp_path / "a.road", tmp_path / "a.json"
+    write_road(road, file)
+    assert main([str(file), "--part", str(out)]) == 0
+    assert f"written: {out}" in capsys.readouterr().out
+    part = json.loads(out.read_text(encoding="utf-8"))
+    assert valid(part)["shape"] == [20, 30]
+    assert drawn_roads([{"kind": "file", "path": str(file)}, {"kind": "flat", "height": 1.0}]) == [
+        part,
+        {"kind": "flat", "height": 1.0},
+    ]

@@ -1,0 +1,146 @@
+"""Looks of cars: drawn from the hard points of their files, and nothing but looks."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any, get_args
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.vehicle import car_names, load
+from mbs.vehicle.shapes.body_shell import BodyShell
+from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
+from mbs.vehicle.shapes.tube_frame import FRAME
+from mbs.vehicle.suspensions import Suspension
+from viewer.poses import FramePoses
+from viewer.scene import scene_errors
+
+
+@cache
+def scene(car: str, body: str = "") -> dict[str, Any]:
+    made = load(car).changed({"chassis.body": body}) if body else load(car)
+    return mbs.compile(made.model()).scene
+
+
+def named(car: str, name: str) -> dict[str, Any]:
+    (found,) = [shape for shape in scene(car)["shapes"] if shape.get("name") == name]
+    return found
+
+
+def drawn(car: str, anchors: list[Any]) -> np.ndarray:
+    """Places at the start; cars stand as they are drawn to a tenth of a millimetre."""
+    frames = scene(car)["frames"]
+    columns = {}
+    for frame in frames.values():
+        if "position" in frame:
+            for names, values in zip((frame["position"], frame["quaternion"]), frame["start"], strict=True):
+                columns |= {name: np.array([value]) for name, value in zip(names, values, strict=True)}
+        else:
+            columns[frame.get("angle") or frame["way"]] = np.zeros(1)
+    poses = FramePoses(scene(car), columns, 1)
+    return np.array([poses.points(anchor)[0] for anchor in anchors])
+
+
+def test_every_suspension_has_looks() -> None:
+    kinds = {get_args(t.model_fields["kind"].annotation)[0] for t in get_args(get_args(Suspension)[0])}
+    assert set(SUSPENSIONS) == kinds
+
+
+@pytest.mark.parametrize("car", car_names())
+def test_the_scene_of_a_car_is_one(car: str) -> None:
+    found = scene(car)
+    assert scene_errors(found) == []
+    assert found["focus"] == "chassis"
+    assert 3.0 < found["extent"] < 6.0
+    assert not [shape for shape in found["shapes"] if shape["kind"] == "wheel" and not 0.2 < shape["radius"] < 0.4]
+
+
+@pytest.mark.parametrize("car", car_names())
+def test_rods_springs_and_wheels_are_at_the_hard_points(car: str) -> None:
+    made = load(car)
+    for axle in (made.front, made.rear):
+        side = "F" if axle is made.front else "R"
+        points = dict(axle.suspension.points)
+        for w, mirror in ((f"{side}L", [1.0, 1.0, 1.0]), (f"{side}R", [1.0, -1.0, 1.0])):
+            rod = next((stem for stem in ("tie_rod", "toe_link") if f"{stem}_outer" in points), None)
+            if rod is not None:
+                ends = drawn(car, named(car, f"{rod.replace('_', ' ')} {w}")["points"])
+                assert np.allclose(
+                    ends, np.multiply([points[f"{rod}_outer"], points[f"{rod}_inner"]], mirror), atol=3e-4
+                )
+            upper = points.get("spring_upper") or points["strut_top"]
+            assert np.allclose(drawn(car, named(car, f"spring {w}")["ends"])[1], np.multiply(upper, mirror), atol=3e-4)
+            wheel = named(car, f"wheel {w}")
+            assert wheel["radius"] == axle.tyre.radius
+            assert wheel["rim"] == pytest.approx(axle.tyre.bottoming_radius - 0.01)
+            assert np.allclose(
+                drawn(car, [[wheel["frame"], [0, 0, 0]]]), np.multiply(axle.wheel.centre, mirror), atol=3e-4
+            )
+
+
+def test_levers_of_an_anti_roll_bar_turn_with_their_links() -> None:
+    """In a run the link is as long as it is drawn, though only the angle of its lever is known."""
+    system = mbs.compile(load("hatchback").model())
+    run = mbs.simulate(
+        system, 1.5, 0.002, {"steering": lambda t: 0.8 * np.sin(4.0 * t), "throttle": 0.6}, progress=False
+    )
+    columns = {name: run[name] for name in run.units}
+    columns |= {
+        c: run.poses[f"{b.name}.{c.rpartition('.')[2]}"] for b in system.drawing.places.bodies for c in b.columns
+    }
+    columns |= {turn.column: run.poses[f"{turn.name}.angle"] for turn in system.drawing.places.turns}
+    poses = FramePoses(system.scene, columns, len(run.t))
+    for w in ("FL", "FR", "RL", "RR"):
+        (link,) = [s for s in system.scene["shapes"] if s.get("name") == f"anti-roll link {w}"]
+        lever, end = (poses.points(anchor) for anchor in link["points"])
+        assert np.ptp(np.linalg.norm(lever - end, axis=1)) < 1e-6
+        assert np.ptp(run[f"anti_roll_bar_{w}.angle"]) > 0.01
+
+
+def test_the_body_encloses_its_wheels_and_faces_outwards() -> None:
+    car = load("hatchback")
+    shell = BodyShell(car)
+    for surface in (shell.lower_body, shell.windows, shell.panel):
+        places, triangles = surface()
+        a, b, c = (places[triangles[:, k]] - places.mean(axis=0) for k in range(3))
+        assert np.einsum("ij,ij->", a, np.cross(b, c)) > 0.0
+        assert np.allclose(np.sort(places * [1.0, -1.0, 1.0], axis=0), np.sort(places, axis=0))
+    places, _ = shell.lower_body()
+    assert np.ptp(places[:, 0]) == pytest.approx(car.vehicle.length, abs=1e-9)
+    assert np.ptp(places[:, 1]) == pytest.approx(car.vehicle.width, rel=0.01)
+    for axle in (car.front, car.rear):
+        x, _, z = axle.wheel.centre
+        near = places[np.abs(places[:, 0] - x) < 0.7 * axle.tyre.radius]
+        ways = np.hypot(near[:, 0] - x, near[:, 2] - z)
+        assert ways.min() > axle.tyre.radius + 0.03  # the tyre is free in its arch
+
+
+@pytest.mark.parametrize(
+    ("car", "body", "shell", "tubes"),
+    [
+        ("prototype", "", 0, 129),
+        ("prototype", "closed", 3, 129),
+        ("hatchback", "open", 0, 1),
+        ("hatchback", "closed", 3, 1),
+        ("hatchback", "clear", 3, 1),
+    ],
+)
+def test_the_body_is_as_the_file_says(car: str, body: str, shell: int, tubes: int) -> None:
+    shapes = scene(car, body)["shapes"]
+    meshes = [shape for shape in shapes if shape["kind"] == "mesh"]
+    assert len(meshes) == shell
+    assert all(
+        (shape.get("opacity", 1.0) < 0.5) is (body == "clear" or shape["name"] == "none") for shape in meshes[::2]
+    )
+    assert len([shape for shape in shapes if shape.get("name") == FRAME]) >= tubes
+
+
+def test_looks_change_no_motion() -> None:
+    """A car without any looks steps to the same bits."""
+    model = load("hatchback").model()
+    plain = load("hatchback").model()
+    plain.shapes, plain.turnings = [], []
+    a, b = (mbs.compile(m) for m in (model, plain))
+    assert a.to_bytes(drawing=False) == b.to_bytes(drawing=False)
