@@ -12,6 +12,7 @@ from ali3.running import run_command
 from benchmarks.shared.command import parser_of, pyplot, save_chart
 from mbs.vehicle import Car, load
 
+NEAR = (0.5, 0.1)  # m: the names of gauges that are nearer would lie on each other
 VIEWS = ((0, 2, "z, m"), (0, 1, "y, m"))  # from the side, from above
 
 
@@ -49,8 +50,10 @@ def draw(a: Any, car: Car, i: int, j: int) -> None:
         names.setdefault((round(float(place[i]), 3), round(float(place[j]), 3)), []).append(gauge.name)
     if names:
         a.plot(*np.array(list(names)).T, "s", ms=8, color="tab:red", label="strain gauges")
-    for place, found in names.items():
-        style = {"xytext": (0, -17), "textcoords": "offset points", "ha": "center", "color": "tab:red"}
+    places = list(names)
+    for k, (place, found) in enumerate(names.items()):
+        beside = any(abs(place[0] - x0) < NEAR[0] and abs(place[1] - y0) < NEAR[1] for x0, y0 in places[:k])
+        style = {"xytext": (0, 9 if beside else -17), "textcoords": "offset points", "ha": "center", "color": "tab:red"}
         a.annotate(", ".join(found), place, **style)
 
 

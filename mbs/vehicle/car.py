@@ -157,6 +157,24 @@ class Car(Section):
         joints = JointFinder(frame, structure, attachments(b), points).joints(self.chassis, driven)
         return FlexibleFrame(frame, self._folder, structure, joints)
 
+    @cached_property
+    def misfit(self) -> str:
+        """Why a frame with `or_rigid` does not fit the car, which is rigid then; empty where it does."""
+        if self.chassis.frame is None or not self.chassis.frame.or_rigid:
+            return ""
+        try:
+            frame = self.flexible_frame
+            if frame.section.loads is not None and self.steering.on_flexible_chassis:
+                frame.recorded_loads()
+        except ModelError as error:
+            return str(error)
+        return ""
+
+    @property
+    def has_frame(self) -> bool:
+        """Whether it has a flexible frame that fits it."""
+        return self.chassis.frame is not None and not self.misfit
+
     def _frame(self) -> FrameSection:
         if self.chassis.frame is None:
             raise ModelError(f"The car '{self.name}' has no flexible frame: its file has no table chassis.frame.")
@@ -199,6 +217,8 @@ class Car(Section):
                 f"{self.steering.key('kind')} is '{self.steering.kind}', which needs a rigid chassis, fidelity "
                 f"{Fidelity.RIGID.value}; for fidelity {fidelity.value} take 'rack_by_angle'."
             )
+        if fidelity is not Fidelity.RIGID and self.misfit:
+            raise ModelError(f"The car '{self.name}' has fidelity 0 only: its frame does not fit it. {self.misfit}")
         flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
         b = self._builder(road)
         m = b.m
@@ -286,7 +306,7 @@ class Car(Section):
         frame has no table of loads.
         """
         frame = self.chassis.frame
-        bends = frame is not None and self.steering.on_flexible_chassis
+        bends = self.has_frame and self.steering.on_flexible_chassis
         offered: tuple[Fidelity, ...] = OFFERED if bends else OFFERED[:1]
         if bends and frame is not None and frame.loads is None:
             offered = tuple(fidelity for fidelity in OFFERED if fidelity is not Fidelity.LOAD_PATHS)
@@ -371,7 +391,7 @@ class Car(Section):
         for name, spin in spins.items():
             wheel_outputs(b, spin, name)
         health_outputs(m)
-        if self.chassis.frame is not None:
+        if self.has_frame:
             stress_outputs(m, b.chassis, self.flexible_frame, fidelity)
         if self.chassis.ground_contact is not None:
             ground_contact(b, self.chassis.ground_contact)

@@ -145,7 +145,7 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
         raise CarFileError(_told(what, faults))
     if not at_rest:
         return car
-    if car.chassis.frame is not None:
+    if car.has_frame:
         try:
             frame = car.flexible_frame
             if Fidelity.LOAD_PATHS in car.fidelities():
@@ -160,7 +160,8 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     if faults:
         raise CarFileError(_told(what, faults))
     if warn:
-        for sentence in car_oddities(car, rest):
+        misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
+        for sentence in (*misfit, *car_oddities(car, rest)):
             warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=3)
     return car
 

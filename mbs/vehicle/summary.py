@@ -43,7 +43,7 @@ def summary(car: Car) -> str:
     rows += [
         ("steering", f"{car.steering.kind}, {car.steering.wheel_angle_max:.2f} rad of steering wheel to each side"),
         ("drive", f"{car.drive.kind}, {car.drive.wheels} wheels"),
-        ("chassis", "rigid" if car.chassis.frame is None else "rigid, or flexible by its frame"),
+        ("chassis", "rigid" if not car.has_frame else "rigid, or flexible by its frame"),
         ("parameters", f"{len(car.values())} of the file in the FMU"),
     ]
     width = max(len(name) for name, _ in rows)

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import shutil
 from functools import cache
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from benchmarks.car.frame_stiffness import stiffness
 from mbs import Simulation, System, Trajectory, compile
+from mbs.errors import ModelError
 from mbs.flexible import natural_modes
 from mbs.scenes import kerb_test
 from mbs.shapes.pose_outputs import pose_outputs
-from mbs.vehicle import Fidelity, load
+from mbs.vehicle import CarFileError, CarWarning, Fidelity, load
 from mbs.vehicle.car import Car
 from tests.scene_numbers import amplitudes, rows_of_stress, stress
 
@@ -112,7 +116,7 @@ def test_the_kerb_gives_every_fidelity_the_same_stresses() -> None:
         expected = peak(kerb(3), gauge)
         assert expected > 1e6
         for fidelity in (1, 2):
-            assert peak(kerb(fidelity), gauge) == pytest.approx(expected, rel=0.06)
+            assert peak(kerb(fidelity), gauge) == pytest.approx(expected, rel=0.1)
     for name, gap in (("chassis.z", 1e-3), ("chassis.pitch", 1e-3), ("wheel_FL.travel", 2e-3)):
         np.testing.assert_allclose(kerb(3)[name], kerb(0)[name], rtol=0, atol=gap, err_msg=name)
 
@@ -136,7 +140,7 @@ def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -
 
 @pytest.mark.parametrize(("fidelity", "tolerance"), [(1, 8e-3), (2, 1e-6), (3, 1e-6)])
 def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: float) -> None:
-    """Bending of sill and rail and pull of the roof rail, from the rows of stress and the amplitudes alone.
+    """Gauges of sill, rail and cross member from the rows of stress and the amplitudes alone.
 
     In a turn the quasi-static frame also bends by the speed of rotation, which is not quite in the modes.
     """
@@ -152,9 +156,41 @@ def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: 
         axial, about_y, about_z = np.moveaxis((1.0 - gauge.xi) * ends[:, 0] + gauge.xi * ends[:, 1], -1, 0)
         assert gauge.fibre is not None
         y, z = np.array(gauge.fibre) / np.hypot(*gauge.fibre)
-        found = axial if gauge.name in ("SG5", "SG6") else 2.0 * (z * about_y - y * about_z)
+        bending = z * about_y - y * about_z
+        found = axial + bending if gauge.name in ("SG5", "SG6") else 2.0 * bending
         expected = run[f"stress.{gauge.name}"]
         largest = np.abs(expected).max()
         assert largest > 1e6
         np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance * largest, err_msg=gauge.name)
     assert stress(part, eta).max() < part["stress"]["range"] < part["stress"]["limit"]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"front.suspension.points.strut_top": [-0.045, 0.545, 0.83]}, "where the frame has no joint"),
+        ({"chassis.mass": 1050.0, "vehicle.mass": 1185.0}, r"chassis\.mass is 1050 kg, but the frame"),
+    ],
+)
+def test_a_hatchback_that_its_frame_does_not_fit_is_rigid_as_without_a_frame(
+    change: dict[str, Any], words: str
+) -> None:
+    """It says why; a file of the user's is loaded with a warning."""
+    changed = car().changed(change)
+    assert list(changed.fidelities()) == [Fidelity.RIGID]
+    with pytest.raises(ModelError, match=rf"has fidelity 0 only: its frame does not fit it\. .*{words}"):
+        changed.model(fidelity=1)
+    names = [sensor.name for sensor in changed.model().sensors]
+    assert not [name for name in names if name.startswith("stress.")]
+    with pytest.raises(CarFileError, match=words):
+        car().changed({**change, "chassis.frame.or_rigid": False})
+
+
+def test_a_file_whose_frame_does_not_fit_warns(tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(car().folder, tmp_path / "car"))
+    file = folder / "car.toml"
+    text = file.read_text(encoding="utf-8")
+    assert text.count("strut_top = [-0.0400,") == 1
+    file.write_text(text.replace("strut_top = [-0.0400,", "strut_top = [-0.0380,"), encoding="utf-8")
+    with pytest.warns(CarWarning, match="fidelity 0 only, the frame does not fit the car"):
+        assert list(load(folder).fidelities()) == [Fidelity.RIGID]

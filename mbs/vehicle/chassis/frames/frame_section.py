@@ -60,6 +60,9 @@ class FrameSection(Section):
     """Number of dynamic modes of fidelity 3."""
     loads: str | None = None
     """Table of the load paths: interface, axis, load_1 and on; without it there is no fidelity 2."""
+    or_rigid: bool = False
+    """A frame that does not fit the hard points or the mass of the car leaves it rigid, with a warning, and is not
+    refused."""
     reference: Reference | None = None
     """Joint at chassis.reference that carries the floating frame, by default the one that is there; of a model without
     rotations three nodes that span a triangle, the first of them there."""
