@@ -288,3 +288,24 @@ def test_a_picture_fits_its_element_again_when_that_changes_without_being_asked(
         assert red(drawn.picture()) == pytest.approx((100, 90), abs=2)
     finally:
         drawn.ask(resize, 320)
+
+
+def test_asphalt_lies_on_the_earth_and_not_under_the_camera(drawn):
+    """Its layers repeat after 1.1, 7.3, 61 and 20 m, all together after 979 660 m; in between the road has moved."""
+    shown = scene(shapes=[ball()], focus="body", roads=[{"kind": "flat", "height": -0.3}])
+    drawn.show(shown, at(0, 0, 0))
+    here = drawn.picture()
+    drawn.update(at(979_660.0, 0, 0))
+    assert np.abs(drawn.picture() - here).mean() < 0.2
+    drawn.update(at(979_660.4, 0, 0))
+    assert np.abs(drawn.picture() - here).mean() > 1.0
+
+
+def test_a_kerb_far_away_leaves_the_road_under_the_car(drawn):
+    road = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, 0.1], "origin": [1e6, 0, 0]}
+    drawn.show(scene(shapes=[ball((0, 0, 0.3))], focus="body", roads=[road]), at(0, 0, 0))
+    before = drawn.picture()
+    grey = before[-20:, :, :]
+    assert grey.max(axis=2).mean() - grey.min(axis=2).mean() < 12  # asphalt, not sky
+    drawn.update(at(1e6 - 0.3, 0, 0))
+    assert np.abs(drawn.picture() - before).max() > 60  # the stone of the kerb

@@ -7,7 +7,7 @@ const rod = (material) => new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 12,
 export function roundTubes(count, closed, radius, material) {
   const group = new THREE.Group();
   const rods = Array.from({ length: closed ? count : count - 1 }, () => rod(material));
-  const ball = new THREE.SphereGeometry(radius, 12, 8);
+  const ball = new THREE.SphereGeometry(radius, 10, 6);
   const balls = Array.from({ length: count }, () => new THREE.Mesh(ball, material));
   group.add(...rods, ...balls);
   const place = (points) => {

@@ -27,7 +27,7 @@ function halfProfile(r, rim, w) {
 function tyre(r, rim, w, materials) {
   const { half, start } = halfProfile(r, rim, w);
   const profile = [...half.map(([x, y]) => [x, -y]), ...half.slice(0, -1).reverse()];
-  const geometry = new THREE.LatheGeometry(vectors(profile), 56);
+  const geometry = new THREE.LatheGeometry(vectors(profile), 48);
   const material = materials.named("rubber").clone();
   if (!materials.options.ghost) {
     material.color.set("#48494c");
