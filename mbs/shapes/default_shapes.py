@@ -239,7 +239,7 @@ class Defaults:
         frame, local = self.names.anchor(base, middle)
         if not base.is_ground and (frame in drawn or len(self.touched.points.get(frame, [])) > 2):
             return []
-        half = (0.75 if base.is_ground else 0.25) * self.extent * unit
+        half = (1.2 if base.is_ground else 0.25) * self.extent * unit
         ends = [numbers(np.array(local) - half), numbers(np.array(local) + half)]
         return [
             {"kind": "cylinder", "frame": frame, "ends": ends, "radius": 0.4 * self.tube}

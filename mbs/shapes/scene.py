@@ -55,6 +55,8 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
     frames = frames_of(model, names, places, q)
     used = {frame for shape in shapes for frame in frames_used(shape)}
     frames |= {name: frame for name, frame in found.frames.items() if name in used}
+    rails = {slide.joint.name for slide in found.slides}
+    sized = [shape for shape in shapes if shape.get("name") not in rails]
     scene: Scene = {
         "format": "ALi3 scene",
         "version": 1,
@@ -62,7 +64,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "description": "",
         "up": _up(model),
         "planar": model.dimension == 2,
-        "extent": _extent([*_places_of_shapes(shapes, frames), *_nodes(model)]) if shapes else extent,
+        "extent": _extent([*_places_of_shapes(sized, frames), *_nodes(model)]) if sized else extent,
         "focus": _focus(model, names),
         "frames": frames,
         "shapes": shapes,
