@@ -19,6 +19,7 @@ from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_fidelities, load_scene
 from hosts import page, run
 from hosts.fmu import Fmu
+from hosts.geometry import scene_of
 from mbs.scenes import prototype_car
 from viewer.browser import BrowserError, find_chromium, launch_arguments
 
@@ -418,5 +419,11 @@ def test_a_road_of_the_user_is_in_the_page_and_under_the_car(car: Path, chromium
     opened.ask("player.advance(500)")
     level = opened.ask("player.session.record.series(player.session.record.column('chassis.az'), 100, 1)[1]")
     assert np.ptp(level) < 0.5
+    opened.ask("player.set('road.kerb_height', 0.2)")
+    opened.ask("player.advance(1)")
+    assert opened.ask("player.view.scene.roads[0].heights") == [0.0, -0.2]
+    drawn = scene_of(car, {"road.kerb_height": 0.2})
+    assert drawn is not None
+    assert drawn["roads"][0]["heights"] == [0.0, -0.2]  # the car stands on the upper level, at 0
     assert opened.wrong == []
     opened.close()

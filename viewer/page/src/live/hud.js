@@ -41,7 +41,7 @@ export class Hud {
   /**
    * @param {(name: string) => number} lookup
    * @param {number} time - s.
-   * @param {object} pace - See `paceWords`.
+   * @param {object | null} pace - See `paceWords`; null for a recording.
    */
   show(lookup, time, pace) {
     if (this._speed) this._big.textContent = `${(3.6 * lookup(this._speed)).toFixed(0)} km/h`;
@@ -51,7 +51,7 @@ export class Hud {
     if (this._turns) parts.push(`${(RPM * lookup(this._turns)).toFixed(0)} rpm`);
     this._small.textContent = parts.join(" · ");
     this._time.textContent = `${time.toFixed(2)} s`;
-    const { text, warn } = paceWords(pace);
+    const { text, warn } = pace ? paceWords(pace) : { text: "", warn: "" };
     this._pace.textContent = text;
     this._warn.textContent = warn;
   }

@@ -119,7 +119,7 @@ export class Stage {
       this._drawRoads(part, lookup);
       part.view.update(lookup);
       const end = part.recording ? part.recording.t[part.recording.t.length - 1] : Infinity;
-      part.hud.show(lookup, Math.min(time, end), pace);
+      part.hud.show(lookup, Math.min(time, end), part.recording ? null : pace);
       if (part.recording?.end) this.tell(part, time > end ? part.recording.end : "");
     }
     this.dirty = true;
