@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from typing import Any
 
@@ -48,10 +49,12 @@ class Defaults:
     touched: Touched
     extent: float
 
-    @property
+    @cached_property
     def tube(self) -> float:
-        """Radius of tubes, m."""
-        return TUBE * self.extent
+        """Radius of tubes, m: slender beside the scene, and beside its longest body where there are many in a row."""
+        bodies = [points for frame, points in self.touched.points.items() if frame != "ground" and len(points) > 1]
+        longest = max((float(np.linalg.norm(np.ptp(points, axis=0))) for points in bodies), default=0.0)
+        return min(TUBE * self.extent, LONGEST_TUBE * longest) if longest > 0.0 else TUBE * self.extent
 
     def all(self, drawn: set[str], named: set[str]) -> list[Shape]:
         """Shapes of all frames and lines but those that are drawn by the user, by frame and by name."""
