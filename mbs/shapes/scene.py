@@ -25,8 +25,6 @@ from mbs.shapes.shared_points import shared_points
 
 SLIDES = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
 Scene = dict[str, Any]
-Binding = Callable[[str, Mapping[str, Any]], "Mapping[str, Any] | str"]
-"""``binding(name, frame)`` gives a frame with other columns, or in a few words why there are none."""
 
 
 def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
@@ -75,46 +73,6 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "missing": [{"name": name, "why": SLIDES} for name in found.sliding if name not in named],
     }
     return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
-
-
-def rebound(scene: Mapping[str, Any], binding: Binding) -> Scene:
-    """A scene whose frames have other columns, such as the variables of an FMU.
-
-    Parameters
-    ----------
-    scene : mapping
-        Of a System.
-    binding : callable
-        ``binding(name, frame)`` gives the frame with its new columns, or in a few words why it has none: what it
-        carries is then not drawn and stands in `missing`.
-
-    Returns
-    -------
-    dict
-        A new scene.
-    """
-    frames, lost = {}, {}
-    for name, frame in scene["frames"].items():
-        bound = binding(name, frame)
-        if isinstance(bound, str):
-            lost[name] = bound
-        else:
-            frames[name] = dict(bound)
-    for name in [n for n, frame in frames.items() if frame.get("parent") in lost]:
-        lost[name] = lost[frames.pop(name)["parent"]]
-    here = {"ground", *frames}
-    kept = {key: [part for part in scene[key] if frames_used(part) <= here] for key in ("shapes", "flexible", "arrows")}
-    used = {shape["mesh"] for shape in kept["shapes"] if shape["kind"] == "mesh"}
-    return (
-        dict(scene)
-        | kept
-        | {
-            "frames": frames,
-            "meshes": {name: mesh for name, mesh in scene["meshes"].items() if name in used},
-            "focus": scene["focus"] if scene["focus"] in frames else "",
-            "missing": [*scene["missing"], *({"name": name, "why": why} for name, why in lost.items())],
-        }
-    )
 
 
 def frames_used(part: Mapping[str, Any]) -> set[str]:

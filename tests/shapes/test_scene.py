@@ -15,7 +15,6 @@ import mbs.scenes
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.scenes import double_four_bar, flyball, pendulum, puma, spinning_beam, squeezer
-from mbs.shapes.scene import rebound
 from viewer.recording import Recording
 from viewer.scene import check_scene
 
@@ -275,33 +274,6 @@ def test_a_driven_distance_is_an_actuator():
     (actuator,) = shapes_of(mbs.compile(m).scene, kind="damper")
     assert actuator["name"] == "cylinder"
     assert actuator["ends"] == [["ground", [0.0, -1.0, 0.0]], ["arm", [0.5, 0.0, 0.0]]]
-
-
-def test_a_scene_for_other_columns():
-    scene = mbs.compile(flyball.build()).scene
-
-    def binding(name, frame):
-        if name == "slider":
-            return "the FMU has no outputs of it"
-        return frame | {"position": [f"body.{c}" for c in frame["position"]]}
-
-    bound = rebound(scene, binding)
-    check_scene(bound)
-    assert bound["frames"]["shaft"]["position"][0] == "body.shaft.x"
-    assert bound["missing"] == [{"name": "slider", "why": "the FMU has no outputs of it"}]
-    assert not shapes_of(bound, kind="spring")
-    assert shapes_of(bound, kind="tube", body="shaft")
-    assert len(shapes_of(scene, kind="spring")) == 2
-
-
-def test_a_wheel_goes_with_its_lost_carrier():
-    from mbs.scenes import bicycle
-
-    scene = mbs.compile(bicycle.build()).scene
-    bound = rebound(scene, lambda name, frame: "lost" if name == "fork" else frame)
-    assert set(bound["frames"]) == {"rear frame", "rear wheel"}
-    assert {m["name"] for m in bound["missing"]} == {"fork", "front wheel"}
-    assert len(shapes_of(bound, kind="wheel")) == 1
 
 
 def test_up_is_against_gravity():
