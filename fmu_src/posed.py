@@ -15,6 +15,10 @@ POSES = ("wheels", "all")
 Maker = Callable[[], "mbs.Model"] | Callable[[], "mbs.Model | mbs.System"]
 
 
+class PosesError(ValueError):
+    """Poses that cannot be outputs; the message is for the user."""
+
+
 def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) -> dict[int, mbs.System]:
     """Compile the models of an FMU.
 
@@ -35,11 +39,11 @@ def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) 
 
     Raises
     ------
-    ValueError
+    PosesError
         There is no such choice of poses, or all are asked of a System.
     """
     if poses is not None and poses not in POSES:
-        raise ValueError(f"There are no poses '{poses}'; they are {' or '.join(POSES)}.")
+        raise PosesError(f"There are no poses '{poses}'; they are {' or '.join(POSES)}.")
     everything = poses == "all"
     first = _compiled(makers[default](), everything, needed=poses is not None)
     if poses is None and lost_frames(first):
@@ -53,7 +57,7 @@ def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) 
 def _compiled(made: mbs.Model | mbs.System, everything: bool, needed: bool) -> mbs.System:
     if isinstance(made, mbs.System):
         if everything and needed:
-            raise ValueError(
+            raise PosesError(
                 "The scene returns a System, whose outputs are what they are; for --poses all it must return the Model."
             )
         return made

@@ -18,7 +18,7 @@ from typing import Any
 
 import mbs
 import mbs.scenes
-from fmu_src.posed import posed_systems
+from fmu_src.posed import PosesError, posed_systems
 
 _ENGINE = Path(mbs.__file__).parent
 
@@ -138,7 +138,7 @@ def _scene(scene: str) -> Iterator[tuple[str, Callable[..., Any]]]:
     with _neighbours(path.parent):
         try:
             yield _from_file(path, function)
-        except SceneError:
+        except (SceneError, PosesError):
             raise
         except Exception as error:
             raise _own_words(error, path) from error

@@ -114,6 +114,9 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
         resources = {name.removeprefix(_ROOM): archive.read(name) for name in sorted(files)}
     scene = scene_of(path, {ROAD: str(road)})
     assert scene is not None
+    lost = next((item["why"] for item in scene["missing"] if item["name"] == f"the road {road}"), None)
+    if road and lost is not None:
+        raise HostError(f"The road {road} cannot be used: {lost}.")
     own_road = Path(str(road)) if road and Path(str(road)).is_file() else None
     if own_road is not None:
         resources[_ROADS + own_road.name] = own_road.read_bytes()
@@ -122,7 +125,7 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
 
 def build_line(path: Path) -> str:
     """The command that builds an FMU of this file's name with what a page needs."""
-    snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", path.stem.removesuffix("FMI3").removesuffix("Python")).lower()
+    snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", re.sub(r"(FMI3|FMI3Scalar|Python)$", "", path.stem)).lower()
     what = f"--car {snake}" if _has_car(path) else f"--scene {snake}"
     out = "" if path.parent == Path("dist") else f" --out {path.parent}"
     return f"{command_name('build')} {what} --kind native --platforms this,{PLATFORM}{out}"
@@ -141,8 +144,9 @@ def _check_kind(path: Path, description: ModelDescription) -> None:
             "binary in WebAssembly and their drawing."
         )
     version = description.fmiVersion
-    kind = "the kind python, which needs a Python," if "PythonFMU" in tool else f"FMI {version}"
-    if version != "2.0" or description.coSimulation is None or "PythonFMU" in tool:
+    python = "PythonFMU" in tool
+    kind = "the kind python, which needs a Python" if python else f"FMI {version}"
+    if version != "2.0" or description.coSimulation is None or python:
         raise HostError(f"{path} is an FMU of {kind}; a page runs the kind native (FMI 2.0): {build_line(path)}")
 
 

@@ -185,7 +185,7 @@ def animate(
     ArgumentTypeError
         A run is no Trajectory.
     ValueError
-        There is not one name for each run, or a run has no poses and no scene.
+        There is not one name for each run, or a run has no poses or no scene.
     viewer.errors.ViewerError
         An option is wrong, or the scene does not fit the run.
 

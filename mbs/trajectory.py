@@ -146,7 +146,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Raises
         ------
         ValueError
-            The run has no scene and none is given.
+            The run has no scene and none is given, or it has no poses.
         viewer.errors.ViewerError
             The scene is not of the format.
         mbs.RoadFileError
@@ -170,6 +170,11 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             columns |= {names[column]: values for column, values in poses.items()}
             units |= {names[column]: unit for column, unit in poses.units.items()}
         found = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
+        if found.scene is None:
+            raise ValueError(
+                f"This trajectory has no poses, by which {shown(scene['name'])} would be drawn; files have them that "
+                "to_csv(..., poses=True) wrote."
+            )
         if every > 1:
             found.notes.append(f"Poses were kept of one of {every} samples of the run.")
         return found

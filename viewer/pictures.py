@@ -92,12 +92,14 @@ def write_picture(
     Raises
     ------
     ViewerError
-        There is nothing to draw, or nothing at that time.
+        The file does not end with .png, or there is nothing to draw, or nothing at that time.
     BrowserError
         There is no browser that draws.
     FileError
         The file cannot be written.
     """
+    if Path(path).suffix.lower() != ".png":
+        raise ViewerError(f"{path} would be a picture; it must end with .png.")
     check_writable(path)
     shown = thinned(recordings)
     begin, end = min(r.t[0] for r in shown), max(r.t[-1] for r in shown)

@@ -36,8 +36,8 @@ class Recording:
     Attributes
     ----------
     scene : dict or None
-        With what can be drawn: a part whose columns are missing or hold no number is taken out and stands in
-        `missing`.
+        None where the columns have none of its poses, which is told in `notes`. Else with what can be drawn: a part
+        whose columns are missing or hold no number is taken out and stands in `missing`.
     missing : list of dict
         ``name`` and ``why`` of what is not drawn.
     notes : list of str
@@ -144,7 +144,15 @@ class Recording:
 
     def _take(self, scene: dict[str, Any]) -> None:
         """Take out of the scene what the columns do not move, and say so."""
-        empty = {name for name in pose_columns(scene) if name in self.columns and not _any_number(self.columns[name])}
+        wanted = pose_columns(scene)
+        if wanted and not any(name in self.columns for name in wanted):
+            self.notes.append(
+                f"{scene['name']} is not drawn: the result has none of its poses, such as the column '{wanted[0]}'; "
+                "its signals can be plotted."
+            )
+            self._note_gaps(self.columns)
+            return
+        empty = {name for name in wanted if name in self.columns and not _any_number(self.columns[name])}
 
         def fault(name: str) -> str | None:
             if name not in self.columns:

@@ -178,6 +178,8 @@ class Spring(Shape):
     wire: Positive | None = None
     """Thickness of the wire, m."""
     coils: Positive | None = None
+    seat: Positive | None = None
+    """So far from the first end, towards the second, the coil begins, m; by default at the end."""
 
 
 class Damper(Shape):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import math
 import os
 import tempfile
@@ -220,12 +221,13 @@ def _mp4_encoder(fps: float, size: tuple[int, int]) -> Callable[[Path, Iterator[
         ) from None
 
     def encode(path: Path, pictures: Iterator[Image]) -> None:
+        first = next(pictures)  # where there is no browser, ffmpeg does not begin
         writer = imageio_ffmpeg.write_frames(
             str(path), size, fps=fps, codec="libx264", quality=_QUALITY, macro_block_size=2, ffmpeg_log_level="error"
         )
         writer.send(None)
         try:
-            for picture in pictures:
+            for picture in itertools.chain((first,), pictures):
                 writer.send(picture.tobytes())
         except OSError as error:
             words = " ".join(str(error).split())[:300]

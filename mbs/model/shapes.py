@@ -56,7 +56,7 @@ KINDS: Mapping[str, _Kind] = {
     "tube": _Kind(("points",), ("radius",)),
     "plate": _Kind(("points",), ("thickness",)),
     "mesh": _Kind(("file",), ("at", "axes", "scale")),
-    "spring": _Kind(("ends",), ("radius", "wire", "coils")),
+    "spring": _Kind(("ends",), ("radius", "wire", "coils", "seat")),
     "damper": _Kind(("ends",), ("radius",)),
     "wheel": _Kind(("radius", "width"), ("at", "axis", "rim")),
     "steering_wheel": _Kind(("radius",), ("at", "axis")),
@@ -153,6 +153,7 @@ class ShapeVocabulary(BodyVocabulary):
         rim: float | None = None,
         wire: float | None = None,
         coils: int | None = None,
+        seat: float | None = None,
         file: str | Path | None = None,
         scale: float | None = None,
         name: str | None = None,
@@ -173,7 +174,7 @@ class ShapeVocabulary(BodyVocabulary):
         kind : str
             box (`size`, `at`, `axes`), sphere (`radius`, `at`), cylinder (`ends`, `radius`), tube (`points`, `radius`),
             plate (`points`, `thickness`), mesh (`file`, `at`, `axes`, `scale`), spring (`ends`, `radius`, `wire`,
-            `coils`), damper (`ends`, `radius`), wheel (`radius`, `width`, `at`, `axis`, `rim`), steering_wheel
+            `coils`, `seat`), damper (`ends`, `radius`), wheel (`radius`, `width`, `at`, `axis`, `rim`), steering_wheel
             (`radius`, `at`, `axis`) or none.
         at : array_like, shape (dimension,), optional
             Middle of the shape, of a mesh its origin, m; by default the centre of mass, of a mesh the origin of the
@@ -200,6 +201,8 @@ class ShapeVocabulary(BodyVocabulary):
             Diameter of the wire of a spring, m.
         coils : int, optional
             Of a spring.
+        seat : float, optional
+            Of a spring, m: so far from the first end, towards the second, the coil begins, as on the tube of a damper.
         file : path
             Of a mesh: STL, OBJ, PLY, OFF or glTF. It is read at once.
         scale : float, optional
@@ -230,8 +233,8 @@ class ShapeVocabulary(BodyVocabulary):
             name_: value
             for name_, value in {
                 "at": at, "size": size, "axes": axes, "axis": axis, "ends": ends, "points": points, "radius": radius,
-                "thickness": thickness, "width": width, "rim": rim, "wire": wire, "coils": coils, "file": file,
-                "scale": scale,
+                "thickness": thickness, "width": width, "rim": rim, "wire": wire, "coils": coils, "seat": seat,
+                "file": file, "scale": scale,
             }.items()
             if value is not None
         }  # fmt: skip
@@ -338,7 +341,7 @@ class ShapeVocabulary(BodyVocabulary):
     def _made(self, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]) -> Shape:
         fields = dict(looks)
         anchors: list[tuple[Owner, Vector]] = []
-        for key in ("radius", "thickness", "width", "rim", "wire", "scale"):
+        for key in ("radius", "thickness", "width", "rim", "wire", "seat", "scale"):
             if key in given:
                 fields[key] = positive(given[key], f"The {key} of {what}")
         if "coils" in given:
@@ -349,6 +352,8 @@ class ShapeVocabulary(BodyVocabulary):
             anchors = self._anchors(owner, given["ends"], "ends", (2, 2), what)
         if kind == "cylinder" and any(of is not owner for of, _ in anchors):
             raise ModelError(f"The {what} is of one body; through points of several bodies goes a tube.")
+        if kind == "cylinder" and np.array_equal(anchors[0][1], anchors[1][1]):
+            raise ModelError(f"The ends of {what} are one point; a cylinder has a length.")
         if kind in ("box", "sphere", "mesh", "wheel", "steering_wheel"):
             default = np.zeros(3) - origin_of(owner) if kind == "mesh" else np.zeros(3)
             fields["at"] = self._local(owner, given["at"], f"the middle of {what}") if "at" in given else default
@@ -365,6 +370,8 @@ class ShapeVocabulary(BodyVocabulary):
         if kind == "mesh":
             from viewer.mesh_file import read_mesh
 
+            if not isinstance(given["file"], (str, Path)):
+                raise ModelError(f"The file of {what} must be the path of a file, not {shown(given['file'])}.")
             scale = fields.pop("scale", 1.0)
             fields["positions"], fields["triangles"] = read_mesh(given["file"], scale)
             fields["file"] = Path(given["file"]).name

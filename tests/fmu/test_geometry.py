@@ -13,7 +13,7 @@ import pytest
 import mbs
 from fmu_src.build import build_fmu
 from fmu_src.geometry.geometry import geometry, lost_frames
-from fmu_src.posed import posed_systems
+from fmu_src.posed import PosesError, posed_systems
 from fmu_src.scene_registry import load_fidelities
 from fmu_src.variables import variable_table
 from mbs.drawing import POSE
@@ -262,3 +262,12 @@ def test_the_kernel_in_an_fmu_reads_no_drawing(tmp_path: Path) -> None:
 
     with zipfile.ZipFile(build_fmu(pendulum(), "pendulum", tmp_path, ["linux64"])) as archive:
         assert b"ALi3 scene" not in archive.read("resources/system_0.ali3")
+
+
+def test_poses_of_a_system_are_refused_in_one_sentence(tmp_path: Path) -> None:
+    file = tmp_path / "own.py"
+    file.write_text(
+        "import mbs\nfrom mbs.scenes import pendulum\ndef own():\n    return mbs.compile(pendulum.build())\n"
+    )
+    with pytest.raises(PosesError, match=r"^The scene returns a System, .* it must return the Model\.$"):
+        load_fidelities(f"{file}:own", "all")

@@ -122,6 +122,15 @@ def test_fmus_of_others(
     assert words in refusal(changed(tuned, tmp_path, change), capsys)
 
 
+def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    roads = {"roads": [{"kind": "file", "variable": "road.file", "path": "resources/roads/own.road"}]}
+    fmu = changed(tuned, tmp_path, same, DRAWING | roads)
+    assert "The road none.road cannot be used: its file is not there." in refusal(fmu, capsys, "--road", "none.road")
+    text = tmp_path / "words"
+    text.write_text("no road")
+    assert f"The road {text} cannot be used: {text} is of a kind" in refusal(fmu, capsys, "--road", str(text))
+
+
 def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = tmp_path / "Text.fmu"
     text.write_text("no archive")

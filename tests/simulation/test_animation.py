@@ -132,8 +132,8 @@ def test_a_file_without_poses_is_as_before(run, tmp_path):
         _ = read.poses
     with pytest.raises(ValueError, match="poses of to_csv"):
         run.to_csv(tmp_path / "run.csv", poses="yes")
-    (found,) = mbs.animate(read, scene=mbs.compile(pendulum.build())).recordings
-    assert [m["name"] for m in found.missing]
+    with pytest.raises(ValueError, match="no poses, by which 'pendulum' would be drawn"):
+        mbs.animate(read, scene=mbs.compile(pendulum.build()))
 
 
 def test_poses_of_a_body_whose_sensor_has_its_name_come_back(tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from typing import Any, get_args
 
@@ -71,7 +72,12 @@ def test_rods_springs_and_wheels_are_at_the_hard_points(car: str) -> None:
                     ends, np.multiply([points[f"{rod}_outer"], points[f"{rod}_inner"]], mirror), atol=3e-4
                 )
             upper = points.get("spring_upper") or points["strut_top"]
-            assert np.allclose(drawn(car, named(car, f"spring {w}")["ends"])[1], np.multiply(upper, mirror), atol=3e-4)
+            spring = named(car, f"spring {w}")
+            lower, top = drawn(car, spring["ends"])
+            assert np.allclose(top, np.multiply(upper, mirror), atol=3e-4)
+            assert spring.get("seat", 0.0) == pytest.approx(max(math.dist(lower, top) - 0.42, 0.0), abs=1e-3)
+            if "spring_lower" in points:
+                assert np.allclose(lower, np.multiply(points["spring_lower"], mirror), atol=3e-4)
             wheel = named(car, f"wheel {w}")
             assert wheel["radius"] == axle.tyre.radius
             assert wheel["rim"] == pytest.approx(axle.tyre.bottoming_radius - 0.01)

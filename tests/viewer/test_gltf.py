@@ -142,6 +142,18 @@ def test_a_spring_reaches_from_anchor_to_anchor(corner):
     assert np.abs(across - 1.0).max() < 1e-5  # only its length changes
 
 
+def test_a_coil_begins_at_its_seat_on_the_way_to_the_other_end(tmp_path):
+    made = moving_car.recording(T)
+    spring = next(shape for shape in made.scene["shapes"] if shape["kind"] == "spring")
+    spring["seat"] = 0.1
+    write_gltf(tmp_path / "seat.glb", made)
+    times = T[::20]
+    top, hub = moving_car.place("chassis", moving_car.TOP, times), moving_car.place("carrier", moving_car.HUB, times)
+    way = hub - top
+    begin = world(tmp_path / "seat.glb", times, "spring")[:, :3, 3]
+    assert np.abs(begin - top - 0.1 * way / np.linalg.norm(way, axis=1)[:, None]).max() < 1e-5
+
+
 def flexible_points(path, times):
     answer = run_node("read_gltf.mjs", path, *times)[0]
     index = next(str(k) for k, node in enumerate(content(path)[0]["nodes"]) if node["name"] == "frame")

@@ -68,6 +68,16 @@ def test_what_the_columns_do_not_move_is_taken_out_with_all_that_stands_on_it() 
     assert why["body"] == why["spinning wheel"] == why["arm"] == "the result has no column 'body.y'"
 
 
+def test_a_result_without_poses_is_told_in_one_sentence() -> None:
+    recording = Recording(everything(), TIMES, {"speed": TIMES})
+    assert recording.scene is None
+    assert recording.missing == []
+    (note,) = recording.notes
+    assert note.endswith(
+        "is not drawn: the result has none of its poses, such as the column 'body.x'; its signals can be plotted."
+    )
+
+
 def test_one_column_takes_no_more_than_what_needs_it() -> None:
     recording = full(angle=None, **{"spring.force": None, "body.mode_1": None})
     assert recording.scene is not None

@@ -19,6 +19,7 @@ from viewer.solids import Solid, along, joined
 Meshes = list[tuple[Solid, Look]]
 
 _CONSTANT = 1e-5  # of a length: what does not change more is rigid
+_SEAT = 0.95  # of the way between the ends of a spring, at most
 _TUBE = 0.6  # length of a damper's tube, as a share of the damper as drawn
 _SPOKES = 5
 _RINGS = 6  # of the balls at the ends of tubes, of which a car has hundreds
@@ -146,6 +147,10 @@ def _spring(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
     radius, coils = shape["radius"], shape.get("coils") or 6.0
     wire = shape.get("wire") or radius / 5.0
     a, b = (parts.poses.points(anchor) for anchor in shape["ends"])
+    if shape.get("seat"):
+        way = np.linalg.norm(b - a, axis=1)
+        share = np.minimum(shape["seat"] / np.where(way > 0.0, way, np.inf), _SEAT)
+        a = a + share[:, None] * (b - a)
     surface = look(shape, "paint", "#d9a21b", double=True)
     _link(parts, name, a, b, surface, lambda length: solids.helix(radius, wire, length, coils))
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from mbs.vehicle.shapes.looks import COIL, POLISHED, Anchor, Looks, between
+from mbs.vehicle.shapes.looks import COIL, POLISHED, Anchor, Looks
 
 COIL_RADIUS, WIRE, DAMPER_RADIUS = 0.046, 0.011, 0.020  # m, of a small car
 PITCH = 0.038  # m from coil to coil
-LONGEST = 0.42  # m: longer springs are drawn with a seat on the tube of the damper
+LONGEST = 0.42  # m: longer springs are drawn with a seat on the tube of the damper, which turns with it
 
 
 def spring_and_damper(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> None:
@@ -25,14 +25,13 @@ def spring_and_damper(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> 
     """
     damper(looks, lower, upper)
     length = math.dist(lower[1], upper[1])
-    seat = lower if length <= LONGEST else (lower[0], between(lower[1], upper[1], 1.0 - LONGEST / length))
-    coil(looks, name, seat, upper)
+    coil(looks, name, lower, upper, seat=max(length - LONGEST, 0.0))
 
 
-def coil(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> None:
-    """A coil spring alone."""
+def coil(looks: Looks, name: str, lower: Anchor, upper: Anchor, seat: float = 0.0) -> None:
+    """A coil spring alone, whose coil begins at `seat`, m from its lower end."""
     scale = looks.scale
-    coils = max(3, round(math.dist(lower[1], upper[1]) / (scale * PITCH)))
+    coils = max(3, round((math.dist(lower[1], upper[1]) - seat) / (scale * PITCH)))
     looks.m.shape(
         lower[0],
         "spring",
@@ -40,6 +39,7 @@ def coil(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> None:
         radius=scale * COIL_RADIUS,
         wire=scale * WIRE,
         coils=coils,
+        seat=seat or None,
         name=name,
         **COIL,
     )

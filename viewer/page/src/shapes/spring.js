@@ -4,9 +4,12 @@ import { coilSurface, coilTriangles } from "./coil.js";
 import { set } from "./plate.js";
 import { stretch } from "./place.js";
 
+/** Of the way between the ends the seat is at most at this part. */
+const MOST = 0.95;
+
 /** A coil spring between two points; its wire keeps its thickness when it is compressed. @param {object} shape */
 export function spring(shape, { materials, frames }) {
-  const { radius, wire = radius / 5, coils = 6, ends } = shape;
+  const { radius, wire = radius / 5, coils = 6, seat: begin = 0, ends } = shape;
   const material = materials.of({ color: "#d9a21b", ...shape }, "paint");
   const geometry = new THREE.BufferGeometry();
   geometry.setIndex(coilTriangles(coils));
@@ -15,10 +18,12 @@ export function spring(shape, { materials, frames }) {
   const seats = [0, 1].map(() => new THREE.Mesh(seat, materials.named("dark_paint")));
   const object = new THREE.Group().add(wound, ...seats);
   const update = (at) => {
-    const [from, to] = ends.map(at);
-    const z = unit(subtract(to, from));
+    const [end, to] = ends.map(at);
+    const z = unit(subtract(to, end));
     object.visible = z !== null;
     if (z === null) return;
+    const whole = length(subtract(to, end));
+    const from = add(end, scale(z, Math.min(begin, MOST * whole)));
     // The start of the wire keeps its place on the body of the first end.
     const body = frames.pose(ends[0][0]).rotation;
     const candidates = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => rotate(body, axis)); // prettier-ignore
