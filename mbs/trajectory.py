@@ -195,7 +195,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             from viewer.notebook import html_of
 
             return html_of(self.recording())
-        except UserError as error:
+        except (UserError, ValueError) as error:
             return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
 
     def thinned(self, every: int) -> Trajectory:

@@ -15,6 +15,7 @@ from viewer.thinning import chosen_times, largest_gap_of_motion
 
 MOST_TIMES = 5001  # 10 s in steps of 2 ms
 _TURN = 2.0 * np.pi
+_LARGEST = 1e30  # of a pose; pictures and glTF hold floats of 32 bits
 
 
 class Recording:
@@ -152,6 +153,8 @@ class Recording:
             )
             self._note_gaps(self.columns)
             return
+        for name in wanted:
+            self._cut(name)
         empty = {name for name in wanted if name in self.columns and not _any_number(self.columns[name])}
 
         def fault(name: str) -> str | None:
@@ -188,6 +191,14 @@ class Recording:
                     f"The column '{name}' has {int(bad.sum())} of {len(bad)} values that are no numbers, the first at "
                     f"{self.t[int(bad.argmax())]:g} s; there is nothing drawn for them."
                 )
+
+    def _cut(self, name: str) -> None:
+        """Take out numbers of poses that no picture can hold, and say so."""
+        values = self.columns.get(name)
+        if values is None or not (wild := np.abs(values) > _LARGEST).any():
+            return
+        self.columns[name] = np.where(wild, np.nan, values)
+        self.notes.append(f"The column '{name}' has {int(wild.sum())} of {len(wild)} values beyond {_LARGEST:g}.")
 
     def _unwrap(self, name: str) -> None:
         """An angle that was given within one turn becomes continuous, so that it can be interpolated and thinned."""

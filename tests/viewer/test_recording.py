@@ -101,6 +101,15 @@ def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_told() -> N
     ]
 
 
+def test_numbers_that_no_picture_holds_are_told_and_not_drawn() -> None:
+    recording = full(**{"body.x": np.where(TIMES > 1.0, 1e300, 1.0), "body.y": np.where(TIMES > 1.5, np.inf, 1.0)})
+    assert np.array_equal(np.isfinite(recording.columns["body.x"]), TIMES <= 1.0)
+    assert recording.notes[0] == "The column 'body.x' has 10 of 21 values beyond 1e+30."
+    assert any(
+        note.startswith("The column 'body.x' has 10 of 21 values that are no numbers") for note in recording.notes
+    )
+
+
 def test_an_angle_within_one_turn_becomes_continuous() -> None:
     angle = 10.0 * TIMES
     wrapped = (angle + np.pi) % (2.0 * np.pi) - np.pi
