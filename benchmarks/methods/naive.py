@@ -64,6 +64,9 @@ class NaiveModel(Model):
         vectors = [carrier.vector(v) for v in (axis, x, y)]
         return Spin(angle.name, angle.index, "rad", carrier, wheel.point(centre), *vectors, 0.0, 0.0, tuple(axis))
 
+    def shape(self, *given: Any, **more: Any) -> None:
+        """Nothing: nobody looks at this model, and its wheels are bodies."""
+
 
 def spatial_four_bars(windows: int) -> Model:
     """The planar chain of four-bars (scene double_four_bar) with bodies in space."""

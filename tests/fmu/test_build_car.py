@@ -7,7 +7,6 @@ import shutil
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
 
 import fmpy
 import pytest
@@ -144,7 +143,7 @@ def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.M
         def refuse(model: object, error: Exception = error) -> None:
             raise error
 
-        monkeypatch.setattr("fmu_src.car_registry.mbs", SimpleNamespace(compile=refuse))
+        monkeypatch.setattr("fmu_src.posed.mbs.compile", refuse)
         with pytest.raises(ValueError, match=f"own/car.toml: the car 'my_car' cannot be built: .*{error}"):
             build_car(str(car))
 

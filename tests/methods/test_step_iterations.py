@@ -10,7 +10,7 @@ import pytest
 import mbs
 from mbs.elements import GridRoad
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
-from mbs.scenes import double_four_bar, prototype_car
+from mbs.scenes import cart_pole, double_four_bar, prototype_car
 from mbs.settings import LIMITED, Settings
 
 H = 0.005
@@ -141,3 +141,13 @@ def test_a_run_says_it(rough):
         mbs.simulate(system, 2.0, tolerance=1e-3, settings=Settings(step_iterations=2))
     free = mbs.simulate(system, 2.0, 0.02, settings=replace(Settings(), step_iterations=0), estimate_error=False)
     assert "limit" not in repr(free)
+
+
+def test_a_step_that_breaks_the_energy_balance_is_counted_too():
+    """Without a limit it is refused; the report goes on to say how much energy is wrong."""
+    simulation = mbs.Simulation(mbs.compile(cart_pole.build()), settings=Settings(step_iterations=30))
+    with pytest.warns(mbs.AccuracyWarning):
+        simulation.run(0.6, 1e-4, progress=False)
+    assert simulation.report.capped > 0
+    assert simulation.report.halvings == 0
+    assert simulation.report.energy_balance > 0.01
