@@ -144,7 +144,12 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace) -> It
     if options.gltf is not None:
         from viewer.gltf import write_gltf
 
-        notes += write_gltf(options.gltf, recordings[0]).notes
+        made = write_gltf(options.gltf, recordings[0])
+        notes += made.notes
+        notes.append(
+            f"{made.path}: {1e-6 * made.size:.2g} MB, {made.times} times; between them a point is up to "
+            f"{made.position_error:.2g} mm and an orientation {made.angle_error:.2g} degrees off."
+        )
         yield options.gltf
     if options.png is not None:
         from viewer.pictures import write_picture

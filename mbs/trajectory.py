@@ -146,13 +146,14 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Raises
         ------
         ValueError
-            The run has no scene and none is given, or it has no poses.
+            The run has no scene and none is given, it is no mapping, or the run has none of its poses.
         viewer.errors.ViewerError
             The scene is not of the format.
         mbs.RoadFileError
             The file of its road cannot be read any more.
         """
         from viewer.recording import Recording
+        from viewer.scene import check_scene
 
         if scene is None:
             if self.drawing is None:
@@ -161,6 +162,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                     "animate(run, scene=system)."
                 )
             scene = self.drawing.scene
+        elif not isinstance(scene, Mapping):
+            raise ValueError(f"What is drawn of a trajectory must be a System or its scene, not {shown(scene)}.")
+        else:
+            check_scene(scene)
         scene = {**scene, "roads": self._drawn_roads(scene.get("roads", []))}
         poses = self._poses
         every = 1 if poses is None else poses.every
@@ -171,8 +176,12 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             units |= {names[column]: unit for column, unit in poses.units.items()}
         found = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
         if found.scene is None:
+            drawn = shown(scene["name"])
+            if poses is not None:
+                bodies = ", ".join(poses.bodies)
+                raise ValueError(f"This trajectory has none of the poses of {drawn}; its bodies are: {bodies}.")
             raise ValueError(
-                f"This trajectory has no poses, by which {shown(scene['name'])} would be drawn; files have them that "
+                f"This trajectory has no poses, by which {drawn} would be drawn; files have them that "
                 "to_csv(..., poses=True) wrote."
             )
         if every > 1:

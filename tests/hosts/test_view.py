@@ -5,6 +5,7 @@ that cannot be shown.
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import zipfile
 from collections.abc import Callable
@@ -352,6 +353,7 @@ def test_pictures_and_animations_are_written_without_a_page(result: Path, said: 
     status, text = said(result, "--png", "p.png", "--at", "0.5", "--size", 320, 240, "--gltf", "p.glb")
     assert status == 0, text
     assert "written: p.glb, p.png" in text
+    assert re.search(r"p\.glb: [0-9.]+ MB, \d+ times; between them a point is up to [0-9.e-]+ mm", text)
     with Image.open("p.png") as picture:
         assert picture.size == (320, 240)
         assert len(picture.convert("RGB").getcolors(1 << 20) or []) > 10

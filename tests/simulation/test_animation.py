@@ -134,6 +134,12 @@ def test_a_file_without_poses_is_as_before(run, tmp_path):
         run.to_csv(tmp_path / "run.csv", poses="yes")
     with pytest.raises(ValueError, match="no poses, by which 'pendulum' would be drawn"):
         mbs.animate(read, scene=mbs.compile(pendulum.build()))
+    with pytest.raises(ValueError, match=r"none of the poses of 'double four-bar'; its bodies are: bob\."):
+        mbs.animate(run, scene=mbs.compile(double_four_bar.build()))
+    with pytest.raises(ValueError, match="must be a System or its scene, not 'pendulum'"):
+        mbs.animate(run, scene="pendulum")
+    with pytest.raises(ViewerError, match="roads is 3"):
+        mbs.animate(run, scene={**run.drawing.scene, "roads": 3})
 
 
 def test_poses_of_a_body_whose_sensor_has_its_name_come_back(tmp_path):
