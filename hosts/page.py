@@ -206,8 +206,8 @@ def with_binary(fmu: FmuParts) -> FmuParts:
     if fmu.wasm is not None:
         return fmu
     with tempfile.TemporaryDirectory() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):
-        arguments = ("--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", folder)
-        command = module_command("fmu_src.build_command", *arguments)
+        arguments = ("build", "--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", folder)
+        command = module_command("ali3", *arguments)
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         made = Path(folder, fmu.path.name)
         if done.returncode == 0 and made.is_file():

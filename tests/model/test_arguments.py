@@ -126,7 +126,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
         "size": (1.0, 2.0, 3.0),
         "axes": np.eye(3),
         **dict.fromkeys(
-            ("axis", "ends", "points", "radius", "thickness", "width", "rim", "wire", "coils", "file", "scale")
+            ("axis", "ends", "points", "radius", "thickness", "width", "rim", "wire", "coils", "seat", "file", "scale")
         ),
         "name": "new",
         "color": "#c03020",

@@ -338,7 +338,7 @@ def test_a_second_writing_gives_the_same_bytes(tmp_path):
         ({"recording": Recording(None, T, {"a": T}, name="plots")}, r"^'plots' has no scene: "),
         (
             {"recording": Recording(hand_scenes.crank(T).scene, T, {})},
-            r"^'crank' has no shape that can be drawn",
+            r"^'crank' has no scene: there are no shapes",
         ),
     ],
 )
