@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import base64
-import binascii
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from viewer.base64_numbers import decoded
+from viewer.scene_parts import GROUND, anchors_of, frames_of
 from viewer.scene_sentences import place, value_words
 
-GROUND = "ground"
 _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 
 
@@ -41,40 +39,6 @@ def relation_errors(scene: Mapping[str, Any]) -> list[str]:
     if scene.get("focus") and scene["focus"] not in _known(scene):
         found.append(_no_frame(scene, ("focus",), scene["focus"]))
     return found
-
-
-def anchors_of(shape: Mapping[str, Any]) -> list[Any]:
-    """Points of other frames that a shape or an arrow lies on."""
-    if "frame" in shape:
-        return []
-    ends = shape.get("points") or shape.get("ends") or shape.get("between") or []
-    return [*ends, *([shape["at"]] if shape.get("vector") else [])]
-
-
-def frames_of(part: Mapping[str, Any]) -> list[str]:
-    """Frames that a shape, an arrow, a flexible part or a frame needs."""
-    named = [part[key] for key in ("frame", "parent", "axes") if isinstance(part.get(key), str)]
-    anchors = part["on"] if "on" in part else anchors_of(part)
-    return [*named, *(anchor[0] for anchor in anchors)]
-
-
-def decoded(text: str, kind: str) -> NDArray[Any]:
-    """Numbers of a text in base64; `ValueError` if it is none.
-
-    Parameters
-    ----------
-    text : str
-        base64 of little-endian numbers of 4 bytes.
-    kind : str
-        ``"f"`` or ``"u"``.
-    """
-    try:
-        data = base64.b64decode(text, validate=True)
-    except (binascii.Error, ValueError):
-        raise ValueError("is not base64") from None
-    if len(data) % 4:
-        raise ValueError(f"has {len(data)} bytes, which is no multiple of 4")
-    return np.frombuffer(data, f"<{kind}4")
 
 
 def _known(scene: Mapping[str, Any]) -> list[str]:

@@ -12,7 +12,8 @@ from fmu_src.geometry.moved_places import moved_part
 from fmu_src.geometry.roads import with_parameters
 from fmu_src.variables import Variable
 from mbs.kernel.header import ElementType
-from mbs.shapes.scene import frames_used
+from viewer.scene_columns import columns_of
+from viewer.scene_parts import frames_of
 
 COLUMNS = ("position", "quaternion", "angle", "way", "value", "vector", "tyre", "amplitudes", "computed")
 """Keys of frames, arrows and flexible parts that name variables."""
@@ -45,7 +46,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
     here = {"ground", *bound.frames}
 
     def kept(parts: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-        return [moved_part(part, bound.moved) for part in parts if frames_used(part) <= here]
+        return [moved_part(part, bound.moved) for part in parts if here.issuperset(frames_of(part))]
 
     parts = [
         part | {"amplitudes": [bound.amplitudes.get(name, name) for name in part["amplitudes"]]}
@@ -57,7 +58,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
         shapes = [shape for shape in shapes if shape.get("name") != FRAME_TUBE]
     shapes += [tube for part in parts if part not in bending for tube in _stiff(part)]
     used = {shape["mesh"] for shape in shapes if shape["kind"] == "mesh"}
-    drawn = {frame for shape in scene["shapes"] for frame in frames_used(shape)}
+    drawn = {frame for shape in scene["shapes"] for frame in frames_of(shape)}
     return scene | {
         "name": name,
         "description": description,
@@ -65,7 +66,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
         "shapes": shapes,
         "meshes": {key: mesh for key, mesh in scene["meshes"].items() if key in used},
         "flexible": bending,
-        "arrows": [arrow for arrow in kept(scene["arrows"]) if set(_columns(arrow)) <= known],
+        "arrows": [arrow for arrow in kept(scene["arrows"]) if known.issuperset(columns_of(arrow))],
         "roads": with_parameters(scene["roads"], system, known),
         "focus": scene["focus"] if scene["focus"] in bound.frames else "",
         "missing": [
@@ -109,17 +110,10 @@ def lost_frames(system: mbs.System) -> list[str]:
         return []
     scene = system.drawing.scene
     bound = bind(system, scene["frames"], system.drawing.shared)
-    drawn = {frame for part in (*scene["shapes"], *scene["flexible"]) for frame in frames_used(part)}
+    drawn = {frame for part in (*scene["shapes"], *scene["flexible"]) for frame in frames_of(part)}
     wheels = int(ElementType.SPIN_ANGLE) in system.arrays["el_type"]
     stiff = [p["frame"] for p in scene["flexible"] if not (wheels or set(p["amplitudes"]) <= set(bound.amplitudes))]
     return [frame for frame in bound.frames | bound.lost if frame in drawn and (frame in bound.lost or frame in stiff)]
-
-
-def _columns(arrow: Mapping[str, Any]) -> list[str]:
-    """Names of the variables of an arrow."""
-    if "tyre" in arrow:
-        return [name for names in arrow["tyre"].values() for name in names]
-    return [arrow["value"]] if "value" in arrow else [name for name in arrow["vector"] if name is not None]
 
 
 def geometry_file(scene: Mapping[str, Any], names: Mapping[str, str] | None = None) -> bytes:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,6 +13,7 @@ from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.recovery import fibre_stresses, section_force_field
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import Section
+from viewer.base64_numbers import encoded
 
 Array = NDArray[np.float64]
 MOST_POINTS = 4000
@@ -83,7 +83,7 @@ def flexible_parts(
             "beams": [],
             "radii": [],
             "amplitudes": list(amplitudes),
-            "modes": packed(np.einsum("ab,nbm->nam", turn, body.node_translations[nodes])),
+            "modes": encoded(np.einsum("ab,nbm->nam", turn, body.node_translations[nodes])),
             **({} if start is None else {"start": np.asarray(start, float).tolist()}),
             **({"computed": computed} if computed else {}),
             **more,
@@ -107,17 +107,6 @@ def is_round(section: Section) -> bool:
     return bool(np.isclose(section.Iy, section.Iz) and np.isclose(section.J, section.Iy + section.Iz))
 
 
-def packed(values: ArrayLike) -> str:
-    """Base64 of the numbers as little-endian float32, row by row.
-
-    Parameters
-    ----------
-    values : array_like
-        Of any shape.
-    """
-    return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode("ascii")
-
-
 def _points(count: int) -> tuple[NDArray[np.int64], dict[str, Any]]:
     every = -(-count // MOST_POINTS)
     note = f"one of {every} of the {count} nodes is drawn" if every > 1 else "nodes are drawn"
@@ -138,7 +127,7 @@ def _beams(
         plain: dict[str, Any] = entry(nodes, lines)
         return plain
     rows = _round_rows(body, frame, group) if rule == "round" else _fibre_rows(body, frame, group)
-    stress = {"rule": rule, "fibres": rows.shape[2], "rows": packed(rows), "unit": "Pa"}
+    stress = {"rule": rule, "fibres": rows.shape[2], "rows": encoded(rows), "unit": "Pa"}
     strengths = [beam.material.yield_strength for beam in beams]
     known = [strength for strength in strengths if strength is not None]
     if len(known) == len(strengths):

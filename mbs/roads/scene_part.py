@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads.read_road import read_road
+from viewer.base64_numbers import encoded
 
 MOST = 400
 """Points along a side of a grid; of a larger one every so many are left, as its note says."""
@@ -65,11 +64,6 @@ def drawn_roads(roads: Sequence[Mapping[str, Any]], most: int = MOST) -> list[di
     ]
 
 
-def base64_of(values: ArrayLike, kind: str = "<f4") -> str:
-    """Numbers as base64 of little-endian float32 or, with ``<u4``, uint32."""
-    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode()
-
-
 def _plane(road: PlaneRoad) -> dict[str, Any]:
     if road.grade_x == 0.0 and road.grade_y == 0.0:
         return {"kind": "flat", "height": float(road.height)}
@@ -101,10 +95,10 @@ def _grid(road: GridRoad, most: int) -> dict[str, Any]:
         "origin": [float(x) for x in road.origin],
         "spacing": [float(d) * k for d, k in zip(road.spacing, every, strict=True)],
         "shape": list(thin.shape),
-        "heights": base64_of(thin),
+        "heights": encoded(thin),
     }
     if frictions.min() != frictions.max():
-        found["frictions"] = base64_of(frictions[part])
+        found["frictions"] = encoded(frictions[part])
     if max(every) > 1:
         found["note"] = (
             f"the road has {heights.shape[0]} x {heights.shape[1]} points; {thin.shape[0]} x {thin.shape[1]} of them "

@@ -15,13 +15,14 @@ from mbs.flexible.scene_part import flexible_parts
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Shape
-from mbs.roads.scene_part import base64_of
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import touched
 from mbs.shapes.roads import roads_of
 from mbs.shapes.shared_points import shared_points
+from viewer import scene_parts
+from viewer.base64_numbers import encoded
 
 SLIDES = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
 Scene = dict[str, Any]
@@ -51,7 +52,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         owned = {names.of_owner(s.owner) for s in model.shapes}
         shapes += defaults.all(owned, named)
     frames = frames_of(model, names, places, q)
-    used = {frame for shape in shapes for frame in frames_used(shape)}
+    used = {frame for shape in shapes for frame in scene_parts.frames_of(shape)}
     frames |= {name: frame for name, frame in found.frames.items() if name in used}
     rails = {slide.joint.name for slide in found.slides}
     sized = [shape for shape in shapes if shape.get("name") not in rails]
@@ -75,14 +76,6 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
     return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
 
 
-def frames_used(part: Mapping[str, Any]) -> set[str]:
-    """Frames that a shape, an arrow or a flexible part lies on."""
-    ends = () if "frame" in part else part.get("ends", ())
-    anchors = [*part.get("points", ()), *ends, *part.get("between", ())]
-    found = {anchor[0] for anchor in anchors} | ({part["frame"]} if "frame" in part else set())
-    return found | ({part["at"][0], part["axes"]} if "vector" in part else set())
-
-
 def _drawn(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | None:
     """A shape of the user as the scene has it; None of one that is left away."""
     if shape.kind == "none":
@@ -101,8 +94,8 @@ def _drawn(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | N
     if shape.kind == "mesh":
         name = _mesh_name(fields.pop("file"), meshes)
         meshes[name] = {
-            "positions": base64_of(fields.pop("positions")),
-            "triangles": base64_of(fields.pop("triangles"), "<u4"),
+            "positions": encoded(fields.pop("positions")),
+            "triangles": encoded(fields.pop("triangles"), "u"),
         }
         found["mesh"] = name
     if "axes" in fields:

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from viewer.base64_numbers import decoded
 from viewer.gltf.materials import linear
 from viewer.poses import Vectors
-from viewer.scene_relations import decoded
 from viewer.solids import Solid, along, joined, lathe
 
 MOST_TARGETS = 8

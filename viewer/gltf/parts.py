@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viewer import solids
+from viewer.base64_numbers import decoded
 from viewer.gltf.materials import Look, look
 from viewer.gltf.motion import Motion, between
 from viewer.poses import FramePoses, Vectors, axes_of_points, conjugate, from_matrices, held, rotated
-from viewer.scene_relations import decoded
 from viewer.solids import Solid, along, joined
 
 Meshes = list[tuple[Solid, Look]]

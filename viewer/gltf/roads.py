@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from viewer.base64_numbers import decoded
 from viewer.poses import Vectors
-from viewer.scene_relations import decoded
 from viewer.solids import Solid
 
 _MOST = 200  # points of a grid in each direction
