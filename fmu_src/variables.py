@@ -25,6 +25,8 @@ _POSE = (
 )
 STEP_SIZE = "step_size"
 _DEPRECATED = "deprecated"
+STEP_ITERATIONS = "solver.step_iterations"
+_MOST_ITERATIONS = 1000.0
 # Name, number in the kernel (ALI3_SOLVER_*), unit, whether it is a whole number, description.
 _SOLVER = (
     ("solver.status", 5, "1", True, "What the last step ended with: 0 good, else a code of the solver"),
@@ -40,6 +42,7 @@ _SOLVER = (
         *("solver.energy_balance", 7, "1", False),
         "solver.energy_error over the largest kinetic energy and the work so far; above 0.04 results are wrong",
     ),
+    ("solver.capped_steps", 8, "1", True, f"Inner steps since the start that ended at {STEP_ITERATIONS}"),
 )
 FIDELITY = "fidelity"
 
@@ -62,10 +65,10 @@ class Variable:
         One sentence.
     source : str
         What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
-        ``solver``, what the solver says about itself, or ``constant``.
+        ``step_iterations``, ``solver``, what the solver says about itself, ``capped_residual`` or ``constant``.
     index : int
         Number of that input, parameter, sensor or figure of the solver; place in (x, y, z, yaw, speed) for ``pose``;
-        0 for `step_size`, `fidelity` and constants.
+        0 for others.
     start, min, max : float, optional
         In `unit`.
     display_unit : str, optional
@@ -94,6 +97,17 @@ class Variable:
     road: int = -1
 
 
+_CAPPED_RESIDUAL = Variable(
+    "solver.capped_residual",
+    "output",
+    "continuous",
+    "m",
+    f"How far steps of the last communication step that ended at {STEP_ITERATIONS} may be off, at most; 0 if none did",
+    "capped_residual",
+    0,
+)
+
+
 def variable_table(
     meta: Mapping[str, Any], *, pose: bool, step_size: float, fidelities: Sequence[str] = ("",), fidelity: int = 0
 ) -> tuple[Variable, ...]:
@@ -118,8 +132,8 @@ def variable_table(
     tuple of Variable
         Inputs, parameters, outputs, constants; the place is the value reference. A dot before a digit is an underscore
         here, since parts of structured names begin with a letter: ``angle_1`` for ``angle.1``. Where the sensors have
-        no figures of the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error` and
-        `solver.energy_balance` are the last outputs.
+        no figures of the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error`,
+        `solver.energy_balance`, `solver.capped_steps` and `solver.capped_residual` are the last outputs.
 
     Raises
     ------
@@ -162,6 +176,13 @@ def variable_table(
         table.append(
             Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
         )
+    text = "Most iterations of an inner step, which is then accepted as it is and counted; 0: as many as it needs"
+    table.append(
+        Variable(
+            *(STEP_ITERATIONS, "parameter", "fixed", "1", text, "step_iterations", 0, 0.0, 0.0, _MOST_ITERATIONS),
+            whole=True,
+        )
+    )
     table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
     sensed = {entry["name"] for entry in meta["sensors"]}
     table += [
@@ -169,6 +190,7 @@ def variable_table(
         for name, k, unit, whole, text in _SOLVER
         if name not in sensed
     ]
+    table += [v for v in (_CAPPED_RESIDUAL,) if v.name not in sensed]
     table += [_constant(entry) for entry in meta.get("constants", ())]
     table = [replace(v, name=_NUMBERED.sub("_", v.name)) for v in table]
     _check(table)

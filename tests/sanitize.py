@@ -25,6 +25,7 @@ TESTS = [
     "tests/model/test_payloads.py",
     "tests/roads/test_road_file.py",
     "tests/roads/test_road_table.py",
+    "tests/roads/test_shared_tiles.py",
     "tests/scenes/test_prototype_car_rest.py",
     "tests/simulation/test_assembly_modes.py",
 ]

@@ -15,8 +15,10 @@ _SOURCES = {
     "pose": "SLAVE_POSE",
     "step_size": "SLAVE_STEP_SIZE",
     "fidelity": "SLAVE_FIDELITY",
+    "step_iterations": "SLAVE_STEP_ITERATIONS",
     "sensor": "SLAVE_SENSOR",
     "solver": "SLAVE_SOLVER",
+    "capped_residual": "SLAVE_CAPPED_RESIDUAL",
     "constant": "SLAVE_CONSTANT",
 }
 

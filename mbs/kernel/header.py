@@ -19,6 +19,8 @@ DOUBT_FROM = 100
 """Steps that a run makes before it is judged."""
 ROAD_VERSION = 1
 """Of a road file."""
+ROAD_SHARED = 2
+"""Of a road file whose equal tiles are stored once."""
 ROAD_TILE = 32
 """Points along the side of a tile of a road file."""
 ROAD_HIGHEST = 1e5
@@ -262,6 +264,7 @@ class SolverValue(IntEnum):
     STATUS = 5
     ENERGY_ERROR = 6
     ENERGY_BALANCE = 7
+    CAPPED = 8
 
 
 class ParameterTarget(IntEnum):

@@ -45,6 +45,7 @@ LIMITS = {
 ROADS = "src/roads/road_file.h"
 ROAD_LIMITS = {
     "ALI3_ROAD_VERSION": "Of a road file.",
+    "ALI3_ROAD_SHARED": "Of a road file whose equal tiles are stored once.",
     "ALI3_ROAD_TILE": "Points along the side of a tile of a road file.",
     "ALI3_ROAD_HIGHEST": "Largest height of a road file, m.",
     "ALI3_ROAD_FARTHEST": "Largest coordinate of a road file, m.",

@@ -15,7 +15,13 @@ from mbs.model.sensors import Sensor, SensorBase, order_number
 
 SOLVER = tuple(value.name.lower() for value in SolverValue)
 SOLVER_UNITS = {SolverValue.VIOLATION: "m", SolverValue.RESIDUAL: "m", SolverValue.ENERGY_ERROR: "J"}
-SOLVER_WHOLE = (SolverValue.ITERATIONS, SolverValue.FACTORIZATIONS, SolverValue.HALVINGS, SolverValue.STATUS)
+SOLVER_WHOLE = (
+    SolverValue.ITERATIONS,
+    SolverValue.FACTORIZATIONS,
+    SolverValue.HALVINGS,
+    SolverValue.STATUS,
+    SolverValue.CAPPED,
+)
 
 
 class ChannelSensorVocabulary(SensorBase):
@@ -165,7 +171,8 @@ class ChannelSensorVocabulary(SensorBase):
         kind : str
             "iterations" and "status" of the last step, "violation" (m) and "residual" (m) after it; since the start
             "factorizations", "halvings", "energy_error" (J, what the steps gave where no force did) and
-            "energy_balance" (the same over the largest kinetic energy and the work).
+            "energy_balance" (the same over the largest kinetic energy and the work) and "capped" (steps that ended
+            at `Settings.step_iterations`).
         description : str
             For files, plots and hosts.
 

@@ -22,7 +22,10 @@ from fmu_src.scene_registry import load_scene
 SCENES = Path(__file__).parent / "scenes.py"
 PLATFORM = fmpy.platform
 OK, WARNING, DISCARD, ERROR = range(4)
-SOLVER = ("solver.status", "solver.halvings", "solver.energy_error", "solver.energy_balance")
+SOLVER = (
+    *("solver.status", "solver.halvings", "solver.energy_error", "solver.energy_balance"),
+    *("solver.capped_steps", "solver.capped_residual"),
+)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -92,7 +92,7 @@ def test_the_file_is_small(all_platforms: Path) -> None:
 def host_rows(program: list[str], folder: Path, library: str) -> np.ndarray:
     resources = folder.joinpath("resources").as_uri() if len(program) == 1 else f"file:///Z:{folder}/resources"
     command = [*program, str(folder / "binaries" / library), resources, native.guid_of(folder)]
-    command += [str(STEPS), str(STEP), "3", "7", "0=2.5", "1=9.0"]
+    command += [str(STEPS), str(STEP), "4", "8", "0=2.5", "1=9.0"]
     environment = {k: v for k, v in os.environ.items() if k != "PATH"} if len(program) == 1 else dict(os.environ)
     done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment | {"WINEDEBUG": "-all"})
     assert done.returncode == 0, done.stderr

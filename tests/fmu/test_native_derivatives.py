@@ -176,10 +176,11 @@ def test_outputs_by_what_is_set_in_initialisation(build: Callable[..., Path], ho
 
 def test_a_derivative_before_the_first_step_says_what_is_missing(build: Callable[..., Path], host: HostMaker) -> None:
     driven = host(build("crane", "native")).start()
-    assert driven.call("getDirectionalDerivative", [3], [0], [1.0]) == ERROR
+    output = driven.references["rod.x"]
+    assert driven.call("getDirectionalDerivative", [output], [0], [1.0]) == ERROR
     assert "one step" in driven.messages[-1]
     assert driven.run(1, INNER)
-    assert driven.call("getDirectionalDerivative", [3], [1], [1.0]) == ERROR
+    assert driven.call("getDirectionalDerivative", [output], [1], [1.0]) == ERROR
     assert "no input" in driven.messages[-1]
 
 

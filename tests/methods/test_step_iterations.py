@@ -15,6 +15,7 @@ from mbs.settings import LIMITED, Settings
 
 H = 0.005
 DEEP = 30
+SWEEPS = 3  # of a projection, at most
 
 
 @pytest.fixture(scope="module")
@@ -64,6 +65,24 @@ def test_no_step_makes_more_iterations_and_none_fails(rough, limit):
     assert 0 < report["capped"] <= (made == limit).sum()
     assert 0.0 < report["capped_residual"] < 0.05
     assert np.isfinite(instance.get_state()[0]).all()
+
+
+@pytest.mark.parametrize("limit", [1, 3, 5])
+def test_the_work_of_a_step_is_bounded(rough, limit):
+    """Factorizations are iterations, and solves are those and the sweeps of the two projections."""
+    instance = started(rough, step_iterations=limit)
+    names = ("iterations", "factorizations", "solves")
+    before, most = instance.report(), dict.fromkeys(names, 0)
+    for _ in range(400):
+        instance.run(H, 1)
+        after = instance.report()
+        made = {name: after[name] - before[name] for name in names}
+        assert made["factorizations"] == made["iterations"] <= limit
+        assert made["solves"] <= limit + 2 * SWEEPS
+        most = {name: max(most[name], made[name]) for name in names}
+        before = after
+    assert most["iterations"] == limit
+    assert most["solves"] > limit
 
 
 def test_what_is_left_bounds_how_far_the_positions_are_off(rough):
@@ -132,7 +151,7 @@ def test_other_methods_have_no_such_limit(rough, method):
 
 def test_a_run_says_it(rough):
     system = mbs.compile(double_four_bar.build())
-    run = mbs.simulate(system, 2.0, 0.02, settings=Settings(step_iterations=2), estimate_error=False)
+    run = mbs.simulate(system, 2.0, 0.02, settings=Settings(step_iterations=1), estimate_error=False)
     text = f"{run.report.capped} of 100 steps ended at the limit of their iterations; they left at most"
     assert run.report.capped > 0
     assert text in repr(run)
@@ -151,3 +170,17 @@ def test_a_step_that_breaks_the_energy_balance_is_counted_too():
     assert simulation.report.capped > 0
     assert simulation.report.halvings == 0
     assert simulation.report.energy_balance > 0.01
+
+
+def test_parts_of_a_step_that_only_look_at_branches_are_not_made():
+    """Near a dead centre a step is repeated in parts, to see whether it jumped; where work is limited it is not."""
+    loaded = LoadedSystem(mbs.compile(double_four_bar.build()).to_bytes())
+    free, limited = Instance(loaded), Instance(loaded)
+    free.initialise()
+    made = stepped(free, 100, 0.02)
+    assert free.report()["halvings"] == 0
+    limited.set_settings(step_iterations=int(made.max()))
+    limited.initialise()
+    stepped(limited, 100, 0.02)
+    assert list(map(list, limited.get_state())) == list(map(list, free.get_state()))
+    assert limited.report()["capped"] == 0

@@ -108,8 +108,7 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
       return slave_say(s, SLAVE_ERROR, "Value reference %u is no output; derivatives are those of outputs.",
                        (unsigned)unknown[i]);
   for (size_t i = 0; i < n_known; i++) {
-    const bool none = known[i] >= t->n_known || t->variable[known[i]].source == SLAVE_STEP_SIZE ||
-                      t->variable[known[i]].source == SLAVE_FIDELITY;
+    const bool none = known[i] >= t->n_known || t->variable[known[i]].source > SLAVE_POSE;
     if (none) return slave_say(s, SLAVE_ERROR, "There are no derivatives by value reference %u.", (unsigned)known[i]);
     if (t->variable[known[i]].whole)
       return slave_say(s, SLAVE_ERROR, "There are no derivatives by '%s'; it is a whole number.",

@@ -78,11 +78,20 @@ static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
   return status == ALI3_START_REFUSED ? refused(s, text, size) : slave_worst_row(s, text, size);
 }
 
+/* The limit of the iterations of a step; the other settings are the kernel's. */
+static ali3_status apply_limit(slave *s) {
+  ali3_settings settings;
+  const ali3_status status = ali3_get_settings(s->fidelity.kernel, &settings);
+  settings.step_iterations = (int32_t)s->value[s->iterations_reference];
+  return status == ALI3_OK ? ali3_set_settings(s->fidelity.kernel, &settings) : status;
+}
+
 static ali3_status apply(slave *s) {
   const slave_table *t = &slave_the_table;
   double pose[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
   bool posed = false;
   ali3_status status = ali3_reset(s->fidelity.kernel);
+  if (status == ALI3_OK) status = apply_limit(s);
   for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
     const slave_variable *v = &t->variable[i];
     if (v->source == SLAVE_INPUT) status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i]);
@@ -102,6 +111,7 @@ bool slave_initialise(slave *s) {
   if (!slave_fidelity_choose(s)) return false;
   const ali3_status status = apply(s);
   s->calls.initialised = status == ALI3_OK;
+  s->calls.capped_residual = 0.0;
   s->outputs_fresh = false;
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The initial state could not be found: %s.%s", ali3_status_text(status),

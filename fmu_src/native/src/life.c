@@ -52,7 +52,7 @@ static bool load(slave *s, const char *resources) {
 
 static void start_values(slave *s) {
   const slave_table *t = &slave_the_table;
-  const slave_call_state calls = {SLAVE_INSTANTIATED, 0, 0, 0, 0, 0.0, HUGE_VAL};
+  const slave_call_state calls = {.phase = SLAVE_INSTANTIATED, .stop_time = HUGE_VAL};
   s->calls = calls;
   s->last_step = SLAVE_OK;
   slave_forget_refusal(s);
@@ -63,6 +63,7 @@ static void start_values(slave *s) {
   for (size_t i = 0; i < t->n_variables; i++) {
     s->value[i] = t->variable[i].start;
     if (t->variable[i].source == SLAVE_STEP_SIZE) s->step_reference = i;
+    if (t->variable[i].source == SLAVE_STEP_ITERATIONS) s->iterations_reference = i;
   }
 }
 

@@ -15,8 +15,10 @@ typedef enum {
   SLAVE_POSE,
   SLAVE_STEP_SIZE,
   SLAVE_FIDELITY,
+  SLAVE_STEP_ITERATIONS,
   SLAVE_SENSOR,
-  SLAVE_SOLVER, /* what the solver says about itself: ali3_solver_value */
+  SLAVE_SOLVER,          /* what the solver says about itself: ali3_solver_value */
+  SLAVE_CAPPED_RESIDUAL, /* of the last communication step */
   SLAVE_CONSTANT /* the start is its value */
 } slave_source;
 
@@ -69,10 +71,13 @@ typedef char slave_text_value[SLAVE_MOST_TEXT]; /* with zeros behind its end */
 typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
 
+enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
+
 typedef struct { /* what a state is beside the kernel's bytes; numbers only */
   slave_phase phase;
-  int32_t initialised, step_warned, energy_warned, mode_warned; /* said once a run */
+  int32_t initialised, step_warned, energy_warned, mode_warned, capped_warned; /* said once a run, the last twice */
   double start_time, stop_time; /* infinite where not given */
+  double capped_residual;       /* m, largest of the last communication step */
 } slave_call_state;
 
 typedef struct { /* a step that was refused and what the host did since: nothing, or count is 0 */
@@ -106,7 +111,8 @@ struct slave {
   bool outputs_fresh;
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
-  size_t step_reference, fidelity_reference; /* the latter n_variables where there is no choice */
+  size_t step_reference, iterations_reference;
+  size_t fidelity_reference; /* n_variables where there is no choice */
 };
 
 /* log.c */

@@ -5,15 +5,14 @@
 
 #include "slave.h"
 
-typedef struct { /* 72 bytes without holes */
+typedef struct { /* 80 bytes without holes */
   char magic[8];
   uint32_t version, crc;
   uint64_t size;
   unsigned char identity[16];
-  uint32_t phase;
-  uint8_t initialised, step_warned, energy_warned, mode_warned;
+  uint8_t phase, initialised, step_warned, energy_warned, mode_warned, capped_warned, zero[2];
   uint32_t fidelity, n_known; /* fidelity of the kernel's bytes; the value may be set for the next initialisation */
-  double start_time, stop_time;
+  double start_time, stop_time, capped_residual;
 } header;
 
 struct slave_state {
@@ -23,7 +22,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 4, CRC_AT = 12, CHECKED_FROM = 16 };
+enum { STATE_VERSION = 5, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
@@ -44,20 +43,19 @@ static void put(unsigned char **to, const void *from, size_t size) {
 static void save(const slave *s, unsigned char *bytes) {
   const size_t n = slave_the_table.n_known, size = whole_size(s);
   const slave_call_state *c = &s->calls;
-  header head = {{0},
-                 STATE_VERSION,
-                 0,
-                 size,
-                 {0},
-                 (uint32_t)c->phase,
-                 (uint8_t)c->initialised,
-                 (uint8_t)c->step_warned,
-                 (uint8_t)c->energy_warned,
-                 (uint8_t)c->mode_warned,
-                 (uint32_t)s->fidelity.number,
-                 (uint32_t)n,
-                 c->start_time,
-                 c->stop_time};
+  header head = {.version = STATE_VERSION,
+                 .size = size,
+                 .phase = (uint8_t)c->phase,
+                 .initialised = (uint8_t)c->initialised,
+                 .step_warned = (uint8_t)c->step_warned,
+                 .energy_warned = (uint8_t)c->energy_warned,
+                 .mode_warned = (uint8_t)c->mode_warned,
+                 .capped_warned = (uint8_t)c->capped_warned,
+                 .fidelity = (uint32_t)s->fidelity.number,
+                 .n_known = (uint32_t)n,
+                 .start_time = c->start_time,
+                 .stop_time = c->stop_time,
+                 .capped_residual = c->capped_residual};
   unsigned char *p = bytes;
   memcpy(head.magic, MAGIC, sizeof MAGIC);
   memcpy(head.identity, slave_the_table.identity, sizeof head.identity);
@@ -85,7 +83,9 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (head.fidelity == s->fidelity.number && size != whole_size(s)) return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
       head.initialised > 1 || head.step_warned > 1 || head.energy_warned > 1 || head.mode_warned > 1 ||
-      !(fabs(head.start_time) < HUGE_VAL) || !(head.stop_time > head.start_time))
+      head.capped_warned > SLAVE_CAPPED_BADLY || head.zero[0] != 0 || head.zero[1] != 0 ||
+      !(fabs(head.start_time) < HUGE_VAL) || !(head.stop_time > head.start_time) || !(head.capped_residual >= 0.0) ||
+      !(head.capped_residual < HUGE_VAL))
     return "their header is inconsistent";
   if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header is inconsistent";
   return NULL;
@@ -158,6 +158,8 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   s->calls.step_warned = (int32_t)head.step_warned;
   s->calls.energy_warned = (int32_t)head.energy_warned;
   s->calls.mode_warned = (int32_t)head.mode_warned;
+  s->calls.capped_warned = (int32_t)head.capped_warned;
+  s->calls.capped_residual = head.capped_residual;
   slave_forget_refusal(s);
   s->calls.start_time = head.start_time;
   s->calls.stop_time = head.stop_time;

@@ -66,14 +66,21 @@ static ali3_status follow_slopes(slave *s, double elapsed) {
   return status;
 }
 
-static ali3_status advance(slave *s, int64_t n, double h) {
+/* *left: the largest residual of an inner step that ended at the limit of its iterations. */
+static ali3_status advance(slave *s, int64_t n, double h, double *left) {
+  ali3_instance *kernel = s->fidelity.kernel;
   ali3_status status = apply_pending(s);
+  *left = 0.0;
   if (status != ALI3_OK) return status;
-  if (!any_slope(s))
-    return n == 1 ? ali3_step(s->fidelity.kernel, h) : ali3_run(s->fidelity.kernel, h, n, NULL, 1, NULL, NULL, NULL);
+  if (!any_slope(s)) {
+    status = n == 1 ? ali3_step(kernel, h) : ali3_run(kernel, h, n, NULL, 1, NULL, NULL, NULL);
+    *left = ali3_capped_residual(kernel);
+    return status;
+  }
   for (int64_t k = 0; k < n && status == ALI3_OK; k++) {
     status = follow_slopes(s, (double)(k + 1) * h);
-    if (status == ALI3_OK) status = ali3_step(s->fidelity.kernel, h);
+    if (status == ALI3_OK) status = ali3_step(kernel, h);
+    *left = fmax(*left, ali3_capped_residual(kernel));
   }
   return status;
 }
@@ -116,12 +123,12 @@ static bool possible(slave *s, double time, double step, double now) {
 static slave_status try_step(slave *s, double time, double step) {
   char worst[SLAVE_TEXT / 2];
   const double now = ali3_time(s->fidelity.kernel);
-  double h;
+  double h, left;
   if (!possible(s, time, step, now)) return SLAVE_ERROR;
   const int64_t n = division(s, now, time + step, &h);
   ali3_snapshot_take(s->fidelity.kernel,
                      s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
-  const ali3_status status = advance(s, n, h);
+  const ali3_status status = advance(s, n, h, &left);
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
     if (status == ALI3_ROAD_LOST) snprintf(worst, sizeof worst, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
@@ -132,6 +139,7 @@ static slave_status try_step(slave *s, double time, double step) {
   memset(s->pending, 0, slave_the_table.n_known);
   s->outputs_fresh = false;
   s->calls.phase = SLAVE_STEPPING;
+  s->calls.capped_residual = left;
   slave_forget_refusal(s);
   return slave_watch(s);
 }

@@ -8,8 +8,7 @@ static const unsigned SETTABLE = SLAVE_INSTANTIATED | SLAVE_INITIALISING | SLAVE
 
 bool slave_is_output(uint32_t reference) {
   const slave_table *t = &slave_the_table;
-  return reference < t->n_variables &&
-         (t->variable[reference].source == SLAVE_SENSOR || t->variable[reference].source == SLAVE_SOLVER);
+  return reference >= t->n_known && reference < t->n_variables && t->variable[reference].source != SLAVE_CONSTANT;
 }
 
 bool slave_outputs(slave *s) {
@@ -20,7 +19,9 @@ bool slave_outputs(slave *s) {
   for (size_t i = t->n_known; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
     if (v->source == SLAVE_CONSTANT) break; /* they come last */
-    s->value[i] = v->source == SLAVE_SENSOR ? s->sensors[v->index] : ali3_solver_value(s->fidelity.kernel, v->index);
+    s->value[i] = v->source == SLAVE_SENSOR   ? s->sensors[v->index]
+                  : v->source == SLAVE_SOLVER ? ali3_solver_value(s->fidelity.kernel, v->index)
+                                              : s->calls.capped_residual;
   }
   s->outputs_fresh = true;
   return true;

@@ -1,5 +1,9 @@
 /* What a run says about itself after a step, once: that its numbers are not what was asked. */
+#include <stdio.h>
+
 #include "slave.h"
+
+static const double MUCH_LEFT = 1e-3; /* m */
 
 static slave_status watch_energy(slave *s, const ali3_report *report) {
   const ali3_report r = *report;
@@ -29,9 +33,27 @@ static slave_status watch_modes(slave *s, const ali3_report *report) {
   return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
 }
 
+/* The first step that ended at the limit of its iterations, and the first that left much: the first is often harmless. */
+static slave_status watch_limit(slave *s, const ali3_report *report) {
+  const double left = s->calls.capped_residual;
+  const int said = report->capped == 0 ? SLAVE_NOT_CAPPED : left > MUCH_LEFT ? SLAVE_CAPPED_BADLY : SLAVE_CAPPED;
+  if (said <= s->calls.capped_warned) return SLAVE_OK;
+  s->calls.capped_warned = said;
+  char off[SLAVE_TEXT / 4] = "the energy balance is violated";
+  if (left > 0.0) snprintf(off, sizeof off, "positions are off by about %.2g mm", 1e3 * left);
+  return slave_say(s, SLAVE_WARNING,
+                   "Up to %.6g s %lld of %lld steps ended at the limit of their iterations, solver.step_iterations = "
+                   "%g; after this one %s. If that is too much, raise the limit or take a step_size below %g s. %s",
+                   ali3_time(s->fidelity.kernel), (long long)report->capped, (long long)report->steps,
+                   s->value[s->iterations_reference], off, s->value[s->step_reference],
+                   said == SLAVE_CAPPED ? "This is said again only where it is more than 1 mm." : "This is said once.");
+}
+
+static slave_status larger(slave_status a, slave_status b) { return a > b ? a : b; }
+
 slave_status slave_watch(slave *s) {
   ali3_report report;
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   const slave_status modes = watch_modes(s, &report), energy = watch_energy(s, &report);
-  return modes > energy ? modes : energy;
+  return larger(larger(modes, energy), watch_limit(s, &report));
 }

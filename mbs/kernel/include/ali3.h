@@ -280,9 +280,13 @@ enum { /* report of the solver; the integer of sensors of type 13 */
        ALI3_SOLVER_STATUS, /* as ali3_run_status */
        ALI3_SOLVER_ENERGY_ERROR, /* J, since the start */
        ALI3_SOLVER_ENERGY_BALANCE, /* the same as a share of the motion, see ali3_energy_balance */
+       ALI3_SOLVER_CAPPED, /* steps since the start that ended at settings.step_iterations */
        ALI3_SOLVER_COUNT
 };
 ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
+/* What the steps of the last ali3_step or ali3_run left that ended at settings.step_iterations, the largest, m; 0 where
+ * none did. No part of a saved state. */
+ALI3_API double ali3_capped_residual(const ali3_instance *in);
 
 /* Flat, versioned, pointer-free, checksummed; bound to the System and the files of its roads by CRC. Holds all that continues bit for bit,
  * parameters and settings too. */

@@ -54,6 +54,7 @@ struct ali3_instance {
   ali3_rule rule;
   bool capped; /* the present step ends at settings.step_iterations, */
   double capped_residual; /* and leaves this, m */
+  double call_residual; /* the largest of the steps of a call */
   bool backed_up; /* in->start holds the state before the step */
   bool discrete, unobserved; /* forces by discrete gradients; the state of this step will not be read */
   bool sampled; /* only sensors will read it */
@@ -79,6 +80,7 @@ struct ali3_instance {
   double *at_J0; /* nq, ng, switches: where J0 was made */
   bool has_J0;
   double *Phi, *Phit, *gamma, *mu, *lam; /* nc */
+  double *drive, *guide_mean; /* nc: work of drives by a unit of the multipliers at the end; ng: mean rates of guides */
   double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
   double *F; /* front storage */
   double *Q; /* nq */

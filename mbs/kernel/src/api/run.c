@@ -8,6 +8,7 @@
 #include "../methods/branch_watch.h"
 #include "../methods/check_method.h"
 #include "../methods/energy_balance.h"
+#include "../methods/newton.h"
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
 #include "../sensors/sensors.h"
@@ -84,10 +85,13 @@ static ali3_status step(ali3_instance *in, double h) {
     in->report.failures++;
     return status;
   }
+  if (in->report.halvings != before.halvings)
+    ali3_iterations_since(in, before.iterations); /* not of the last half only */
   in->report.steps++;
   if (in->capped) {
     in->report.capped++;
     in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);
+    in->call_residual = fmax(in->call_residual, in->capped_residual);
   }
   in->t_base = t_base;
   in->h_last = h;
@@ -99,6 +103,7 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const ali3_status status = ali3_check_method(in);
   in->unobserved = in->sampled = false;
+  in->call_residual = 0.0;
   return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h), h) : status;
 }
 
@@ -128,6 +133,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   const ali3_status method = ali3_check_method(in);
   if (method != ALI3_OK) return method;
   bool unobserved = false, sampled = false; /* the last good step */
+  in->call_residual = 0.0;
   for (int64_t n = 0; n < n_steps; n++) {
     if (inputs != NULL)
       for (int32_t i = 0; i < nu; i++) {

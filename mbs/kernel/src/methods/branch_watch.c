@@ -153,7 +153,8 @@ ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
     return ALI3_OK;
   }
   left_modes(in, t);
-  if (!in->branch_near) return ALI3_OK;
+  /* with a limit of the work of a step none is repeated: a jump is then told where its loop has left its mode */
+  if (!in->branch_near || in->settings.step_iterations > 0) return ALI3_OK;
   memcpy(in->sine_after, in->mode_sine, all);
   ali3_status status = ALI3_OK;
   for (int64_t loop = 0; loop < ali3_loop_count(S) && status == ALI3_OK; loop++) status = judge(in, t, h, loop);

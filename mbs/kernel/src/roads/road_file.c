@@ -1,4 +1,4 @@
-/* Header of a road's file and the tiles in memory: the one that was not used for the longest time makes room. What they
+/* The tiles of a road's file in memory: the one that was not used for the longest time makes room. What they
  * hold is the file's, so a road does not depend on which of them are there. */
 #include "road_file.h"
 
@@ -8,25 +8,19 @@
 
 #include "../files/crc32.h"
 #include "../files/regular_file.h"
+#include "road_header.h"
 #include "road_table.h"
+#include "shared_tile.h"
 
-enum { PLANE, KERB, GRID }; /* elements/road.h */
-enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, HINTS = 256, TEXT = 200, TRAILER = 16, MOST_SIDE = 1 << 30 };
+enum { GRID = 2 }; /* elements/road.h */
+enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, HINTS = 256, TEXT = 200 };
 static const double TABLE_FRICTION = 0.9; /* of a text without frictions */
-
-typedef struct { /* from byte 16 on */
-  int64_t size;
-  int32_t kind;
-  uint32_t contents;
-  int64_t nx, ny;
-  int32_t tile, maps;
-  double real[ALI3_ROAD_REALS], zero;
-} header;
 
 struct ali3_road_file {
   void (*release)(void *block);
   ali3_file *stream; /* NULL once all tiles are in memory */
-  header head;
+  uint32_t version;
+  ali3_road_header head;
   uint32_t identity;
   int64_t tiles_y, n_tiles, reads;
   size_t tile_bytes;
@@ -35,6 +29,7 @@ struct ali3_road_file {
   uint64_t clock, when[ALI3_TILES_NEAR];
   unsigned char hint[HINTS];
   unsigned char *slot; /* n_slots x tile_bytes */
+  unsigned char *record; /* of version 2: room for what stands in the file */
   double *values; /* of a text: all of its grid, in place of tiles */
   char lost[TEXT];
 };
@@ -42,62 +37,6 @@ struct ali3_road_file {
 static int refuse(char *message, size_t size, const char *why) {
   if (message != NULL && size > 0) snprintf(message, size, "%s", why);
   return 0;
-}
-
-static const char *plane_and_kerb_problem(const header *h) {
-  const double *p = h->real, friction = p[h->kind == PLANE ? 3 : 4];
-  if (h->nx != 0 || h->ny != 0 || h->maps != 0 || h->contents != 0) return "a plane or kerb has no grid";
-  for (int i = 0; i < ALI3_ROAD_REALS; i++)
-    if (!(fabs(p[i]) <= ALI3_ROAD_FARTHEST)) return "a number in its header is not finite or beyond 1e8";
-  if (!(friction >= 0.0 && friction <= ALI3_ROAD_FRICTION)) return "its friction lies outside 0 to 10";
-  if (h->kind == PLANE && !(fabs(p[1]) <= 10.0 && fabs(p[2]) <= 10.0)) return "a grade of it lies outside -10 to 10";
-  if (h->kind == KERB && !(p[2] > 0.0)) return "the step of its kerb is not positive";
-  if (h->kind == KERB && p[3] != 1.0 && p[3] != -1.0) return "the side of its kerb is neither 1 nor -1";
-  return NULL;
-}
-
-static const char *grid_problem(const header *h) {
-  const double *p = h->real;
-  if (h->tile != ALI3_ROAD_TILE || (h->maps != 1 && h->maps != 2)) return "its tiles have another form";
-  if (h->nx < 2 || h->ny < 2 || h->nx > MOST_SIDE || h->ny > MOST_SIDE ||
-      (double)h->nx * (double)h->ny > ALI3_ROAD_POINTS)
-    return "its grid has fewer than 2 x 2 or more than 1e12 points";
-  if (!(p[2] > 0.0 && p[3] > 0.0)) return "the spacing of its grid is not positive";
-  if (!(fabs(p[0]) <= ALI3_ROAD_FARTHEST && fabs(p[1]) <= ALI3_ROAD_FARTHEST &&
-        (double)h->nx * p[2] <= ALI3_ROAD_FARTHEST && (double)h->ny * p[3] <= ALI3_ROAD_FARTHEST))
-    return "its grid reaches farther than 1e8 m";
-  if (!(p[4] >= 0.0 && p[4] <= ALI3_ROAD_FRICTION)) return "its friction lies outside 0 to 10";
-  return NULL;
-}
-
-static int64_t tiles_along(int64_t n) { return (n + ALI3_ROAD_TILE - 1) / ALI3_ROAD_TILE; }
-
-static size_t bytes_of_tile(const header *h) { return (size_t)h->maps * POINTS * sizeof(double) + TRAILER; }
-
-/* NULL, or what is wrong with the first bytes of a file of that size. */
-static const char *header_problem(const unsigned char *bytes, int64_t size, header *h, uint32_t *crc) {
-  static const unsigned char one[4] = {1, 0, 0, 0};
-  uint32_t version, machine;
-  memcpy(&machine, one, sizeof machine);
-  memcpy(&version, bytes + 8, sizeof version);
-  memcpy(crc, bytes + 12, sizeof *crc);
-  memcpy(h, bytes + 16, sizeof *h);
-  if (machine != 1) return "this machine is not little endian";
-  if (memcmp(bytes, "ALI3ROAD", 8) != 0)
-    return "it is no road file; make one of a CSV table, NumPy arrays, pictures or a TOML file by: ali3 road INPUT "
-           "OUTPUT.road";
-  if (size < ALI3_ROAD_HEADER) return "it ends too early: it was cut off";
-  if (version != ALI3_ROAD_VERSION) return "it has another version than 1; write it again with ali3 road";
-  if (*crc != ali3_crc32(bytes + 16, ALI3_ROAD_HEADER - 16)) return "its header was altered or damaged";
-  if (h->kind < PLANE || h->kind > GRID) return "it has an unknown kind of road";
-  const char *why = h->kind == GRID ? grid_problem(h) : plane_and_kerb_problem(h);
-  if (why != NULL) return why;
-  const int64_t tiles = h->kind == GRID ? tiles_along(h->nx) * tiles_along(h->ny) : 0;
-  const int64_t whole = ALI3_ROAD_HEADER + tiles * (int64_t)bytes_of_tile(h);
-  if (h->size != whole) return "its header contradicts itself";
-  return size == whole  ? NULL
-         : size < whole ? "it ends too early: it was cut off"
-                        : "it is longer than its header says";
 }
 
 int32_t ali3_road_file_kind(const ali3_road_file *file) { return file->head.kind; }
@@ -117,15 +56,8 @@ void ali3_road_file_size(const ali3_road_file *file, int32_t *nx, int32_t *ny) {
   *ny = (int32_t)file->head.ny;
 }
 
-/* NULL, or what is wrong with a tile that was read; points beyond the grid count too, they are zeros. */
-static const char *tile_problem(const ali3_road_file *file, const unsigned char *bytes, int64_t number) {
-  const size_t checked = file->tile_bytes - sizeof(uint32_t);
-  const double *value = (const double *)bytes;
-  int64_t written;
-  uint32_t crc;
-  memcpy(&written, bytes + file->tile_bytes - TRAILER, sizeof written);
-  memcpy(&crc, bytes + checked, sizeof crc);
-  if (written != number || crc != ali3_crc32(bytes, checked)) return "was altered or damaged";
+/* NULL, or what is wrong with the values of a tile; points beyond the grid count too. */
+static const char *value_problem(const ali3_road_file *file, const double *value) {
   for (int k = 0; k < POINTS; k++)
     if (!(fabs(value[k]) <= ALI3_ROAD_HIGHEST)) return "has a height that is not finite or beyond 1e5 m";
   for (int k = POINTS; k < file->head.maps * POINTS; k++)
@@ -133,11 +65,24 @@ static const char *tile_problem(const ali3_road_file *file, const unsigned char 
   return NULL;
 }
 
-static int read_tile(ali3_road_file *file, int64_t number, unsigned char *to) {
+/* NULL, or why a tile of version 1 is none. */
+static const char *own_tile(const ali3_road_file *file, int64_t number, unsigned char *to) {
   const int64_t from = ALI3_ROAD_HEADER + number * (int64_t)file->tile_bytes;
-  const char *why = "cannot be read";
-  if (file->stream != NULL && ali3_file_read(file->stream, from, to, file->tile_bytes))
-    why = tile_problem(file, to, number);
+  const size_t checked = file->tile_bytes - sizeof(uint32_t);
+  int64_t written;
+  uint32_t crc;
+  if (!ali3_file_read(file->stream, from, to, file->tile_bytes)) return "cannot be read";
+  memcpy(&written, to + file->tile_bytes - ALI3_ROAD_TRAILER, sizeof written);
+  memcpy(&crc, to + checked, sizeof crc);
+  return written != number || crc != ali3_crc32(to, checked) ? "was altered or damaged" : NULL;
+}
+
+static int read_tile(ali3_road_file *file, int64_t number, unsigned char *to) {
+  const ali3_tile_table table = {file->stream, file->head.size, file->n_tiles, ALI3_ROAD_HEADER, file->head.maps};
+  const char *why = file->stream == NULL                ? "cannot be read"
+                    : file->version == ALI3_ROAD_SHARED ? ali3_shared_tile(&table, number, file->record, (double *)to)
+                                                        : own_tile(file, number, to);
+  if (why == NULL) why = value_problem(file, (const double *)to);
   file->reads++;
   if (why == NULL) return 1;
   const double *p = file->head.real;
@@ -195,19 +140,28 @@ double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j) {
   return tile != NULL ? tile[POINTS + i % ALI3_ROAD_TILE * ALI3_ROAD_TILE + j % ALI3_ROAD_TILE] : 0.0;
 }
 
+/* CRC-32 of the checksums of all tiles, in memory, or of the table of them; 0 where it cannot be read. */
+static uint32_t contents_of(ali3_road_file *file) {
+  uint32_t crc[ALI3_TILES_NEAR];
+  const size_t table = (size_t)file->n_tiles * ALI3_TILE_ENTRY;
+  if (file->version == ALI3_ROAD_SHARED)
+    return ali3_file_read(file->stream, ALI3_ROAD_HEADER, file->record, table) ? ali3_crc32(file->record, table) : 0;
+  for (int64_t k = 0; k < file->n_tiles; k++)
+    memcpy(&crc[k], file->slot + (size_t)(k + 1) * file->tile_bytes - sizeof *crc, sizeof *crc);
+  return ali3_crc32(crc, (size_t)file->n_tiles * sizeof *crc);
+}
+
 /* Memory for what is near; all of a small grid, whose stream is then closed. */
 static int place_tiles(ali3_road_file *file, char *message, size_t size) {
-  uint32_t crc[ALI3_TILES_NEAR];
   for (int k = 0; k < ALI3_TILES_NEAR; k++) file->number[k] = -1;
   for (int64_t number = 0; file->n_tiles <= ALI3_TILES_NEAR && number < file->n_tiles; number++) {
     unsigned char *to = file->slot + (size_t)number * file->tile_bytes;
     if (!read_tile(file, number, to)) return refuse(message, size, file->lost);
-    memcpy(&crc[number], to + file->tile_bytes - sizeof *crc, sizeof *crc);
     file->number[number] = number;
     file->used_slots++;
   }
   if (file->used_slots < file->n_tiles) return 1;
-  if (file->n_tiles > 0 && file->head.contents != ali3_crc32(crc, (size_t)file->n_tiles * sizeof *crc))
+  if (file->n_tiles > 0 && file->head.contents != contents_of(file))
     return refuse(message, size, "parts of it belong to another file");
   ali3_file_close(file->stream);
   file->stream = NULL;
@@ -240,7 +194,7 @@ static int table_values(const ali3_road_table *t, char *message, size_t size) {
 static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*allocate)(size_t count, size_t size),
                                   char *message, size_t message_size) {
   ali3_road_table t = {0};
-  header *h = &start->head;
+  ali3_road_header *h = &start->head;
   char *text = size <= ALI3_MOST_TABLE ? allocate(1, (size_t)size + 1) : NULL;
   int good = text != NULL ? ali3_file_read(start->stream, 0, text, (size_t)size)
                           : refuse(message, message_size,
@@ -256,14 +210,14 @@ static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*a
   }
   if (text != NULL) start->release(text);
   if (!good) return NULL;
-  const header given = {.kind = GRID,
-                        .nx = t.nx,
-                        .ny = t.ny,
-                        .tile = ALI3_ROAD_TILE,
-                        .maps = t.maps,
-                        .real = {t.first[0], t.first[1], t.spacing[0], t.spacing[1], TABLE_FRICTION}};
+  const ali3_road_header given = {.kind = GRID,
+                                  .nx = t.nx,
+                                  .ny = t.ny,
+                                  .tile = ALI3_ROAD_TILE,
+                                  .maps = t.maps,
+                                  .real = {t.first[0], t.first[1], t.spacing[0], t.spacing[1], TABLE_FRICTION}};
   *h = given;
-  const char *why = grid_problem(h);
+  const char *why = ali3_road_grid_problem(h);
   ali3_road_file *file = NULL;
   if (why != NULL)
     refuse(message, message_size, why);
@@ -302,19 +256,21 @@ ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t c
   if (why == NULL && is_text(path)) return open_table(&start, size, allocate, message, message_size);
   if (why == NULL && !ali3_file_read(start.stream, 0, bytes, size < ALI3_ROAD_HEADER ? (size_t)size : sizeof bytes))
     why = "it cannot be read";
-  if (why == NULL) why = header_problem(bytes, size, &start.head, &start.identity);
+  if (why == NULL) why = ali3_road_header_problem(bytes, size, &start.head, &start.version, &start.identity);
   ali3_road_file *file = NULL;
   if (why == NULL) {
-    start.tile_bytes = bytes_of_tile(&start.head);
-    start.tiles_y = tiles_along(start.head.ny);
-    start.n_tiles = tiles_along(start.head.nx) * start.tiles_y;
+    start.tile_bytes = ali3_road_tile_bytes(&start.head);
+    start.tiles_y = ali3_road_tiles_along(start.head.ny);
+    start.n_tiles = ali3_road_tiles_along(start.head.nx) * start.tiles_y;
     start.n_slots = start.n_tiles < ALI3_TILES_NEAR ? (int32_t)start.n_tiles : ALI3_TILES_NEAR;
     const size_t before = (sizeof start + 15u) / 16u * 16u;
-    file = allocate(1, before + (size_t)start.n_slots * start.tile_bytes);
+    const size_t room = (size_t)start.n_slots * start.tile_bytes;
+    file = allocate(1, before + room + (start.version == ALI3_ROAD_SHARED ? ALI3_MOST_RECORD : 0));
     if (file == NULL) why = "there is not enough memory";
     if (file != NULL) {
       *file = start;
       file->slot = (unsigned char *)file + before;
+      file->record = file->slot + room;
     }
   }
   if (why != NULL) {

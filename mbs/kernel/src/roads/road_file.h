@@ -7,13 +7,15 @@
  * step, side, friction; of a grid: x0, y0, dx, dy, friction where there is no map of it, else 1.
  * Tile (I, J), the points 32 I.. in x and 32 J.. in y, has number I * (tiles in y) + J; the tiles follow each other by
  * number: 32 x 32 heights, y fastest, as many frictions where there is a map of them, the number (8), zeros (4), CRC-32
- * of all this (4). Points beyond the last row or column are zeros. */
+ * of all this (4). Points beyond the last row or column are zeros. In version 2 the tiles of a grid are stored as
+ * shared_tile.h says, and the checksum of the tiles is that of their table. */
 #ifndef ALI3_ROAD_FILE_H
 #define ALI3_ROAD_FILE_H
 #include <stddef.h>
 #include <stdint.h>
 
 #define ALI3_ROAD_VERSION 1
+#define ALI3_ROAD_SHARED 2
 #define ALI3_ROAD_TILE 32
 #define ALI3_ROAD_HIGHEST 1e5
 #define ALI3_ROAD_FARTHEST 1e8

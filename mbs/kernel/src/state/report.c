@@ -47,10 +47,14 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
     return or_largest(r->energy_error);
   case ALI3_SOLVER_ENERGY_BALANCE:
     return or_largest(ali3_energy_balance(r));
+  case ALI3_SOLVER_CAPPED:
+    return (double)r->capped;
   default:
     return 0.0;
   }
 }
+
+double ali3_capped_residual(const ali3_instance *in) { return in != NULL ? in->call_residual : 0.0; }
 
 ali3_doubt ali3_run_doubt(const ali3_report *r) {
   if (r == NULL || r->steps < ALI3_DOUBT_FROM) return ALI3_DOUBT_NONE;

@@ -1,0 +1,73 @@
+/* What the header of a road's file may say. */
+#include "road_header.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../files/crc32.h"
+#include "shared_tile.h"
+
+enum { PLANE, KERB, GRID }; /* elements/road.h */
+enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, MOST_SIDE = 1 << 30 };
+
+static const char *plane_and_kerb_problem(const ali3_road_header *h) {
+  const double *p = h->real, friction = p[h->kind == PLANE ? 3 : 4];
+  if (h->nx != 0 || h->ny != 0 || h->maps != 0 || h->contents != 0) return "a plane or kerb has no grid";
+  for (int i = 0; i < ALI3_ROAD_REALS; i++)
+    if (!(fabs(p[i]) <= ALI3_ROAD_FARTHEST)) return "a number in its header is not finite or beyond 1e8";
+  if (!(friction >= 0.0 && friction <= ALI3_ROAD_FRICTION)) return "its friction lies outside 0 to 10";
+  if (h->kind == PLANE && !(fabs(p[1]) <= 10.0 && fabs(p[2]) <= 10.0)) return "a grade of it lies outside -10 to 10";
+  if (h->kind == KERB && !(p[2] > 0.0)) return "the step of its kerb is not positive";
+  if (h->kind == KERB && p[3] != 1.0 && p[3] != -1.0) return "the side of its kerb is neither 1 nor -1";
+  return NULL;
+}
+
+const char *ali3_road_grid_problem(const ali3_road_header *h) {
+  const double *p = h->real;
+  if (h->tile != ALI3_ROAD_TILE || (h->maps != 1 && h->maps != 2)) return "its tiles have another form";
+  if (h->nx < 2 || h->ny < 2 || h->nx > MOST_SIDE || h->ny > MOST_SIDE ||
+      (double)h->nx * (double)h->ny > ALI3_ROAD_POINTS)
+    return "its grid has fewer than 2 x 2 or more than 1e12 points";
+  if (!(p[2] > 0.0 && p[3] > 0.0)) return "the spacing of its grid is not positive";
+  if (!(fabs(p[0]) <= ALI3_ROAD_FARTHEST && fabs(p[1]) <= ALI3_ROAD_FARTHEST &&
+        (double)h->nx * p[2] <= ALI3_ROAD_FARTHEST && (double)h->ny * p[3] <= ALI3_ROAD_FARTHEST))
+    return "its grid reaches farther than 1e8 m";
+  if (!(p[4] >= 0.0 && p[4] <= ALI3_ROAD_FRICTION)) return "its friction lies outside 0 to 10";
+  return NULL;
+}
+
+int64_t ali3_road_tiles_along(int64_t n) { return (n + ALI3_ROAD_TILE - 1) / ALI3_ROAD_TILE; }
+
+size_t ali3_road_tile_bytes(const ali3_road_header *h) {
+  return (size_t)h->maps * POINTS * sizeof(double) + ALI3_ROAD_TRAILER;
+}
+
+const char *ali3_road_header_problem(const unsigned char *bytes, int64_t size, ali3_road_header *h, uint32_t *version,
+                                     uint32_t *crc) {
+  static const unsigned char one[4] = {1, 0, 0, 0};
+  uint32_t machine;
+  memcpy(&machine, one, sizeof machine);
+  memcpy(version, bytes + 8, sizeof *version);
+  memcpy(crc, bytes + 12, sizeof *crc);
+  memcpy(h, bytes + 16, sizeof *h);
+  if (machine != 1) return "this machine is not little endian";
+  if (memcmp(bytes, "ALI3ROAD", 8) != 0)
+    return "it is no road file; make one of a CSV table, NumPy arrays, pictures or a TOML file by: ali3 road INPUT "
+           "OUTPUT.road";
+  if (size < ALI3_ROAD_HEADER) return "it ends too early: it was cut off";
+  if (*version != ALI3_ROAD_VERSION && *version != ALI3_ROAD_SHARED)
+    return "its version is not 1 or 2, which this kernel reads; use a newer ALi3 or FMU, or write it again with ali3 "
+           "road";
+  if (*crc != ali3_crc32(bytes + 16, ALI3_ROAD_HEADER - 16)) return "its header was altered or damaged";
+  if (h->kind < PLANE || h->kind > GRID) return "it has an unknown kind of road";
+  const char *why = h->kind == GRID ? ali3_road_grid_problem(h) : plane_and_kerb_problem(h);
+  if (why != NULL) return why;
+  const int64_t tiles = h->kind == GRID ? ali3_road_tiles_along(h->nx) * ali3_road_tiles_along(h->ny) : 0;
+  const int shared = *version == ALI3_ROAD_SHARED;
+  const int64_t least = ALI3_ROAD_HEADER + tiles * (shared ? ALI3_TILE_ENTRY : (int64_t)ali3_road_tile_bytes(h));
+  const int64_t whole = shared ? h->size : least;
+  if (h->size != whole || whole < least) return "its header contradicts itself";
+  return size == whole  ? NULL
+         : size < whole ? "it ends too early: it was cut off"
+                        : "it is longer than its header says";
+}

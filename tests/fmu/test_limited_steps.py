@@ -1,0 +1,168 @@
+"""`solver.step_iterations` limits the work of a step: steps that end at it are counted, and what they left is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+
+import mbs
+from fmu_src.scene_registry import load_scene
+from mbs.settings import Settings
+
+SCENES = Path(__file__).parent / "scenes.py"
+HostMaker = Callable[..., Any]
+OK, WARNING, DISCARD, ERROR = range(4)
+TORQUE, H = 4.0, 1e-3
+LIMIT = "solver.step_iterations"
+STEPS = 500
+
+
+@pytest.fixture
+def slider(build: Callable[..., Path], kind: str) -> Path:
+    """Driven until its steps are too large for its motion."""
+    return build("crank_slider", kind)
+
+
+def start(driven: Any, limit: int, inner: float = H) -> Any:
+    driven.slave.setupExperiment()
+    driven.slave.setInteger([driven.references[LIMIT]], [limit])
+    assert driven.set("torque", TORQUE) == driven.set("step_size", inner) == OK
+    driven.slave.enterInitializationMode()
+    driven.slave.exitInitializationMode()
+    return driven
+
+
+def status_of(driven: Any, k: int, h: float = H) -> int:
+    return int(driven.slave.dll.fmi2DoStep(driven.slave.component, k * h, h, 1))  # past FMPy, which hides warnings
+
+
+def everything(driven: Any, but: tuple[str, ...] = ()) -> list[float]:
+    return list(driven.slave.getReal([r for name, r in driven.references.items() if name not in but]))
+
+
+def test_no_limit_and_one_that_is_not_reached_give_the_same_bits(slider: Path, host: HostMaker) -> None:
+    free, limited = (start(host(slider), limit) for limit in (0, 30))
+    for k in range(200):
+        assert status_of(free, k) == status_of(limited, k) == OK
+    assert everything(free, (LIMIT,)) == everything(limited, (LIMIT,))
+    assert free.get("solver.capped_steps") == free.get("solver.capped_residual") == 0.0
+
+
+def test_steps_are_counted_and_what_they_left_is_that_of_the_kernel(slider: Path, host: HostMaker) -> None:
+    driven = start(host(slider), 2)
+    simulation = mbs.Simulation(load_scene(f"{SCENES}:crank_slider")[1], settings=Settings(step_iterations=2))
+    simulation.instance.set_input(0, TORQUE)
+    simulation.instance.initialise()
+    largest, counts = 0.0, []
+    for k in range(STEPS):
+        status_of(driven, k)
+        simulation.instance.step(H)
+        left, report = driven.get("solver.capped_residual"), simulation.instance.report()
+        largest = max(largest, left)
+        counts.append((driven.slave.getInteger([driven.references["solver.capped_steps"]])[0], left > 0.0))
+        assert counts[-1][0] == report["capped"]
+        assert largest == report["capped_residual"]
+    assert 10 < counts[-1][0] < STEPS
+    assert any(not off for _, off in counts)  # 0 where the last step was not capped
+    assert driven.get("solver.halvings") == 0.0
+
+
+def test_the_largest_of_the_inner_steps_is_told(slider: Path, host: HostMaker) -> None:
+    """Communication steps of several inner ones, with and without derivatives of inputs, against single ones."""
+    single, many, sloped = (start(host(slider), 2) for _ in range(3))
+    inner = 5
+    compared = 0
+    for k in range(STEPS // inner):
+        left = []
+        for i in range(inner):
+            status_of(single, inner * k + i)
+            left.append(single.get("solver.capped_residual"))
+        status_of(many, k, inner * H)
+        sloped.slave.setRealInputDerivatives([sloped.references["torque"]], [1], [1e-300])
+        status_of(sloped, k, inner * H)
+        assert many.get("solver.capped_residual") == sloped.get("solver.capped_residual") == max(left)
+        compared += max(left) > left[-1]
+    assert compared > 5
+
+
+def test_it_is_said_once_and_once_more_where_much_is_left(slider: Path, host: HostMaker) -> None:
+    driven = start(host(slider), 1, 5 * H)
+    statuses = [status_of(driven, k, 5 * H) for k in range(STEPS)]
+    told = [m for m in driven.messages if LIMIT in m]
+    assert len(told) == 2
+    first, second = told
+    assert f"1 of {statuses.index(WARNING) + 1} steps ended at the limit of their iterations, {LIMIT} = 1" in first
+    assert "mm. If that is too much, raise the limit or take a step_size below 0.005 s." in first
+    assert "This is said once." in second
+    assert set(statuses) == {OK, WARNING}
+
+
+def test_a_saved_state_goes_on_with_the_limit_its_count_and_what_was_said(slider: Path, host: HostMaker) -> None:
+    driven = start(host(slider), 2)
+    k = 0
+    while driven.get("solver.capped_residual") == 0.0:
+        status_of(driven, k)
+        k += 1
+    other = host(slider)
+    assert other.restore(bytes(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))) == OK
+    assert everything(other) == everything(driven)
+    said = len(driven.messages)
+    for i in range(k, k + STEPS):
+        assert status_of(other, i) == status_of(driven, i)
+    assert everything(other) == everything(driven)
+    assert other.messages == driven.messages[said:]
+    assert driven.get("solver.capped_steps") > 10
+
+
+def test_a_refused_step_leaves_what_the_last_good_one_left(slider: Path, host: HostMaker) -> None:
+    driven = start(host(slider), 2)
+    k = 0
+    while driven.get("solver.capped_residual") == 0.0:
+        status_of(driven, k)
+        k += 1
+    before = everything(driven)
+    assert driven.step(k * H, -1.0) == ERROR
+    assert everything(driven) == before
+
+
+def test_what_is_no_limit_is_refused(slider: Path, host: HostMaker) -> None:
+    driven = host(slider)
+    driven.slave.setupExperiment()
+    reference = [driven.references[LIMIT]]
+    for wrong in (-1, 1001):
+        assert driven.call("setInteger", reference, [wrong]) == ERROR
+        assert f"'{LIMIT}' was set to {wrong}, outside its range 0 to 1000; it keeps 0" in driven.messages[-1]
+    assert driven.call("setReal", reference, [2.5]) == ERROR
+    start(driven, 3)
+    assert driven.call("setInteger", reference, [4]) == ERROR
+    assert "fixed parameter" in driven.messages[-1]
+    assert driven.slave.getInteger(reference) == [3]
+
+
+def test_the_limit_is_no_unknown_of_derivatives(slider: Path, host: HostMaker) -> None:
+    driven = start(host(slider), 3)
+    driven.step(0.0, H)
+    known, unknown = [driven.references[LIMIT]], [driven.references["crank.angle"]]
+    assert driven.call("getDirectionalDerivative", unknown, known, [1.0]) == ERROR
+    assert driven.call("getDirectionalDerivative", known, [driven.references["torque"]], [1.0]) == ERROR
+
+
+def test_fmi_3_has_the_same(build: Callable[..., Path], host: HostMaker) -> None:
+    two = start(host(build("crank_slider")), 2)
+    for k in range(STEPS):
+        status_of(two, k)
+    names = ("crank.angle", "solver.capped_residual", "solver.capped_steps")
+    result = fmpy.simulate_fmu(
+        str(build("crank_slider", "fmi3")),
+        stop_time=STEPS * H,
+        output_interval=H,
+        step_size=H,
+        start_values={LIMIT: 2, "torque": TORQUE, "step_size": H},
+        output=names,
+    )
+    assert [result[name][-1] for name in names] == [two.get(name) for name in names]
+    assert result["solver.capped_steps"][-1] > 10
