@@ -76,7 +76,15 @@ def _work(options: argparse.Namespace) -> int:
     output: Path | None = options.output
     if output is not None and output.suffix.lower() != ".road":
         raise UserError(f"{output} would be a road file; give it the suffix .road.")
-    road = read_road(options.input, **_given(options))
+    given = _given(options)
+    if options.part is not None and output is None and options.picture is None:
+        from mbs.roads.worlds.make_world import part_of_world
+
+        if (part := part_of_world(options.input)) is not None:
+            write_text(options.part, json.dumps(part, allow_nan=False))
+            print(f"written: {options.part}, as the world beside {options.input} draws it")
+            return 0
+    road = read_road(options.input, **given)
     if output is not None:
         write_road(road, output)
         RoadFile(output).read()  # as it lies on the disk

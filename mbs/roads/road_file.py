@@ -21,6 +21,7 @@ from mbs.kernel.header import (
     ROAD_FRICTION,
     ROAD_HIGHEST,
     ROAD_POINTS,
+    ROAD_SHARED,
     ROAD_TILE,
     ROAD_VERSION,
     RoadType,
@@ -125,7 +126,11 @@ class Header:
     real : tuple of float
         Eight numbers of the road.
     contents : int
-        CRC-32 of the checksums of all tiles.
+        CRC-32 of the checksums of all tiles, or of the table of them.
+    version : int
+        1: each tile in its place; 2: equal tiles once.
+    written_bytes : int
+        Size of the file, of version 2.
     """
 
     kind: RoadType
@@ -134,6 +139,8 @@ class Header:
     maps: int
     real: tuple[float, ...]
     contents: int = 0
+    version: int = ROAD_VERSION
+    written_bytes: int = 0
 
     @property
     def tiles(self) -> tuple[int, int]:
@@ -148,13 +155,15 @@ class Header:
     @property
     def file_bytes(self) -> int:
         """Size of the file."""
+        if self.version == ROAD_SHARED:
+            return self.written_bytes
         return HEADER.size + self.tiles[0] * self.tiles[1] * self.tile_bytes
 
     def to_bytes(self) -> bytes:
         """As it stands in the file."""
         fields = (self.file_bytes, int(self.kind), self.contents, self.nx, self.ny)
         tile = (ROAD_TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
-        data = bytearray(HEADER.pack(MAGIC, ROAD_VERSION, 0, *fields, *tile, *self.real, 0.0))
+        data = bytearray(HEADER.pack(MAGIC, self.version, 0, *fields, *tile, *self.real, 0.0))
         data[12:16] = struct.pack("<I", zlib.crc32(data[CHECKED_FROM:]))
         return bytes(data)
 
@@ -180,13 +189,15 @@ def read_header(file: BinaryIO, name: object) -> Header:
     if len(data) < HEADER.size:
         raise RoadFileError(f"{name} ends within its header.")
     _, version, crc, size, kind, contents, nx, ny, tile, maps, *real = HEADER.unpack(data)
-    if version != ROAD_VERSION:
-        raise RoadFileError(f"{name} is a road file of version {version}; version {ROAD_VERSION} is read here.")
+    if version not in (ROAD_VERSION, ROAD_SHARED):
+        raise RoadFileError(
+            f"{name} is a road file of version {version}; versions {ROAD_VERSION} and {ROAD_SHARED} are read here."
+        )
     if crc != zlib.crc32(data[CHECKED_FROM:]):
         raise RoadFileError(f"The header of {name} was altered or damaged.")
     if problem := _problem(kind, nx, ny, tile, maps, real):
         raise RoadFileError(f"{name} is no road file that can be read: {problem}.")
-    head = Header(RoadType(kind), nx, ny, maps, tuple(real[:REALS]), contents)
+    head = Header(RoadType(kind), nx, ny, maps, tuple(real[:REALS]), contents, version, size)
     found = file.seek(0, os.SEEK_END)
     if not size == head.file_bytes == found:
         raise RoadFileError(f"{name} has {found} bytes; its header says {size}: it was cut off or altered.")
@@ -218,6 +229,14 @@ def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.f
     tiles_x, tiles_y = head.tiles
     values = np.empty((head.maps, tiles_x * ROAD_TILE, tiles_y * ROAD_TILE))
     checksums = []
+    if head.version == ROAD_SHARED:
+        from mbs.roads.shared_tiles import read_shared
+
+        for number, block in read_shared(file, head, name):
+            i, j = (number // tiles_y) * ROAD_TILE, (number % tiles_y) * ROAD_TILE
+            values[:, i : i + ROAD_TILE, j : j + ROAD_TILE] = block
+        maps = values[:, : head.nx, : head.ny]
+        return maps[0].copy(), maps[1].copy() if head.maps == 2 else None
     file.seek(HEADER.size)
     for number in range(tiles_x * tiles_y):
         data = file.read(head.tile_bytes)

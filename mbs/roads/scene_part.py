@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import math
+import os
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.kernel.header import ROAD_SHARED, ROAD_TILE
 from mbs.roads.read_road import read_road
+from mbs.roads.road_file import RoadFile
+from mbs.roads.shared_tiles import read_shared
 from viewer.base64_numbers import encoded
 
+MOST_READ = 4_000_000
+"""Points of a large road file that are read to draw it."""
 MOST = 400
 """Points along a side of a grid; of a larger one every so many are left, as its note says."""
 EDGE = 1e-3  # m, along which the step of a kerb is drawn
@@ -36,6 +44,24 @@ def scene_part(road: PlaneRoad | KerbRoad | GridRoad, most: int = MOST) -> dict[
     if isinstance(road, KerbRoad):
         return _kerb(road)
     return _grid(road, most)
+
+
+def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
+    """A road file; of a large grid whose equal tiles are stored once every so many points, the others unread."""
+    whole = RoadFile(file)
+    head = whole.header
+    every = max(1, math.isqrt(head.nx * head.ny // MOST_READ))
+    if head.version != ROAD_SHARED or every == 1:
+        return whole.read()
+    x, y = np.arange(0, head.nx, every), np.arange(0, head.ny, every)
+    values = np.zeros((head.maps, len(x), len(y)))
+    with Path(file).open("rb") as opened:
+        for number, tile in read_shared(opened, head, file):
+            i, j = (number // head.tiles[1]) * ROAD_TILE, (number % head.tiles[1]) * ROAD_TILE
+            rows, columns = (np.arange(*np.searchsorted(v, (k, k + ROAD_TILE))) for v, k in ((x, i), (y, j)))
+            values[:, rows[:, None], columns] = tile[:, x[rows, None] - i, y[columns] - j]
+    spacing = (head.real[2] * every, head.real[3] * every)
+    return GridRoad(head.real[:2], spacing, values[0], values[1] if head.maps == 2 else head.real[4])
 
 
 def drawn_roads(roads: Sequence[Mapping[str, Any]], most: int = MOST) -> list[dict[str, Any]]:

@@ -17,7 +17,9 @@ from mbs.kernel.header import ROAD_FRICTION, ROAD_TILE, RoadType
 from mbs.roads.road_file import REALS, Header, RoadFileError, check_grid
 
 
-def write_road(road: PlaneRoad | KerbRoad | GridRoad, file: str | os.PathLike[str]) -> None:
+def write_road(
+    road: PlaneRoad | KerbRoad | GridRoad, file: str | os.PathLike[str], *, shared: bool = False, tolerance: float = 0.0
+) -> None:
     """Write a road to a file that the kernel and FMUs read.
 
     Parameters
@@ -26,6 +28,10 @@ def write_road(road: PlaneRoad | KerbRoad | GridRoad, file: str | os.PathLike[st
         Its friction factor is multiplied into the frictions.
     file : path
         Whole or not at all; an older file is replaced.
+    shared : bool
+        Of a grid: equal tiles are stored once, which FMUs of version 0.1.0 do not read.
+    tolerance : float
+        m, with `shared`: parts of the grid that are nearer to a polynomial are stored as it.
 
     Raises
     ------
@@ -36,7 +42,24 @@ def write_road(road: PlaneRoad | KerbRoad | GridRoad, file: str | os.PathLike[st
     """
     instance_of((PlaneRoad, KerbRoad, GridRoad), road, "What write_road writes", "a PlaneRoad, KerbRoad or GridRoad")
     with whole_file(file) as made, made.open("wb") as out:
-        _write(road, out, file)
+        if shared and isinstance(road, GridRoad):
+            _write_shared(road, out, file, tolerance)
+        else:
+            _write(road, out, file)
+
+
+def _write_shared(road: GridRoad, out: BinaryIO, name: object, tolerance: float) -> None:
+    from mbs.roads.shared_tiles import SharedWriter
+
+    nx, ny, x0, y0, dx, dy, factor, *_ = road.real
+    heights, frictions = np.asarray(road.heights, float), np.asarray(road.frictions, float) * factor
+    check_grid(heights, np.atleast_2d(frictions), name)
+    uniform = float(frictions) if frictions.ndim == 0 else None
+    writer = SharedWriter(out, (int(nx), int(ny)), (x0, y0), (dx, dy), uniform, name, tolerance)
+    for i in range(0, int(nx), ROAD_TILE):
+        rows = slice(i, i + ROAD_TILE)
+        writer.row(heights[rows], None if uniform is not None else frictions[rows])
+    writer.finish()
 
 
 def _write(road: PlaneRoad | KerbRoad | GridRoad, out: BinaryIO, name: object) -> None:

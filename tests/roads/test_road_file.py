@@ -282,7 +282,7 @@ REAL = 56
     ("place", "content", "sentence"),
     [
         (0, b"X", "no road file; make one of a CSV table"),
-        (8, b"\2", "another version than 1"),
+        (8, b"\3", "its version is not 1 or 2"),
         (24, b"\7", "unknown kind"),
         (32, struct.pack("<q", 2**62), "fewer than 2 x 2 or more than 1e12 points"),
         (32, struct.pack("<qq", 2**30, 2**30), "fewer than 2 x 2 or more than 1e12 points"),

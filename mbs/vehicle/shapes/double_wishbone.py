@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.knuckle import knuckle
-from mbs.vehicle.shapes.looks import CAST, Looks, between, share_along
+from mbs.vehicle.shapes.looks import Looks, between, share_along
 from mbs.vehicle.shapes.springs import spring_and_damper
 from mbs.vehicle.side import sides
 
@@ -37,8 +37,5 @@ def double_wishbone_shapes(looks: Looks, name: str, axle: Axle) -> None:
         looks.tube((lower, legs[0]), (lower, p["spring_lower"]), (lower, legs[1]), radius=0.012)
         joints = [(upright, p["lower_ball_joint"]), (upright, p["upper_ball_joint"])]
         knuckle(looks, side, upright, joints, (upright, p["tie_rod_outer"]))
-        looks.tube(
-            (upright, p["tie_rod_outer"]), (looks.rod_end(name), p["tie_rod_inner"]), radius=0.009,
-            name=f"tie rod {w}", **CAST,
-        )  # fmt: skip
+        looks.rod(f"tie rod {w}", name, (upright, p["tie_rod_outer"]), p["tie_rod_inner"])
         spring_and_damper(looks, f"spring {w}", (lower, p["spring_lower"]), (looks.chassis, p["spring_upper"]))

@@ -80,6 +80,10 @@ class Looks:
             points[0][0], "tube", points=list(points), radius=self.scale * radius, name=name, **(looks or BARE)
         )
 
+    def rod(self, name: str, axle: str, outer: Anchor, inner: Sequence[float]) -> None:
+        """A tie rod or toe link of an axle, from its outer end on the carrier; its `name` is that of its joint."""
+        self.tube(outer, (self.rod_end(axle), inner), radius=0.009, name=name, **CAST)
+
     def ball(self, of: Anchor, radius: float, **looks: Any) -> None:
         """A joint."""
         self.m.shape(of[0], "sphere", at=of[1], radius=self.scale * radius, **(looks or CAST))

@@ -53,8 +53,5 @@ def _strut_shapes(looks: Looks, name: str, axle: Axle, foot: str, rod: str) -> N
         clamp = between(bottom, top, min(share + 0.05, 0.5))
         knuckle(looks, side, upright, [(upright, ball), (upright, clamp)], (upright, p[f"{rod}_outer"]))
         looks.tube((upright, bottom), (upright, clamp), radius=0.024, **CAST)
-        looks.tube(
-            (upright, p[f"{rod}_outer"]), (looks.rod_end(name), p[f"{rod}_inner"]), radius=0.009,
-            name=f"{rod.replace('_', ' ')} {w}", **CAST,
-        )  # fmt: skip
+        looks.rod(f"{rod.replace('_', ' ')} {w}", name, (upright, p[f"{rod}_outer"]), p[f"{rod}_inner"])
         spring_and_damper(looks, f"spring {w}", (upright, bottom), (looks.chassis, top))

@@ -1,0 +1,275 @@
+"""Tiles of a road file of version 2, equal ones stored once: `mbs/kernel/src/roads/shared_tile.h` has their layout."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Callable, Iterable
+from functools import cache
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.kernel.header import ROAD_SHARED, ROAD_TILE, RoadType
+from mbs.roads.road_file import HEADER, Header, RoadFileError, check_grid
+
+ENTRY = struct.Struct("<qiIII")
+RECORD = struct.Struct("<iiii")
+COEFFICIENTS = 8
+ORDERS = (2, 3, 4, 6, 8)
+"""Numbers of coefficients in x and y that are tried."""
+LEVELS = 255
+TOLERANCE = 5e-6
+"""m: heights of a tile that are nearer to a polynomial are stored as it; where a tyre has 200 N/mm that is 1 N."""
+
+Float = NDArray[np.float64]
+_POINTS = ROAD_TILE * ROAD_TILE
+TILE_PLACES: Float = (np.arange(ROAD_TILE) - 0.5 * (ROAD_TILE - 1)) / (ROAD_TILE // 2)
+"""u and v of the points of a tile."""
+
+
+class SharedWriter:
+    """Writes the tiles of a grid row by row.
+
+    Parameters
+    ----------
+    out : file
+        Open for writing and reading, empty.
+    shape : (int, int)
+        Points in x and y.
+    origin, spacing : (float, float)
+        m.
+    friction : float or None
+        Of all points; None: each tile comes with its own.
+    name : object
+        What errors call the file.
+    tolerance : float
+        m; 0: heights are stored as they are.
+    """
+
+    def __init__(
+        self,
+        out: BinaryIO,
+        shape: tuple[int, int],
+        origin: tuple[float, float],
+        spacing: tuple[float, float],
+        friction: float | None,
+        name: object,
+        tolerance: float = 0.0,
+    ) -> None:
+        self.out, self.name, self.tolerance = out, name, tolerance
+        real = (*origin, *spacing, 1.0 if friction is None else friction, 0.0, 0.0, 0.0)
+        self.head = Header(RoadType.GRID, *shape, 2 if friction is None else 1, real, 0, ROAD_SHARED, 0)
+        self.places: dict[bytes, int] = {}
+        self.entries = bytearray()
+        self.count = 0
+        rows, columns = self.head.tiles
+        self.end = HEADER.size + rows * columns * ENTRY.size
+        out.write(b"\0" * self.end)
+
+    def row(self, heights: Float, frictions: Float | None) -> None:
+        """Add the next 32 points in x and all in y.
+
+        Parameters
+        ----------
+        heights, frictions : ndarray, shape (32 or what is left, ny)
+            m; frictions None where the file has one.
+        """
+        check_grid(heights, frictions, self.name)
+        z = _whole(heights)
+        mu = None if frictions is None else _whole(frictions)
+        tiles = z.shape[1] // ROAD_TILE
+        blocks = z.reshape(ROAD_TILE, tiles, ROAD_TILE).transpose(1, 0, 2)
+        for k, form in enumerate(simplest(blocks, TILE_PLACES, self.tolerance)):
+            cut = None if mu is None else np.ascontiguousarray(mu[:, k * ROAD_TILE : (k + 1) * ROAD_TILE])
+            self.tile(np.ascontiguousarray(blocks[k]) if form is None else form, cut)
+
+    def tile(self, heights: Float, frictions: Float | None) -> None:
+        """Add the next tile, the values of which were checked.
+
+        Parameters
+        ----------
+        heights : ndarray, shape (32, 32), or at most (8, 8)
+            m, or coefficients.
+        frictions : ndarray, shape (32, 32) or (1, 1)
+            None where the file has one.
+        """
+        self._add(record_bytes(heights, frictions))
+
+    def _add(self, record: bytes) -> None:
+        place = self.places.get(record)
+        if place is None:
+            place = self.places[record] = self.end
+            self.out.write(record)
+            self.end += len(record)
+        entry = ENTRY.pack(place, len(record), zlib.crc32(record), 0, 0)[:-4]
+        self.entries += entry + struct.pack("<I", zlib.crc32(struct.pack("<q", self.count) + entry))
+        self.count += 1
+
+    def finish(self) -> None:
+        """Write the table and the header, after the last row."""
+        rows, columns = self.head.tiles
+        if self.count != rows * columns:
+            raise RoadFileError(f"{self.name} has {self.count} tiles of {rows * columns}.")
+        h = self.head
+        head = Header(h.kind, h.nx, h.ny, h.maps, h.real, zlib.crc32(self.entries), ROAD_SHARED, self.end)
+        self.out.seek(0)
+        self.out.write(head.to_bytes() + self.entries)
+
+
+def _whole(values: Float) -> Float:
+    """Filled up to whole tiles by the values at the border."""
+    missing = [-n % ROAD_TILE for n in values.shape]
+    return np.pad(values, [(0, missing[0]), (0, missing[1])], mode="edge") if any(missing) else values
+
+
+def polynomial_values(c: Float) -> Float:
+    """Heights of the points of a tile by its coefficients, in the order of the kernel: the same bits.
+
+    Parameters
+    ----------
+    c : ndarray, shape (rows, columns)
+
+    Returns
+    -------
+    ndarray, shape (32, 32)
+    """
+    z = np.zeros((ROAD_TILE, ROAD_TILE))
+    for a in range(c.shape[0] - 1, -1, -1):
+        row = np.zeros(ROAD_TILE)
+        for b in range(c.shape[1] - 1, -1, -1):
+            row = row * TILE_PLACES + c[a, b]
+        z = z * TILE_PLACES[:, None] + row[None, :]
+    return z
+
+
+def simplest(blocks: Float, places: Float, tolerance: float) -> list[Float | None]:
+    """Of each tile the fewest coefficients that give its heights within the tolerance; None where none do.
+
+    Parameters
+    ----------
+    blocks : ndarray, shape (tiles, n, n)
+        Heights, m.
+    places : ndarray, shape (n,)
+        Where in a tile they are, -1 to 1.
+    tolerance : float
+        m; 0: only level tiles are polynomials.
+    """
+    found: list[Float | None] = [None] * len(blocks)
+    first = blocks[:, :1, :1]
+    level = (blocks == first).all(axis=(1, 2))
+    for k in np.flatnonzero(level):
+        found[k] = np.ascontiguousarray(first[k])
+    left = np.flatnonzero(~level)
+    for order in ORDERS if tolerance > 0.0 else ():
+        if len(left) == 0:
+            break
+        power, fit = _fit(tuple(places.tolist()), order)
+        c = fit @ blocks[left] @ fit.T
+        off = np.abs(power @ c @ power.T - blocks[left]).max(axis=(1, 2))
+        good = off <= tolerance
+        for k, coefficients in zip(left[good], c[good], strict=True):
+            found[k] = np.ascontiguousarray(coefficients)
+        left = left[~good]
+    return found
+
+
+@cache
+def _fit(places: tuple[float, ...], order: int) -> tuple[Float, Float]:
+    """Powers of places, shape (n, order), and the matrix that gives coefficients of least squares."""
+    power = np.vander(places, order, increasing=True)
+    return power, np.linalg.pinv(power)
+
+
+def record_bytes(heights: Float, frictions: Float | None) -> bytes:
+    """A tile as it stands in the file.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (32, 32), or at most (8, 8)
+        m, or coefficients.
+    frictions : ndarray, shape (32, 32), optional
+    """
+    levels, behind = 0, b""
+    if frictions is not None:
+        levels, behind = _friction_bytes(frictions)
+    return RECORD.pack(*heights.shape, levels, 0) + heights.astype("<f8").tobytes() + behind
+
+
+def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
+    first = frictions.flat[0]
+    if (frictions == first).all():
+        return 1, struct.pack("<d", first)
+    values, which = np.unique(frictions, return_inverse=True)
+    if len(values) > LEVELS:
+        return _POINTS, frictions.astype("<f8").tobytes()
+    return len(values), values.astype("<f8").tobytes() + which.astype(np.uint8).tobytes()
+
+
+def read_shared(
+    file: BinaryIO, head: Header, name: object, wanted: Callable[[int], bool] = lambda number: True
+) -> Iterable[tuple[int, Float]]:
+    """Numbers and values of tiles.
+
+    Parameters
+    ----------
+    file : file
+        Open.
+    head : Header
+        Of it.
+    name : object
+        What errors call it.
+    wanted : callable
+        Of the number of a tile.
+
+    Yields
+    ------
+    int
+        Number of the tile.
+    ndarray, shape (maps, 32, 32)
+
+    Raises
+    ------
+    RoadFileError
+        A part is damaged.
+    """
+    file.seek(HEADER.size)
+    count = head.tiles[0] * head.tiles[1]
+    table = file.read(count * ENTRY.size)
+    if zlib.crc32(table) != head.contents:
+        raise RoadFileError(f"The table of parts of the road {name} was altered or damaged.")
+    kept: dict[int, Float] = {}
+    for number, (place, size, crc, _, _) in enumerate(ENTRY.iter_unpack(table)):
+        if not wanted(number):
+            continue
+        if place not in kept:
+            inside = 0 < place <= head.file_bytes - size and 0 < size <= head.file_bytes
+            file.seek(place if inside else 0)
+            record = file.read(size) if inside else b""
+            if len(record) != size or crc != zlib.crc32(record):
+                raise RoadFileError(f"Part {number} of the road {name} was altered or damaged.")
+            kept = kept if len(kept) < 4096 else {}
+            kept[place] = _values(record, head.maps, f"Part {number} of the road {name}")
+        yield number, kept[place]
+
+
+def _values(record: bytes, maps: int, name: str) -> Float:
+    try:
+        rows, columns, levels, zero = RECORD.unpack(record[: RECORD.size])
+        reals = np.frombuffer(record, "<f8", rows * columns + levels, RECORD.size)
+        heights = reals[: rows * columns].reshape(rows, columns)
+        rest = record[RECORD.size + reals.nbytes :]
+        few = min(rows, columns) >= 1 and max(rows, columns) <= COEFFICIENTS
+        if levels > LEVELS and levels != _POINTS:
+            raise ValueError
+        if zero or (maps == 2) != (levels > 0) or not (few or (rows, columns) == (ROAD_TILE, ROAD_TILE)):
+            raise ValueError
+        values = [polynomial_values(heights) if few else heights]
+        if maps == 2:
+            mu = reals[rows * columns :]
+            which = np.frombuffer(rest, np.uint8, _POINTS) if 1 < levels <= LEVELS else np.zeros(_POINTS, np.uint8)
+            values.append((mu if levels == _POINTS else mu[which]).reshape(ROAD_TILE, ROAD_TILE))
+    except (ValueError, IndexError, struct.error):
+        raise RoadFileError(f"{name} has a form that is not known.") from None
+    return np.stack(values)

@@ -1,0 +1,78 @@
+"""Smooth curves of one variable, of which worlds are made."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+
+def spaced(first: float, step: float, count: int) -> Float:
+    """So many numbers at equal distances."""
+    return np.asarray(first + step * np.arange(count), np.float64)
+
+
+def rise(t: Float) -> Float:
+    """Two parabolas, from 0 at t <= 0 to 1 at t >= 1, with the least bend that a C1 rise can have: 4."""
+    t = np.clip(t, 0.0, 1.0)
+    return np.where(t < 0.5, 2.0 * t * t, 1.0 - 2.0 * (1.0 - t) ** 2)
+
+
+def soft_rise(t: Float) -> Float:
+    """10 t³ - 15 t⁴ + 6 t⁵, from 0 at t <= 0 to 1 at t >= 1: C2."""
+    t = np.clip(t, 0.0, 1.0)
+    return np.asarray(t * t * t * (10.0 + t * (6.0 * t - 15.0)))
+
+
+def vertical_curve(s: Float, vertices: Sequence[tuple[float, float]], roundings: Sequence[float]) -> Float:
+    """Heights of a line through vertices, with a parabola at each; level before the first and behind the last.
+
+    Parameters
+    ----------
+    s : ndarray
+        Stations, m.
+    vertices : sequence of (float, float)
+        Station, rising, and height, m.
+    roundings : sequence of float
+        Length of the parabola at each vertex, m.
+
+    Returns
+    -------
+    ndarray
+        m.
+    """
+    at = np.array(vertices, float)
+    grades = np.concatenate([[0.0], np.diff(at[:, 1]) / np.diff(at[:, 0]), [0.0]])
+    z = np.full(np.shape(s), at[0, 1])
+    for place, change, length in zip(at[:, 0], np.diff(grades), roundings, strict=True):
+        if change != 0.0:
+            t = np.asarray(s) - place
+            inside = np.clip(t + 0.5 * length, 0.0, length)
+            z += change * (inside**2 / (2.0 * length) + np.maximum(t - 0.5 * length, 0.0))
+    return np.asarray(z)
+
+
+def steps(s: Float, vertices: Sequence[tuple[float, float]]) -> Float:
+    """Values at stations, between them by soft rises, constant outside.
+
+    Parameters
+    ----------
+    s : ndarray
+        Stations, m.
+    vertices : sequence of (float, float)
+        Station, rising, and value.
+    """
+    value = np.full(np.shape(s), float(vertices[0][1]))
+    for (a, before), (b, after) in itertools.pairwise(vertices):
+        if after != before:
+            value += (after - before) * soft_rise((np.asarray(s) - a) / (b - a))
+    return np.asarray(value)
+
+
+def table(u: Float, length: float, face: float) -> Float:
+    """0 outside of 0 to length, 1 inside, with rises of `face` at both ends."""
+    return np.asarray(rise(u / face) * rise((length - u) / face))

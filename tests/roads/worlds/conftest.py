@@ -1,0 +1,20 @@
+"""The proving ground, made once: from the cache of the user where it was made before by the same code."""
+
+from __future__ import annotations
+
+import json
+from types import SimpleNamespace
+
+import pytest
+
+from mbs.roads.world_command import WORLDS, main
+
+
+@pytest.fixture(scope="session")
+def proving_ground(tmp_path_factory):
+    """Path of its road file, and its record."""
+    out = tmp_path_factory.mktemp("proving_ground")
+    assert WORLDS.is_dir()
+    assert main(["proving_ground", "--out", str(out)]) == 0
+    record = json.loads((out / "proving_ground.json").read_text(encoding="utf-8"))
+    return SimpleNamespace(road=out / "proving_ground.road", record=record, json=out / "proving_ground.json")

@@ -1,0 +1,254 @@
+"""A world of one's own: the example of docs/worlds.md, and one sentence for what is wrong."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.roads.road_file import RoadFileError
+from mbs.roads.world_command import main
+from mbs.roads.worlds.course_file import read_course
+from mbs.roads.worlds.make_world import read_world
+from mbs.roads.worlds.terrain import Terrain
+from mbs.scenes import prototype_car
+from tests.roads.worlds.harness import drawn, opened
+
+PAGE = (Path(__file__).parents[3] / "docs" / "worlds.md").read_text(encoding="utf-8")
+
+
+def block(language):
+    (text,) = re.findall(rf"^```{language}\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+    return text
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """With the files that the page makes."""
+    folder = tmp_path_factory.mktemp("mine")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        exec(compile(block("python"), "docs/worlds.md", "exec"), {})
+    (folder / "mine.toml").write_text(block("toml"), encoding="utf-8")
+    return folder
+
+
+@pytest.fixture
+def own_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
+    return tmp_path / "cache" / "worlds"
+
+
+def test_the_example_of_the_page_is_a_world_to_drive_in(folder, own_cache, tmp_path, capsys):
+    out = tmp_path / "worlds"
+    assert main([str(folder / "mine.toml"), "--out", str(out), "--picture"]) == 0
+    said = capsys.readouterr()
+    assert "mine: road ..." in said.err
+    assert {path.name for path in out.iterdir()} == {"mine.road", "mine.json", "mine.png"}
+    record = json.loads((out / "mine.json").read_text(encoding="utf-8"))
+    random = np.random.default_rng(2)
+    x, y = 10.0 + 280.0 * random.random(4000), 10.0 + 180.0 * random.random(4000)
+    with opened(out / "mine.road") as at:
+        z, mu = at(x, y)
+    low, high = drawn(record["roads"][0], x, y)
+    assert np.maximum(np.abs(low - z), np.abs(high - z)).max() < 5e-3
+    assert set(np.round(mu, 6)) >= {0.5, 0.9}
+    assert np.ptp(z) > 3.0
+    (start,) = record["places"]
+    car = mbs.compile(prototype_car.build())
+    run = mbs.simulate(
+        car,
+        3.0,
+        0.002,
+        pose=mbs.Pose(start["x"], start["y"], 0.0, start["yaw"], 8.0),
+        parameters={"road.file": out / "mine.road"},
+        progress=False,
+    )
+    assert run["chassis.y"][-1] > start["y"] + 15.0
+    with opened(out / "mine.road") as at:
+        beneath, _ = at([start["x"]], [start["y"]])
+    assert abs(run["chassis.z"][0] - beneath[0]) < 0.6
+
+    first = {path.name: path.read_bytes() for path in out.iterdir() if path.suffix != ".png"}
+    assert main([str(folder / "mine.toml"), "--out", str(tmp_path / "again")]) == 0
+    assert "kept from before" in capsys.readouterr().out
+    for entry in own_cache.iterdir():  # made anew: the same bytes
+        for file in entry.iterdir():
+            file.unlink()
+        entry.rmdir()
+    assert main([str(folder / "mine.toml"), "--out", str(tmp_path / "third")]) == 0
+    assert "made: " in capsys.readouterr().out
+    for other in ("again", "third"):
+        assert {path.name: path.read_bytes() for path in (tmp_path / other).iterdir()} == first
+    with (folder / "course.csv").open("a", encoding="utf-8") as file:  # another content: not from the cache
+        file.write("# \n")
+    assert main([str(folder / "mine.toml"), "--out", str(tmp_path / "fourth")]) == 0
+    assert "made: " in capsys.readouterr().out
+
+
+def test_the_course_is_carved_into_the_map(folder):
+    terrain = Terrain(read_world(folder / "mine.toml"), folder)
+    (layer,) = terrain.layers
+    s = np.linspace(0.0, layer.line.length, 200)
+    p, first, _ = layer.line.at(s)
+    left = np.stack([-first[1], first[0]]) / np.hypot(*first)
+    middle = terrain.at(*p)
+    for offset in (-3.4, 3.4):  # level across, 7 m wide
+        beside = terrain.at(*(p + offset * left))
+        away = np.abs(p[0] - 256.0) + np.abs(p[1] - 100.0) > 20.0  # from the kerb
+        assert np.abs(beside - middle)[away].max() < 1e-6
+    far = terrain.ground.at(*(p + 24.0 * left)) - terrain.at(*(p + 24.0 * left))
+    assert np.abs(far[np.abs(p[1] - 100.0) < 40.0]).max() < 1e-3
+
+
+COURSE = "x,y\n" + "".join(f"{x},0\n" for x in range(-40, 41, 5))
+WORLD = """
+kind = "world"
+name = "w"
+bounds = [-50.0, -50.0, 50.0, 50.0]
+spacing = [0.2, 0.2]
+"""
+LAP = '[[courses]]\nname = "lap"\npoints = "course.csv"\n'
+
+
+def refused(tmp_path, text, course=COURSE):
+    (tmp_path / "w.toml").write_text(WORLD + text, encoding="utf-8")
+    (tmp_path / "course.csv").write_text(course, encoding="utf-8")
+    with pytest.raises(RoadFileError) as error:
+        Terrain(read_world(tmp_path / "w.toml"), tmp_path)
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("course", "sentence"),
+    [
+        ("", "is empty"),
+        ("x,y\n1,2\n", "fewer than two points"),
+        ("x,y\n1,2\n3\n", "Line 3 of .* has 1 numbers where 2 belong"),
+        ("x,y\n1,2\n3,four\n", "Line 3 of .*'four' is no number"),
+        ("x,y\n1,2\n3,nan\n", "'nan' is no number"),
+        ("x,height\n1,2\n", "column 'height'; known are x, y, z, width, bank"),
+        ("x,z\n1,2\n", "must have a column x and a column y"),
+        ("x,y,y\n1,2,2\n", "each once"),
+        ("x,y\n11.5756,48.1372\n11.5757,48.1373\n11.5758,48.1373\n", "in metres, not in degrees"),
+        ("".join(f"{x},0\n" for x in [*range(-40, -20), *range(20, 40)]), "a gap of 41 m between points 20 and 21"),
+        ("-40,0\n0,0\n0,0\n40,0\n", "Points 2 and 3 of the course 'lap' are the same"),
+        ("-40,0\n0,0\n45,0\n70,0\n", "leaves the world at station .* m, x = 5"),
+        ("x,y,width\n-40,0,350\n40,0,350\n", "width of point 1 is 350; it must lie between 1 and 200"),
+        ("x,y,z\n-40,0,0\n-20,0,0\n0,0,9000\n", "rises by 45000 % between points 2 and 3; z must be in metres"),
+        ("x,y,z,width,bank\n-40,0,0,6,5\n40,0,0,6,5\n", "bank of point 1 is 5; it must lie between -1 and 1"),
+        ("-40,-40\n40,40\n40,-40\n-40,40\n", "crosses or touches itself at x = "),
+    ],
+)
+def test_what_is_wrong_with_a_course_is_said(tmp_path, course, sentence):
+    assert re.search(sentence, refused(tmp_path, LAP, course)), refused(tmp_path, LAP, course)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ('[[courses]]\nname = "a"\n', "'a' must have segments or points"),
+        ('[[courses]]\nname = "a"\nsegments = [{ length = 10.0 }]\n', "needs a start"),
+        ('[[courses]]\nname = "a"\nstart = [0.0, 0.0, 0.0]\nsegments = [{ radius = 10.0 }]\n', "Segment 1"),
+        (
+            '[[courses]]\nname = "a"\nclosed = true\nstart = [0.0, 0.0, 0.0]\nsegments = [{ length = 9.0 }]\n',
+            "its end misses its start by 9 m",
+        ),
+        (LAP + "heights = [[0.0, 0.0], [0.0, 1.0]]\n", "stations of heights of the course 'lap' do not rise"),
+        (LAP + 'colour = "red"\n', "courses.0.colour is 'red'"),
+        (LAP + "width = 0.2\n", "courses.0.width is 0.2"),
+        ('[[areas]]\nname = "pad"\nat = [0.0, 0.0]\n', "'pad' must have a radius or a size"),
+        ('[ground]\nheights = "none.npz"\n', "none.npz cannot be read: there is no such file"),
+        ('[ground]\nheights = "a.npz"\nvariation = { height = 1.0, length = 20.0 }\n', "heights and a variation"),
+        ('[[places]]\nname = "far"\nat = [90.0, 0.0, 0.0]\n', "'far' lies at \\(90, 0\\), outside"),
+        ('[[places]]\nname = "Far away"\nat = [9.0, 0.0, 0.0]\n', "places.0.name is 'Far away'"),
+        ('[[obstacles]]\nkind = "wall"\nat = [9.0, 0.0, 0.0]\n', "obstacles.0"),
+        ("[frictions]\ntar = 1.0\n", "frictions.tar"),
+        ("[frictions]\nice = -1.0\n", "frictions.ice is -1.0"),
+    ],
+)
+def test_what_is_wrong_with_a_description_is_said(tmp_path, text, sentence):
+    assert re.search(sentence, refused(tmp_path, text)), refused(tmp_path, text)
+
+
+def test_a_map_that_does_not_cover_the_world_or_is_not_in_metres_is_refused(tmp_path):
+    np.savez(tmp_path / "small.npz", heights=np.zeros((5, 5)), origin=(-40.0, -50.0), spacing=(25.0, 25.0))
+    assert "from -40 to 60 m; the map must cover it" in refused(tmp_path, '[ground]\nheights = "small.npz"\n')
+    steep = 1000.0 * np.random.default_rng(1).random((30, 30))
+    np.savez(tmp_path / "steep.npz", heights=steep, origin=(-60.0, -60.0), spacing=(5.0, 5.0))
+    assert re.search("as steep as .*must be in metres", refused(tmp_path, '[ground]\nheights = "steep.npz"\n'))
+
+
+def test_parts_of_a_course_that_cut_into_each_other_are_refused(tmp_path):
+    """Two straights 14 m apart, one of them 5 m higher."""
+    points = [(-40, 0, 0), (0, 0, 0), (30, 0, 0), (40, 7, 2.5), (30, 14, 5), (0, 14, 5), (-40, 14, 5)]
+    course = "x,y,z\n" + "".join(f"{x},{y},{z}\n" for x, y, z in points)
+    words = refused(tmp_path, LAP + "width = 5.0\nblend = 20.0\nsmoothing = 1.0\n", course)
+    assert "comes so near to itself" in words
+    assert "make its blend smaller or move it" in words
+
+
+def test_columns_of_a_course_without_names(tmp_path):
+    (tmp_path / "a.csv").write_text("# remark\n1;2;3\n4;5;6\n", encoding="utf-8")
+    assert {name: values.tolist() for name, values in read_course(tmp_path / "a.csv").items()} == {
+        "x": [1.0, 4.0],
+        "y": [2.0, 5.0],
+        "z": [3.0, 6.0],
+    }
+
+
+def test_heights_widths_and_banks_of_a_course_file(tmp_path):
+    course = "x,y,z,width,bank\n" + "".join(f"{x},0,{2 + 0.02 * x},{6 + 0.02 * x},0.1\n" for x in range(-45, 46, 5))
+    (tmp_path / "w.toml").write_text(WORLD + LAP + "smoothing = 1.0\n", encoding="utf-8")
+    (tmp_path / "course.csv").write_text(course, encoding="utf-8")
+    terrain = Terrain(read_world(tmp_path / "w.toml"), tmp_path)
+    x = np.array([-20.0, 0.0, 20.0])
+    for offset in (-2.0, 0.0, 2.0):
+        assert np.allclose(terrain.at(x, np.full(3, offset)), 2.0 + 0.02 * x - 0.1 * offset, atol=1e-6)
+    _, classes, _ = terrain.on_grid(np.array([-20.0, 20.0]), np.array([3.0]))
+    assert [terrain.names[k] for k in classes[:, 0]] == ["grass", "asphalt"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["mars"], "There is no world 'mars' and no such file; worlds are proving_ground, kerb, plane, rough"),
+        (["a.txt"], "a.txt is no world"),
+        (["broken.toml"], "broken.toml cannot be read"),
+        (["empty.toml"], "empty.toml"),
+        (["none.road"], "There is no world 'none.road' and no such file"),
+        (["bad.road"], "bad.road is no road file"),
+    ],
+)
+def test_what_is_no_world_is_said_in_one_sentence(tmp_path, monkeypatch, capsys, own_cache, arguments, sentence):
+    monkeypatch.chdir(tmp_path)
+    for name, text in (("a.txt", "1"), ("broken.toml", "a = ="), ("empty.toml", ""), ("bad.road", "x" * 300)):
+        (tmp_path / name).write_text(text)
+    assert main([*arguments, "--out", "out"]) == 2
+    said = capsys.readouterr()
+    assert sentence in said.err
+    assert said.err.count("\n") == 1
+    assert not list(Path("out").glob("*.road")) if Path("out").exists() else True
+
+
+@pytest.mark.parametrize("name", ["plane", "kerb", "washboard", "rough", "split"])
+def test_roads_of_the_package_are_worlds(tmp_path, own_cache, name):
+    from mbs.roads.world_command import ROADS
+
+    assert main([name, "--out", str(tmp_path / "out")]) == 0
+    assert (tmp_path / "out" / f"{name}.road").read_bytes() == (ROADS / f"{name}.road").read_bytes()
+    record = json.loads((tmp_path / "out" / f"{name}.json").read_text(encoding="utf-8"))
+    assert record["roads"][0]["kind"] in ("flat", "profile", "grid")
+    assert record["places"][0]["x"] == 0.0
+
+
+def test_a_cache_that_cannot_be_written_is_said(tmp_path, monkeypatch, capsys):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "file" / "cache"))
+    assert main(["plane", "--out", str(tmp_path / "out")]) == 2
+    assert "ALI3_CACHE is" in capsys.readouterr().err
