@@ -1,4 +1,4 @@
-"""Arrays of a scene as text: base64 of little-endian numbers of 4 bytes, row by row."""
+"""Arrays of a scene as text: base64 of little-endian numbers of 4 bytes, or of single bytes, row by row."""
 
 from __future__ import annotations
 
@@ -33,10 +33,24 @@ def decoded(text: str, kind: str) -> NDArray[Any]:
     kind : str
         ``"f"`` or ``"u"``.
     """
-    try:
-        data = base64.b64decode(text, validate=True)
-    except (binascii.Error, ValueError):
-        raise ValueError("is not base64") from None
+    data = _bytes(text)
     if len(data) % 4:
         raise ValueError(f"has {len(data)} bytes, which is no multiple of 4")
     return np.frombuffer(data, f"<{kind}4")
+
+
+def encoded_octets(values: ArrayLike) -> str:
+    """Base64 of whole numbers from 0 to 255, of any shape."""
+    return base64.b64encode(np.ascontiguousarray(values, dtype=np.uint8).tobytes()).decode("ascii")
+
+
+def octets(text: str) -> NDArray[np.uint8]:
+    """Whole numbers from 0 to 255 of a text in base64; `ValueError` if it is none."""
+    return np.frombuffer(_bytes(text), np.uint8)
+
+
+def _bytes(text: str) -> bytes:
+    try:
+        return base64.b64decode(text, validate=True)
+    except (binascii.Error, ValueError):
+        raise ValueError("is not base64") from None

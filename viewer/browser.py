@@ -90,10 +90,15 @@ def open_in_browser(path: str | os.PathLike[str]) -> bool:
     bool
         Whether there is one: on a machine without a screen there is none.
     """
+    return open_address(Path(path).resolve().as_uri())
+
+
+def open_address(address: str) -> bool:
+    """Show what is at an address in the user's browser; whether there is one, as for `open_in_browser`."""
     if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         return False  # a browser in the terminal would draw nothing
     try:
-        return webbrowser.open(Path(path).resolve().as_uri())
+        return webbrowser.open(address)
     except webbrowser.Error:
         return False
 

@@ -16,10 +16,10 @@ from viewer.page_data import json_in_html, page_data
 from viewer.player_options import check_options
 from viewer.recording import MOST_TIMES, Recording
 
-# Nothing is fetched: what the page needs stands in it.
+# Nothing is fetched: what a page needs stands in it; `connect` is where one may talk to besides.
 _POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
-    "img-src data: blob:; media-src data: blob:; connect-src data: blob:; worker-src blob:"
+    "img-src data: blob:; media-src data: blob:; connect-src data: blob:{connect}; worker-src blob:"
 )
 _STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"
 
@@ -103,7 +103,7 @@ def page_html(
     return html_document(heading, data, "ALi3Viewer.playPage")
 
 
-def html_document(title: str, data: object, function: str) -> str:
+def html_document(title: str, data: object, function: str, connect: str = "") -> str:
     """One HTML file with the script of the viewer and data, on which it calls a function.
 
     Parameters
@@ -115,6 +115,8 @@ def html_document(title: str, data: object, function: str) -> str:
     function : str
         Of the script, called with the element that is to be filled and the data; what it returns is
         ``window.player``.
+    connect : str
+        Sources of a content security policy that the page may talk to; by default none.
 
     Raises
     ------
@@ -127,11 +129,12 @@ def html_document(title: str, data: object, function: str) -> str:
         "try{window.player=" + function + "(view,JSON.parse(document.getElementById('data').textContent));}"
         "catch(error){view.textContent='This page cannot be shown: '+(error&&error.message||error);}})();"
     )
+    policy = _POLICY.format(connect=f" {connect}" if connect else "")
     return "\n".join(
         (
             "<!DOCTYPE html>",
             '<html lang="en"><head><meta charset="utf-8">',
-            f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
+            f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
             '<meta name="viewport" content="width=device-width, initial-scale=1, viewport-fit=cover">',
             '<link rel="icon" href="data:,">',
             f"<title>{html.escape(' '.join(title.split()))}</title>",

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from viewer.base64_numbers import decoded
+from viewer.base64_numbers import decoded, octets
 from viewer.scene_parts import GROUND, anchors_of, frames_of
 from viewer.scene_sentences import place, value_words
 
@@ -188,8 +188,32 @@ def _road(road: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]
             yield f"{place((*path, 'heights'))} has {len(heights)} entries where there are {len(stations)} stations."
         if not (np.diff(stations) > 0.0).all():
             yield f"{place((*path, 'stations'))} must rise."
+    if road["kind"] == "terrain":
+        yield from _terrain(road, path)
     if road["kind"] == "grid":
         size = road["shape"][0] * road["shape"][1]
         yield from _array(road["heights"], "f", (*path, "heights"), size)
         if road.get("frictions") is not None:
             yield from _array(road["frictions"], "f", (*path, "frictions"), size)
+
+
+def _terrain(road: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
+    for k, patch in enumerate(road["patches"]):
+        size = patch["shape"][0] * patch["shape"][1]
+        yield from _array(patch["heights"], "f", (*path, "patches", k, "heights"), size)
+    surface, where = road["surface"], (*path, "surface")
+    if len(surface["frictions"]) != len(surface["names"]):
+        yield (
+            f"{place((*where, 'frictions'))} has {len(surface['frictions'])} entries where there are "
+            f"{len(surface['names'])} names."
+        )
+    try:
+        cells = octets(surface["classes"])
+    except ValueError as error:
+        yield f"{place((*where, 'classes'))} {error}."
+        return
+    size = surface["shape"][0] * surface["shape"][1]
+    if len(cells) != size:
+        yield f"{place((*where, 'classes'))} has {len(cells)} numbers where {size} belong."
+    elif cells.max() >= len(surface["names"]):
+        yield f"{place((*where, 'classes'))} names surface {cells.max()}; there are {len(surface['names'])} from 0 on."

@@ -9,18 +9,23 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from viewer import road_types, scenery_types
 from viewer import scene_types as types
+from viewer.scene_values import Part
 
 UNKNOWN, MISSING = "extra_forbidden", "missing"
 _LONGEST = 60
+_MODELS: dict[str, type[BaseModel]] = {
+    name: model
+    for module in (types, road_types, scenery_types)
+    for name, model in vars(module).items()
+    if isinstance(model, type) and issubclass(model, Part)
+}
 # A shape, a road: the types whose key `kind` chooses them.
 _KINDS: dict[str, type[BaseModel]] = {
     model.model_fields["kind"].annotation.__args__[0]: model  # type: ignore[union-attr]
-    for model in vars(types).values()
-    if isinstance(model, type) and issubclass(model, types.Part) and "kind" in model.model_fields
-}
-_MODELS: dict[str, type[BaseModel]] = {
-    name: model for name, model in vars(types).items() if isinstance(model, type) and issubclass(model, types.Part)
+    for model in _MODELS.values()
+    if "kind" in model.model_fields
 }
 # The tables of a key, where no tag names them.
 _OF_KEY: dict[str, type[BaseModel]] = {
@@ -29,6 +34,8 @@ _OF_KEY: dict[str, type[BaseModel]] = {
     "missing": types.Missing,
     "stress": types.Stress,
     "tyre": types.Tyre,
+    "patches": road_types.Patch,
+    "surface": road_types.SurfaceMap,
 }
 # What a table that could be of several types must have.
 _CHOICES: dict[tuple[str | int, ...], str] = {
@@ -200,7 +207,7 @@ def _description(loc: Sequence[str | int]) -> str:
 
 
 def _kinds_at(path: Sequence[str | int]) -> list[str]:
-    base = types.Shape if path and path[0] == "shapes" else types.Part
+    base = types.Shape if path and path[0] == "shapes" else Part
     shapes = [kind for kind, model in _KINDS.items() if issubclass(model, types.Shape)]
     return shapes if base is types.Shape else [kind for kind in _KINDS if kind not in shapes]
 

@@ -4,29 +4,28 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag
 
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[Number, Field(gt=0.0)]
-Share = Annotated[Number, Field(ge=0.0, le=1.0)]
-Whole = Annotated[int, Field(strict=True, ge=0, lt=2**32)]
-Text = Annotated[str, Field(strict=True)]
-Name = Annotated[str, Field(strict=True, min_length=1)]
-Vector = tuple[Number, Number, Number]
-Quaternion = tuple[Number, Number, Number, Number]
-Axes = tuple[Vector, Vector, Vector]
-Names = tuple[Name, Name, Name]
-Anchor = tuple[Name, Vector]
-Floats = Annotated[str, Field(strict=True, description="base64 of float32, little-endian")]
-Indices = Annotated[str, Field(strict=True, description="base64 of uint32, little-endian")]
-Color = Annotated[str, Field(strict=True, pattern=r"^#[0-9a-fA-F]{6}$")]
-Material = Literal["steel", "paint", "dark_paint", "rubber", "rim", "glass", "plastic", "chrome"]
-
-
-class Part(BaseModel):
-    """A table of the scene: no other keys than its own."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+from viewer.road_types import AnyRoad
+from viewer.scene_values import (
+    Anchor,
+    Axes,
+    Color,
+    Floats,
+    Indices,
+    Material,
+    Name,
+    Names,
+    Number,
+    Part,
+    Positive,
+    Quaternion,
+    Share,
+    Text,
+    Vector,
+    Whole,
+)
+from viewer.scenery_types import AnyScenery
 
 
 class MovingFrame(Part):
@@ -327,69 +326,6 @@ AnyArrow = Annotated[
 ]
 
 
-class Road(Part):
-    """What all roads have."""
-
-    variables: dict[Literal["file", "kerb_x", "kerb_height"], Name] | None = None
-    """Parameters of the FMU by what they set; a host applies them before it draws."""
-    note: Text | None = None
-    """A sentence to be shown."""
-
-
-class FlatRoad(Road):
-    """A level road."""
-
-    kind: Literal["flat"]
-    height: Number = 0.0
-
-
-class PlaneRoad(Road):
-    """A plane road."""
-
-    kind: Literal["plane"]
-    point: Vector
-    """On the plane, m."""
-    normal: Vector
-
-
-class ProfileRoad(Road):
-    """Heights along a line, the same across, level before and behind."""
-
-    kind: Literal["profile"]
-    stations: Annotated[list[Number], Field(min_length=2)]
-    """Places along the direction, m, rising."""
-    heights: Annotated[list[Number], Field(min_length=2)]
-    """At the stations, m."""
-    direction: Vector = (1.0, 0.0, 0.0)
-    origin: Vector = (0.0, 0.0, 0.0)
-    width: Positive | None = None
-
-
-class GridRoad(Road):
-    """Heights on a grid, linear between."""
-
-    kind: Literal["grid"]
-    origin: tuple[Number, Number]
-    spacing: tuple[Positive, Positive]
-    shape: tuple[Annotated[Whole, Field(ge=2)], Annotated[Whole, Field(ge=2)]]
-    heights: Floats
-    frictions: Floats | None = None
-    axes: tuple[Vector, Vector] | Axes | None = None
-    """Of its x and y in earth axes."""
-
-
-class FileRoad(Road):
-    """A road in a file, which a host turns into a grid before it draws."""
-
-    kind: Literal["file"]
-    variable: Name | None = None
-    """Parameter of the FMU that names the file."""
-    path: Text | None = None
-
-
-AnyRoad = Annotated[FlatRoad | PlaneRoad | ProfileRoad | GridRoad | FileRoad, Field(discriminator="kind")]
-
-
 class Missing(Part):
     """What is not drawn."""
 
@@ -414,8 +350,9 @@ class Scene(Part):
     """Frame that cameras follow; empty: the camera stands."""
     frames: dict[Name, Frame]
     shapes: list[AnyShape]
-    meshes: dict[Name, Mesh] = {}
-    flexible: list[Flexible] = []
-    arrows: list[AnyArrow] = []
-    roads: list[AnyRoad] = []
-    missing: list[Missing] = []
+    meshes: dict[Name, Mesh] = Field(default={})
+    flexible: list[Flexible] = Field(default=[])
+    arrows: list[AnyArrow] = Field(default=[])
+    roads: list[AnyRoad] = Field(default=[])
+    scenery: list[AnyScenery] = Field(default=[])
+    missing: list[Missing] = Field(default=[])

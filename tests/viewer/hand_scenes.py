@@ -19,6 +19,10 @@ def indices(values: Any) -> str:
     return base64.b64encode(np.asarray(values, "<u4").tobytes()).decode()
 
 
+def octets(values: Any) -> str:
+    return base64.b64encode(np.asarray(values, np.uint8).tobytes()).decode()
+
+
 def names(frame: str, parts: Sequence[str]) -> list[str]:
     return [f"{frame}.{part}" for part in parts]
 
@@ -160,6 +164,34 @@ def everything() -> dict[str, Any]:
                 "width": 3,
             },
             {"kind": "file", "variable": "road.file", "path": "resources/roads/plane.road"},
+            {
+                "kind": "terrain",
+                "patches": [{"origin": [0, 0], "spacing": [1, 1], "shape": [2, 2], "heights": floats([0, 1, 2, 3])}],
+                "surface": {
+                    "origin": [0, 0],
+                    "spacing": [1, 1],
+                    "shape": [2, 2],
+                    "classes": octets([0, 1, 1, 0]),
+                    "names": ["asphalt", "grass"],
+                    "frictions": [1, 0.5],
+                },
+            },
+        ],
+        "scenery": [
+            {
+                "kind": "line",
+                "points": [[0, 0, 0], [1, 0, 0]],
+                "width": 0.15,
+                "colour": "white",
+                "dash": [3, 6],
+            },
+            {"kind": "cone", "at": [0, 0, 0], "height": 0.5, "colour": "orange"},
+            {"kind": "tree", "at": [0, 0, 0], "height": 9, "seed": 1},
+            {"kind": "sign", "at": [0, 0, 0], "yaw": 0.5, "text": "20 %", "height": 2.5},
+            {"kind": "barrier", "points": [[0, 0, 0], [1, 0, 0]], "height": 0.8},
+            {"kind": "post", "at": [0, 0, 0], "height": 1},
+            {"kind": "building", "at": [0, 0, 0], "yaw": 0, "size": [10, 6, 4]},
+            {"kind": "arrow", "at": [0, 0, 0], "yaw": 0, "length": 4},
         ],
         "missing": [{"name": "lower arm", "why": "no output gives its motion"}],
     }

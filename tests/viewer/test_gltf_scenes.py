@@ -10,7 +10,7 @@ from tests.viewer.gltf_files import accessor, content, run_node
 from viewer.gltf import write_gltf
 from viewer.poses import FramePoses, rotated
 
-SCENES = [name for name in ANIMATIONS if name != "drop"]  # it is the car of the lane change
+SCENES = [name for name in ANIMATIONS if name not in ("drop", "proving_ground")]  # the car of the lane change
 CORNERS = np.vstack([np.zeros(3), np.eye(3)])
 
 

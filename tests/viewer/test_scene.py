@@ -11,7 +11,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from tests.viewer.hand_scenes import everything, floats
+from tests.viewer.hand_scenes import everything, floats, octets
 from viewer.errors import SceneError
 from viewer.scene import SCHEMA_FILE, check_scene, json_schema, read_scene, scene_errors, schema_text
 
@@ -38,9 +38,13 @@ OPTIONAL = {
     *("wire", "coils", "rim", "axis", "normals", "stress", "constant", "unit", "limit", "sign", "frictions", "height"),
     *("flexible", "arrows", "roads", "missing", "variable", "path", "rule", "computed", "limit_name"),
     *("names", "note", "range", "direction", "origin", "width", "variables", "file"),
+    *("scenery", "colour", "dash", "seed", "length"),
 }
 NEEDED = {(("roads", 1), "origin"), (("shapes", 8), "width"), (("frames", "spinning wheel"), "axis")}
 NEEDED |= {(("missing", 0), "name"), (("arrows", 1), "at")}
+NEEDED |= {(("roads", 5, "patches", 0), "origin"), (("roads", 5, "surface"), "origin")}
+NEEDED |= {(("roads", 5, "surface"), key) for key in ("names", "frictions")} | {(("scenery", 0), "width")}
+NEEDED |= {(("scenery", k), "at") for k in (1, 2, 3, 5, 6, 7)} | {(("scenery", 2), "height")}
 NEEDED |= {(("arrows", k), "name") for k in range(3)} | {((), "name"), (("arrows", 2, "tyre"), "axis")}
 
 
@@ -140,6 +144,14 @@ def test_any_value_is_good_or_has_one_sentence(place: tuple[tuple[Any, ...], str
         (("arrows", 1, "axes"), "wing", 'arrows[1].axes is "wing", which is no frame'),
         (("arrows", 0, "sign"), 2, "arrows[0].sign is 2; it must be 1 or -1."),
         (("roads", 1, "shape"), [2, 3], "roads[1].heights has 4 numbers where 6 belong."),
+        (("roads", 5, "patches", 0, "shape"), [2, 3], "roads[5].patches[0].heights has 4 numbers where 6 belong."),
+        (("roads", 5, "surface", "classes"), octets([0, 0, 0]), "roads[5].surface.classes has 3 numbers where 4"),
+        (("roads", 5, "surface", "classes"), octets([0, 0, 0, 2]), "roads[5].surface.classes names surface 2; there"),
+        (("roads", 5, "surface", "classes"), "!", "roads[5].surface.classes is not base64."),
+        (("roads", 5, "surface", "frictions"), [1.0], "roads[5].surface.frictions has 1 entries where there are 2"),
+        (("roads", 5, "surface", "names"), ["tar", "grass"], 'roads[5].surface.names[0] is "tar"; it must be'),
+        (("scenery", 3, "text"), 20, "scenery[3].text is 20; it must be a text."),
+        (("scenery", 0, "points"), [[0, 0, 0]], "scenery[0].points has 1 entries; it must have at least 2."),
         (("arrows", 1, "vector"), ["a", 1, "b"], "arrows[1].vector[1] is 1; it must be a text."),
         (("up",), [0, 0, 0], "up is [0, 0, 0]; it must have a direction."),
         (

@@ -188,11 +188,15 @@ class _Writer:
         for road in self._scene.get("roads") or []:
             made = road_solid(road, self._up, 0.5 * (low + high), half)
             if made is None:
-                self.parts.notes.append("The road of a file is not drawn.")
+                what = "terrain of a world" if road["kind"] == "terrain" else "road of a file"
+                self.parts.notes.append(f"The {what} is not drawn.")
                 continue
             self.parts.fixed.append((GROUND, "road", [(made[0], _ROAD)]))
             if made[1] > 1:
                 self.parts.notes.append(f"Of the grid of the road every {made[1]}th point is drawn in each direction.")
+
+        if self._scene.get("scenery"):
+            self.parts.notes.append("The scenery is not drawn.")
 
     def write_nodes(self) -> None:
         """Frames first, so that they have their names."""

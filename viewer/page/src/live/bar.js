@@ -1,5 +1,5 @@
 // The bar below the picture: start, stop, single steps, slow motion, going back.
-import { el } from "./dom.js";
+import { button, el, select } from "./dom.js";
 
 const SLOW = [0.5, 0.25, 0.1, 0.02].map((rate) => [rate, `slow motion × 1/${1 / rate}`]);
 const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
@@ -8,23 +8,6 @@ const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
 export class Bar {
   /** @param {object} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv. */
   constructor(act, { cameras, steps, step, views }) {
-    const button = (data, text, title, work) => {
-      const made = el("button", { type: "button", title, data }, text);
-      made.addEventListener("click", () => {
-        work();
-        made.blur(); // space is the hand brake
-      });
-      return made;
-    };
-    const select = (data, title, options, work, value) => {
-      const made = el("select", { title, data }, ...options.map(([v, words]) => el("option", { value: v }, words)));
-      if (value !== undefined) made.value = value;
-      made.addEventListener("change", () => {
-        work(made.value);
-        made.blur();
-      });
-      return made;
-    };
     this._play = button("play", "Run", "run or pause (P)", act.toggle);
     this._line = el("input", { type: "range", min: 0, max: 1, step: "any", title: "go back, then drive on from there", data: "timeline" });
     this._line.addEventListener("input", () => act.scrub(Number(this._line.value)));

@@ -3,8 +3,8 @@ import { decoded } from "../player/decode.js";
 import { Bar } from "./bar.js";
 import { el, short } from "./dom.js";
 import { BACK } from "./engine.js";
-import { Gamepad } from "./gamepad.js";
-import { HELP, Keyboard } from "./keyboard.js";
+import { Hands, typing } from "./hands.js";
+import { HELP } from "./keyboard.js";
 import { gamepadPanel, inputPanel, parameterPanel, picturePanel } from "./panel.js";
 import { Plots } from "./plots.js";
 import { Session } from "./session.js";
@@ -126,7 +126,7 @@ class Drive {
   /** Set an input or parameter; a fixed one begins the run anew. */
   async set(name, value) {
     if (this.inputs.some((v) => v.name === name)) {
-      this._hold(name);
+      this.hands.hold(name);
       return this.session.want([[name, Number(value)]]);
     }
     const anew = await this.session.set(name, value);
@@ -208,11 +208,13 @@ class Drive {
     const names = this.inputs.map((v) => v.name);
     this.isCar = ACTS.every((name) => names.includes(name));
     const constants = [...session.variables.values()].filter((v) => v.variability === "constant");
-    this.keyboard = this.isCar ? new Keyboard(Object.fromEntries(constants.map((v) => [v.name, Number(v.start)]))) : null;
-    this.gamepad = new Gamepad(() => navigator.getGamepads?.() ?? []);
-    this._slid = new Map();
+    this.hands = new Hands({
+      inputs: names,
+      constants: this.isCar ? Object.fromEntries(constants.map((v) => [v.name, Number(v.start)])) : null,
+      want: (source, wants) => session.want(wants),
+    });
     const want = (name, value) => {
-      this._hold(name);
+      this.hands.hold(name);
       session.want([[name, value]]);
     };
     const follows = this.script ? `Inputs follow a table of ${short(this.script.t.at(-1))} s until a hand moves them. ` : "";
@@ -227,7 +229,7 @@ class Drive {
     const wished = this.options.plots ?? PLOTTED.filter((name) => plotted.includes(name));
     const firstPlots = wished.length ? wished : plotted.slice(names.length, names.length + 3);
     this.plots = new Plots(plotted, session.variables, firstPlots.slice(0, 4));
-    this.gamepadPanel = gamepadPanel(this.gamepad, names);
+    this.gamepadPanel = gamepadPanel(this.hands.gamepad, names);
     this.side = el("div.a3-side", {}, this.inputPanel.element, this.plots.element, this.parameters.element);
     if (names.length) this.side.append(this.gamepadPanel.element);
     this.banner = el("div.a3-banner", { data: "banner" });
@@ -291,7 +293,7 @@ class Drive {
     this.stage?.bind(this.session.record, this.session.prefixes, this.session.start);
     this.stage?.chooseRoads(this.session.start["road.file"] ?? "");
     this._clear();
-    this.keyboard?.clear();
+    this.hands?.clear();
     if (this.plots) this.plots.stale = true;
   }
 
@@ -328,18 +330,13 @@ class Drive {
     if (time) this._banner = setTimeout(() => (this.banner.textContent = ""), time);
   }
 
-  /** A slider has the word for an input, until a key or the gamepad moves it. */
-  _hold(name) {
-    this._slid.set(name, true);
-  }
-
   _listen() {
     this._listeners = new AbortController();
     const { signal } = this._listeners;
     const key = (event) => this._key(event);
     window.addEventListener("keydown", key, { signal });
     window.addEventListener("keyup", key, { signal });
-    window.addEventListener("blur", () => this._letGo(), { signal });
+    window.addEventListener("blur", () => this.hands.letKeysGo(), { signal });
     document.addEventListener("visibilitychange", () => this._hidden(), { signal });
   }
 
@@ -350,24 +347,12 @@ class Drive {
     this._tell("Paused, because the page was not on the screen.");
   }
 
-  _letGo() {
-    if (!this._keyed) return;
-    this.keyboard.clear();
-    this._wantKeys();
-  }
-
   _key(event) {
     const down = event.type === "keydown";
-    const { tagName, type } = event.target;
-    const typing = tagName === "SELECT" || (tagName === "INPUT" && type === "number");
-    if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
-    const { used, selector } = this.keyboard?.key(event.code, down, event.shiftKey) ?? { used: false };
-    if (used) {
+    const other = typing(event.target) || event.ctrlKey || event.metaKey || event.altKey;
+    if (down && other) return; // a key that was down is let go in any case
+    if (this.hands.key(event, this.get("speed"))) {
       event.preventDefault();
-      if (event.repeat) return;
-      if (selector !== undefined) this.session.want([["selector", selector]]);
-      this._slid.clear();
-      this._wantKeys();
       return;
     }
     const { act } = this;
@@ -377,32 +362,12 @@ class Drive {
     if (down && !event.repeat) work();
   }
 
-  _wantKeys() {
-    const names = new Set(this.inputs.map((v) => v.name));
-    const speed = Math.abs(this.get("speed") || 0);
-    const wants = this.keyboard.wants(speed).filter(([name]) => names.has(name) && !this._slid.has(name));
-    this.session.want(wants);
-    this._keyed = wants.some(([, value]) => value !== 0);
-  }
-
-  _pollGamepad() {
-    const { changed, touched } = this.gamepad.poll();
-    if (changed) this.gamepadPanel.fill();
-    if (touched) this._slid.clear();
-    if (touched || (this._padded && this.gamepad.pad)) {
-      const names = new Set(this.inputs.map((v) => v.name));
-      this.session.want(this.gamepad.wants().filter(([name]) => names.has(name) && !this._slid.has(name)));
-      this._padded = !this._keyed;
-    }
-    this.gamepadPanel.show();
-  }
-
   _frame() {
     if (this._ended) return;
     requestAnimationFrame(() => this._frame());
     const { session } = this;
-    this._pollGamepad();
-    if (this._keyed) this._wantKeys(); // the steering limit follows the speed
+    if (this.hands.poll(this.get("speed")).changed) this.gamepadPanel.fill();
+    this.gamepadPanel.show();
     const shown = session.shown;
     if (shown !== this._drawn || session.running !== this._ran) {
       [this._drawn, this._ran] = [shown, session.running];

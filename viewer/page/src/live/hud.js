@@ -2,8 +2,8 @@
 import { el, short } from "./dom.js";
 
 const SPEEDS = ["speed"];
-const TURNS = ["engine_speed", "motor_speed"];
-const RPM = 30 / Math.PI;
+export const TURNS = ["engine_speed", "motor_speed"];
+export const RPM = 30 / Math.PI;
 /** Beyond this the machine does not keep up. */
 const SLOW = 0.97;
 
@@ -16,6 +16,16 @@ export function paceWords({ running, speed, factor, cost, step }) {
   const late = factor !== null && factor < SLOW * speed;
   const warn = late ? `This machine does not keep up: ${factor.toFixed(2)} s of the run a second, ${short(speed)} asked for.` : "";
   return { text: [`${wanted}${got}`, work].filter(Boolean).join(" · "), warn };
+}
+
+/**
+ * The gear in a word: R, N, or its number.
+ * @param {(name: string) => number} lookup
+ * @param {{selector?: string, gear?: string}} columns - Those that the FMU has.
+ */
+export function gearWords(lookup, { selector, gear }) {
+  if (selector && lookup(selector) < 1) return lookup(selector) < 0 ? "R" : "N";
+  return gear ? `gear ${lookup(gear)}` : "";
 }
 
 /** Head-up figures of one FMU. */
@@ -46,10 +56,9 @@ export class Hud {
   show(lookup, time, pace) {
     if (this._speed) this._big.textContent = `${(3.6 * lookup(this._speed)).toFixed(0)} km/h`;
     const parts = [];
-    if (this._selector && lookup(this._selector) < 1) parts.push(lookup(this._selector) < 0 ? "R" : "N");
-    else if (this._gear) parts.push(`gear ${lookup(this._gear)}`);
+    parts.push(gearWords(lookup, { selector: this._selector, gear: this._gear }));
     if (this._turns) parts.push(`${(RPM * lookup(this._turns)).toFixed(0)} rpm`);
-    this._small.textContent = parts.join(" · ");
+    this._small.textContent = parts.filter(Boolean).join(" · ");
     this._time.textContent = `${time.toFixed(2)} s`;
     const { text, warn } = pace ? paceWords(pace) : { text: "", warn: "" };
     this._pace.textContent = text;

@@ -1,7 +1,7 @@
 // Driving a car by keys: pedals and steering wheel move at limited rates and return when the key is let go.
 
 /** Largest change per second of the simulated time: to what is wanted, and back. */
-const RATES = { steering: [1.6, 3.0], throttle: [2.5, 5.0], brake: [4.0, 8.0], hand_brake: [8.0, 8.0] };
+export const RATES = { steering: [1.6, 3.0], throttle: [2.5, 5.0], brake: [4.0, 8.0], hand_brake: [8.0, 8.0] };
 /** Lateral acceleration that full steering by a key may ask for, m/s2. */
 const LATERAL = 9.0;
 /** m and rad, where the FMU does not tell them. */

@@ -131,20 +131,11 @@ export class Record {
  * A lookup between two rows, for a picture.
  * @param {Record} record
  * @param {number} time - s.
- * @param {Map<string, number>} columns - Index in a row by name.
- * @param {Set<string>} [turning] - Names of angles and quaternions, which may jump: the nearer row counts there.
+ * @param {import("./blend.js").Blend} blend - Of the record's rows.
  * @returns {(name: string) => number}
  */
-export function between(record, time, columns, turning = new Set()) {
+export function between(record, time, blend) {
   const x = Math.max(record.first, Math.min(record.end - 1, time / record.step));
   const k = Math.min(Math.floor(x), Math.max(record.first, record.end - 2));
-  const [before, after] = [record.row(k), record.row(k + 1)];
-  const s = x - k;
-  return (name) => {
-    const index = columns.get(name);
-    if (index === undefined) return NaN;
-    const [a, b] = [before[index], after[index]];
-    if (turning.has(name) && Math.abs(b - a) > 1) return s < 0.5 ? a : b;
-    return a + s * (b - a);
-  };
+  return blend.lookup(record.row(k), record.row(k + 1), x - k);
 }

@@ -1,5 +1,6 @@
 // The pictures: one beside the other, each of an FMU that runs or of a recording that goes along.
 import { SceneView } from "../scene/scene_view.js";
+import { Blend, turnsOf } from "./blend.js";
 import { el } from "./dom.js";
 import { Hud } from "./hud.js";
 import { between } from "./record.js";
@@ -84,7 +85,7 @@ export class Stage {
       const names = [...part.variables.values()].filter((v) => v.causality === "output").map((v) => v.name);
       const own = names.map((name) => [name, record.column(prefixes[which] + name)]);
       part.columns = new Map([...record.held.map((name, k) => [name, k]), ...own.filter(([, index]) => index >= 0)]);
-      part.turning = turningColumns(part.scene);
+      part.blend = new Blend(part.columns, turnsOf(part.scene));
       const others = [...part.variables.values()].filter((v) => !part.columns.has(v.name));
       part.fixed = new Map(others.map((v) => [v.name, start[v.name] ?? v.start]));
     }
@@ -93,7 +94,7 @@ export class Stage {
   /** What the numbers of a picture are at a time. */
   lookup(part, record, time) {
     if (part.recording) return lookupOf(part.recording, time);
-    const lookup = between(record, time, part.columns, part.turning);
+    const lookup = between(record, time, part.blend);
     return (name) => (part.columns.has(name) ? lookup(name) : part.fixed.get(name));
   }
 
@@ -143,16 +144,6 @@ export class Stage {
   dispose() {
     for (const part of this.parts) part.view?.dispose();
   }
-}
-
-/** Columns of angles and quaternions of a scene: they may jump from one end of their range to the other. */
-export function turningColumns(scene) {
-  const names = new Set();
-  for (const frame of Object.values(scene.frames ?? {})) {
-    for (const name of frame.quaternion ?? []) names.add(name);
-    if (frame.angle) names.add(frame.angle);
-  }
-  return names;
 }
 
 /** A lookup in a recording, straight between its times; after its end it stands. */

@@ -1,4 +1,5 @@
 // What a page carries as text, as bytes again.
+import { bytesOf, gunzipped } from "../bytes.js";
 
 /**
  * Bytes of base64, unpacked where they are gzip.
@@ -7,12 +8,8 @@
  */
 export async function unpack(given) {
   if (typeof given !== "string") return given instanceof Uint8Array ? given : new Uint8Array(given);
-  const text = atob(given);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-  if (bytes[0] !== 0x1f || bytes[1] !== 0x8b) return bytes;
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  const bytes = bytesOf(given);
+  return bytes[0] === 0x1f && bytes[1] === 0x8b ? gunzipped(bytes) : bytes;
 }
 
 /** What this browser lacks, as one sentence; empty if nothing. */

@@ -1,6 +1,7 @@
 // The ground as a surface fixed to the earth: its pattern stands still while the picture's origin moves with the focus.
 import * as THREE from "three";
 import { across, cross, dot } from "../scene/math.js";
+import { SKYLIGHT } from "./skylight.js";
 
 /** Metres after which each layer of the pattern repeats: grain, patches, tones, painted lines. */
 export const PERIODS = [1.1, 7.3, 61, 20];
@@ -56,10 +57,6 @@ if (fade > 0.0) {
   normal = normalize(normal - fade * (1.0 - wetNess) * 0.55 * tilt);
 }
 `;
-
-/** Light of the sky, where none is mirrored. */
-const SKYLIGHT = "reflectedLight.indirectDiffuse += vec3(0.34, 0.39, 0.47) * diffuseColor.rgb;";
-
 
 /**
  * The material of roads and ground. `follow(origin)` keeps its pattern on the earth.

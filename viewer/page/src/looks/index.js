@@ -31,6 +31,7 @@ export function makeLook(view) {
   return {
     name,
     caption: look.caption ?? "",
+    height: look.height ?? null,
     get pixelRatio() {
       return pace.high ? Math.min(globalThis.devicePixelRatio || 1, 2) : 1;
     },

@@ -7,6 +7,7 @@ import { noiseTexture } from "./noise.js";
 import { makeRoads } from "./roads.js";
 import { HAZE, skyBall } from "./sky.js";
 import { sharpen, sunLight } from "./sun.js";
+import { makeWorld } from "./world.js";
 
 /** @param {object} view the SceneView @param {boolean} fine whether the machine draws by a graphics card */
 export function outdoors(view, fine) {
@@ -19,6 +20,7 @@ export function outdoors(view, fine) {
   renderer.toneMappingExposure = 1.15;
   world.fog = new THREE.Fog(HAZE, 60 + 15 * extent, 700 + 60 * extent);
   const held = {};
+  const pixels = new THREE.Vector2();
   const noise = noiseTexture(fine ? 8 : 1);
   /** Draws the sky once: what is seen, and, small, what things mirror. */
   const bake = () => {
@@ -32,7 +34,10 @@ export function outdoors(view, fine) {
     world.background = held.cube.texture;
     world.environment = held.mirrored.texture;
     world.environmentIntensity = 0.75;
+    land?.mirror(held.cube.texture);
   };
+  const land = makeWorld(scene, { up, noise, sun: new THREE.Vector3(...direction), fine });
+  if (land !== null) world.add(land.group);
   bake();
   const asphalt = groundMaterial({ noise, up, paint: 1, fine });
   const road = groundMaterial({ noise, up, fine });
@@ -43,13 +48,16 @@ export function outdoors(view, fine) {
     follow(origin) {
       for (const surface of [asphalt, road, grass]) surface.follow(origin);
       roads.follow(origin);
+      land?.follow(origin, view.cameras.current.position.toArray(), renderer.getDrawingBufferSize(pixels));
     },
     quality(high) {
       sharpen(sun, high ? 2048 : 1024);
     },
     restore: bake,
-    tell: roads.unknown,
+    height: land?.height ?? null,
+    tell: [...roads.unknown, ...(land?.tell ?? [])],
     dispose() {
+      land?.dispose();
       roads.dispose();
       for (const { material } of [asphalt, road, grass]) material.dispose();
       noise.dispose();

@@ -21,6 +21,7 @@ export function makeRoads(scene, looks) {
   const pieces = [];
   const unknown = [];
   for (const road of scene.roads ?? []) {
+    if (road.kind === "terrain") continue; // of a world, see world.js
     const maker = { flat, plane, profile, grid }[road.kind];
     if (maker === undefined) unknown.push(`A road of the kind '${road.kind}' is not known to this page and is not drawn.`);
     else pieces.push(...maker(road, looks));

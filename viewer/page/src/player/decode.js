@@ -1,4 +1,5 @@
 // From the JSON of a page to runs with arrays.
+import { bytesOf, gunzipped } from "../bytes.js";
 
 /**
  * @typedef {{scene: object | null, t: Float64Array, columns: Object<string, {unit: string, data: ArrayLike<number>}>,
@@ -21,17 +22,9 @@ export function fromPlanes(planes, kind) {
   return kind === "f8" ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
 }
 
-async function unpacked(text) {
-  const raw = atob(text);
-  const bytes = new Uint8Array(raw.length);
-  for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
 /** @param {{names: string[], kind: string, data: string}} block @returns {Promise<Map<string, ArrayLike<number>>>} */
 async function columnsOf(block) {
-  const numbers = fromPlanes(await unpacked(block.data), block.kind);
+  const numbers = fromPlanes(await gunzipped(bytesOf(block.data)), block.kind);
   const count = numbers.length / block.names.length;
   return new Map(block.names.map((name, k) => [name, numbers.subarray(k * count, (k + 1) * count)]));
 }

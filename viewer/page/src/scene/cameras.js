@@ -2,9 +2,12 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { across, add, cross, dot, rotate, scale, subtract, unit } from "./math.js";
+import { Trailing } from "./trailing.js";
 
 /** Where a driver's eyes are beside the middle of the steering wheel, in metres: back, up. */
 const EYES = [0.48, 0.24];
+/** Least height of the camera behind above the ground, beside the size of the drawing. */
+const CLEARANCE = 0.14;
 const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40 };
 
 /** The cameras of a view; places are relative to the origin of the picture. */
@@ -22,6 +25,7 @@ export class Cameras {
     this.seat = shapes.find(({ kind }) => kind === "steering_wheel");
     this.names = scene.planar ? ["orbit"] : this.#names(scene.focus);
     this.aspect = 1;
+    this.trailing = new Trailing(view.options.trail ?? 0);
     this.home();
     this.controls = new OrbitControls(this.free, element);
     this.controls.enableDamping = false;
@@ -93,11 +97,24 @@ export class Cameras {
     const [left, forward] = this.#axes();
     const mix = (ahead, aside, above) => add(add(scale(forward, ahead * extent), scale(left, aside * extent)), scale(up, above * extent));
     const north = Math.abs(up[1]) > 0.7 ? [0, 0, -1] : [0, 1, 0];
-    if (this.name === "chase") this.#look(mix(-1.6, 0, 0.42), mix(0.6, 0, 0.06), up);
+    if (this.name === "chase") this.#chase(forward, extent);
     else if (this.name === "side") this.#look(mix(0, -2.1, 0.14), [0, 0, 0], up);
     else if (this.name === "top") this.#look(scale(up, 4 * extent), [0, 0, 0], north);
     else if (this.name === "driver") this.#drive();
     else this.#watchWheel(this.wheels.find((frame) => this.#wheelName(frame) === this.name));
+  }
+
+  /** Behind what is followed, and above the ground there. */
+  #chase(forward, extent) {
+    const { up, origin, look } = this.view;
+    const way = this.trailing.along(forward, up);
+    const seen = (ahead, above) => add(scale(way, ahead * extent), scale(up, above * extent));
+    const from = seen(-1.6, 0.42);
+    if (look?.height && up[2] > 0.9) {
+      const [x, y, z] = add(origin, from);
+      from[2] += Math.max(0, look.height(x, y) + CLEARANCE * extent - z);
+    }
+    this.#look(from, seen(0.6, 0.06), up);
   }
 
   #look(from, at, up) {
@@ -133,6 +150,8 @@ export class Cameras {
 
   resize(width, height) {
     this.aspect = this.rig.aspect = width / height;
+    const { lift = 0 } = this.view.options;
+    for (const camera of [this.rig, this.free]) if (lift) camera.setViewOffset(width, height, 0, lift * height, width, height);
     this.rig.updateProjectionMatrix();
     if (this.free.isPerspectiveCamera) {
       this.free.aspect = width / height;

@@ -19,6 +19,8 @@ export class SceneView {
    * @param {string} [options.camera] the first camera
    * @param {boolean} [options.antialias] smooth edges; by default where a graphics card draws, on boards and in high quality
    * @param {boolean} [options.words] sentences over the picture, true by default; legends of what is drawn stay
+   * @param {number} [options.lift] the picture is moved up by this share of its height, where something stands below
+   * @param {number} [options.trail] time in which the camera behind follows a turn, s; 0 by default: at once
    * @param {boolean} [options.keep] the picture can be read from the canvas after it is drawn
    * @param {(sentence: string) => void} [options.onMessage] told what is not drawn, once each
    */
@@ -26,6 +28,7 @@ export class SceneView {
     this.container = container;
     this.scene = scene;
     this.options = options;
+    this.lookup = null;
     /** One sentence where nothing can be drawn, else empty. */
     this.problem = "";
     if (getComputedStyle(container).position === "static") container.style.position = "relative";

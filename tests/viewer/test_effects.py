@@ -1,0 +1,194 @@
+"""Tyre marks and dust in pictures; the sound of a car as it would be heard, rendered to memory."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.viewer.test_drawing import at, ball, scene
+from tests.viewer.test_worlds_drawn import around, level
+
+RATE = 24_000
+COLUMNS = ["engine_speed", "speed", "used.throttle"]
+_DRIVE = """([rows, kind]) => {
+  window.effect?.dispose();
+  window.effect = new ALi3Viewer[kind](view, {});
+  for (const [time, epoch, numbers] of rows) {
+    const lookup = name => numbers[name];
+    view.update(lookup);
+    effect.update(lookup, time, epoch);
+  }
+  view.render();
+  return [effect.count, effect.problem];
+}"""
+_GO_ON = """rows => {
+  for (const [time, epoch, numbers] of rows) {
+    view.update(name => numbers[name]);
+    effect.update(name => numbers[name], time, epoch);
+  }
+}"""
+_SOUND = """async ([columns, numbers, seconds, rate, constants]) => {
+  const context = new OfflineAudioContext(1, seconds * rate, rate);
+  const sound = new ALi3Viewer.CarSound({ columns, constants, context });
+  await sound.start();
+  sound.update(name => numbers[0][name], 0);
+  const step = 0.05;
+  for (let k = 0; k * step < seconds; k++) {
+    const now = numbers[Math.min(numbers.length - 1, Math.floor(k * step / seconds * numbers.length))];
+    if (k === 0) sound.update(name => now[name], step);
+    else context.suspend(k * step).then(() => { sound.update(name => now[name], (k + 1) * step); context.resume(); });
+  }
+  const buffer = await context.startRendering();
+  return [Array.from(buffer.getChannelData(0)), sound.problem];
+}"""
+
+
+def tyre_scene(surface: str) -> dict[str, Any]:
+    """A body with one tyre on a level terrain at height 0."""
+    columns = {part: [f"wheel.{part}_{axis}" for axis in "xyz"] for part in ("contact", "normal", "axis")}
+    arrow = {"name": "tyre", "tyre": columns | {"forces": ["wheel.Fx", "wheel.Fy", "wheel.Fz"]}}
+    return scene(focus="body", shapes=[ball(radius=0.02)], roads=[level(0.0, surface)], arrows=[arrow], extent=4.0)
+
+
+def tyre(x: float, **more: float) -> dict[str, float]:
+    numbers = {f"wheel.{name}": 0.0 for name in ("contact_y", "contact_z", "normal_x", "normal_y", "axis_x", "axis_z")}
+    numbers |= {"wheel.contact_x": x, "wheel.normal_z": 1.0, "wheel.axis_y": 1.0, "wheel.Fx": 0.0, "wheel.Fy": 0.0}
+    numbers |= {"wheel.Fz": 2000.0, "wheel.slip": 0.0, "wheel.slip_angle": 0.0, "wheel.omega": 0.0, "speed": 10.0}
+    return numbers | at(x, 0, 0.3) | more
+
+
+def run(drawn: Any, kind: str, surface: str, slip: Any, end: float = 12.0) -> int:
+    """Drive along x at 10 m/s; slip is a function of x."""
+    drawn.show(tyre_scene(surface), tyre(0.0), camera="top")
+    rows = [[x / 10.0, 1, tyre(float(x), **{"wheel.slip": slip(x)})] for x in np.arange(0.0, end, 0.1)]
+    count, problem = drawn.ask(_DRIVE, [rows, kind])
+    assert problem == ""
+    return int(count)
+
+
+def test_a_locked_wheel_draws_a_dark_strip_where_it_slid(drawn):
+    run(drawn, "TyreMarks", "concrete", lambda x: -1.0 if x > 9.0 else 0.0)
+    picture = drawn.picture()
+    on, before, beside = ((10.5, 0.0), (8.0, 0.0), (10.5, 1.0))
+    dark, clean, other = (around(picture, drawn.project((*place, 0.0)), 0).mean() for place in (on, before, beside))
+    assert dark < 0.6 * other
+    assert clean > 0.8 * other
+
+
+def test_marks_do_not_appear_in_steady_driving_and_are_not_left_on_grass(drawn):
+    assert run(drawn, "TyreMarks", "asphalt", lambda x: 0.01) == 0
+    assert run(drawn, "TyreMarks", "grass", lambda x: -1.0) == 0
+    assert run(drawn, "TyreMarks", "asphalt", lambda x: -1.0) > 50
+
+
+def test_marks_stay_on_the_earth_when_the_focus_goes_far(drawn):
+    """The places of marks are counted anew every 500 m: they are drawn where they were."""
+    run(drawn, "TyreMarks", "concrete", lambda x: -1.0)
+    far = [[10.0 + x, 1, tyre(float(x), **{"wheel.Fz": 0.0})] for x in (900.0, 6.0)]
+    drawn.ask(_GO_ON, far)
+    picture = drawn.picture()
+    dark, other = (around(picture, drawn.project((6.5, y, 0.0)), 0).mean() for y in (0.0, 1.0))
+    assert dark < 0.6 * other
+
+
+def test_gravel_is_thrown_up_behind_the_wheel_and_asphalt_is_not(drawn):
+    assert run(drawn, "Dust", "asphalt", lambda x: 0.01) == 0
+    assert run(drawn, "Dust", "gravel", lambda x: 0.01) > 5
+    drawn.ask("view.camera('side')")
+    with_dust = drawn.picture()
+    drawn.ask("effect.points.visible = false")
+    without = drawn.picture()
+    changed = np.abs(with_dust - without).max(axis=2) > 8
+    columns = np.nonzero(changed)[1]
+    assert len(columns) > 50
+    assert columns.mean() < 150  # x points to the right of the picture: it hangs behind the wheel
+
+
+@pytest.mark.parametrize("kind", ["TyreMarks", "Dust"])
+def test_a_scene_without_tyres_has_no_effects_and_says_so(drawn, kind):
+    drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
+    count, problem = drawn.ask(_DRIVE, [[[0.0, 1, at(0, 0, 0)]], kind])
+    assert count == 0
+    assert "no tyres" in problem
+
+
+def heard(
+    drawn: Any, numbers: Any, columns: list[str] = COLUMNS, seconds: float = 1.0, **constants: float
+) -> np.ndarray:
+    listed = numbers if isinstance(numbers, list) else [numbers]
+    samples, problem = drawn.ask(_SOUND, [columns, listed, seconds, RATE, constants])
+    assert problem == ""
+    return np.array(samples)
+
+
+def peak(samples: np.ndarray) -> float:
+    """Frequency of the strongest line of the last half, Hz."""
+    part = samples[len(samples) // 2 :]
+    spectrum = np.abs(np.fft.rfft(part * np.hanning(len(part))))
+    return float(np.argmax(spectrum) * RATE / len(part))
+
+
+@pytest.mark.parametrize("speed", [120.0, 300.0, 550.0])
+def test_an_engine_is_heard_at_its_firings(drawn, speed):
+    """Four cylinders, four strokes: two firings a revolution; lines of the spectrum are 2 Hz apart."""
+    samples = heard(drawn, {"engine_speed": speed, "speed": 0.0, "used.throttle": 0.1})
+    assert peak(samples) == pytest.approx(2.0 * speed / (2.0 * np.pi), abs=2.0)
+    assert 0.01 < np.abs(samples).max() < 0.99
+
+
+@pytest.mark.parametrize("speed", [200.0, 700.0])
+def test_a_motor_whines_at_eight_waves_a_revolution(drawn, speed):
+    numbers = {"motor_speed": speed, "motor_torque": 150.0}
+    samples = heard(drawn, numbers, ["motor_speed", "motor_torque"], **{"drive.max_torque": 210.0})
+    assert peak(samples) == pytest.approx(8.0 * speed / (2.0 * np.pi), abs=2.0)
+
+
+def test_squeal_is_louder_the_more_a_tyre_slips(drawn):
+    columns = ["speed", "wheel.slip", "wheel.slip_angle", "wheel.Fz"]
+    levels = []
+    for slip in (0.0, 0.15, 0.25, 0.5):
+        numbers = {"speed": 15.0, "wheel.slip": slip, "wheel.slip_angle": 0.0, "wheel.Fz": 2500.0}
+        samples = heard(drawn, numbers, columns, 0.6)[RATE // 4 :]
+        spectrum = np.abs(np.fft.rfft(samples))
+        frequency = np.fft.rfftfreq(len(samples), 1 / RATE)
+        levels.append(spectrum[(frequency > 700) & (frequency < 1200)].mean())
+    assert all(b > 1.2 * a for a, b in pairwise(levels))
+
+
+def test_a_jump_of_the_throttle_makes_no_click(drawn):
+    """No sample differs from the one before by more than the loudest steady tone makes it."""
+    low, high = ({"engine_speed": 300.0, "speed": 0.0, "used.throttle": value} for value in (0.0, 1.0))
+    steady = heard(drawn, high)
+    jumping = heard(drawn, [low, high, low, high])
+    assert np.abs(np.diff(jumping)).max() < 1.3 * np.abs(np.diff(steady)).max()
+
+
+def test_without_new_numbers_the_sound_fades(drawn):
+    code = _SOUND.replace("k * step < seconds", "k * step < 0.3")
+    numbers = {"engine_speed": 300.0, "speed": 0.0, "used.throttle": 0.5}
+    samples = np.array(drawn.ask(code, [COLUMNS, [numbers], 2.0, RATE, {}])[0])
+    assert np.abs(samples[RATE // 5 : RATE // 3]).max() > 0.02
+    assert np.abs(samples[-RATE // 4 :]).max() < 1e-3
+
+
+def test_without_audio_one_sentence_and_it_goes_on(drawn):
+    said = drawn.ask(
+        """async columns => {
+          const kept = [window.AudioContext, window.webkitAudioContext];
+          window.AudioContext = window.webkitAudioContext = undefined;
+          const sound = new ALi3Viewer.CarSound({ columns });
+          await sound.start();
+          sound.update(() => 1, 0);
+          sound.mute(true);
+          sound.update(null);
+          await sound.dispose();
+          [window.AudioContext, window.webkitAudioContext] = kept;
+          return sound.problem;
+        }""",
+        COLUMNS,
+    )
+    assert "no sound" in said
+    assert "goes on" in said

@@ -1,0 +1,388 @@
+"""The page of the simulator in a Chromium without a window, against frames that the test sends."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from benchmarks.car import manoeuvres
+from tests.viewer.simulator_program import BEHIND, REFUSED, RUNNING, Program
+from viewer.recording import Recording
+
+PLACES = [{"name": "start", "x": 0.0, "y": -60.0, "yaw": 0.0}, {"name": "hill_20", "x": 120.0, "y": 80.0, "yaw": 0.0}]
+WORLD = {"name": "here", "places": PLACES, "bounds": [-200.0, -200.0, 200.0, 200.0]}
+PARTS = ("controls", "steps", "tyres", "map inset", "cluster")
+_BOXES = """names => Object.fromEntries(names.map(name => {
+  const { left, top, right, bottom } = document.querySelector(`[data-a3="${name}"]`).getBoundingClientRect();
+  return [name, [left, top, right, bottom]];
+}).filter(([, [left, , right]]) => right > left))"""
+_HIDE = """() => {
+  Object.defineProperty(document, 'hidden', {value: true, configurable: true});
+  document.dispatchEvent(new Event('visibilitychange'));
+}"""
+
+
+@pytest.fixture(scope="module")
+def lane_change() -> Recording:
+    return manoeuvres.run("double_lane_change", 0.002, car=manoeuvres.PROTOTYPE, every=5).recording()
+
+
+@pytest.fixture
+def program(chromium: Any, lane_change: Recording) -> Iterator[Program]:
+    """The page, open; an error in its script fails the test."""
+    context = chromium.new_context(viewport={"width": 640, "height": 360})
+    made = Program(context.new_page(), lane_change, world=WORLD)
+    made.open()
+    yield made
+    context.close()
+    assert made.errors == []
+
+
+def picture(program: Program) -> np.ndarray:
+    """Pixels of the page (height, width, 3), without instruments."""
+    from PIL import Image
+
+    style = ".a3-sim > :not(.a3-picture):not(.a3-map) { visibility: hidden }"
+    tag = program.page.add_style_tag(content=style)
+    shot = program.page.screenshot()
+    tag.evaluate("tag => tag.remove()")
+    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
+
+
+def shown(program: Program, time: float, flags: int = 0, **header: float) -> None:
+    """A frame of a car that stands at a time of the run, drawn."""
+    program.send(time, flags, **header)
+    program.page.wait_for_function(
+        "count => player.frames.newest?.count === count", arg=round(time / 0.002) + 1e6 * program.epoch
+    )
+    now = program.ask("performance.now() / 1000")
+    program.page.wait_for_function("now => player.cockpit._timed > now", arg=now)  # figures come after the picture
+
+
+def at(recording: Recording, name: str, time: float) -> float:
+    return float(np.interp(time, recording.t, recording.columns[name]))
+
+
+def test_instruments_show_the_numbers_of_the_frame(program: Program, lane_change: Recording) -> None:
+    program.values = {"used.throttle": 0.25, "used.brake": 0.5, "used.selector": 1.0}
+    shown(program, 5.0, RUNNING, cost=1e-3, worst=1.5e-3, missed=7)
+    assert int(program.text("speed")) == round(3.6 * at(lane_change, "speed", 5.0))
+    assert program.text("gear") == f"gear {at(lane_change, 'gear', 5.0):.0f}"
+    rpm = 30 / np.pi * at(lane_change, "engine_speed", 5.0)
+    assert program.text("revolutions") == f"{rpm:.0f} rpm"
+    value = "name => player.cockpit.cluster._pedals.find(p => p.column === `used.${name}`).gauge.value"
+    assert program.page.evaluate(value, "throttle") == 0.25
+    assert program.page.evaluate(value, "brake") == 0.5
+    assert program.ask("player.cockpit.steps._bar.value") == pytest.approx(0.5)
+    assert "missed 7" in program.text("missed")
+    assert "1.00 ms of 2.00 ms" in program.text("step time")
+    wheels = ["FL", "FR", "RL", "RR"]
+    forces = {w: [at(lane_change, f"wheel_{w}.{c}", 5.0) for c in ("Fx", "Fy", "Fz")] for w in wheels}
+    uses = program.ask("player.cockpit.tyres.uses")
+    for w, (fx, fy, fz) in forces.items():
+        assert uses[f"wheel_{w}"] == pytest.approx(np.hypot(fx, fy) / fz, rel=0.02)
+    radii = [
+        float(r)
+        for r in program.ask("[...document.querySelectorAll('.a3-tyres circle')].map(c => c.getAttribute('r'))")
+    ]
+    loads = np.array([forces[w][2] for w in wheels])
+    assert np.array(radii) / max(radii) == pytest.approx(np.sqrt(loads / loads.max()), abs=0.01)
+
+
+def test_an_arrow_of_a_tyre_points_where_the_force_does(program: Program) -> None:
+    names = ("Fx", "Fy", "steer")
+    program.values = {f"wheel_{w}.{c}": 0.0 for w in ("FL", "FR", "RL", "RR") for c in names}
+    program.values |= {f"wheel_{w}.Fz": 2000.0 for w in ("FL", "FR", "RL", "RR")}
+    program.values |= {"wheel_FL.Fy": 1500.0, "wheel_RR.Fx": -1500.0}  # to the left; braked
+    shown(program, 1.0)
+    paths = program.ask("[...document.querySelectorAll('.a3-tyres path:last-of-type')].length && "
+                        "player.cockpit.tyres._items.map(i => i.arrow.getAttribute('d'))")  # fmt: skip
+    assert paths[1] == paths[2] == ""
+    ends = {k: [float(x) for x in paths[k].split("L")[1].split("M")[0].split()] for k in (0, 3)}
+    begins = {k: [float(x) for x in paths[k][1:].split("L")[0].split()] for k in (0, 3)}
+    assert ends[0][0] < begins[0][0] - 8
+    assert ends[0][1] == pytest.approx(begins[0][1], abs=0.11)
+    assert ends[3][1] > begins[3][1] + 8  # down is backwards
+    assert ends[3][0] == pytest.approx(begins[3][0], abs=0.11)
+
+
+def test_keys_drive_at_their_rates_and_are_let_go_with_the_focus(program: Program) -> None:
+    shown(program, 0.5, RUNNING)
+    keyboard = program.page.keyboard
+    wants = lambda: [m for m in program.heard if m["type"] == "want"]  # noqa: E731
+    keyboard.down("ArrowUp")
+    keyboard.down("KeyA")
+    program.page.wait_for_timeout(100)
+    assert {m["source"] for m in wants()} == {"keys"}
+    last = {name: pair for m in wants() for name, pair in m["values"].items()}
+    assert last["throttle"] == [1, 2.5]
+    assert last["steering"][0] > 0.02  # to the left
+    assert last["steering"][1] == 1.6
+    program.page.evaluate("window.dispatchEvent(new Event('blur'))")
+    program.page.wait_for_timeout(50)
+    last = {name: pair for m in wants() for name, pair in m["values"].items()}
+    assert last["throttle"] == [0, 5]
+    assert last["steering"] == [0, 3]
+    keyboard.up("ArrowUp")
+    keyboard.up("KeyA")
+    keyboard.down("Space")
+    program.page.wait_for_timeout(50)
+    assert wants()[-1]["values"]["hand_brake"] == [1, 8]
+    program.page.evaluate(_HIDE)
+    program.page.wait_for_timeout(50)
+    assert wants()[-1]["values"]["hand_brake"] == [0, 8]
+    keyboard.up("Space")
+    keyboard.press("r")
+    program.page.wait_for_timeout(50)
+    assert wants()[-1]["values"]["selector"] == [-1, None]
+
+
+def test_a_key_is_let_go_also_while_another_key_is_held(program: Program) -> None:
+    shown(program, 0.5, RUNNING)
+    keyboard = program.page.keyboard
+    keyboard.down("ArrowUp")
+    keyboard.down("Control")
+    keyboard.up("ArrowUp")
+    keyboard.up("Control")
+    program.page.wait_for_timeout(50)
+    last = {name: pair for m in program.heard if m["type"] == "want" for name, pair in m["values"].items()}
+    assert last["throttle"] == [0, 5]
+
+
+def test_keys_and_buttons_are_commands(program: Program) -> None:
+    shown(program, 3.0, RUNNING, saved=12.5)
+    keyboard = program.page.keyboard
+    for key in ("p", ".", "Backspace", "Shift+Backspace", "u", "Home", "l"):
+        keyboard.press(key)
+    click = lambda what: program.page.locator(f'[data-a3="{what}"]').first.click()  # noqa: E731
+    click("rewind")
+    program.page.locator('[data-a3="saved"]').evaluate(
+        "slider => { slider.value = 7.5; for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
+    )
+    program.page.locator('[data-a3="place"]').select_option("hill_20")
+    program.page.wait_for_timeout(50)
+    names = ["pause", "step", "rewind", "rewind", "upright", "reset", "speed", "rewind", "rewind"]
+    values = [0, 1, 2, 10, 0, 0, 0.25, 2, 7.5]
+    assert program.commands() == list(zip(names, values, strict=True))
+    assert {"type": "place", "name": "hill_20"} in program.heard
+    assert program.ask("Number(document.querySelector('[data-a3=\"saved\"]').max)") == 12.5
+    keyboard.press("h")
+    assert program.page.locator('[data-a3="help list"]').is_visible()
+    keyboard.press("h")
+    assert not program.page.locator('[data-a3="help list"]').is_visible()
+
+
+def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> None:
+    flag = lambda name: program.page.locator(f'[data-a3="flag {name}"]')  # noqa: E731
+    shown(program, 2.0, 0)
+    assert flag("paused").is_visible()
+    shown(program, 2.1, RUNNING, speed=0.25, deadline=0.008)
+    assert not flag("paused").is_visible()
+    assert program.text("flag slow") == "slow motion × 0.25"
+    program.say({"type": "event", "kind": "refused", "time": 2.1, "text": "The step did not converge."})
+    shown(program, 2.2, REFUSED)
+    assert program.text("flag refused").startswith("The step did not converge. Rewind")
+    shown(program, 2.3, RUNNING | BEHIND)
+    assert not flag("refused").is_visible()
+    assert "behind" in program.text("flag behind")
+    assert not flag("outside").is_visible()
+    scene = program.recording.scene or {}
+    program.values = {scene["frames"][scene["focus"]]["position"][0]: 250.0}
+    shown(program, 2.4, RUNNING)
+    assert "Outside of the world" in program.text("flag outside")
+    program.say({"type": "event", "kind": "told", "time": 2.3, "text": "Page 2 was closed: throttle let go."})
+    program.say({"type": "refused", "text": "There is no command 'fly'."})
+    program.page.wait_for_timeout(100)
+    assert "throttle let go." in program.text("events")
+    assert "There is no command 'fly'." in program.text("events")
+    program.page.wait_for_function(
+        "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true", timeout=5000
+    )
+    assert "this is the last that came" in program.text("flag stalled")
+
+
+def test_a_broken_wire_is_said_and_mended(program: Program) -> None:
+    shown(program, 1.0, RUNNING)
+    program.sockets[-1].close()
+    said = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
+    assert "Trying again" in program.page.wait_for_function(said).json_value()
+    program.page.wait_for_function(f"player.cockpit && !({said})", timeout=8000)
+    assert len(program.sockets) == 2
+    program.epoch = 2
+    shown(program, 0.5, RUNNING)
+    assert int(program.text("speed")) > 0
+
+
+def test_a_world_that_comes_with_the_second_connection_is_no_longer_missed(program: Program) -> None:
+    page, words = program.page, "The drawing of the world cannot be had"
+    page.route("**/world*", lambda route: route.fulfill(status=500), times=1)
+    before = "window.before = player.cockpit"
+    later = "player.cockpit !== window.before"
+    for missed in (True, False):
+        page.evaluate(before)
+        program.sockets[-1].close()
+        page.wait_for_function(later, timeout=8000)
+        assert (words in program.text("events")) is missed
+    program.errors.clear()  # the browser tells of the answer too
+
+
+def test_the_car_is_where_its_frame_says_in_every_camera(chromium: Any, lane_change: Recording) -> None:
+    """Points inside the wheels, which are magenta here."""
+    scene = dict(lane_change.scene or {})
+    scene["shapes"] = [s | {"color": "#ff00ff", "material": "plastic"} for s in scene["shapes"] if s["kind"] == "wheel"]
+    scene["shapes"] = [
+        {"kind": "sphere", "frame": s["frame"], "radius": s["radius"], "color": "#ff00ff"} for s in scene["shapes"]
+    ]
+    context = chromium.new_context(viewport={"width": 640, "height": 360})
+    program = Program(context.new_page(), Recording(scene, lane_change.t, lane_change.columns), world=WORLD)
+    program.open()
+    for camera in ("orbit", "chase", "side", "top"):
+        assert program.page.evaluate("name => player.camera(name)", camera) == ""
+        program.epoch += 1
+        for time in (2.0, 4.5):
+            shown(program, time)
+            pixels = picture(program)
+            r, g, b = (pixels[..., k] for k in range(3))
+            seen = (r > g + 25) & (b > g + 25)
+            for wheel in ("FL", "FR", "RL", "RR"):
+                point = [at(lane_change, f"wheel_{wheel}.{c}", time) for c in "xyz"]
+                x, y = program.page.evaluate("point => player.view.project(point)", point)
+                assert seen[int(y) - 2 : int(y) + 3, int(x) - 2 : int(x) + 3].any(), f"{camera}, {time} s, {wheel}"
+            assert not seen[:40].any(), "something is drawn in the sky"
+    assert program.errors == []
+    context.close()
+
+
+def test_the_steering_wheel_turns_before_the_driver(chromium: Any, lane_change: Recording) -> None:
+    """The red mark on top of it goes to the left with the wheel."""
+    scene = dict(lane_change.scene or {})
+    scene["shapes"] = [s for s in scene["shapes"] if s["kind"] == "steering_wheel"]
+    context = chromium.new_context(viewport={"width": 640, "height": 360})
+    program = Program(context.new_page(), Recording(scene, lane_change.t, lane_change.columns), world=WORLD)
+    program.open()
+    assert program.page.evaluate("player.camera('driver')") == ""
+    marks = []
+    for angle in (0.0, 0.8):
+        program.values = {"steering_wheel_angle": angle}
+        shown(program, 1.0 + angle)
+        pixels = picture(program)
+        r, g, b = (pixels[..., k] for k in range(3))
+        rows, columns = np.nonzero((r > 150) & (g < 110) & (b < 90) & (r > 2 * b))
+        marks.append(np.array([columns.mean(), rows.mean()]))
+    assert marks[1][0] < marks[0][0] - 15
+    assert marks[1][1] > marks[0][1] + 5  # and down
+    context.close()
+
+
+def test_the_map_shows_the_car_its_trail_and_places(program: Program, lane_change: Recording) -> None:
+    program.drive(0.0, 2.0, 0.05)
+    program.page.keyboard.press("5")
+    shown(program, 3.0)
+    pixels = picture(program)
+    where = [at(lane_change, f"chassis.{c}", 3.0) for c in "xy"]
+    x, y = program.page.evaluate("point => player.cockpit.map.pixel(point)", where)
+    assert np.allclose(pixels[int(y), int(x)], [229, 53, 43], atol=30)  # the car
+    assert x > 320  # it went along x, which is to the right
+    past = [at(lane_change, f"chassis.{c}", 0.8) for c in "xy"]
+    x, y = program.page.evaluate("point => player.cockpit.map.pixel(point)", past)
+    near = pixels[int(y) - 2 : int(y) + 3, int(x) - 2 : int(x) + 3].reshape(-1, 3)
+    assert (np.abs(near - [255, 210, 63]).sum(axis=1) < 90).any()  # its trail
+    x, y = program.page.evaluate("() => player.cockpit.map.pixel([120, 80])")
+    assert np.allclose(pixels[int(y), int(x)], 255, atol=8)  # a place
+    program.page.mouse.click(x, y)
+    program.page.wait_for_timeout(50)
+    assert {"type": "place", "name": "hill_20"} in program.heard
+
+
+def test_a_rewind_is_not_driven_through(program: Program, lane_change: Recording) -> None:
+    program.drive(4.0, 5.0, 0.05)
+    program.epoch = 2
+    program.send(1.0, RUNNING)
+    program.page.wait_for_function("player.frames.newest.epoch === 2")
+    times = program.ask("""() => new Promise(done => {
+      const seen = [];
+      const look = () => {
+        seen.push(player.frames.at(performance.now() / 1000).time);
+        if (seen.length < 10) requestAnimationFrame(look);
+        else done(seen);
+      };
+      requestAnimationFrame(look);
+    })""")
+    assert set(times) == {1.0}
+    assert program.ask("player.cockpit.plan.trail.points.includes(null)")
+
+
+def test_a_report_is_drawn(program: Program) -> None:
+    shown(program, 1.0)
+    program.page.keyboard.press("g")
+    program.page.wait_for_timeout(50)
+    assert {"type": "report"} in program.heard
+    assert {"type": "watch devices", "on": True} in program.heard
+    bins = [[2e-5, 3], [5e-5, 4000], [1e-4, 900], [8e-4, 12], [1.9e-3, 1], [4e-3, 2]]
+    spread = {"median": 6e-5, "p99": 2e-4, "p999": 9e-4, "largest": 4e-3, "bins": bins}
+    times = {"step": 0.002, "steps": 4918, "simulated": 9.836, "wall": 9.84, "missed": 2}
+    program.say({"type": "report", **times, "cost": spread, "lateness": spread})
+    program.page.wait_for_selector('[data-a3="histogram"] rect')
+    bars = program.ask(
+        "[...document.querySelectorAll('[data-a3=\"histogram\"] rect')].map(r => r.getAttribute('fill'))"
+    )
+    assert len(bars) == len(bins)
+    assert bars.count(bars[-1]) == 1  # the one beyond the deadline has a colour of its own
+    assert "0.06 · 0.2 · 0.9 · 4 ms" in program.text("report")
+
+
+@pytest.mark.parametrize("without", ["a drawing", "WebGL"])
+def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_change: Recording, without: str) -> None:
+    context = chromium.new_context(viewport={"width": 640, "height": 360})
+    page = context.new_page()
+    if without == "WebGL":
+        page.add_init_script("""
+          const get = HTMLCanvasElement.prototype.getContext;
+          HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+            return /webgl/.test(kind) ? null : get.call(this, kind, ...more);
+          };""")
+    scene = lane_change.scene if without == "WebGL" else None
+    program = Program(page, Recording(scene, lane_change.t, lane_change.columns), world=WORLD)
+    if scene is None:
+        program.hello["scene"] = None
+    program.open()
+    shown(program, 3.0, RUNNING)
+    assert int(program.text("speed")) == round(3.6 * at(lane_change, "speed", 3.0))
+    if without == "WebGL":
+        assert "no WebGL" in program.ask("player.problem")
+    page.keyboard.press("5")
+    page.keyboard.press("p")
+    shown(program, 3.1, RUNNING)
+    assert ("pause", 0) in program.commands()
+    x, y = page.evaluate(
+        "point => player.cockpit.map.pixel(point)", [at(lane_change, f"chassis.{c}", 3.1) for c in "xy"]
+    )
+    assert np.allclose(picture(program)[int(y), int(x)], [229, 53, 43], atol=30)
+    assert program.errors == []
+    context.close()
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (390, 844), (844, 390)])
+def test_everything_fits_on_the_screen_and_nothing_lies_on_another(chromium: Any, lane_change: Recording, size) -> None:
+    context = chromium.new_context(viewport={"width": size[0], "height": size[1]}, has_touch=size[0] < 900)
+    program = Program(context.new_page(), lane_change, world=WORLD)
+    program.open()
+    shown(program, 2.0)
+    boxes = program.page.evaluate(_BOXES, [*PARTS, "lever steering", "lever brake", "lever throttle"])
+    assert set(PARTS) <= set(boxes)
+    for name, (left, top, right, bottom) in boxes.items():
+        assert left >= 0, name
+        assert top >= 0, name
+        assert right <= size[0] + 0.5, name
+        assert bottom <= size[1] + 0.5, name
+    names = list(boxes)
+    for k, a in enumerate(names):
+        for b in names[k + 1 :]:
+            (l1, t1, r1, b1), (l2, t2, r2, b2) = boxes[a], boxes[b]
+            assert r1 <= l2 + 0.5 or r2 <= l1 + 0.5 or b1 <= t2 + 0.5 or b2 <= t1 + 0.5, f"{a} lies on {b}"
+    assert program.errors == []
+    context.close()

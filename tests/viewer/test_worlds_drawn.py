@@ -1,0 +1,205 @@
+"""Worlds in pictures: pixels of terrain, surfaces, paint and scenery against places and heights that are known."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.viewer.hand_scenes import floats, octets
+from tests.viewer.hand_world import LANES, NAMES, height, scenery, terrain
+from tests.viewer.test_drawing import at, ball, red, scene
+
+# Whole periods of all layers of the pattern of surfaces: 1.3, 8.9, 61 and 273 m.
+FAR = 1_482_117.0
+
+
+def world(**parts: Any) -> dict[str, Any]:
+    """A ball over a terrain, which cameras follow."""
+    return scene(focus="body", shapes=[ball(radius=0.05)], roads=[terrain()], extent=4.0) | parts
+
+
+def around(picture: np.ndarray, place: tuple[float, float], reach: int = 4) -> np.ndarray:
+    """Mean colour about a pixel."""
+    x, y = (int(value) for value in place)
+    part = picture[max(0, y - reach) : y + reach + 1, max(0, x - reach) : x + reach + 1]
+    assert part.size, f"{place} is not in the picture"
+    return part.reshape(-1, 3).mean(axis=0)
+
+
+def level(road_height: float, surface: str = "asphalt") -> dict[str, Any]:
+    """A terrain of one patch at one height and of one surface."""
+    patch = {"origin": [-50, -50], "spacing": [50, 50], "shape": [3, 3], "heights": floats(np.full(9, road_height))}
+    classes = octets(np.full(4, NAMES.index(surface)))
+    surfaces = {"origin": [-25, -25], "spacing": [50, 50], "shape": [2, 2], "classes": classes, "names": NAMES}
+    return {"kind": "terrain", "patches": [patch], "surface": surfaces | {"frictions": [1.0] * len(NAMES)}}
+
+
+def stripes() -> dict[str, Any]:
+    """A level terrain with a stripe of 10 m along x of each surface, from y = -40 m to the left."""
+    made = level(0.0)
+    classes = np.tile(np.repeat(np.arange(8, dtype=np.uint8), 10), (80, 1))
+    surface = {"origin": [-39.5, -39.5], "spacing": [1, 1], "shape": [80, 80], "classes": octets(classes)}
+    return made | {"surface": made["surface"] | surface}
+
+
+@pytest.mark.parametrize("quality", ["low", "high"])
+def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, quality):
+    drawn.show(world(roads=[stripes()], extent=62.0), at(0, 0, 0), camera="top", quality=quality)
+    picture = drawn.picture()
+    seen = {name: around(picture, drawn.project((0.0, 10.0 * k - 35.0, 0.0)), 5) for k, name in enumerate(NAMES)}
+    light = {name: colour.mean() for name, colour in seen.items()}
+    assert seen["grass"][1] > 1.1 * seen["grass"][0] > 1.2 * seen["grass"][2]
+    assert seen["dirt"][0] > 1.15 * seen["dirt"][2]
+    assert seen["gravel"][0] > 1.03 * seen["gravel"][2]
+    assert seen["ice"][2] > 1.03 * seen["ice"][0]
+    for name in ("asphalt", "concrete", "paint"):
+        assert np.ptp(seen[name]) < 0.15 * light[name], name
+    assert light["wet"] < 0.85 * light["asphalt"]
+    assert light["asphalt"] < 0.8 * light["concrete"] < light["paint"]
+    # Seen flatly, what is wet takes the blue of the sky.
+    drawn.ask("view.camera('side')")
+    picture = drawn.picture()
+    blue = {}
+    for name in ("asphalt", "wet"):
+        colour = around(picture, drawn.project((4.0, 10.0 * NAMES.index(name) - 35.0, 0.0)), 0)
+        blue[name] = colour[2] / colour[0]
+    assert blue["wet"] > blue["asphalt"] + 0.1
+
+
+def test_the_ground_is_as_high_as_its_points(drawn):
+    """Of a ball whose middle lies on the ground the upper half is seen, of one below the ground nothing."""
+    drawn.show(world(shapes=[ball(radius=0.5)], extent=12.0), camera="side")
+    for x, y in ((120.0, -60.0), (100.0, -66.0), (-23.0, -8.0), (-150.0, 30.0)):
+        z = float(height(x, y))
+        drawn.update(at(x, y, z))
+        r, g, b = np.moveaxis(drawn.picture(), 2, 0)
+        rows = np.nonzero((r > 90) & (r > 2.0 * g) & (r > 2.0 * b))[0]
+        top, middle = drawn.project((x, y, z + 0.5))[1], drawn.project((x, y, z))[1]
+        assert middle - top > 8
+        assert rows.min() == pytest.approx(top, abs=2)
+        assert rows.max() == pytest.approx(middle, abs=3)
+        drawn.update(at(x, y, z - 0.6))
+        with pytest.raises(AssertionError, match="nothing red"):
+            red(drawn.picture())
+
+
+def test_there_are_no_cracks_between_patches(drawn):
+    """With a magenta sky nothing magenta is seen below the horizon, though the patches do not meet at their points."""
+    rng = np.random.default_rng(1)
+    rough = terrain()
+    for patch in rough["patches"]:
+        patch["heights"] = floats(rng.uniform(-0.02, 0.02, patch["shape"]))
+    for pose in (at(-38.0, -30.0, 1.0), at(158.0, 38.0, 0.6), at(-42.0, 40.5, 2.0)):
+        drawn.show(world(roads=[rough], shapes=[]), pose, camera="chase")
+        drawn.ask("view.world.background = view.world.fog.color.clone().set('#ff00ff')")
+        drawn.ask("view.world.fog.near = 1e5; view.world.fog.far = 1e6")
+        r, g, b = np.moveaxis(drawn.picture(), 2, 0)
+        magenta = (r > 180) & (b > 180) & (g < 80)
+        horizon = int(np.nonzero(magenta)[0].max()) if magenta[:60].any() else 0
+        assert magenta[:20].all(), "the sky is not where it was looked for"
+        assert horizon < 80, f"magenta at row {horizon}"
+
+
+@pytest.mark.parametrize("quality", ["low", "high"])
+def test_lines_are_seen_all_of_their_way(drawn, quality):
+    """A white line on dark ground from 6 to 60 m ahead, from near the ground: none of it is in the ground."""
+    line = {"kind": "line", "points": [[a, -2.0, 0.0] for a in (0.0, 40.0, 90.0)], "width": 0.6, "colour": "white"}
+    dashed = line | {"points": [[0.0, -4.0, 0.0], [90.0, -4.0, 0.0]], "dash": [3.0, 3.0], "colour": "yellow"}
+    shown = world(scenery=[line, dashed])
+    drawn.show(shown, at(0, -2.0, 0.5), camera="chase", quality=quality)
+    picture = drawn.picture()
+    for x in np.linspace(6.0, 60.0, 40):
+        px, py = drawn.project((x, -2.0, 0.0))
+        here = picture[int(py), int(px)]
+        beside = around(picture, drawn.project((x, -3.0, 0.0)), 0)
+        assert here.min() > beside.max() + 15, f"the line is not seen at {x} m"
+    for x, painted in ((7.5, True), (10.5, False), (13.5, True), (16.5, False)):
+        colour = around(picture, drawn.project((x, -4.0, 0.0)), 0)
+        assert (colour[0] > 1.3 * colour[2]) == painted, x
+
+
+def test_scenery_stands_where_it_is(drawn):
+    """An orange cone, a blue sign for its reader, a white post and a building, each at its place."""
+    things = [
+        {"kind": "cone", "at": [8.0, -2.0, 0.0], "height": 1.0},
+        {"kind": "sign", "at": [9.0, 2.0, 0.0], "yaw": 0.0, "text": "wet lane", "height": 2.5},
+        {"kind": "sign", "at": [9.0, 5.0, 0.0], "yaw": np.pi, "text": "wet lane", "height": 2.5},
+        {"kind": "building", "at": [40.0, -12.0, 0.0], "yaw": 0.0, "size": [12.0, 8.0, 6.0]},
+    ]
+    drawn.show(world(shapes=[], roads=[level(0.0)]), at(0, 0, 1), camera="chase")
+    empty = drawn.picture()
+    drawn.show(world(shapes=[], roads=[level(0.0)], scenery=things), at(0, 0, 1), camera="chase")
+    picture = drawn.picture()
+    assert drawn.ask("view.messages") == []
+    cone = around(picture, drawn.project((8.0, -2.0, 0.2)), 0)
+    assert cone[0] > 2.0 * cone[2]
+    front = around(picture, drawn.project((9.0, 2.0 + 0.8, 1.72)), 1)
+    back = around(picture, drawn.project((9.0, 5.0, 2.1)), 2)
+    assert front[2] > 1.6 * front[0]
+    assert np.ptp(back) < 30
+    place = drawn.project((40.0, -12.0, 3.0))
+    assert np.abs(around(picture, place, 1) - around(empty, place, 1)).max() > 15
+
+
+def test_trees_are_green_above_brown(drawn):
+    trees = [{"kind": "tree", "at": [14.0, 2.5 * k - 5.0, 0.0], "height": 6.0, "seed": k} for k in range(5)]
+    drawn.show(world(shapes=[], roads=[level(0.0)], scenery=trees), at(0, 0, 1), camera="chase")
+    picture = drawn.picture()
+    for k in range(5):
+        crown = around(picture, drawn.project((14.0, 2.5 * k - 5.0, 3.4)), 3)
+        assert crown[1] > crown[2] + 15, k
+        assert crown[1] >= crown[0], k
+
+
+def test_far_away_a_world_is_drawn_the_same(drawn):
+    """All periods of the pattern away, 1482 km: the same picture, and 1 mm more moves nothing by a pixel."""
+    things = [thing for thing in scenery() if thing["kind"] != "building"]  # whose colour is that of its place
+    drawn.show(world(scenery=things), at(0, -3.0, 0.5), camera="chase")
+    near = drawn.picture()
+    moved = json.loads(json.dumps(things))
+    for thing in moved:
+        for point in thing.get("points", [thing.get("at")]):
+            point[0] += FAR
+    drawn.show(world(roads=[terrain(FAR)], scenery=moved), at(FAR, -3.0, 0.5), camera="chase")
+    far = drawn.picture()
+    assert np.abs(far - near).mean() < 0.5
+    drawn.update(at(FAR + 0.001, -3.0, 0.5))
+    assert np.abs(drawn.picture() - far).mean() < 1.0
+
+
+def test_beyond_a_world_its_border_goes_on(drawn):
+    drawn.show(world(shapes=[ball(radius=0.3)], extent=1.5), at(9e4, -7e4, 0.0), camera="side")
+    r, g, b = np.moveaxis(drawn.picture(), 2, 0)
+    assert np.median(g[140:]) > np.median(b[140:]) * 1.2  # grass
+    rows = np.nonzero((r > 90) & (r > 2.0 * g) & (r > 2.0 * b))[0]
+    assert rows.max() == pytest.approx(drawn.project((9e4, -7e4, 0.0))[1], abs=5)
+
+
+def test_what_is_not_known_is_said(drawn):
+    strange = terrain()
+    strange["surface"] = strange["surface"] | {"names": ["lava", *NAMES[1:]]}
+    drawn.show(world(roads=[strange, strange], scenery=[{"kind": "fountain", "at": [0, 0, 0]}]), at(0, 0, 0))
+    said = " ".join(drawn.ask("view.messages"))
+    assert "'lava'" in said
+    assert "'fountain'" in said
+    assert "2 terrains" in said
+
+
+def test_a_world_costs_few_calls_and_triangles(drawn):
+    drawn.show(world(scenery=scenery()), at(0, -3.0, 0.5), camera="chase")
+    drawn.ask("view.parts.group.visible = false")
+    drawn.picture()
+    calls, triangles = drawn.ask("[view.renderer.info.render.calls, view.renderer.info.render.triangles]")
+    assert 5 < calls < 60
+    assert 10_000 < triangles < 300_000
+
+
+def test_lanes_are_where_the_raster_has_them(drawn):
+    drawn.show(world(), at(0, 0, 3.0), camera="top")
+    picture = drawn.picture()
+    asphalt = around(picture, drawn.project((2.0, LANES["asphalt"], 0.0)), 1).mean()
+    wet = around(picture, drawn.project((2.0, LANES["wet"], 0.0)), 1).mean()
+    assert wet < 0.85 * asphalt

@@ -1,0 +1,108 @@
+// Dust, grass, spray and smoke behind the wheels.
+import * as THREE from "three";
+import { subtract } from "../scene/math.js";
+import { Cloud, KINDS } from "./cloud.js";
+import { Wheels } from "./wheels.js";
+
+/** Particles that are in the air at once. */
+const MOST = 700;
+
+const VERTEX = /* glsl */ `
+attribute vec4 tint;
+attribute float size;
+uniform float pixels;
+varying vec4 vTint;
+#include <fog_pars_vertex>
+void main() {
+  vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * mvPosition;
+  gl_PointSize = min(pixels * size * projectionMatrix[1][1] / max(0.1, gl_Position.w), 256.0);
+  vTint = tint;
+  #include <fog_vertex>
+}`;
+
+const FRAGMENT = /* glsl */ `
+varying vec4 vTint;
+#include <fog_pars_fragment>
+void main() {
+  float way = length(gl_PointCoord - 0.5) * 2.0;
+  float share = vTint.a * (1.0 - smoothstep(0.15, 1.0, way));
+  if (share < 0.004) discard;
+  gl_FragColor = vec4(vTint.rgb, share);
+  #include <tonemapping_fragment>
+  #include <colorspace_fragment>
+  #include <fog_fragment>
+}`;
+
+/** What wheels throw up; bounded: the oldest particles go. */
+export class Dust {
+  /**
+   * @param {import("../scene/scene_view.js").SceneView} view
+   * @param {{most?: number}} [options] most: particles in the air at once
+   */
+  constructor(view, options = {}) {
+    this.view = view;
+    this.most = options.most ?? MOST;
+    this.wheels = new Wheels(view.scene, options);
+    /** One sentence where there can be no dust, else empty. */
+    this.problem = this.wheels.problem;
+    this.cloud = new Cloud(this.wheels.list.length, this.most);
+    if (this.problem || view.problem) return;
+    this.geometry = new THREE.BufferGeometry();
+    for (const [name, size] of [["position", 3], ["tint", 4], ["size", 1]]) {
+      const buffer = new THREE.BufferAttribute(new Float32Array(this.most * size), size);
+      this.geometry.setAttribute(name, buffer.setUsage(THREE.DynamicDrawUsage));
+    } // prettier-ignore
+    this.geometry.setDrawRange(0, 0);
+    const material = new THREE.ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      uniforms: { ...THREE.UniformsUtils.clone(THREE.UniformsLib.fog), pixels: { value: 1 } },
+      transparent: true,
+      depthWrite: false,
+      fog: true,
+    });
+    this.points = new THREE.Points(this.geometry, material);
+    this.points.frustumCulled = false;
+    this.points.renderOrder = 2;
+    view.world.add(this.points);
+  }
+
+  /** Particles in the air now. */
+  get count() {
+    return this.cloud.count;
+  }
+
+  /**
+   * To be called after the view has been updated to the same numbers.
+   * @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch
+   */
+  update(lookup, time, epoch) {
+    if (this.problem) return;
+    const { view } = this;
+    this.cloud.update(this.wheels.contacts(lookup), view.up, time, epoch);
+    if (this.points === undefined) return;
+    this.points.material.uniforms.pixels.value = 0.5 * view.renderer.domElement.height;
+    const { position, tint, size } = this.geometry.attributes;
+    let used = 0;
+    for (let k = 0; k < this.most; k++) {
+      const age = this.cloud.rows[7 * k + 6];
+      const { life, sizes, colour, seen } = KINDS[this.cloud.kinds[k]];
+      if (!(age < life)) continue;
+      const share = age / life;
+      const at = subtract(this.cloud.rows.subarray(7 * k, 7 * k + 3), view.origin);
+      position.array.set(at, 3 * used);
+      tint.array.set([...colour, seen * (1 - share) * Math.min(1, 12 * share + 0.3)], 4 * used);
+      size.array[used] = sizes[0] + share * (sizes[1] - sizes[0]);
+      used++;
+    }
+    for (const buffer of [position, tint, size]) buffer.needsUpdate = true;
+    this.geometry.setDrawRange(0, used);
+  }
+
+  dispose() {
+    this.points?.removeFromParent();
+    this.geometry?.dispose();
+    this.points?.material.dispose();
+  }
+}

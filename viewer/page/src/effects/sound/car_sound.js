@@ -1,0 +1,68 @@
+// The sound of a driven car, made by code.
+import { CarMix } from "./mix.js";
+import { Mixer } from "./mixer.js";
+
+const NO_AUDIO = "This browser gives no sound (Web Audio), so the car is silent; everything else goes on.";
+
+function loudspeakers() {
+  const Context = globalThis.AudioContext ?? globalThis.webkitAudioContext;
+  return new Context({ latencyHint: "interactive" });
+}
+
+/** Sound of a car by its columns; starts after a click, as browsers want it. */
+export class CarSound {
+  #muted = false;
+
+  /**
+   * @param {object} car
+   * @param {string[]} car.columns names of its numbers
+   * @param {Object<string, number>} [car.constants] of the FMU
+   * @param {{slip: number, lateral: number}} [car.limits] slips of the largest force of its tyres
+   * @param {BaseAudioContext} [car.context] where it sounds: by default the loudspeakers
+   */
+  constructor({ columns, constants = {}, limits = undefined, context = undefined }) {
+    this.context = context;
+    this.mix = new CarMix(columns, constants, limits);
+    /** One sentence why nothing is heard, else empty. */
+    this.problem = this.mix.problem;
+    this.mixer = null;
+  }
+
+  /** To be called by a click or a key; again without harm. @returns {Promise<void>} */
+  async start() {
+    if (this.problem && this.mixer === null) return;
+    try {
+      if (this.mixer === null) {
+        this.context ??= loudspeakers();
+        this.mixer = new Mixer(this.context);
+        this.mixer.volume = this.#muted ? 0 : 1;
+      }
+      if (this.context.state === "suspended" && this.context.startRendering === undefined) await this.context.resume();
+    } catch {
+      this.problem = NO_AUDIO;
+      this.mixer = null;
+    }
+  }
+
+  /**
+   * What is heard from now on. Without new numbers, or while time stands, the sound fades.
+   * @param {((name: string) => number | undefined) | null} lookup null: silence
+   * @param {number} [time] of the run, s; by default that of the clock
+   */
+  update(lookup, time = performance.now() / 1000) {
+    if (this.mixer === null) return;
+    this.mixer.set(lookup === null ? null : this.mix.at(lookup, time));
+  }
+
+  /** @param {boolean} on */
+  mute(on) {
+    this.#muted = on;
+    if (this.mixer !== null) this.mixer.volume = on ? 0 : 1;
+  }
+
+  /** Ends the sound and gives the device back. @returns {Promise<void>} */
+  async dispose() {
+    this.mixer = null;
+    if (this.context !== undefined && this.context.state !== "closed") await this.context.close();
+  }
+}

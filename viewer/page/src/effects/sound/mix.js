@@ -1,0 +1,75 @@
+// From the numbers of a car to what is to be heard.
+import * as signals from "./signals.js";
+
+const PREFIX = /^(.+)\.slip_angle$/;
+
+/** Knows which numbers a car has; remembers the loads of the last time. */
+export class CarMix {
+  /** @param {string[]} columns @param {Object<string, number>} [constants] @param {object} [limits] slips of the largest force */
+  constructor(columns, constants = {}, limits = undefined) {
+    const has = new Set(columns);
+    this.limits = limits;
+    this.wheels = columns.flatMap((name) => {
+      const prefix = PREFIX.exec(name)?.[1];
+      return prefix !== undefined && has.has(`${prefix}.slip`) && has.has(`${prefix}.Fz`) ? [prefix] : [];
+    });
+    this.engine = has.has("engine_speed");
+    this.motor = has.has("motor_speed");
+    this.speed = has.has("speed");
+    this.throttle = ["used.throttle", "throttle"].find((name) => has.has(name));
+    this.torque = has.has("motor_torque") ? "motor_torque" : null;
+    this.most = constants["drive.max_torque"] ?? 200;
+    this.loads = null;
+    this.time = null;
+    /** One sentence where nothing can be heard, else empty. */
+    this.problem =
+      this.engine || this.motor || this.speed || this.wheels.length > 0
+        ? ""
+        : "The FMU has none of the outputs engine_speed, motor_speed, speed and the slips of wheels, so nothing is heard.";
+  }
+
+  /**
+   * @param {(name: string) => number | undefined} lookup
+   * @param {number} time of the run, s; the same as before: paused
+   * @returns {import("./mixer.js").Mix | null} null: nothing is to be heard
+   */
+  at(lookup, time) {
+    const number = (name) => (Number.isFinite(lookup(name)) ? lookup(name) : 0);
+    const step = this.time === null ? 0 : time - this.time;
+    this.time = time;
+    const wheels = this.wheels.map((prefix) => ({
+      load: number(`${prefix}.Fz`),
+      slip: number(`${prefix}.slip`),
+      angle: number(`${prefix}.slip_angle`),
+      tread: Math.abs(number(`${prefix}.omega`)) * 0.3,
+    }));
+    const before = this.loads;
+    this.loads = wheels.map(({ load }) => load);
+    if (step <= 0) return null;
+    const speed = Math.abs(number("speed"));
+    const throttle = this.throttle === undefined ? 0 : number(this.throttle);
+    const squeals = wheels.map(({ slip, angle, load, tread }) =>
+      signals.squealLevel(slip, angle, load, Math.max(speed, tread), this.limits),
+    );
+    const loudest = squeals.indexOf(Math.max(...squeals, 0));
+    const touching = wheels.length > 0 ? wheels.filter(({ load }) => load > 0).length / wheels.length : 1;
+    const thumps = before === null || step > 0.2 ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));
+    return {
+      engine: this.engine ? { pitch: signals.enginePitch(number("engine_speed")), ...signals.engineLevels(number("engine_speed"), throttle) } : null,
+      motor: this.motor ? this.#motor(number, throttle) : null,
+      squeal: {
+        level: Math.min(1, Math.hypot(...squeals, 0)),
+        pitch: signals.squealPitch(loudest >= 0 ? wheels[loudest].load : 1500),
+      },
+      rolling: { level: signals.rollingLevel(speed, touching), pitch: 160 + 9 * speed },
+      wind: { level: signals.windLevel(speed), pitch: 400 + 14 * speed },
+      thumps: thumps.filter((strength) => strength > 0),
+    };
+  }
+
+  #motor(number, throttle) {
+    const speed = number("motor_speed");
+    const effort = this.torque === null ? throttle : number(this.torque) / this.most;
+    return { pitch: signals.motorPitch(speed), level: signals.motorLevel(speed, effort) };
+  }
+}

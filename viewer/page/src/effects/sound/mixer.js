@@ -1,0 +1,58 @@
+// All voices of a car in one audio context, which may be a real one or one that renders to memory.
+import { CYLINDERS, engineVoice } from "./engine_voice.js";
+import { Thumps, noiseBuffer, noiseVoice, squealVoice, whineVoice } from "./voices.js";
+
+/** Time constant of every change, s: no clicks. */
+const SMOOTH = 0.025;
+/** After so long without new numbers the sound fades, s. */
+const PATIENCE = 0.4;
+
+/**
+ * What is to be heard.
+ * @typedef {{engine: {pitch: number, calm: number, loaded: number} | null, motor: {pitch: number, level: number} | null,
+ *   squeal: {pitch: number, level: number}, rolling: {pitch: number, level: number}, wind: {pitch: number, level: number}, thumps: number[]}} Mix
+ */
+
+/** The graph of nodes; `set` moves it to a mix. */
+export class Mixer {
+  /** @param {BaseAudioContext} context */
+  constructor(context) {
+    this.context = context;
+    this.master = context.createGain();
+    this.master.gain.value = 0;
+    this.limiter = context.createDynamicsCompressor();
+    this.master.connect(this.limiter).connect(context.destination);
+    const noise = noiseBuffer(context);
+    this.engine = engineVoice(context, this.master);
+    this.whine = whineVoice(context, this.master);
+    this.squeal = squealVoice(context, noise, this.master);
+    this.rolling = noiseVoice(context, noise, this.master, "lowpass", 300, 0.4);
+    this.wind = noiseVoice(context, noise, this.master, "bandpass", 700, 0.6);
+    this.thumps = new Thumps(context, noise, this.master);
+    this.volume = 1;
+  }
+
+  /** @param {Mix | null} mix null: silence */
+  set(mix) {
+    const now = this.context.currentTime;
+    const to = (param, value) => param.setTargetAtTime(value, now, SMOOTH);
+    const { gain } = this.master;
+    gain.cancelScheduledValues(now);
+    to(gain, mix === null ? 0 : 0.7 * this.volume);
+    if (mix === null) return;
+    gain.setTargetAtTime(0, now + PATIENCE, 0.08);
+    const { engine, motor, squeal, rolling, wind } = mix;
+    if (engine !== null) for (const pitch of this.engine.pitch) to(pitch, engine.pitch / CYLINDERS);
+    to(this.engine.calm, engine?.calm ?? 0);
+    to(this.engine.loaded, engine?.loaded ?? 0);
+    if (motor !== null) this.whine.pitch.forEach((pitch, k) => to(pitch, [1, 3][k] * motor.pitch));
+    to(this.whine.level, motor?.level ?? 0);
+    this.squeal.pitch.forEach((pitch) => to(pitch, squeal.pitch));
+    to(this.squeal.level, 0.45 * squeal.level);
+    for (const [voice, wish] of [[this.rolling, rolling], [this.wind, wind]]) {
+      to(voice.level, wish.level);
+      to(voice.pitch, wish.pitch);
+    } // prettier-ignore
+    for (const strength of mix.thumps) this.thumps.knock(strength);
+  }
+}

@@ -1,0 +1,120 @@
+// Tyre marks on the ground.
+import * as THREE from "three";
+import { lift, LIFT, MARKS } from "../looks/lifted.js";
+import { subtract } from "../scene/math.js";
+import { Tracks } from "./tracks.js";
+import { Wheels } from "./wheels.js";
+
+/** Sections of a wheel that are kept: 500 m of marks of each. */
+const MOST = 4096;
+/** Metres that the focus may be from where the marks are counted from. */
+const FAR = 500;
+
+/** Dark strips where tyres slide on what is hard; bounded: the oldest go. */
+export class TyreMarks {
+  #base = null;
+  #drawn = -1;
+
+  /**
+   * @param {import("../scene/scene_view.js").SceneView} view
+   * @param {{most?: number, limits?: {slip?: number, lateral?: number}}} [options] most: sections of a wheel that are kept;
+   *   limits: slip and tangent of the slip angle beyond which a tyre leaves a mark
+   */
+  constructor(view, options = {}) {
+    this.view = view;
+    this.most = options.most ?? MOST;
+    this.wheels = new Wheels(view.scene, options);
+    /** One sentence where there can be no marks, else empty. */
+    this.problem = this.wheels.problem;
+    this.tracks = new Tracks(this.wheels.list.length, this.most);
+    if (this.problem || view.problem) return;
+    const count = this.wheels.list.length * this.most;
+    this.geometry = new THREE.BufferGeometry();
+    const buffer = (size) => new THREE.BufferAttribute(new Float32Array(2 * count * size), size).setUsage(THREE.DynamicDrawUsage);
+    this.geometry.setAttribute("position", buffer(3));
+    this.geometry.setAttribute("mark", buffer(2));
+    this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(6 * count), 1).setUsage(THREE.DynamicDrawUsage));
+    this.geometry.setDrawRange(0, 0);
+    this.mesh = new THREE.Mesh(this.geometry, material());
+    this.mesh.frustumCulled = false; // it lies about the focus, all in one call
+    this.mesh.renderOrder = 1;
+    view.world.add(this.mesh);
+  }
+
+  /** Sections that are drawn now. */
+  get count() {
+    return this.tracks.count;
+  }
+
+  /**
+   * To be called after the view has been updated to the same numbers.
+   * @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch
+   */
+  update(lookup, time, epoch) {
+    if (this.problem) return;
+    this.tracks.update(this.wheels.contacts(lookup), time, epoch);
+    if (this.mesh === undefined) return;
+    const { origin } = this.view;
+    if (this.#base === null || Math.hypot(...subtract(origin, this.#base)) > FAR) {
+      this.#base = [...origin];
+      this.#drawn = -1;
+    }
+    if (this.#drawn !== this.tracks.changes) this.#draw();
+    this.mesh.position.set(...subtract(this.#base, origin));
+  }
+
+  #draw() {
+    const { position, mark } = this.geometry.attributes;
+    const index = this.geometry.index;
+    const { up } = this.view;
+    let [point, used] = [0, 0];
+    for (const ring of this.tracks.rings) {
+      for (let k = 0; k < ring.count; k++) {
+        const [x, y, z, a, b, c, dark] = this.tracks.row(ring, k);
+        for (const way of [-1, 1]) {
+          const at = subtract([x + way * a, y + way * b, z + way * c], this.#base);
+          position.array.set(at.map((value, axis) => value + LIFT * up[axis]), 3 * point);
+          mark.array.set([dark, way], 2 * point);
+          point++;
+        }
+        if (k === 0 || dark === 0) continue;
+        index.array.set([point - 4, point - 2, point - 3, point - 3, point - 2, point - 1], used);
+        used += 6;
+      }
+    }
+    for (const buffer of [position, mark, index]) {
+      buffer.clearUpdateRanges();
+      buffer.addUpdateRange(0, buffer === index ? used : point * buffer.itemSize);
+      buffer.needsUpdate = true;
+    }
+    this.geometry.setDrawRange(0, used);
+    this.#drawn = this.tracks.changes;
+  }
+
+  dispose() {
+    this.mesh?.removeFromParent();
+    this.geometry?.dispose();
+    this.mesh?.material.dispose();
+  }
+}
+
+/** Rubber: black, see-through, with the ribs of a tread. */
+function material() {
+  const made = new THREE.MeshBasicMaterial({ color: "#08080a", transparent: true, depthWrite: false, side: THREE.DoubleSide });
+  made.onBeforeCompile = (shader) => {
+    shader.vertexShader = `attribute vec2 mark;\nvarying vec2 vMark;\n${shader.vertexShader}`.replace(
+      "#include <begin_vertex>",
+      "#include <begin_vertex>\nvMark = mark;",
+    );
+    lift(shader, MARKS);
+    shader.fragmentShader = `varying vec2 vMark;\n${shader.fragmentShader}`.replace(
+      "#include <color_fragment>",
+      `#include <color_fragment>
+float soft = max(fwidth(vMark.y), 1e-3);
+float rib = 1.0 - 0.3 * smoothstep(0.4, 0.9, 0.5 + 0.5 * cos(vMark.y * 15.7)) * clamp(1.0 - 3.0 * soft, 0.0, 1.0);
+diffuseColor.a *= vMark.x * rib * (1.0 - smoothstep(0.78, 1.0, abs(vMark.y)));`,
+    );
+  };
+  made.customProgramCacheKey = () => "ali3-tyre-marks";
+  return made;
+}

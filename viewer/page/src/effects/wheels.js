@@ -1,0 +1,71 @@
+// The tyres of a scene and their numbers: where they touch, how they slip, what they stand on; pure numbers.
+import { surfaceOf } from "../looks/heights.js";
+import { cross, finite, subtract, unit } from "../scene/math.js";
+
+/** Slips at which a car tyre transmits the most, along and across (TMeasy: max_slip of the cars of this package). */
+export const LIMITS = { slip: 0.139, lateral: 0.15 };
+/** Load below which a tyre leaves nothing and makes no sound, in newton. */
+export const LIGHT = 150;
+/** Speed of travel below which slip is not looked at, in m/s: there it is a quotient of small numbers. */
+const CREEP = 0.3;
+
+/**
+ * Combined slip over the slip of the largest force: above 1 a tyre is beyond its limit.
+ * @param {number} slip longitudinal, positive when driven @param {number} angle slip angle, rad
+ * @param {{slip: number, lateral: number}} [limits]
+ */
+export const use = (slip, angle, limits = LIMITS) => Math.hypot(slip / limits.slip, Math.tan(Math.min(Math.abs(angle), 1.5)) / limits.lateral);
+
+/**
+ * What a wheel does now; `touching` is false in the air and where a number is missing.
+ * @typedef {{touching: boolean, at: number[], normal: number[], side: number[], load: number, use: number, slip: number, sliding: number,
+ *   speed: number, surface: string, width: number, radius: number}} Contact
+ *   side: unit vector across the track; sliding: speed of the tread over the ground, m/s; speed: of the wheel's travel, m/s
+ */
+
+/** The wheels of a scene: those whose tyre forces it draws as arrows. */
+export class Wheels {
+  /** @param {object} scene @param {{limits?: object, surface?: (x: number, y: number) => string}} [options] */
+  constructor(scene, options = {}) {
+    this.limits = { ...LIMITS, ...options.limits };
+    this.surface = options.surface ?? surfaceOf(scene);
+    const shapes = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
+    this.list = (scene.arrows ?? [])
+      .filter(({ tyre }) => tyre !== undefined)
+      .map(({ tyre }) => {
+        const prefix = tyre.forces[0].replace(/\.[^.]*$/, "");
+        const shape = shapes.find(({ frame }) => frame.replace(/\W|_/g, "") === prefix.replace(/\W|_/g, "")) ?? shapes[0];
+        return { tyre, prefix, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
+      });
+    /** One sentence where a scene has no tyres, else empty. */
+    this.problem = this.list.length > 0 ? "" : "The scene has no tyres, so there are no marks and no dust.";
+  }
+
+  /** @param {(name: string) => number | undefined} lookup @returns {Contact[]} one a wheel */
+  contacts(lookup) {
+    const speed = Math.abs(lookup("speed") ?? 0);
+    return this.list.map((wheel) => this.#contact(wheel, lookup, speed));
+  }
+
+  #contact({ tyre, prefix, width, radius }, lookup, speed) {
+    const [at, normal, axis] = [tyre.contact, tyre.normal, tyre.axis].map((names) => names.map((name) => lookup(name)));
+    const load = lookup(tyre.forces[2]);
+    const [slip, angle] = [lookup(`${prefix}.slip`), lookup(`${prefix}.slip_angle`)];
+    const none = { touching: false, at, normal, side: [0, 1, 0], load: 0, use: 0, slip: 0, sliding: 0, speed: 0, surface: "asphalt", width, radius };
+    if (!finite([...at, ...normal, ...axis, load, slip, angle]) || load < LIGHT) return none;
+    const ahead = unit(cross(axis, normal));
+    const side = ahead && unit(cross(normal, ahead));
+    if (!side) return none;
+    const rolling = Math.abs(lookup(`${prefix}.omega`) ?? 0) * radius;
+    const fastest = Math.max(speed, rolling);
+    const sliding = Math.hypot(slip * fastest, Math.sin(angle) * speed);
+    return {
+      touching: true, at, normal, side, load, slip, sliding, width, radius, speed: fastest,
+      use: fastest > CREEP ? use(slip, angle, this.limits) : 0,
+      surface: this.surface(at[0], at[1]),
+    }; // prettier-ignore
+  }
+}
+
+/** Distance of two places. @param {number[]} a @param {number[]} b */
+export const apart = (a, b) => Math.hypot(...subtract(a, b));

@@ -1,0 +1,122 @@
+// Heights of a terrain: patches of different spacing side by side; pure numbers.
+import { bytesOf } from "../bytes.js";
+import { floats } from "../scene/data.js";
+
+/** Cells a side of the table that finds a patch by its place. */
+const TABLE = 64;
+
+/**
+ * @typedef {{origin: number[], spacing: number[], shape: number[], heights: Float32Array}} Patch
+ *   heights[i * shape[1] + j] stands at origin + (i, j) * spacing: rows along x
+ */
+
+/** Heights between the points of all patches of a terrain; beyond the border the values there go on. */
+export class HeightField {
+  /** @param {object} road an entry of a scene's `roads` of the kind terrain */
+  constructor(road) {
+    /** @type {Patch[]} */
+    this.patches = road.patches.map((patch) => ({ ...patch, heights: floats(patch.heights) }));
+    for (const { shape, heights } of this.patches) {
+      if (heights.length !== shape[0] * shape[1]) {
+        throw new Error(`A patch of the terrain has ${heights.length} heights, not ${shape[0]} x ${shape[1]}.`);
+      }
+    }
+    const ends = this.patches.map(({ origin, spacing, shape }) => origin.map((o, k) => o + spacing[k] * (shape[k] - 1)));
+    this.low = [0, 1].map((k) => this.patches.reduce((low, { origin }) => Math.min(low, origin[k]), Infinity));
+    this.high = [0, 1].map((k) => ends.reduce((high, end) => Math.max(high, end[k]), -Infinity));
+    this.cell = [0, 1].map((k) => (this.high[k] - this.low[k]) / TABLE || 1);
+    this.table = new Map();
+    this.patches.forEach((patch, index) => {
+      const [from, to] = [this.#cellOf(patch.origin), this.#cellOf(ends[index])];
+      for (let a = from[0]; a <= to[0]; a++) {
+        for (let b = from[1]; b <= to[1]; b++) {
+          const key = a * TABLE + b;
+          if (!this.table.has(key)) this.table.set(key, []);
+          this.table.get(key).push({ patch, end: ends[index] });
+        }
+      }
+    });
+  }
+
+  #cellOf(at) {
+    return at.map((value, k) => Math.min(TABLE - 1, Math.max(0, Math.floor((value - this.low[k]) / this.cell[k]))));
+  }
+
+  /** The patches that a place lies in: two or more on an edge. @returns {Patch[]} */
+  patchesAt(x, y) {
+    const [a, b] = this.#cellOf([x, y]);
+    const near = 1e-6 * Math.max(this.cell[0], this.cell[1]);
+    const inside = (low, high, value) => value >= low - near && value <= high + near;
+    return (this.table.get(a * TABLE + b) ?? [])
+      .filter(({ patch, end }) => inside(patch.origin[0], end[0], x) && inside(patch.origin[1], end[1], y))
+      .map(({ patch }) => patch);
+  }
+
+  /** Height of the triangles that are drawn. @param {number} x @param {number} y */
+  at(x, y) {
+    const [px, py] = [x, y].map((value, k) => Math.min(this.high[k], Math.max(this.low[k], value)));
+    const [patch] = this.patchesAt(px, py);
+    return patch === undefined ? 0 : inPatch(patch, px, py);
+  }
+
+  /** Metres between the points of the patch at a place. @param {number} x @param {number} y */
+  stepAt(x, y) {
+    const [patch] = this.patchesAt(x, y);
+    return patch === undefined ? Infinity : Math.min(...patch.spacing);
+  }
+
+  /** Slopes by central differences, where no patch is finer than the other than by that. @returns {number[]} two numbers */
+  slope(x, y) {
+    const patches = this.patchesAt(x, y);
+    return [0, 1].map((k) => {
+      const step = patches.reduce((most, { spacing }) => Math.max(most, spacing[k]), 1e-3);
+      const [high, low] = [1, -1].map((way) => (k === 0 ? this.at(x + way * step, y) : this.at(x, y + way * step)));
+      return (high - low) / (2 * step);
+    });
+  }
+}
+
+/** Height in the two triangles of a cell. */
+function inPatch({ origin, spacing, shape, heights }, x, y) {
+  const [u, v] = [x, y].map((value, k) => Math.min(shape[k] - 1, Math.max(0, (value - origin[k]) / spacing[k])));
+  const [i, j] = [Math.min(Math.floor(u), shape[0] - 2), Math.min(Math.floor(v), shape[1] - 2)];
+  const [a, b] = [u - i, v - j];
+  const k = i * shape[1] + j;
+  const [h00, h01, h10, h11] = [heights[k], heights[k + 1], heights[k + shape[1]], heights[k + shape[1] + 1]];
+  if (a + b <= 1) return h00 + a * (h10 - h00) + b * (h01 - h00);
+  return h11 + (1 - a) * (h01 - h11) + (1 - b) * (h10 - h11);
+}
+
+/** Names of surfaces that have a look of their own. */
+export const SURFACES = ["asphalt", "grass", "wet", "gravel", "concrete", "ice", "paint", "dirt"];
+
+/** The raster that says what a terrain is made of. */
+export class SurfaceRaster {
+  /** @param {object | undefined} surface the key `surface` of a terrain; without one all is asphalt */
+  constructor(surface) {
+    this.names = surface?.names ?? ["asphalt"];
+    this.origin = surface?.origin ?? [0, 0];
+    this.spacing = surface?.spacing ?? [1, 1];
+    this.shape = surface?.shape ?? [1, 1];
+    this.classes = surface === undefined ? new Uint8Array(1) : bytesOf(surface.classes);
+    if (this.classes.length !== this.shape[0] * this.shape[1]) {
+      throw new Error(`The surface of the terrain has ${this.classes.length} classes, not ${this.shape[0]} x ${this.shape[1]}.`);
+    }
+  }
+
+  /** Name of the surface at a place; beyond the raster its border goes on. @param {number} x @param {number} y */
+  nameAt(x, y) {
+    const [i, j] = [x, y].map((value, k) =>
+      Math.min(this.shape[k] - 1, Math.max(0, Math.round((value - this.origin[k]) / this.spacing[k]))),
+    );
+    return this.names[this.classes[i * this.shape[1] + j]] ?? "asphalt";
+  }
+}
+
+/** What lies at a place of a scene. @param {object} scene @returns {(x: number, y: number) => string} name of a surface */
+export function surfaceOf(scene) {
+  const terrain = (scene.roads ?? []).find(({ kind }) => kind === "terrain");
+  if (terrain === undefined) return () => "asphalt";
+  const raster = new SurfaceRaster(terrain.surface);
+  return (x, y) => raster.nameAt(x, y);
+}

@@ -1,0 +1,45 @@
+// What lies on the ground is drawn nearer to the eye than it is: at its place in the picture, and never in the ground.
+
+/** Shares of the distance by which paint, and what lies on paint, is drawn nearer. */
+export const [PAINT, MARKS] = [0.004, 0.006];
+/** Metres by which they lie above the ground. */
+export const LIFT = 0.004;
+
+/**
+ * Lines thinner than a pixel are drawn a pixel wide and so much fainter: the same light, and no dots instead of a line.
+ * The attribute `aside` goes from the middle of a line to its edge.
+ * @param {{vertexShader: string, fragmentShader: string, uniforms: object}} shader @param {{value: object}} viewport pixels
+ */
+export function widen(shader, viewport) {
+  shader.uniforms.aViewport = viewport;
+  shader.vertexShader = `attribute vec3 aside;\nuniform vec2 aViewport;\nvarying float vThin;\n${shader.vertexShader}`.replace(
+    "#include <begin_vertex>",
+    `#include <begin_vertex>
+mat4 seen = projectionMatrix * modelViewMatrix;
+vec4 edgeSeen = seen * vec4(position, 1.0);
+vec4 middleSeen = seen * vec4(position - aside, 1.0);
+vec4 aheadSeen = seen * vec4(position - aside + vec3(-aside.y, aside.x, 0.0), 1.0);
+vThin = 1.0;
+if (min(min(edgeSeen.w, middleSeen.w), aheadSeen.w) > 0.0) {
+  vec2 middle = middleSeen.xy / middleSeen.w;
+  vec2 across = (edgeSeen.xy / edgeSeen.w - middle) * 0.5 * aViewport;
+  vec2 ahead = normalize((aheadSeen.xy / aheadSeen.w - middle) * aViewport + 1e-9);
+  float halfWidth = abs(across.x * ahead.y - across.y * ahead.x);
+  float grow = clamp(0.6 / max(halfWidth, 1e-3), 1.0, 40.0);
+  transformed += aside * (grow - 1.0);
+  vThin = 1.0 / grow;
+}`,
+  );
+  shader.fragmentShader = `varying float vThin;\n${shader.fragmentShader}`.replace(
+    "#include <color_fragment>",
+    "#include <color_fragment>\ndiffuseColor.a *= vThin;",
+  );
+}
+
+/** @param {{vertexShader: string}} shader of three.js @param {number} share of the distance */
+export function lift(shader, share) {
+  shader.vertexShader = shader.vertexShader.replace(
+    "#include <project_vertex>",
+    `#include <project_vertex>\ngl_Position = projectionMatrix * vec4(mvPosition.xyz * ${(1 - share).toFixed(4)}, 1.0);`,
+  );
+}

@@ -1,0 +1,12 @@
+// Numbers that look like chance and are the same on every machine.
+
+/** @param {number} seed whole @returns {() => number} 0 to 1, one after the other */
+export function chance(seed) {
+  let state = (seed ^ 0x9e3779b9) >>> 0;
+  return () => {
+    state = (state + 0x6d2b79f5) >>> 0;
+    let x = Math.imul(state ^ (state >>> 15), 1 | state);
+    x = (x + Math.imul(x ^ (x >>> 7), 61 | x)) ^ x;
+    return ((x ^ (x >>> 14)) >>> 0) / 4294967296;
+  };
+}

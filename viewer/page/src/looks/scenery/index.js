@@ -1,0 +1,180 @@
+// Scenery: what stands and is painted along a road, gathered by places so that what is not in the picture costs nothing.
+import * as THREE from "three";
+import { dot, fromColumns } from "../../scene/math.js";
+import { turn } from "../../shapes/place.js";
+import { skylit } from "../skylight.js";
+import { PAINTS, arrowStrips, dashes, edges } from "./ribbon.js";
+import { MOST_TEXTS, addSign, signTexture } from "./signs.js";
+import { coneGeometry, postGeometry } from "./small_things.js";
+import { FAR, Forest, formOf, kindOf } from "./trees.js";
+import { Triangles } from "./triangles.js";
+import { addBarrier, addBuilding, windows } from "./walls.js";
+
+/** Sides of the squares that scenery is gathered in, at least, in metres, and about how many squares there may be. */
+const [SQUARE, SQUARES] = [250, 20];
+
+const KINDS = ["line", "cone", "tree", "sign", "barrier", "post", "building", "arrow"];
+const placeOf = (thing) => thing.at ?? thing.points[Math.floor(thing.points.length / 2)];
+
+/** Things by squares. @param {object[]} things @returns {object[][]} */
+export function squares(things) {
+  const places = things.map(placeOf);
+  const side = [0, 1].map((k) => {
+    const [low, high] = places.reduce(([a, b], place) => [Math.min(a, place[k]), Math.max(b, place[k])], [Infinity, -Infinity]);
+    return high - low;
+  });
+  const size = Math.max(SQUARE, Math.sqrt((side[0] * side[1]) / SQUARES));
+  const found = new Map();
+  things.forEach((thing, n) => {
+    const key = places[n].slice(0, 2).map((value) => Math.floor(value / size)).join();
+    if (!found.has(key)) found.set(key, []);
+    found.get(key).push(thing);
+  });
+  return [...found.values()];
+}
+
+/**
+ * @param {object[]} things a scene's `scenery`
+ * @param {{axes: number[][], paint: THREE.Material, ground: object | null}} looks ground: heights as drawn
+ */
+export function makeScenery(things, { axes, paint, ground }) {
+  const group = new THREE.Group();
+  turn(group, fromColumns(...axes));
+  const known = things.filter(({ kind }) => KINDS.includes(kind));
+  const strange = [...new Set(things.filter((thing) => !known.includes(thing)).map(({ kind }) => kind))];
+  const tell = strange.map((kind) => `Scenery of the kind '${kind}' is not known to this page and is not drawn.`);
+  const texts = [...new Set(known.filter(({ kind }) => kind === "sign").map(({ text }) => text))];
+  if (texts.length > MOST_TEXTS) {
+    tell.push(`${texts.length - MOST_TEXTS} of ${texts.length} different texts of signs are not drawn; there may be ${MOST_TEXTS}.`);
+    texts.length = MOST_TEXTS;
+  }
+  const held = makeHeld(known, texts);
+  const pieces = [];
+  for (const square of squares(known)) {
+    const base = placeOf(square[0]).slice();
+    for (const mesh of squareMeshes(square, base, { held, texts, paint, ground })) {
+      group.add(mesh);
+      pieces.push({ mesh, base });
+    }
+  }
+  const follow = (origin, eye) => {
+    const [from, camera] = [origin, eye].map((point) => axes.map((axis) => dot(point, axis)));
+    for (const { mesh, base } of pieces) {
+      mesh.position.set(...base.map((value, k) => value - from[k]));
+      const levels = mesh.userData.levels;
+      if (levels === undefined) continue;
+      const { center, radius } = mesh.boundingSphere;
+      const away = Math.hypot(...[0, 1, 2].map((k) => center.getComponent(k) + mesh.position.getComponent(k) - camera[k])) - radius;
+      mesh.geometry = levels[away > FAR ? 1 : 0];
+    }
+  };
+  const dispose = () => {
+    for (const { mesh } of pieces) {
+      mesh.geometry.dispose();
+      mesh.dispose?.();
+    }
+    for (const thing of held.owned) thing.dispose();
+  };
+  return { group, follow, tell, dispose };
+}
+
+/** Materials and geometries that all squares share; only what the things need. */
+function makeHeld(things, texts) {
+  const has = (kind) => things.some((thing) => thing.kind === kind);
+  const plain = skylit(new THREE.MeshLambertMaterial({ vertexColors: true }));
+  const held = { plain, owned: [plain], cones: new Map() };
+  const own = (thing) => (held.owned.push(thing), thing);
+  if (has("tree")) held.forest = own(new Forest());
+  if (has("post")) held.post = own(postGeometry());
+  if (has("building")) {
+    held.walls = own(skylit(new THREE.MeshLambertMaterial({ vertexColors: true }), windows));
+    held.walls.defines = { USE_UV: 1 };
+  }
+  if (texts.length > 0) {
+    const map = own(signTexture(texts));
+    held.boards = own(skylit(new THREE.MeshLambertMaterial({ map })));
+  }
+  held.cone = (colour) => {
+    if (!held.cones.has(colour)) held.cones.set(colour, own(coneGeometry(colour)));
+    return held.cones.get(colour);
+  };
+  return held;
+}
+
+function squareMeshes(square, base, { held, texts, paint, ground }) {
+  const of = (kind) => square.filter((thing) => thing.kind === kind);
+  const meshes = [];
+  const [painted, plain, boards, walls] = Array.from({ length: 4 }, () => new Triangles(base));
+  for (const line of of("line")) addLine(painted, line, ground);
+  for (const arrow of of("arrow")) for (const strip of arrowStrips(arrow, ground)) addStrip(painted, strip, PAINTS.white);
+  for (const barrier of of("barrier")) addBarrier(plain, barrier);
+  for (const building of of("building")) addBuilding(walls, building);
+  for (const sign of of("sign")) {
+    const index = texts.indexOf(sign.text);
+    if (index >= 0) addSign(boards, plain, sign, index, texts.length);
+  }
+  const add = (made, material, placed) => {
+    if (!made.empty) meshes.push(new THREE.Mesh(made.geometry(placed), material));
+  };
+  add(painted, paint, false);
+  add(plain, held.plain, false);
+  add(boards, held.boards, true);
+  add(walls, held.walls, true);
+  const colours = [...new Set(of("cone").map(({ colour }) => colour ?? "orange"))];
+  for (const colour of colours) {
+    const cones = of("cone").filter((cone) => (cone.colour ?? "orange") === colour);
+    meshes.push(many(held.cone(colour), held.plain, cones, base, ({ height = 0.5 }) => [height, height, height]));
+  }
+  const posts = of("post");
+  if (posts.length > 0) meshes.push(many(held.post, held.plain, posts, base, ({ height = 1 }) => [1, 1, height]));
+  for (let kind = 0; kind < 3; kind++) {
+    const trees = of("tree").filter(({ seed }) => kindOf(seed ?? 0) === kind);
+    if (trees.length > 0) meshes.push(wood(held.forest, kind, trees, base));
+  }
+  for (const mesh of meshes) mesh.receiveShadow = mesh.material === paint;
+  return meshes;
+}
+
+function addLine(made, { points, width, colour = "white", dash }, ground) {
+  for (const stretch of dashes(points, dash)) addStrip(made, edges(stretch, width, ground), PAINTS[colour] ?? PAINTS.white);
+}
+
+/** Quads between pairs of points: right, left. */
+function addStrip(made, pairs, colour) {
+  let last = null;
+  for (const pair of pairs) {
+    const aside = pair[1].map((value, k) => 0.5 * (value - pair[0][k]));
+    const numbers = pair.map((point, end) => made.point(point, [0, 0, 1], colour, [0, 0], end === 0 ? aside.map((value) => -value) : aside));
+    if (last !== null) made.index.push(last[0], numbers[0], last[1], last[1], numbers[0], numbers[1]);
+    last = numbers;
+  }
+}
+
+/** One geometry at many places. */
+function many(geometry, material, things, base, sizeOf) {
+  const mesh = new THREE.InstancedMesh(geometry, material, things.length);
+  const [matrix, place, size, way] = [new THREE.Matrix4(), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion()];
+  things.forEach((thing, k) => {
+    place.set(...thing.at.map((value, axis) => value - base[axis]));
+    size.set(...sizeOf(thing));
+    way.setFromAxisAngle(new THREE.Vector3(0, 0, 1), thing.yaw ?? 0);
+    mesh.setMatrixAt(k, matrix.compose(place, way, size));
+  });
+  mesh.computeBoundingSphere();
+  return mesh;
+}
+
+function wood(forest, kind, trees, base) {
+  const things = trees.map((tree) => ({ at: tree.at, yaw: formOf(tree.seed ?? 0).turn, tree }));
+  const mesh = many(forest.geometries[kind][0], forest.material, things, base, ({ tree }) => {
+    const { wide } = formOf(tree.seed ?? 0);
+    return [tree.height * wide, tree.height * wide, tree.height];
+  });
+  const colour = new THREE.Color();
+  trees.forEach((tree, k) => {
+    const { light, yellow } = formOf(tree.seed ?? 0);
+    mesh.setColorAt(k, colour.setRGB(light * yellow, light, light * 0.9));
+  });
+  mesh.userData.levels = forest.geometries[kind];
+  return mesh;
+}

@@ -1,0 +1,39 @@
+// A picture of a twig, made by code: leaves with holes between.
+import * as THREE from "three";
+import { chance } from "./chance.js";
+
+/** Side in points. */
+export const SIDE = 128;
+
+/** @returns {THREE.DataTexture} */
+export function leafTexture() {
+  const pixels = new Uint8Array(SIDE * SIDE * 4);
+  const next = chance(4711);
+  // Behind the leaves stands their colour, so that their edges have no other.
+  for (let k = 0; k < pixels.length; k += 4) pixels.set([110, 128, 60, 0], k);
+  for (let leaf = 0; leaf < 150; leaf++) {
+    const [angle, way] = [2 * Math.PI * next(), Math.sqrt(next())];
+    const middle = [0.5 * SIDE + 0.4 * SIDE * way * Math.cos(angle), 0.5 * SIDE + 0.4 * SIDE * way * Math.sin(angle)];
+    drawLeaf(pixels, middle, 4 + 5 * next(), 2 * Math.PI * next(), 0.62 + 0.38 * next(), next());
+  }
+  const texture = new THREE.DataTexture(pixels, SIDE, SIDE);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.magFilter = THREE.LinearFilter;
+  texture.minFilter = THREE.LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+function drawLeaf(pixels, [mx, my], length, turn, shade, yellow) {
+  const [c, s] = [Math.cos(turn), Math.sin(turn)];
+  for (let dy = -9; dy <= 9; dy++) {
+    for (let dx = -9; dx <= 9; dx++) {
+      const [u, v] = [(c * dx + s * dy) / length, (c * dy - s * dx) / (0.5 * length)];
+      const [x, y] = [Math.round(mx + dx), Math.round(my + dy)];
+      if (u * u + v * v > 1 || x < 0 || y < 0 || x >= SIDE || y >= SIDE) continue;
+      const lit = shade * (1 - 0.2 * Math.abs(v));
+      pixels.set([lit * (130 + 50 * yellow), lit * 165, lit * 62, 255], 4 * (y * SIDE + x));
+    }
+  }
+}

@@ -1,0 +1,118 @@
+// Trees of three kinds, of trunk and cards with twigs; those far away have fewer cards.
+import * as THREE from "three";
+import { skylit } from "../skylight.js";
+import { chance } from "./chance.js";
+import { SIDE, leafTexture } from "./leaves.js";
+import { Triangles } from "./triangles.js";
+
+/** Crowns of height 1: middle, half width, half height, cards near and far, whether its twigs hang in tiers. */
+const KINDS = [
+  { crown: 0.62, wide: 0.31, high: 0.36, cards: [38, 12], tint: [0.8, 0.95, 0.55] },
+  { crown: 0.55, wide: 0.2, high: 0.45, cards: [44, 14], tint: [0.42, 0.62, 0.4], tiers: true },
+  { crown: 0.58, wide: 0.13, high: 0.41, cards: [30, 10], tint: [0.72, 0.85, 0.42] },
+];
+/** Colour of trunks, whose places in the picture of twigs lie beyond 1. */
+const BARK = [0.13, 0.1, 0.075];
+/** Metres from which on a tree is a far one. */
+export const FAR = 120;
+
+/** Kind of a tree. @param {number} seed whole */
+export const kindOf = (seed) => Math.floor(3 * chance(seed)());
+
+/** Size across, turn and colour of one tree. @param {number} seed whole */
+export function formOf(seed) {
+  const next = chance(seed);
+  next();
+  return { wide: 0.85 + 0.4 * next(), turn: 2 * Math.PI * next(), light: 0.75 + 0.45 * next(), yellow: 0.9 + 0.25 * next() };
+}
+
+/** Geometries of a kind, near and far, and what all trees are made of. */
+export class Forest {
+  constructor() {
+    this.texture = leafTexture();
+    this.geometries = KINDS.map((kind, seed) => kind.cards.map((count) => treeGeometry(kind, count, 31 + seed)));
+    this.material = skylit(
+      new THREE.MeshLambertMaterial({ map: this.texture, alphaTest: 0.45, vertexColors: true, side: THREE.DoubleSide }),
+      leafy,
+    );
+  }
+
+  dispose() {
+    this.texture.dispose();
+    this.material.dispose();
+    for (const geometry of this.geometries.flat()) geometry.dispose();
+  }
+}
+
+/** Leaves are lit as the crown is round, from both sides; far away they keep their cover. */
+function leafy(shader) {
+  shader.fragmentShader = shader.fragmentShader
+    .replace("#include <normal_fragment_begin>", "vec3 normal = normalize(vNormal);\nvec3 nonPerturbedNormal = normal;")
+    .replace(
+      "#include <alphatest_fragment>",
+      `vec2 texels = ${SIDE.toFixed(1)} * fwidth(vMapUv);
+diffuseColor.a *= 1.0 + 0.4 * clamp(log2(max(texels.x, texels.y)), 0.0, 4.0);
+if (vMapUv.x > 1.5) diffuseColor = vec4(vColor.rgb, 1.0);
+#include <alphatest_fragment>`,
+    );
+}
+
+function treeGeometry(kind, count, seed) {
+  const made = new Triangles();
+  const next = chance(seed);
+  trunk(made, kind, count);
+  for (let k = 0; k < count; k++) (kind.tiers ? tier : twig)(made, kind, k, count, next);
+  return made.geometry(true);
+}
+
+function trunk(made, { crown }, count) {
+  const sides = count > 20 ? 6 : 4;
+  const ring = (k, radius, z) => {
+    const a = (2 * Math.PI * k) / sides;
+    return [radius * Math.cos(a), radius * Math.sin(a), z];
+  };
+  for (let k = 0; k < sides; k++) {
+    const corners = [ring(k, 0.028, -0.01), ring(k + 1, 0.028, -0.01), ring(k + 1, 0.014, crown), ring(k, 0.014, crown)];
+    made.quad(corners, BARK, [[2, 0], [2, 0], [2, 1], [2, 1]]); // prettier-ignore
+  }
+}
+
+/** A card somewhere in the crown, lit as the crown there. */
+function twig(made, { crown, wide, high, tint }, k, count, next) {
+  const z = 1 - (2 * (k + 0.5)) / count;
+  const angle = 2.399963 * k + 0.6 * next();
+  const flat = Math.sqrt(1 - z * z);
+  const way = [flat * Math.cos(angle), flat * Math.sin(angle), z];
+  const depth = 0.45 + 0.4 * next();
+  const middle = [wide * depth * way[0], wide * depth * way[1], crown + high * depth * way[2]];
+  const size = (count > 20 ? 0.62 : 0.95) * Math.min(wide * 1.15, high) * (0.85 + 0.3 * next());
+  card(made, middle, [next() - 0.5, next() - 0.5, 0.7 * (next() - 0.5)], size, size, way, shade(tint, depth, z));
+}
+
+/** A branch of a fir, sloping down and outwards. */
+function tier(made, { crown, wide, high, tint }, k, count, next) {
+  const up = Math.sqrt((k + 0.5) / count); // fewer near the top
+  const z = crown + high * (2 * up - 1);
+  const reach = wide * (1.12 - up) * (0.85 + 0.3 * next());
+  const angle = 2.399963 * k;
+  const out = [Math.cos(angle), Math.sin(angle)];
+  const middle = [0.5 * reach * out[0], 0.5 * reach * out[1], z - 0.22 * reach];
+  const lean = [0.5 * out[0], 0.5 * out[1], 1];
+  card(made, middle, lean, 0.62 * reach + 0.03, 0.62 * reach + 0.03, [0.8 * out[0], 0.8 * out[1], 0.6], shade(tint, 0.7, 2 * up - 1));
+}
+
+const shade = (tint, depth, z) => tint.map((value) => value * (0.45 + 0.45 * depth) * (0.85 + 0.2 * z));
+
+/** A square card across a direction, all of it lit by one normal. */
+function card(made, middle, across, wide, high, light, colour) {
+  const normal = new THREE.Vector3(...across).normalize();
+  const x = new THREE.Vector3(0, 0, 1).cross(normal);
+  if (x.lengthSq() < 1e-6) x.set(1, 0, 0);
+  x.normalize();
+  const y = normal.clone().cross(x);
+  const numbers = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => {
+    const corner = middle.map((value, k) => value + a * wide * x.getComponent(k) + b * high * y.getComponent(k));
+    return made.point(corner, new THREE.Vector3(...light).normalize().toArray(), colour, [0.5 + 0.5 * a, 0.5 + 0.5 * b]);
+  }); // prettier-ignore
+  made.index.push(numbers[0], numbers[1], numbers[2], numbers[0], numbers[2], numbers[3]);
+}

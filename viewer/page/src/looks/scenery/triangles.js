@@ -1,0 +1,70 @@
+// Triangles with colours that are put together by hand.
+import * as THREE from "three";
+
+/** Collects triangles; places are relative to `base`. */
+export class Triangles {
+  /** @param {number[]} [base] */
+  constructor(base = [0, 0, 0]) {
+    this.base = base;
+    this.positions = [];
+    this.normals = [];
+    this.colours = [];
+    this.places = [];
+    this.asides = [];
+    this.index = [];
+  }
+
+  /** One point. @param {number[]} at @param {number[]} normal @param {number[]} colour linear @param {number[]} [uv] @param {number[]} [aside] from the middle of a line @returns {number} its number */
+  point(at, normal, colour, uv = [0, 0], aside = []) {
+    this.positions.push(at[0] - this.base[0], at[1] - this.base[1], at[2] - this.base[2]);
+    this.normals.push(...normal);
+    this.colours.push(...colour);
+    this.places.push(...uv);
+    this.asides.push(...aside);
+    return this.positions.length / 3 - 1;
+  }
+
+  /** A flat face of four corners, seen from where they turn to the left. @param {number[][]} corners @param {number[]} colour @param {number[][]} [uvs] */
+  quad(corners, colour, uvs = []) {
+    const [a, b, , d] = corners;
+    const u = b.map((value, k) => value - a[k]);
+    const v = d.map((value, k) => value - a[k]);
+    const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    const size = Math.hypot(...normal) || 1;
+    const way = normal.map((value) => value / size);
+    const first = corners.map((corner, k) => this.point(corner, way, colour, uvs[k]))[0];
+    this.index.push(first, first + 1, first + 2, first, first + 2, first + 3);
+  }
+
+  /** A box that stands at a place. @param {number[]} at middle of its foot @param {number[]} size @param {number} yaw @param {number[]} colour */
+  box(at, [length, width, height], yaw, colour) {
+    const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+    const corner = (x, y, z) => [at[0] + c * x * length - s * y * width, at[1] + s * x * length + c * y * width, at[2] + z * height];
+    const ring = [[0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]]; // prettier-ignore
+    ring.forEach(([x, y], k) => {
+      const [u, v] = ring[(k + 1) % 4];
+      const along = k % 2 === 0 ? width : length;
+      const uvs = [[0, 0], [along, 0], [along, height], [0, height]]; // prettier-ignore
+      this.quad([corner(x, y, 0), corner(u, v, 0), corner(u, v, 1), corner(x, y, 1)], colour, uvs);
+    });
+    this.quad(ring.map(([x, y]) => corner(x, y, 1)), colour);
+  }
+
+  get empty() {
+    return this.index.length === 0;
+  }
+
+  /** @param {boolean} [placed] with the places in pictures */
+  geometry(placed = false) {
+    const made = new THREE.BufferGeometry();
+    const put = (name, values, size) => made.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), size));
+    put("position", this.positions, 3);
+    put("normal", this.normals, 3);
+    put("color", this.colours, 3);
+    if (placed) put("uv", this.places, 2);
+    if (this.asides.length > 0) put("aside", this.asides, 3);
+    made.setIndex(this.index);
+    made.computeBoundingSphere();
+    return made;
+  }
+}

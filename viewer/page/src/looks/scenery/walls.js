@@ -1,0 +1,69 @@
+// Guard rails and buildings.
+import { chance } from "./chance.js";
+
+const ZINC = [0.36, 0.37, 0.385];
+/** Across a rail, from below: outwards and up, of a rail of height 1 whose beam is its upper 0.4. */
+const BEAM = [[0.0, 0.6], [0.08, 0.66], [0.08, 0.72], [0.0, 0.8], [0.08, 0.88], [0.08, 0.94], [0.0, 1.0]]; // prettier-ignore
+/** Metres between the posts of a rail. */
+const POSTS = 4;
+
+/** @param {import("./triangles.js").Triangles} made @param {{points: number[][], height?: number}} barrier */
+export function addBarrier(made, { points, height = 0.8 }) {
+  let way = POSTS / 2;
+  for (let i = 0; i + 1 < points.length; i++) {
+    const [a, b] = [points[i], points[i + 1]];
+    const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    if (!(length > 0)) continue;
+    const along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+    const at = ([x, y, z], [out, up]) => [x - along[1] * out, y + along[0] * out, z + up * height];
+    for (const side of [1, -1]) {
+      for (let k = 0; k + 1 < BEAM.length; k++) {
+        const [low, high] = [BEAM[k], BEAM[k + 1]].map(([out, up]) => [side * (out + 0.01), up]);
+        const corners = side > 0 ? [at(b, low), at(a, low), at(a, high), at(b, high)] : [at(a, low), at(b, low), at(b, high), at(a, high)];
+        made.quad(corners, ZINC);
+      }
+    }
+    for (; way < length; way += POSTS) {
+      const foot = a.map((value, k) => value + (way / length) * (b[k] - value));
+      made.box([foot[0], foot[1], foot[2] - 0.1], [0.1, 0.12, 0.94 * height + 0.1], Math.atan2(along[1], along[0]), ZINC);
+    }
+    way -= length;
+  }
+}
+
+const ROOF = [0.2, 0.075, 0.05];
+const WALLS = [[0.55, 0.52, 0.46], [0.5, 0.45, 0.36], [0.46, 0.47, 0.48], [0.5, 0.36, 0.27]]; // prettier-ignore
+
+/** A box with windows and a gable roof. @param {import("./triangles.js").Triangles} made places: metres of the wall, below zero where no windows are */
+export function addBuilding(made, { at, yaw, size }) {
+  const [length, width, height] = size;
+  const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+  const next = chance(Math.round(17 * at[0] + 31 * at[1]));
+  const wall = WALLS[Math.floor(WALLS.length * next())];
+  const eaves = height / (1 + (0.22 * Math.min(width, 12)) / height);
+  const foot = [at[0], at[1], at[2] - 0.5];
+  made.box(foot, [length, width, eaves + 0.5], yaw, wall);
+  const corner = (x, y, z) => [at[0] + c * x - s * y, at[1] + s * x + c * y, at[2] + z];
+  const none = Array(4).fill([-9, -9]);
+  const [l, w] = [0.5 * length + 0.3, 0.5 * width + 0.4];
+  for (const side of [1, -1]) {
+    made.quad([corner(-side * l, -side * w, eaves - 0.1), corner(side * l, -side * w, eaves - 0.1), corner(side * l, 0, height), corner(-side * l, 0, height)], ROOF, none);
+    const gable = [[side * 0.5 * length, -side * 0.5 * width, eaves], [side * 0.5 * length, side * 0.5 * width, eaves], [side * 0.5 * length, 0, height - 0.05]]; // prettier-ignore
+    const corners = gable.map((point) => corner(...point));
+    made.quad([...corners, corners[2]], wall, none);
+  }
+}
+
+/** Windows in a regular order, by the metres of a wall. @param {object} shader of three.js */
+export function windows(shader) {
+  shader.vertexShader = `varying vec2 vWall;\n${shader.vertexShader}`.replace("#include <begin_vertex>", "#include <begin_vertex>\nvWall = uv;");
+  shader.fragmentShader = `varying vec2 vWall;\n${shader.fragmentShader}`.replace(
+    "#include <color_fragment>",
+    `#include <color_fragment>
+vec2 pane = abs(mod(vWall - vec2(1.5, 2.1), 3.0) - 1.5);
+vec2 blur = max(fwidth(vWall), 1e-4);
+vec2 open = 1.0 - smoothstep(vec2(0.55, 0.7) - blur, vec2(0.55, 0.7) + blur, 1.5 - pane);
+float glass = step(0.0, vWall.x) * open.x * open.y * clamp(0.6 / max(blur.x, blur.y), 0.0, 1.0);
+diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.045, 0.06, 0.075), 0.85 * glass);`,
+  );
+}

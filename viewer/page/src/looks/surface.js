@@ -1,0 +1,82 @@
+// What a world is made of: asphalt, grass, wet, gravel, concrete, ice and paint, drawn by noise at several scales.
+import * as THREE from "three";
+import { dot } from "../scene/math.js";
+import { lift, PAINT, widen } from "./lifted.js";
+import { COLOURS, CREASE, GLOSS, HEAD, MIRROR, NOISE, RELIEF } from "./surface_code.js";
+
+/** Metres after which each layer of noise repeats; none is a multiple of another. */
+export const LAYERS = [1.3, 8.9, 61, 273];
+
+/**
+ * The materials of a world; `follow(origin)` keeps their pattern on the earth.
+ * @param {object} options
+ * @param {THREE.Texture} options.noise
+ * @param {number[][]} options.axes x and y of the world, unit vectors
+ * @param {THREE.Vector3} options.sun unit vector to the sun
+ * @param {{textures: THREE.DataTexture[], size: number[], start: number[]}} options.cover
+ * @param {number[]} options.corner x and y of the first point of the raster
+ * @param {boolean} options.fine with relief and mirrored light; otherwise lit the cheapest way
+ */
+export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
+  const uniforms = {
+    aX: { value: new THREE.Vector3(...axes[0]) },
+    aY: { value: new THREE.Vector3(...axes[1]) },
+    aOffset: { value: LAYERS.map(() => new THREE.Vector2()) },
+    aSpot: { value: new THREE.Vector2() },
+    aNoise: { value: noise },
+    aCoverA: { value: cover.textures[0] },
+    aCoverB: { value: cover.textures[1] ?? null },
+    aCover: { value: new THREE.Vector4(...cover.start, ...cover.size) },
+    aSun: { value: sun },
+    aSky: { value: null },
+  };
+  const viewport = { value: new THREE.Vector2(1, 1) };
+  const shared = { uniforms, fine, second: cover.textures.length > 1, viewport };
+  return {
+    /** Of the terrain itself. */
+    ground: surfaceMaterial(shared, false),
+    /** Of what is painted on it: the colour is an attribute. */
+    paint: surfaceMaterial(shared, true),
+    /** @param {THREE.Texture} texture cube of the sky, which wet places mirror */
+    mirror(texture) {
+      uniforms.aSky.value = texture;
+    },
+    /** @param {number[]} origin earth position of the picture's origin @param {THREE.Vector2} pixels of the picture */
+    follow(origin, pixels) {
+      viewport.value.copy(pixels);
+      const [a, b] = axes.map((axis) => dot(origin, axis));
+      LAYERS.forEach((period, i) => uniforms.aOffset.value[i].set(modulo(a, period), modulo(b, period)));
+      uniforms.aSpot.value.set(a - corner[0], b - corner[1]);
+    },
+  };
+}
+
+const modulo = (a, period) => a - period * Math.floor(a / period);
+
+function surfaceMaterial({ uniforms, fine, second, viewport }, painted) {
+  const settings = painted ? { vertexColors: true, transparent: true, depthWrite: false } : {};
+  const material = fine ? new THREE.MeshStandardMaterial({ metalness: 0, ...settings }) : new THREE.MeshLambertMaterial(settings);
+  material.defines = { ...material.defines, ...(painted ? { A_PAINTED: 1 } : {}), ...(second ? { A_SECOND: 1 } : {}) };
+  material.customProgramCacheKey = () => `ali3-surface-${painted}-${second}-${fine}`;
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    shader.vertexShader = `varying vec3 vGround;\n${shader.vertexShader}`.replace(
+      "#include <begin_vertex>",
+      "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;",
+    );
+    if (painted) {
+      widen(shader, viewport);
+      lift(shader, PAINT);
+    }
+    const layers = LAYERS.map((period) => period.toFixed(1));
+    const [noise, relief] = [NOISE, RELIEF].map((code) => code.replace(/LAYER_(\d)/g, (_, k) => `(plane + aOffset[${k}]) / ${layers[k]}`));
+    const pieces = { color_fragment: noise + COLOURS, normal_fragment_begin: CREASE, lights_fragment_end: MIRROR };
+    if (fine) Object.assign(pieces, { roughnessmap_fragment: GLOSS, normal_fragment_maps: relief });
+    shader.fragmentShader = HEAD + shader.fragmentShader;
+    if (!fine) shader.fragmentShader = `#define A_COARSE\n${shader.fragmentShader}`;
+    for (const [name, code] of Object.entries(pieces)) {
+      shader.fragmentShader = shader.fragmentShader.replace(`#include <${name}>`, `#include <${name}>\n${code}`);
+    }
+  };
+  return material;
+}

@@ -1,0 +1,114 @@
+// The shader of surfaces, in pieces that stand behind those of three.js.
+
+export const HEAD = /* glsl */ `
+// Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
+#ifdef A_COARSE
+#define A_SHARPER -2.0
+#else
+#define A_SHARPER -0.5
+#endif
+uniform vec3 aX, aY, aSun;
+uniform vec2 aOffset[4];
+uniform vec2 aSpot;
+uniform vec4 aCover;
+uniform sampler2D aNoise, aCoverA;
+#ifdef A_SECOND
+uniform sampler2D aCoverB;
+#endif
+uniform samplerCube aSky;
+varying vec3 vGround;
+`;
+
+/** Noise at four scales, and the shares of the surfaces with edges as sharp as noise lets them be. */
+export const NOISE = /* glsl */ `
+vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
+vec4 near = texture2D(aNoise, LAYER_0);
+vec4 some = texture2D(aNoise, LAYER_1);
+vec4 wide = texture2D(aNoise, LAYER_2);
+vec4 far = texture2D(aNoise, LAYER_3);
+vec2 spot = plane + aSpot;
+vec2 at = ((spot - aCover.yx) / aCover.wz).yx;
+vec4 first = texture2D(aCoverA, at, A_SHARPER);
+#ifdef A_SECOND
+vec4 second = texture2D(aCoverB, at, A_SHARPER);
+#else
+vec4 second = vec4(0.0);
+#endif
+float rest = max(0.0, 1.0 - dot(first, vec4(1.0)) - dot(second, vec4(1.0)));
+float ragged = 0.7 * some.g + 0.3 * near.r - 0.5;
+first.x *= 1.0 + 0.9 * ragged;
+first.z *= 1.0 - 0.9 * ragged;
+first *= first; first *= first; first *= first;
+second.z *= 1.0 + 0.7 * ragged;
+second *= second; second *= second; second *= second;
+rest *= rest; rest *= rest; rest *= rest;
+float total = rest + dot(first, vec4(1.0)) + dot(second, vec4(1.0)) + 1e-6;
+first /= total; second /= total; rest /= total;
+`;
+
+/** Linear colours of all surfaces, mixed by their shares. */
+export const COLOURS = /* glsl */ `
+float tar = 0.86 + 0.34 * (some.g - 0.5) + 0.5 * (wide.b - 0.5) + 0.3 * (far.g - 0.5);
+vec3 asphalt = vec3(0.108, 0.109, 0.111) * tar * (0.42 + 1.0 * near.r) + 0.07 * near.a;
+float turf = 0.55 * wide.b + 0.45 * far.g;
+vec3 grass = mix(vec3(0.045, 0.088, 0.018), vec3(0.15, 0.15, 0.045), smoothstep(0.36, 0.66, turf + 0.3 * (some.b - 0.5)));
+grass *= (0.35 + 0.95 * near.r * (0.6 + 0.8 * near.g)) * (0.62 + 0.8 * some.g);
+vec3 stones = mix(vec3(0.20, 0.175, 0.145), vec3(0.34, 0.32, 0.29), some.b) * (0.25 + 0.8 * near.r * near.r + 0.55 * near.g) * (0.7 + 0.6 * wide.g);
+vec2 joint = abs(mod(spot + 2.5, 5.0) - 2.5);
+float gap = max(fwidth(spot.x), fwidth(spot.y));
+float seam = (1.0 - smoothstep(0.012, 0.012 + gap, min(joint.x, joint.y))) * min(1.0, 0.024 / max(gap, 1e-4));
+vec3 concrete = vec3(0.36, 0.352, 0.33) * (0.72 + 0.2 * near.r + 0.3 * (some.g - 0.5) + 0.3 * (wide.b - 0.5)) * (1.0 - 0.55 * seam);
+float film = clamp(0.42 + 1.6 * (some.g - 0.42) + 0.9 * (wide.b - 0.45), 0.0, 1.0);
+vec3 soaked = asphalt * mix(0.5, 0.24, film) + vec3(0.0, 0.002, 0.004);
+vec3 ice = mix(vec3(0.42, 0.53, 0.6), vec3(0.72, 0.78, 0.82), smoothstep(0.3, 0.7, 0.6 * some.g + 0.4 * wide.b)) * (0.88 + 0.2 * near.g);
+vec3 soil = mix(vec3(0.115, 0.078, 0.046), vec3(0.19, 0.14, 0.09), smoothstep(0.3, 0.7, wide.b)) * (0.5 + 0.5 * near.r + 0.5 * some.g);
+vec3 white = vec3(0.62, 0.62, 0.6) * (0.72 + 0.24 * near.r + 0.2 * some.g);
+#ifdef A_PAINTED
+float worn = smoothstep(0.74, 0.93, near.r * (0.5 + 0.75 * some.g + 0.15 * wide.g));
+diffuseColor.rgb *= mix(0.78 + 0.16 * near.r + 0.18 * some.g, 0.3, worn) * (1.0 - 0.35 * first.y);
+#else
+diffuseColor.rgb *= rest * asphalt + first.x * grass + first.y * soaked + first.z * stones + first.w * concrete + second.x * ice + second.y * white + second.z * soil;
+#endif
+float wetness = first.y * (0.35 + 0.65 * film);
+float slick = wetness + 0.55 * second.x;
+`;
+
+/** What is wet or ice mirrors the sky. */
+export const GLOSS = /* glsl */ `
+roughnessFactor = mix(0.9 + 0.08 * some.g, 0.1 + 0.2 * (1.0 - film), min(1.0, slick));
+`;
+
+/** Sharp edges, such as kerbs have, stay sharp; skirts stand across what they are lit by and are left as they are. */
+export const CREASE = /* glsl */ `
+vec3 facet = normalize(cross(dFdx(vViewPosition), dFdy(vViewPosition)));
+float bend = dot(facet, normal);
+normal = normalize(mix(normal, facet, smoothstep(0.97, 0.9, bend) * smoothstep(0.1, 0.3, bend)));
+`;
+
+/** Grain as relief, where it is near enough to be seen. */
+export const RELIEF = /* glsl */ `
+float fade = clamp(1.0 - 45.0 * max(fwidth(plane.x), fwidth(plane.y)), 0.0, 1.0);
+if (fade > 0.0) {
+  float e = 1.0 / 256.0;
+  vec2 here = LAYER_0;
+  vec2 tilt = vec2(texture2D(aNoise, here + vec2(e, 0.0)).r, texture2D(aNoise, here + vec2(0.0, e)).r) - near.r;
+  float rough = 0.5 * rest + 0.9 * first.x + 0.9 * first.z + 0.2 * first.w + 0.7 * second.z;
+  normal = normalize(normal - fade * rough * (viewMatrix * vec4(aX * tilt.x + aY * tilt.y, 0.0)).xyz);
+}
+`;
+
+/** Light of the sky: from all around where none is mirrored, and its picture in what is wet. */
+export const MIRROR = /* glsl */ `
+#ifdef A_COARSE
+reflectedLight.indirectDiffuse += vec3(0.34, 0.39, 0.47) * diffuseColor.rgb;
+if (slick > 0.02) {
+  vec3 eye = normalize(vViewPosition);
+  vec3 bent = normalize(normal);
+  float facing = clamp(dot(eye, bent), 0.0, 1.0);
+  float share = slick * (0.03 + 0.97 * pow(1.0 - facing, 5.0));
+  vec3 way = normalize((vec4(reflect(-eye, bent), 0.0) * viewMatrix).xyz);
+  vec3 seen = min(textureCube(aSky, way).rgb, vec3(2.5));
+  reflectedLight.indirectDiffuse += share * seen + slick * 4.0 * pow(max(dot(way, aSun), 0.0), 300.0);
+}
+#endif
+`;

@@ -1,0 +1,62 @@
+// A world: its terrain and scenery with what they are made of, put together.
+import * as THREE from "three";
+import { coverage } from "./coverage.js";
+import { SURFACES } from "./heights.js";
+import { makeScenery } from "./scenery/index.js";
+import { surfaceMaterials } from "./surface.js";
+import { groundOf, terrain } from "./terrain.js";
+
+/** Axes of a world: x, y and up. @param {number[]} up */
+const axesOf = (up) => (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0], up] : [[1, 0, 0], [0, 0, -1], up]); // prettier-ignore
+
+/**
+ * @param {object} scene
+ * @param {{up: number[], noise: THREE.Texture, sun: THREE.Vector3, fine: boolean}} looks sun: unit vector to it
+ * @returns {object | null} null where a scene has neither terrain nor scenery
+ */
+export function makeWorld(scene, { up, noise, sun, fine }) {
+  const roads = (scene.roads ?? []).filter(({ kind }) => kind === "terrain");
+  const things = scene.scenery ?? [];
+  if (roads.length === 0 && things.length === 0) return null;
+  const axes = axesOf(up);
+  const tell = [];
+  if (roads.length > 1) tell.push(`${roads.length} terrains are in the scene; the first is drawn.`);
+  const { field, raster } = roads.length > 0 ? groundOf(roads[0]) : { field: null, raster: null };
+  const strange = (raster?.names ?? []).filter((name) => !SURFACES.includes(name));
+  for (const name of strange) tell.push(`The surface '${name}' is not known to this page and is drawn as asphalt.`);
+  const cover = raster === null ? nothing() : coverage(raster, fine ? 8 : 1);
+  const materials = surfaceMaterials({ noise, axes, sun, cover, corner: raster?.origin ?? [0, 0], fine });
+  const land = field === null ? null : terrain(roads[0], materials.ground, axes, field);
+  const scenery = makeScenery(things, { axes, paint: materials.paint, ground: field });
+  const group = new THREE.Group().add(...(land === null ? [] : [land.group]), scenery.group);
+  return {
+    group,
+    tell: [...tell, ...scenery.tell],
+    mirror: materials.mirror,
+    /** Height of the ground at a place of the earth's plane; null without a terrain. @param {number} x @param {number} y */
+    height: field === null ? null : (x, y) => field.at(x, y),
+    /**
+     * @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there
+     * @param {THREE.Vector2} pixels of the picture
+     */
+    follow(origin, eye, pixels) {
+      materials.follow(origin, pixels);
+      land?.follow(origin, eye);
+      scenery.follow(origin, eye);
+    },
+    dispose() {
+      land?.dispose();
+      scenery.dispose();
+      for (const texture of cover.textures) texture.dispose();
+      materials.ground.dispose();
+      materials.paint.dispose();
+    },
+  };
+}
+
+/** All is asphalt. */
+function nothing() {
+  const texture = new THREE.DataTexture(new Uint8Array(4), 1, 1);
+  texture.needsUpdate = true;
+  return { textures: [texture], size: [1, 1], start: [0, 0] };
+}

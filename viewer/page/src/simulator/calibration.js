@@ -1,0 +1,240 @@
+// The panel of the host's devices: their axes as bars, what each drives, calibration, force.
+import { el, short } from "../live/dom.js";
+import { section } from "../live/panel.js";
+import style from "./calibration.css";
+import { barOf, changed, chosen, drivenBy, isPedal, movingWords, PARTS, partOf, pressedWords, shapeOf, sourcesFor } from "./device_words.js";
+
+/** Settings of a device: name, words, unit, lowest, highest, step. */
+const SETTINGS = [
+  ["rotation", "turn of the wheel from end to end (0: as it is)", "deg", 0, 3600, 10],
+  ["force", "force", "", 0, 5, 0.1],
+  ["full_torque", "torque of the car at full force", "N m", 0.1, 100, 0.5],
+  ["smoothing", "smoothing of the force", "s", 0, 1, 0.005],
+  ["damper", "damper", "", 0, 1, 0.05],
+  ["spring", "spring while the car rests", "", 0, 1, 0.05],
+];
+const TEST_WORDS = "The wheel should turn to the left for a moment. If it turns to the right, tick “force inverted”.";
+const NONE = "No steering wheel, pedals or gamepad is plugged in at the computer that runs the car.";
+
+/** The panel. `element` is put anywhere; `show` is called with what the host says. */
+export class CalibrationPanel {
+  /**
+   * @param {object} options
+   * @param {(message: object) => void} options.send - Takes messages to the host.
+   */
+  constructor({ send }) {
+    this._send = send;
+    this._parts = new Map();
+    this._none = el("p.a3-hint", { data: "no devices" }, NONE);
+    this._list = el("div", {}, this._none);
+    this.element = section("Devices", true, el("style", {}, style), el("div.a3-devices", {}, this._list));
+  }
+
+  /**
+   * What is plugged in now.
+   * @param {object[]} devices - As in the host's message “devices”.
+   */
+  show(devices) {
+    const ids = new Set(devices.map(({ id }) => id));
+    for (const [id, part] of this._parts) {
+      if (ids.has(id)) continue;
+      part.element.remove();
+      this._parts.delete(id);
+    }
+    for (const device of devices) {
+      if (!this._parts.has(device.id)) {
+        this._parts.set(device.id, new DevicePart(this._send));
+        this._list.append(this._parts.get(device.id).element);
+      }
+      this._parts.get(device.id).show(device);
+    }
+    this._none.hidden = devices.length > 0;
+  }
+}
+
+/** One device. */
+class DevicePart {
+  constructor(send) {
+    this._send = send;
+    this._shape = "";
+    this._typing = false;
+    this._body = el("div");
+    this._body.addEventListener("input", () => (this._typing = true));
+    for (const end of ["change", "focusout"]) this._body.addEventListener(end, () => (this._typing = false));
+    this._title = el("summary");
+    this.element = el("details.a3-section", { open: true }, this._title, this._body);
+  }
+
+  /** @param {object} device */
+  show(device) {
+    this.device = device;
+    const shape = shapeOf(device);
+    const focused = this._body.contains(document.activeElement) ? document.activeElement : null;
+    // What a person is typing, dragging or choosing stays as it is; the panel follows after.
+    const busy = this._typing || focused?.tagName === "SELECT";
+    if (shape !== this._shape && !(busy && this._shape)) {
+      this._shape = shape;
+      const open = new Map([...this._body.querySelectorAll("details")].map((part) => [part.getAttribute("data-a3"), part.open]));
+      this._draw(device);
+      for (const part of this._body.querySelectorAll("details")) part.open = open.get(part.getAttribute("data-a3")) ?? part.open;
+      const again = focused?.getAttribute("data-a3");
+      if (again) this._body.querySelector(`[data-a3="${again}"]`)?.focus();
+    }
+    this._move(device);
+  }
+
+  /** Send a message about this device. */
+  _say(type, more = {}) {
+    this._send({ type, device: this.device.id, ...more });
+  }
+
+  _assign(input, mapping) {
+    this._say("assign", { input, mapping });
+  }
+
+  _draw(device) {
+    this._moving = [];
+    this._title.textContent = `${device.name} (${device.kind})`;
+    this.element.setAttribute("data-a3", `device ${device.name}`);
+    const lines = device.inputs.map((input) => this._input(device, input));
+    const axes = device.axes.map((_, k) => this._axis(device, k));
+    const pressed = el("small", { data: "pressed" });
+    this._moving.push((d) => (pressed.textContent = `pressed: ${pressedWords(d)}`));
+    this._body.replaceChildren(
+      this._calibration(device),
+      ...lines,
+      section("Axes and buttons", true, ...axes, pressed),
+      section("Wheel and force", false, ...this._settings(device)),
+      el("div.a3-device-buttons", {}, button("reset mapping", "Back to the first guess", () => this._say("reset mapping"))),
+    );
+  }
+
+  _move(device) {
+    for (const move of this._moving) move(device);
+  }
+
+  /** Calibration: its button, or what is to be done. */
+  _calibration(device) {
+    if (!device.calibration) {
+      const begin = button("calibrate", "Calibrate", () => this._say("calibrate", { on: true }));
+      return el("div.a3-device-buttons", {}, begin, el("span.a3-hint", {}, "finds the ends of every axis that drives something"));
+    }
+    const words = el("p", { data: "calibration" });
+    this._moving.push((d) => (words.textContent = d.calibration?.text ?? ""));
+    const finish = button("finish", "Finish", () => this._say("calibrate", { on: false }));
+    finish.disabled = device.calibration.stage === "rest";
+    const cancel = button("cancel", "Cancel", () => this._say("calibrate", { on: false, keep: false }));
+    return el("div.a3-device-do", {}, words, el("div.a3-device-buttons", {}, finish, cancel));
+  }
+
+  /** An input: what drives it, and its value. */
+  _input(device, input) {
+    const mapping = device.mapping[input];
+    const options = sourcesFor(device, input).map((source) => el("option", { value: source }, source));
+    const select = el("select", { data: `source ${input}` }, ...options);
+    select.value = mapping?.source ?? "none";
+    select.addEventListener("change", () => {
+      this._assign(input, chosen(this.device.mapping[input], select.value, input));
+      select.blur(); // the answer of the host is drawn at once
+    });
+    const waiting = device.assigning === input;
+    const move = button(`move ${input}`, waiting ? "Cancel" : "Move it now", () => this._say("assign by moving", { input, on: !waiting }));
+    const children = [el("span", {}, input), select, move];
+    if (waiting) children.push(el("span.a3-device-more", { data: "moving" }, movingWords(input)));
+    if (mapping && !input.startsWith("selector")) {
+      const bar = track(`value ${input}`);
+      const low = isPedal(input) ? 0 : -1;
+      // Positive steering is to the left, and so is its bar.
+      this._moving.push((d) => bar.set(barOf((low ? -1 : 1) * (d.mapping[input]?.value ?? 0), low, 1, 0)));
+      children.push(bar.element);
+    }
+    if (mapping?.source.startsWith("axis")) children.push(this._axisChoices(input, mapping));
+    return el("div.a3-device-line", { data: `input ${input}` }, ...children);
+  }
+
+  /** Inverted, half, dead zone of an axis. */
+  _axisChoices(input, mapping) {
+    const now = () => this.device.mapping[input];
+    const inverted = el("input", { type: "checkbox", checked: mapping.inverted, data: `inverted ${input}` });
+    inverted.addEventListener("change", () => {
+      this._assign(input, changed(now(), { inverted: inverted.checked }));
+    });
+    const zone = el("input", { type: "range", min: 0, max: 0.5, step: 0.01, value: mapping.dead_zone, data: `dead zone ${input}` });
+    zone.addEventListener("change", () => {
+      this._assign(input, changed(now(), { dead_zone: Number(zone.value) }));
+    });
+    const parts = [el("label", {}, inverted, "inverted"), el("label", {}, "dead zone", zone, short(mapping.dead_zone))];
+    if (isPedal(input)) {
+      const names = [...PARTS.map(([name]) => name), ...(partOf(mapping) === "calibrated" ? ["calibrated"] : [])];
+      const part = el("select", { data: `part ${input}` }, ...names.map((name) => el("option", { value: name }, name)));
+      part.value = partOf(mapping);
+      part.addEventListener("change", () => {
+        const found = PARTS.find(([name]) => name === part.value);
+        if (found) this._assign(input, changed(now(), { low: found[1], high: found[2] }));
+        part.blur();
+      });
+      parts.push(part);
+    }
+    return el("div.a3-device-more", {}, ...parts);
+  }
+
+  /** An axis as the device tells it, with the ends of what it drives. */
+  _axis(device, k) {
+    const bar = track(`axis ${k}`);
+    const number = el("span");
+    const driven = drivenBy(device, k);
+    for (const input of driven) {
+      for (const end of ["low", "high"]) bar.mark(barOf(device.mapping[input][end], -1, 1, -1).width);
+    }
+    this._moving.push((d) => {
+      bar.set(barOf(d.axes[k] ?? 0, -1, 1, 0));
+      number.textContent = (d.axes[k] ?? 0).toFixed(3);
+    });
+    const words = el("small", { data: `driven ${k}` }, driven.length ? `drives ${driven.join(", ")}` : "drives nothing");
+    return el("div.a3-axis", {}, el("span", {}, `axis ${k}`), bar.element, number, words);
+  }
+
+  _settings(device) {
+    const lines = SETTINGS.map(([name, words, unit, min, max, step]) => {
+      const field = el("input", { type: "number", min, max, step, value: device.settings[name], data: `setting ${name}` });
+      field.addEventListener("change", () => {
+        this._say("device settings", { settings: { [name]: Number(field.value) } });
+      });
+      return [el("span", {}, words), field, el("span", {}, unit)];
+    });
+    const inverted = el("input", { type: "checkbox", checked: device.settings.force_inverted, data: "force inverted" });
+    inverted.addEventListener("change", () => {
+      this._say("device settings", { settings: { force_inverted: inverted.checked } });
+    });
+    const told = el("p.a3-hint", { data: "force" });
+    told.textContent = device.force ? "Its motor works." : `No force${device.force_problem ? `: ${device.force_problem}` : ""}.`;
+    const words = el("p.a3-hint", { data: "force test", hidden: true }, TEST_WORDS);
+    const test = button("test force", "Test the force", () => {
+      words.hidden = false;
+      this._say("test force");
+    });
+    test.disabled = !device.force;
+    return [el("div.a3-device-settings", {}, ...lines.flat()), el("label.a3-control", {}, inverted, "force inverted"), told, test, words];
+  }
+}
+
+function button(data, text, act) {
+  const made = el("button", { type: "button", data }, text);
+  made.addEventListener("click", act);
+  return made;
+}
+
+/** A bar that moves, with marks. */
+function track(data) {
+  const bar = el("i");
+  const element = el("div.a3-track", { data }, bar);
+  return {
+    element,
+    set: ({ left, width }) => Object.assign(bar.style, { left: `${left}%`, width: `${width}%` }),
+    mark: (percent) => {
+      const mark = el("u");
+      mark.style.left = `min(${percent}%, 100% - 1px)`;
+      element.append(mark);
+    },
+  };
+}

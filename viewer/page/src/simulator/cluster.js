@@ -1,0 +1,54 @@
+// The instruments of the driver: speed, gear, revolutions, pedals, steering.
+import { el, write } from "../live/dom.js";
+import { RPM, TURNS, gearWords } from "../live/hud.js";
+import { Gauge } from "./gauges.js";
+
+/** Revolutions at the end of the bar before more was seen, rpm; and the share from which on it is red. */
+const [REVOLUTIONS, RED] = [6000, 0.92];
+const BARS = { brake: "#ff5a4d", throttle: "#59d07a", hand_brake: "#ffb03b" };
+
+/** Instruments of a car; what an FMU has no output for is left out. */
+export class Cluster {
+  /** @param {Set<string>} names - Columns of the FMU. */
+  constructor(names) {
+    const used = (name) => [`used.${name}`, name].find((column) => names.has(column));
+    this._names = names;
+    this._speed = el("b", { data: "speed" });
+    this._gear = el("span.a3-gear", { data: "gear" });
+    this._turns = TURNS.find((name) => names.has(name));
+    this._revolutions = new Gauge({ data: "revolutions", colour: "#7fc4ff" });
+    this._most = REVOLUTIONS;
+    this._pedals = Object.entries(BARS)
+      .map(([name, colour]) => ({ column: used(name), gauge: new Gauge({ data: `pedal ${name}`, label: name.replace("_", " "), way: "up", colour }) }))
+      .filter(({ column }) => column);
+    this._wheel = names.has("steering_wheel_angle") ? "steering_wheel_angle" : used("steering");
+    this._steering = new Gauge({ data: "steering bar", label: "steering", way: "middle", colour: "#f0f3f6" });
+    this._selector = used("selector");
+    const figures = el("div.a3-figures", {}, this._speed, el("small", {}, "km/h"), this._gear);
+    const middle = el("div.a3-middle", {}, figures);
+    if (this._turns) middle.append(this._revolutions.element);
+    if (used("steering")) middle.append(this._steering.element);
+    this._used = used("steering");
+    this.element = el("div.a3-cluster", { data: "cluster" }, middle, ...this._pedals.map(({ gauge }) => gauge.element));
+  }
+
+  /** @param {(name: string) => number} lookup */
+  show(lookup) {
+    const speed = lookup("speed");
+    write(this._speed, Number.isFinite(speed) ? (3.6 * Math.abs(speed)).toFixed(0) : "–");
+    write(this._gear, gearWords(lookup, { selector: this._selector, gear: this._names.has("gear") ? "gear" : undefined }));
+    if (this._turns) {
+      const turns = RPM * Math.abs(lookup(this._turns));
+      if (turns > this._most) this._most = 1000 * Math.ceil(turns / 1000);
+      this._revolutions.show(turns / this._most, turns > RED * this._most ? "#ff5a4d" : undefined);
+      this._revolutions.words(`${turns.toFixed(0)} rpm`);
+    }
+    if (this._used) {
+      const value = lookup(this._used);
+      this._steering.show(value);
+      const angle = lookup(this._wheel);
+      this._steering.words(this._wheel === this._used ? "" : `${((180 / Math.PI) * angle).toFixed(0)}°`);
+    }
+    for (const { column, gauge } of this._pedals) gauge.show(lookup(column));
+  }
+}

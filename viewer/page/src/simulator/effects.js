@@ -1,0 +1,32 @@
+// Tyre marks, dust and sound of the car, as far as this computer has them.
+import { CarSound, Dust, TyreMarks } from "../effects/index.js";
+
+/** The effects of a picture. */
+export class Effects {
+  /**
+   * @param {import("../scene/scene_view.js").SceneView} view
+   * @param {{columns: string[], constants: Object<string, number>}} car
+   * @param {(sentence: string) => void} tell - Told what cannot be had.
+   */
+  constructor(view, car, tell) {
+    this._tell = tell;
+    this.drawn = [new TyreMarks(view, {}), new Dust(view, {})];
+    this.sound = new CarSound(car);
+  }
+
+  /** Sound may begin: a hand has touched the page. */
+  async start() {
+    await this.sound.start();
+    if (this.sound.problem) this._tell(this.sound.problem);
+  }
+
+  /** After the picture has its numbers, before it is drawn. @param {(name: string) => number} lookup @param {number} time - s. @param {number} epoch */
+  update(lookup, time, epoch) {
+    for (const effect of this.drawn) effect.update(lookup, time, epoch);
+    this.sound.update(lookup, time);
+  }
+
+  dispose() {
+    for (const effect of [...this.drawn, this.sound]) effect.dispose();
+  }
+}

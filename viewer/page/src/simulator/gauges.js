@@ -1,0 +1,38 @@
+// Bars of the head-up display: pedals, steering, revolutions, time of a step.
+import { el, write } from "../live/dom.js";
+
+/** A bar from 0 to 1, across or upright, or from -1 to 1 from its middle. */
+export class Gauge {
+  /**
+   * @param {object} options
+   * @param {string} options.data - Name for programs.
+   * @param {string} [options.label]
+   * @param {"across" | "up" | "middle"} [options.way] - middle: -1 at the right, +1 at the left, as steering is.
+   * @param {string} [options.colour]
+   */
+  constructor({ data, label = "", way = "across", colour = "#e8eef4" }) {
+    this._way = way;
+    this._fill = el("i");
+    this._fill.style.background = colour;
+    this._colour = colour;
+    this._label = el("span", {}, label);
+    this.element = el(`div.a3-gauge.a3-gauge-${way}`, { data, title: label }, this._fill, this._label);
+    this.show(0);
+  }
+
+  /** @param {number} value @param {string} [colour] */
+  show(value, colour = this._colour) {
+    const low = this._way === "middle" ? -1 : 0;
+    const x = Math.max(low, Math.min(1, Number.isFinite(value) ? value : 0));
+    this.value = x;
+    const { style } = this._fill;
+    if (this._way === "middle") style.transform = `scaleX(${(-x).toFixed(3)})`;
+    else style.transform = `${this._way === "up" ? "scaleY" : "scaleX"}(${x.toFixed(3)})`;
+    if (style.background !== colour) style.background = colour;
+  }
+
+  /** The words in the bar. @param {string} text */
+  words(text) {
+    write(this._label, text);
+  }
+}

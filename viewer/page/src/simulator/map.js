@@ -1,0 +1,218 @@
+// The world from above: its ground, scenery and places, the car and where it has been.
+import { el } from "../live/dom.js";
+import { Surfaces } from "./surfaces.js";
+
+/** Metres between points of the trail, and how many are kept. */
+const [APART, KEPT] = [1.5, 4000];
+/** Metres from the car to the border of the small map. */
+const AROUND = 110;
+/** Pixels around a place that count as it. */
+const NEAR = 18;
+const BACKGROUND = "#3d4a36";
+const PAINTS = { white: "#f2f2ee", yellow: "#f0c84a", red: "#d8503f", blue: "#4a7fd8" };
+
+/** The places of the car, thinned; a break where it was put somewhere else. */
+export class Trail {
+  constructor() {
+    this.points = []; // [x, y], or null for a break
+  }
+
+  /** @param {number} x @param {number} y */
+  add(x, y) {
+    const last = this.points[this.points.length - 1];
+    if (!Number.isFinite(x + y) || (last && Math.hypot(x - last[0], y - last[1]) < APART)) return;
+    this.points.push([x, y]);
+    if (this.points.length > KEPT) this.points.splice(0, KEPT / 10);
+  }
+
+  /** What follows does not hang on what was. */
+  lift() {
+    if (this.points.length && this.points[this.points.length - 1]) this.points.push(null);
+  }
+}
+
+/** What all maps of a world show. */
+export class WorldPlan {
+  /** @param {object} scene - With roads and scenery. @param {{name?: string, places?: object[], bounds?: number[]}} world */
+  constructor(scene, world = {}) {
+    this.surfaces = new Surfaces(scene.roads);
+    this.pictures = this.surfaces.pictures();
+    this.scenery = scene.scenery ?? [];
+    this.places = world.places ?? [];
+    this._bounded = Boolean(world.bounds);
+    this.bounds = world.bounds ?? this.pictures[0]?.box ?? [-250, -250, 250, 250];
+    this.kerbs = (scene.roads ?? []).filter((road) => road.kind === "profile");
+    this.trail = new Trail();
+  }
+
+  /** Whether a place is in the world; without bounds it has no end. @param {{x: number, y: number}} car */
+  holds({ x, y }) {
+    if (!this._bounded || !Number.isFinite(x + y)) return true;
+    const [x0, y0, x1, y1] = this.bounds;
+    return x >= x0 && x <= x1 && y >= y0 && y <= y1;
+  }
+
+  /** @param {CanvasRenderingContext2D} context - Whose units are metres, x to the right, y up. @param {number} pixel - m. */
+  draw(context, pixel) {
+    for (const { image, box } of this.pictures) {
+      context.save();
+      context.translate(box[0], box[3]);
+      context.scale((box[2] - box[0]) / image.width, -(box[3] - box[1]) / image.height);
+      context.drawImage(image, 0, 0);
+      context.restore();
+    }
+    for (const thing of this.scenery) drawThing(context, thing, pixel);
+    for (const { origin = [0, 0, 0], direction = [1, 0, 0], stations } of this.kerbs) {
+      for (const s of stations) {
+        const [x, y] = [origin[0] + s * direction[0], origin[1] + s * direction[1]];
+        stroke(context, [[x - 1e3 * direction[1], y + 1e3 * direction[0]], [x + 1e3 * direction[1], y - 1e3 * direction[0]]], "#d9d6cc", pixel); // prettier-ignore
+      }
+    }
+    context.strokeStyle = "#e8eef4";
+    context.lineWidth = 1.5 * pixel;
+    const [x0, y0, x1, y1] = this.bounds;
+    context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+    let part = [];
+    for (const point of [...this.trail.points, null]) {
+      if (point) part.push(point);
+      else {
+        stroke(context, part, "#ffd23f", 2 * pixel);
+        part = [];
+      }
+    }
+  }
+}
+
+function stroke(context, points, colour, width, dash = []) {
+  if (points.length < 2) return;
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.beginPath();
+  points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
+  context.stroke();
+  context.setLineDash([]);
+}
+
+function drawThing(context, { kind, at, points, width, colour, dash, height = 1, size, yaw = 0 }, pixel) {
+  if (kind === "line") stroke(context, points, PAINTS[colour] ?? colour ?? PAINTS.white, Math.max(width ?? 0.15, 0.8 * pixel), dash);
+  else if (kind === "barrier") stroke(context, points, "#b9bdc2", Math.max(0.4, pixel));
+  else if (kind === "building" && size) {
+    context.save();
+    context.translate(at[0], at[1]);
+    context.rotate(yaw);
+    context.fillStyle = "#8c8078";
+    context.fillRect(-size[0] / 2, -size[1] / 2, size[0], size[1]);
+    context.restore();
+  } else if (at) {
+    const radius = { tree: 0.3 * height, cone: 0.3, post: 0.2 }[kind];
+    if (!radius || radius < 0.3 * pixel) return;
+    context.fillStyle = { tree: "#2f5228", cone: "#ff7a2f", post: "#e8e8e8" }[kind];
+    context.beginPath();
+    context.arc(at[0], at[1], radius, 0, 2 * Math.PI);
+    context.fill();
+  }
+}
+
+/** A map in an element: of the whole world, or of what is around the car. */
+export class WorldMap {
+  /**
+   * @param {WorldPlan} plan
+   * @param {{whole?: boolean, go?: (place: object) => void}} options - `go`: a place was clicked at.
+   */
+  constructor(plan, { whole = false, go } = {}) {
+    this.plan = plan;
+    this._whole = whole;
+    this.zoom = 1;
+    this._canvas = el("canvas");
+    this.element = el(whole ? "div.a3-map" : "div.a3-inset", { data: whole ? "map" : "map inset" }, this._canvas);
+    this._canvas.addEventListener("wheel", (event) => this._zoom(event), { passive: false });
+    if (go) this._canvas.addEventListener("click", (event) => this._click(event, go));
+  }
+
+  /** @param {{x: number, y: number, yaw: number}} car */
+  show(car) {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    if (!width || !height) return;
+    this._car = car;
+    const ratio = Math.min(globalThis.devicePixelRatio || 1, 2);
+    const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
+    if (this._canvas.width !== w || this._canvas.height !== h) Object.assign(this._canvas, { width: w, height: h });
+    const context = this._canvas.getContext("2d");
+    const { scale, x, y } = this._view(width, height);
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.fillStyle = BACKGROUND;
+    context.fillRect(0, 0, w, h);
+    context.setTransform(ratio * scale, 0, 0, -ratio * scale, w / 2 - ratio * scale * x, h / 2 + ratio * scale * y);
+    this.plan.draw(context, 1 / scale);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this._words(context, width, height);
+    this._drawCar(context, this.pixel([car.x, car.y]), car.yaw);
+  }
+
+  /** Where a place of the earth is, pixels of the element. @param {number[]} point */
+  pixel([px, py]) {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    const { scale, x, y } = this._view(width, height);
+    return [width / 2 + scale * (px - x), height / 2 - scale * (py - y)];
+  }
+
+  _view(width, height) {
+    const car = this._car ?? { x: 0, y: 0 };
+    if (!this._whole) return { scale: (this.zoom * Math.min(width, height)) / (2 * AROUND), x: car.x, y: car.y };
+    const [x0, y0, x1, y1] = this.plan.bounds;
+    const fit = 0.92 * Math.min(width / Math.max(1, x1 - x0), height / Math.max(1, y1 - y0));
+    if (this.zoom <= 1) return { scale: fit, x: (x0 + x1) / 2, y: (y0 + y1) / 2 };
+    return { scale: this.zoom * fit, x: car.x, y: car.y };
+  }
+
+  _words(context, width, height) {
+    if (!this._whole) return;
+    context.font = "12px system-ui, sans-serif";
+    context.textBaseline = "middle";
+    for (const place of this.plan.places) {
+      const [x, y] = this.pixel([place.x, place.y]);
+      if (x < 0 || y < 0 || x > width || y > height) continue;
+      context.fillStyle = "#ffffff";
+      context.beginPath();
+      context.arc(x, y, 4, 0, 2 * Math.PI);
+      context.fill();
+      context.strokeStyle = "#10161c";
+      context.lineWidth = 3;
+      context.strokeText(place.name.replaceAll("_", " "), x + 8, y);
+      context.fillText(place.name.replaceAll("_", " "), x + 8, y);
+    }
+  }
+
+  _drawCar(context, [x, y], yaw) {
+    context.save();
+    context.translate(x, y);
+    context.rotate(-yaw);
+    context.fillStyle = "#e5352b";
+    context.strokeStyle = "#fff";
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.moveTo(9, 0);
+    context.lineTo(-7, 6);
+    context.lineTo(-4, 0);
+    context.lineTo(-7, -6);
+    context.closePath();
+    context.fill();
+    context.stroke();
+    context.restore();
+  }
+
+  _zoom(event) {
+    event.preventDefault();
+    this.zoom = Math.max(this._whole ? 1 : 0.2, Math.min(30, this.zoom * Math.exp(-0.0015 * event.deltaY)));
+    if (this._car) this.show(this._car);
+  }
+
+  _click(event, go) {
+    const place = this.plan.places.find(({ x, y }) => {
+      const [px, py] = this.pixel([x, y]);
+      return Math.hypot(px - event.offsetX, py - event.offsetY) < NEAR;
+    });
+    if (place) go(place);
+  }
+}

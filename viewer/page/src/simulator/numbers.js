@@ -1,0 +1,53 @@
+// Numbers of the car by name: columns of the frames, else constants and parameters; where it is and what it stands on.
+import { Blend, turnsOf } from "../live/blend.js";
+
+/** Friction of a road that tells none, under a car without that parameter. */
+const FRICTION = 1.0;
+
+/** The numbers of one car. */
+export class Numbers {
+  /**
+   * @param {object} hello - First message of the program.
+   * @param {import("./surfaces.js").Surfaces} surfaces - Of the world.
+   */
+  constructor({ scene, columns, description, constants = {} }, surfaces) {
+    const variables = description?.variables ?? [];
+    this.columns = new Map(columns.map((name, k) => [name, k]));
+    const { quaternions, angles } = turnsOf(scene);
+    const turns = { quaternions, angles: new Set([...angles, ...variables.filter((v) => v.unit === "rad").map((v) => v.name)]) };
+    this._blend = new Blend(this.columns, turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
+    this._fixed = new Map([...variables.map((v) => [v.name, v.start]), ...Object.entries(constants)]);
+    this._surfaces = surfaces;
+    const { position, quaternion } = scene.frames?.[scene.focus] ?? {};
+    this._place = position ?? ["chassis.x", "chassis.y"];
+    this._quaternion = quaternion;
+  }
+
+  /**
+   * @param {{before: {values: Float64Array}, after: {values: Float64Array}, share: number}} shown - Of `Frames`.
+   * @returns {(name: string) => number}
+   */
+  lookup({ before, after, share }) {
+    const row = this._blend.lookup(before.values, after.values, share);
+    return (name) => (this.columns.has(name) ? row(name) : Number(this._fixed.get(name) ?? NaN));
+  }
+
+  /** Place and heading of the car on a map, m and rad. @param {(name: string) => number} lookup */
+  car(lookup) {
+    const [x, y] = this._place.slice(0, 2).map(lookup);
+    return { x, y, yaw: this._heading(lookup) };
+  }
+
+  /** Coefficient of friction of the road at a place of the earth. @param {number} x @param {number} y */
+  friction(x, y) {
+    const factor = Number(this._fixed.get("road.friction_factor") ?? 1);
+    const there = this._surfaces.friction(x, y);
+    return factor * (Number.isFinite(there) ? there : Number(this._fixed.get("road.friction") ?? FRICTION));
+  }
+
+  _heading(lookup) {
+    if (!this._quaternion) return lookup("chassis.yaw") || 0;
+    const [w, x, y, z] = this._quaternion.map(lookup);
+    return Math.atan2(2 * (w * z + x * y), w * w + x * x - y * y - z * z);
+  }
+}

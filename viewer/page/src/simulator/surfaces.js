@@ -1,0 +1,94 @@
+// What the ground of a world is made of at a place, and how it looks from above.
+import { floats } from "../scene/data.js";
+import { SurfaceRaster } from "../looks/heights.js";
+import { wetness } from "../looks/roads.js";
+
+/** Colours of surfaces on the map. */
+const COLOURS = {
+  asphalt: [92, 96, 102], concrete: [150, 150, 146], grass: [86, 112, 66], gravel: [140, 124, 98],
+  dirt: [120, 98, 74], wet: [58, 84, 116], ice: [176, 208, 226], paint: [214, 214, 210],
+}; // prettier-ignore
+const OTHER = [128, 118, 128];
+
+/** A grid of a road: where its points are. */
+class Grid {
+  constructor({ origin, spacing, shape }) {
+    Object.assign(this, { origin, spacing, shape });
+  }
+
+  /** Index of the point nearest to a place; beyond the border its points go on. */
+  index(x, y) {
+    const [i, j] = [x, y].map((value, k) => {
+      const place = Math.round((value - this.origin[k]) / this.spacing[k]);
+      return Math.min(this.shape[k] - 1, Math.max(0, place));
+    });
+    return i * this.shape[1] + j;
+  }
+}
+
+/** The surfaces of the roads of a scene, as they lie in it. */
+export class Surfaces {
+  /** @param {object[]} roads - Of a scene. */
+  constructor(roads = []) {
+    this.grids = roads.map(gridOf).filter(Boolean);
+  }
+
+  /** Coefficient of friction at a place; NaN where the roads tell none. @param {number} x @param {number} y */
+  friction(x, y) {
+    const { grid, frictions } = this.grids.find((one) => one.frictions) ?? {};
+    return frictions && Number.isFinite(x + y) ? frictions(grid.index(x, y)) : NaN;
+  }
+
+  /**
+   * Pictures of the ground from above: x to the right, y up.
+   * @returns {{image: HTMLCanvasElement, box: number[]}[]} With the box of the earth that each fills: x0, y0, x1, y1.
+   */
+  pictures() {
+    return this.grids.map(({ grid, colour }) => ({ image: painted(grid, colour), box: boxOf(grid) }));
+  }
+}
+
+function gridOf(road) {
+  if (road.kind === "terrain" && road.surface) {
+    const { names, classes, ...sides } = new SurfaceRaster(road.surface);
+    const colours = names.map((name) => COLOURS[name] ?? OTHER);
+    const frictions = (index) => road.surface.frictions[classes[index]];
+    return { grid: new Grid(sides), frictions, colour: (index) => colours[classes[index]] ?? OTHER };
+  }
+  if (road.kind !== "grid") return null;
+  const heights = floats(road.heights);
+  const given = road.frictions === undefined ? null : floats(road.frictions);
+  const [low, high] = heights.reduce(([a, b], h) => [Math.min(a, h), Math.max(b, h)], [Infinity, -Infinity]);
+  const base = COLOURS.asphalt;
+  const colour = (index) => {
+    const light = high > low ? 0.75 + (0.6 * (heights[index] - low)) / (high - low) : 1;
+    const wet = given ? wetness(given[index]) : 0;
+    return base.map((part, k) => light * (part + wet * (COLOURS.wet[k] - part)));
+  };
+  return { grid: new Grid(road), frictions: null, colour };
+}
+
+function boxOf({ origin, spacing, shape }) {
+  const half = spacing.map((d) => d / 2);
+  return [origin[0] - half[0], origin[1] - half[1], origin[0] + (shape[0] - 1) * spacing[0] + half[0], origin[1] + (shape[1] - 1) * spacing[1] + half[1]];
+}
+
+/** Pixels of the longer side of a picture of the ground, at most. */
+const MOST = 1400;
+
+function painted(grid, colour) {
+  const [n, m] = grid.shape;
+  const every = Math.max(1, Math.ceil(Math.max(n, m) / MOST));
+  const image = document.createElement("canvas");
+  [image.width, image.height] = [Math.ceil(n / every), Math.ceil(m / every)];
+  const context = image.getContext("2d");
+  const pixels = context.createImageData(image.width, image.height);
+  for (let a = 0; a < image.width; a++) {
+    for (let b = 0; b < image.height; b++) {
+      const [red, green, blue] = colour(a * every * m + b * every);
+      pixels.data.set([red, green, blue, 255], 4 * ((image.height - 1 - b) * image.width + a));
+    }
+  }
+  context.putImageData(pixels, 0, 0);
+  return image;
+}

@@ -1,0 +1,94 @@
+// The four tyres from above: load as the size of a circle, forces in the plane as an arrow, use of friction as colour.
+import { svg } from "../live/dom.js";
+
+/** Half the side of the drawing, and radius of a circle at the mean load of a wheel at rest, in its units. */
+const [HALF, RADIUS] = [50, 13];
+/** Places by the last letters of a wheel's name; ahead is up. */
+const PLACES = { FL: [-26, -27], FR: [26, -27], RL: [-26, 27], RR: [26, 27] };
+/** From no use of friction to all of it. */
+const COLOURS = [[0, [64, 150, 90]], [0.5, [110, 190, 90]], [0.8, [245, 190, 60]], [1, [232, 60, 45]]]; // prettier-ignore
+
+/** Colour of a share of the friction. @param {number} use */
+export function useColour(use) {
+  const x = Math.max(0, Math.min(1, Number.isFinite(use) ? use : 0));
+  const k = COLOURS.findIndex(([end]) => end >= x);
+  const [from, a] = COLOURS[Math.max(0, k - 1)];
+  const [to, b] = COLOURS[k];
+  const s = to > from ? (x - from) / (to - from) : 0;
+  return `rgb(${a.map((part, i) => Math.round(part + s * (b[i] - part))).join(",")})`;
+}
+
+/** Wheels of an FMU: what is before `.Fz` in the names of its outputs. @param {Iterable<string>} names */
+export function wheelsOf(names) {
+  return [...names].map((name) => /^(.*)\.Fz$/.exec(name)?.[1]).filter(Boolean);
+}
+
+/** Diagram of the forces of tyres on the car. */
+export class Tyres {
+  /**
+   * @param {string[]} wheels - Their names.
+   * @param {(at: number[]) => number} friction - Coefficient of the road at a place of the earth.
+   */
+  constructor(wheels, friction) {
+    this._friction = friction;
+    this._mean = 0; // N, load of a wheel; follows slowly
+    this._items = wheels.slice(0, 4).map((name, k) => {
+      const [x, y] = PLACES[name.slice(-2)] ?? PLACES[Object.keys(PLACES)[k]];
+      const circle = svg("circle", { cx: x, cy: y, r: 0, "fill-opacity": 0.85, stroke: "#fff", "stroke-width": 0.8 });
+      const arrow = svg("path", { stroke: "#fff", "stroke-width": 2.2, fill: "none", "stroke-linecap": "round", "stroke-linejoin": "round" });
+      const ahead = `M${x - 4} ${y - RADIUS}v${2 * RADIUS}M${x + 4} ${y - RADIUS}v${2 * RADIUS}`;
+      const tyre = svg("path", { d: ahead, stroke: "#fff6", "stroke-width": 1 });
+      return { name, x, y, circle, arrow, tyre, use: 0 };
+    });
+    const title = svg("title");
+    title.textContent = "tyres: size is load, arrow is force in the road's plane, colour is use of friction";
+    const drawn = this._items.flatMap(({ tyre, circle, arrow }) => [tyre, circle, arrow]);
+    this.element = svg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, class: "a3-tyres", "data-a3": "tyres" }, title, ...drawn);
+    this.element.style.display = wheels.length ? "" : "none";
+  }
+
+  /** Share of the friction that each wheel uses. @returns {Object<string, number>} */
+  get uses() {
+    return Object.fromEntries(this._items.map(({ name, use }) => [name, use]));
+  }
+
+  /** @param {(name: string) => number} lookup */
+  show(lookup) {
+    const loads = this._items.map(({ name }) => Math.max(0, lookup(`${name}.Fz`) || 0));
+    const mean = loads.reduce((sum, load) => sum + load, 0) / (loads.length || 1);
+    if (mean > 0) this._mean = this._mean ? this._mean + 0.02 * (mean - this._mean) : mean;
+    this._items.forEach((item, k) => this._draw(item, loads[k], lookup));
+  }
+
+  _draw(item, load, lookup) {
+    const { name, x, y, circle, arrow } = item;
+    const [fx, fy] = [lookup(`${name}.Fx`) || 0, lookup(`${name}.Fy`) || 0];
+    const size = Math.hypot(fx, fy);
+    const at = ["x", "y", "z"].map((axis) => lookup(`${name}.contact_${axis}`));
+    const most = load * this._friction(at);
+    item.use = most > 0 ? size / most : 0;
+    const ratio = this._mean > 0 ? load / this._mean : 0;
+    circle.setAttribute("r", (RADIUS * Math.sqrt(Math.min(ratio, 3))).toFixed(1));
+    circle.setAttribute("fill", useColour(item.use));
+    const scale = this._mean > 0 ? (1.6 * RADIUS) / this._mean : 0;
+    const [dx, dy] = turned([-fy * scale, -fx * scale], lookup(`${name}.steer`) || 0);
+    arrow.setAttribute("d", Math.hypot(dx, dy) < 1.5 ? "" : arrowPath(x, y, dx, dy));
+  }
+}
+
+/** From the axes of a wheel, which is steered to the left, to those of the car; on the screen y goes down. */
+function turned([x, y], steer) {
+  const [c, s] = [Math.cos(steer), Math.sin(steer)];
+  return [c * x + s * y, -s * x + c * y];
+}
+
+function arrowPath(x, y, dx, dy) {
+  const size = Math.min(Math.hypot(dx, dy), 22);
+  const [ux, uy] = [dx, dy].map((d) => d / Math.hypot(dx, dy));
+  const [ex, ey] = [x + ux * size, y + uy * size];
+  const head = 4;
+  const wing = (way) => `M${f(ex)} ${f(ey)}L${f(ex - head * (ux + way * 0.7 * uy))} ${f(ey - head * (uy - way * 0.7 * ux))}`;
+  return `M${x} ${y}L${f(ex)} ${f(ey)}${wing(1)}${wing(-1)}`;
+}
+
+const f = (number) => number.toFixed(1);

@@ -1,0 +1,141 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { Link, readFrame } from "../src/simulator/link.js";
+
+/** A frame as the simulator packs it, written by hand. */
+function frame(numbers, values, { magic = 0x31463341, epoch = 7, flags = 1 } = {}) {
+  const buffer = new ArrayBuffer(96 + 8 * values.length);
+  const view = new DataView(buffer);
+  [magic, epoch, flags, values.length].forEach((x, k) => view.setUint32(4 * k, x, true));
+  numbers.forEach((x, k) => view.setFloat64(16 + 8 * k, x, true));
+  values.forEach((x, k) => view.setFloat64(96 + 8 * k, x, true));
+  return buffer;
+}
+
+const TEN = [1000, 2.5, 0.5, 12, 1e-4, 2e-4, 3e-4, 4, 0.004, 30];
+
+class Socket {
+  static all = [];
+  constructor(url) {
+    Object.assign(this, { url, readyState: 0, said: [] });
+    Socket.all.push(this);
+  }
+  open() {
+    this.readyState = 1;
+  }
+  send(text) {
+    this.said.push(JSON.parse(text));
+  }
+  close() {
+    this.lose("");
+  }
+  lose(reason) {
+    this.readyState = 3;
+    this.onclose({ reason });
+  }
+}
+
+function linked(handlers = {}) {
+  Socket.all = [];
+  const means = { WebSocket: Socket, time: 0, waits: [] };
+  means.now = () => means.time;
+  means.wait = (work, ms) => means.waits.push([work, ms]);
+  const link = new Link("ws://127.0.0.1:1/drive", handlers, means);
+  return { link, means, socket: Socket.all[0] };
+}
+
+test("a frame is read number by number", () => {
+  const found = readFrame(frame(TEN, [3, -1.5], { flags: 6 }));
+  const { values, ...rest } = found;
+  assert.deepEqual(rest, {
+    epoch: 7, running: false, refused: true, behind: true, count: 1000, time: 2.5, speed: 0.5, wall: 12, cost: 1e-4,
+    worst: 2e-4, lateness: 3e-4, missed: 4, deadline: 0.004, saved: 30,
+  }); // prettier-ignore
+  assert.deepEqual([...values], [3, -1.5]);
+});
+
+test("what is no frame is refused", () => {
+  assert.throws(() => readFrame(frame(TEN, [], { magic: 1 })), /no frame/);
+  assert.throws(() => readFrame(new ArrayBuffer(10)), /no frame/);
+  assert.throws(() => readFrame(frame(TEN, [1, 2]).slice(0, 100)), /2 numbers has 100 bytes/);
+});
+
+test("every frame is acknowledged and handed on", () => {
+  const got = [];
+  const { socket } = linked({ frame: (found) => got.push(found.count) });
+  socket.open();
+  socket.onmessage({ data: frame(TEN, []) });
+  assert.deepEqual(got, [1000]);
+  assert.deepEqual(socket.said, [{ type: "seen", count: 1000 }]);
+  assert.equal(socket.binaryType, "arraybuffer");
+});
+
+test("messages go to their handlers, and one that nobody handles is passed over", () => {
+  const got = [];
+  const { socket } = linked({ hello: (m) => got.push(m), event: (m) => got.push(m) });
+  for (const m of [{ type: "hello", version: 1 }, { type: "devices", devices: [] }, { type: "refused", text: "No." }]) {
+    socket.onmessage({ data: JSON.stringify(m) });
+  }
+  assert.equal(got[0].version, 1);
+  assert.equal(got[1].kind, "refused message");
+  assert.equal(got[1].text, "No.");
+  assert.equal(got.length, 2);
+});
+
+test("a wish is said when it changes, and now and then", () => {
+  const { link, means, socket } = linked();
+  link.want("keys", { throttle: [1, 2.5] }); // nobody hears it yet
+  socket.open();
+  for (let k = 0; k < 10; k++) link.want("keys", { throttle: [1, 2.5] });
+  assert.equal(socket.said.length, 1);
+  assert.deepEqual(socket.said[0], { type: "want", source: "keys", values: { throttle: [1, 2.5] } });
+  link.want("keys", { throttle: [0, 5] });
+  link.want("gamepad", { steering: [0.25, null] });
+  assert.equal(socket.said.length, 3);
+  means.time = 250;
+  link.want("keys", { throttle: [0, 5] });
+  assert.equal(socket.said.length, 4);
+  link.command("rewind", 5);
+  assert.deepEqual(socket.said[4], { type: "command", name: "rewind", value: 5 });
+});
+
+test("a lost connection is said and comes back, sooner at first", () => {
+  const words = [];
+  const { link, means, socket } = linked({ closed: (text, again) => words.push({ text, again }) });
+  socket.open();
+  link.want("keys", { throttle: [1, 2.5] });
+  socket.lose("Too many pages are connected.");
+  assert.equal(link.connected, false);
+  assert.equal(link.send({ type: "report" }), false);
+  assert.equal(words[0].text, "The simulator is not there: Too many pages are connected. Trying again in 0.3 s.");
+  means.waits[0][0]();
+  assert.equal(Socket.all.length, 2);
+  Socket.all[1].lose("");
+  assert.equal(words[1].text, "The simulator is not there: Too many pages are connected. Trying again in 0.5 s.");
+  for (let k = 1; k < 8; k++) {
+    means.waits[k][0]();
+    Socket.all[k + 1].lose("");
+  }
+  assert.equal(words.at(-1).again, 4000);
+  means.waits[8][0]();
+  const last = Socket.all.at(-1);
+  last.open();
+  last.onmessage({ data: '{"type":"hello"}' });
+  link.want("keys", { throttle: [1, 2.5] }); // said anew
+  assert.equal(last.said.length, 1);
+  last.lose("");
+  assert.equal(words.at(-1).again, 250);
+});
+
+test("a link that is closed stays closed", () => {
+  const words = [];
+  const { link, means, socket } = linked({ closed: (text, again) => words.push({ text, again }) });
+  socket.open();
+  link.close();
+  assert.deepEqual([words, means.waits], [[], []]);
+  const other = linked();
+  other.socket.lose("");
+  other.link.close();
+  other.means.waits[0][0]();
+  assert.equal(Socket.all.length, 1);
+});

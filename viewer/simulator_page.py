@@ -1,0 +1,25 @@
+"""The page of the driving simulator: one HTML file that connects to the program that serves it."""
+
+from __future__ import annotations
+
+from viewer.page_file import html_document
+
+_CONNECT = "'self' ws: wss:"
+
+
+def simulator_html(title: str) -> str:
+    """The text of the page, with the script of the viewer in it.
+
+    It opens a WebSocket to the address ``/drive`` of the host that it comes from, with the token of its own address.
+
+    Parameters
+    ----------
+    title : str
+        Of the page; any text.
+
+    Raises
+    ------
+    ViewerError
+        The script is not there and cannot be built.
+    """
+    return html_document(title, {}, "ALi3Viewer.simulate", connect=_CONNECT)
