@@ -38,10 +38,18 @@ COMMANDS = (
     Command("run", "hosts.run", "run any FMU with constant inputs and plot its outputs"),
     Command("view", "hosts.view", "show a result or an FMU moving, in a page; pictures, films and glTF of it"),
     Command("page", "hosts.page", "write a page that runs an FMU in a browser"),
+    Command("simulator", "hosts.simulator.command", "drive an FMU in real time, from a page or by a steering wheel"),
     Command("parameters", "hosts.parameters", "show the parameters of an FMU, or write them as a parameter set"),
     Command("check", "hosts.check", "check an FMU and print a verdict"),
     Command("kerb", "hosts.kerb", "run the paper's kerb test and draw the moments of the frame"),
+    Command(
+        "recording",
+        "hosts.recording",
+        "say what a recording of the simulator holds; repeat it, or make a manoeuvre of it",
+    ),
     Command("road", "mbs.roads.command", "make, check and show road files"),
+    Command("soak", "hosts.soak.command", "drive a car for hours by itself, and check every step"),
+    Command("world", "mbs.roads.world_command", "make the road file and the drawing of a world to drive in"),
     Command("kernel", "mbs.kernel.build", "compile the C kernel for a platform"),
 )
 

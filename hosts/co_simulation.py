@@ -208,8 +208,10 @@ def run(
     set_inputs, get_outputs = _setter(fmu, used), fmu.getter(outputs)
     senses = [outputs.index(n) for n in SENSES] if driver is not None else []
 
-    first = manoeuvre.at(0.0, whole)
+    first = manoeuvre.initial(whole)
     fmu.initialise({**manoeuvre.start, **first})
+    if manoeuvre.state is not None:
+        fmu.restore_bytes(manoeuvre.state)
     steps = max(1, round(manoeuvre.stop_time / step))
     values = np.empty((steps + 1, len(inputs) + len(outputs)))
     columns = [inputs.index(n) for n in used]
@@ -231,7 +233,7 @@ def run(
             set_inputs(now)
             held[columns] = now
         try:
-            fmu.step(t, step)
+            fmu.step(manoeuvre.state_time + t, step)
         except StepRefusedError:
             failed = 1
             break

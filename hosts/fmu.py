@@ -10,6 +10,7 @@ import zipfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
+from typing import TypeAlias
 
 import numpy as np
 from fmpy import extract, read_model_description
@@ -20,6 +21,7 @@ from fmpy.fmi2 import (
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
     fmi2ComponentEnvironment,
+    fmi2FMUstate,
     fmi2Integer,
     fmi2Real,
     fmi2Status,
@@ -33,6 +35,9 @@ from ali3.running import command_name
 from hosts.errors import HostError
 from hosts.numbers import Value
 from hosts.variables import Variables
+
+State: TypeAlias = "fmi2FMUstate"
+"""A state that an FMU has saved, in its memory."""
 
 
 class StepRefusedError(Exception):
@@ -162,23 +167,37 @@ class Fmu:
         ):
             found = {n: x for n, x in values.items() if self.variables[n].type in kinds}
             for name, value in found.items():
-                if kind is int and not isinstance(value, str) and not (math.isfinite(value) and value == int(value)):
-                    raise HostError(f"'{name}' was set to {value:g}; it must be a whole number.")
+                if kind is int and not isinstance(value, str):
+                    self._whole(name, value)
             if found:
                 call(self.references(found), [kind(x) for x in found.values()])
 
+    @staticmethod
+    def _whole(name: str, value: float) -> int:
+        if not (math.isfinite(value) and value == int(value)):
+            raise HostError(f"'{name}' was set to {value:g}; it must be a whole number.")
+        return int(value)
+
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        """A function that sets variables; the references of real ones are prepared once."""
-        real = [k for k, n in enumerate(names) if self.variables[n].type == "Real"]
-        count, others = len(real), [k for k in range(len(names)) if k not in real]
-        references = (fmi2ValueReference * count)(*self.references(names[k] for k in real))
-        buffer = (fmi2Real * count)()
+        """A function that sets variables; the references of real and whole ones are prepared once."""
+        slave, kinds = self._slave, [self.variables[n].type for n in names]
+        real, whole = ([k for k, kind in enumerate(kinds) if kind == wanted] for wanted in ("Real", "Integer"))
+        others = [k for k, kind in enumerate(kinds) if kind not in ("Real", "Integer")]
+        reals, buffer = (
+            (fmi2ValueReference * len(real))(*self.references(names[k] for k in real)),
+            (fmi2Real * len(real))(),
+        )
+        wholes = (fmi2ValueReference * len(whole))(*self.references(names[k] for k in whole))
+        counts = (fmi2Integer * len(whole))()
 
         def set_values(values: Sequence[float]) -> None:
             try:
-                if count:
-                    buffer[:] = [values[k] for k in real] if others else values
-                    self._slave.fmi2SetReal(self._slave.component, references, count, buffer)
+                if real:
+                    buffer[:] = values if len(real) == len(kinds) else [values[k] for k in real]
+                    slave.fmi2SetReal(slave.component, reals, len(real), buffer)
+                if whole:
+                    counts[:] = [self._whole(names[k], values[k]) for k in whole]
+                    slave.fmi2SetInteger(slave.component, wholes, len(whole), counts)
                 if others:
                     self._set({names[k]: values[k] for k in others})
             except FMICallException as error:
@@ -197,7 +216,8 @@ class Fmu:
         order = [place[n] for n in names]
 
         def get_values() -> list[float]:
-            slave.fmi2GetReal(slave.component, reals, len(real), buffer)
+            if real:
+                slave.fmi2GetReal(slave.component, reals, len(real), buffer)
             values: list[float] = buffer[:]
             if not whole:
                 return values
@@ -207,12 +227,89 @@ class Fmu:
 
         return get_values
 
+    def reader(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
+        """A function that writes the values of variables into an array; real ones go there without a list between."""
+        slave = self._slave
+        real = [k for k, n in enumerate(names) if self.variables[n].type != "Integer"]
+        others = [k for k in range(len(names)) if k not in set(real)]
+        references = (fmi2ValueReference * len(real))(*self.references(names[k] for k in real))
+        reals = (fmi2Real * len(real))()
+        values = np.frombuffer(reals, np.float64) if real else np.empty(0)
+        places = np.array(real) if others else slice(None)
+        get_others = self.getter([names[k] for k in others])
+
+        def read_values(into: NDArray[np.float64]) -> None:
+            if real:
+                slave.fmi2GetReal(slave.component, references, len(reals), reals)
+                into[places] = values
+            if others:
+                into[others] = get_others()
+
+        return read_values
+
     def step(self, time: float, step: float) -> None:
         """One communication step; `StepRefusedError` if the FMU refuses it."""
         try:
             self._slave.doStep(time, step)
         except FMICallException as error:
             raise StepRefusedError(self._last_message() or str(error)) from None
+
+    def reset(self) -> None:
+        """Back to before `initialise`, which then gives a new start."""
+        try:
+            self._slave.reset()
+        except FMICallException as error:
+            raise HostError(f"The FMU could not be reset: {self._last_message() or error}") from None
+
+    def state(self) -> State:
+        """The state now, to be given back by `free`; `HostError` if the FMU cannot save it."""
+        self._check_states(self._can("canGetAndSetFMUstate"), "save its state")
+        try:
+            return self._slave.getFMUstate()
+        except FMICallException as error:
+            raise HostError(f"The FMU could not save its state: {self._last_message() or error}") from None
+
+    def restore(self, state: State) -> None:
+        """Go on from a state of `state`, which stays valid."""
+        try:
+            self._slave.setFMUstate(state)
+        except FMICallException as error:
+            raise HostError(f"The FMU could not restore a state: {self._last_message() or error}") from None
+
+    def free(self, state: State) -> None:
+        """Free the memory of a state."""
+        self._slave.freeFMUstate(state)
+
+    def state_bytes(self) -> bytes:
+        """The state now as bytes, for a file or another process; `HostError` if the FMU cannot give it."""
+        self._check_states(self._can("canSerializeFMUstate"), "write its state")
+        state = self.state()
+        try:
+            content: bytes = self._slave.serializeFMUstate(state)
+        except FMICallException as error:
+            raise HostError(f"The FMU could not write its state: {self._last_message() or error}") from None
+        finally:
+            self.free(state)
+        return content
+
+    def restore_bytes(self, content: bytes) -> None:
+        """Go on from a state of `state_bytes`; `HostError` if it is of another build or damaged."""
+        self._check_states(self._can("canSerializeFMUstate"), "read a state")
+        try:
+            state = self._slave.deSerializeFMUstate(content)
+        except FMICallException as error:
+            raise HostError(f"The FMU refused a saved state: {self._last_message() or error}") from None
+        try:
+            self.restore(state)
+        finally:
+            self.free(state)
+
+    def _can(self, flag: str) -> bool:
+        return bool(getattr(self.description.coSimulation, flag, False))
+
+    def _check_states(self, can: bool, what: str) -> None:
+        if not can:
+            raise HostError(f"{self.path.name} cannot {what}: its model description does not offer it.")
 
     def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
         """Start values from the model description, zero where there is none."""

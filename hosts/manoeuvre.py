@@ -37,6 +37,10 @@ class Manoeuvre:
         Settings of the path-following driver; empty: open loop.
     stop_time : float
         s.
+    state : bytes, optional
+        Of the FMU, restored before the first step.
+    state_time : float
+        At which the FMU then stands, s; `time` counts from there.
     """
 
     name: str
@@ -45,6 +49,14 @@ class Manoeuvre:
     stop_time: float
     start: dict[str, Value] = field(default_factory=dict)
     driver: dict[str, str] = field(default_factory=dict)
+    state: bytes | None = None
+    state_time: float = 0.0
+
+    def initial(self, held: Collection[str] = ()) -> dict[str, float]:
+        """Inputs before the first step: those at time 0, or what they step from where the table begins with a step."""
+        if len(self.time) > 1 and self.time[0] == self.time[1] == 0.0:
+            return {name: float(values[0]) for name, values in self.inputs.items()}
+        return self.at(0.0, held)
 
     def at(self, t: float, held: Collection[str] = ()) -> dict[str, float]:
         """Inputs at time `t`; at a step the later value, outside the table its ends.
@@ -101,7 +113,9 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     manoeuvre : str
         Name of a manoeuvre of the host, or a CSV file; a file of the same name that ends in ``.ini`` adds to it:
         ``[start]`` values, a ``[driver]``, ``stop_time`` in ``[run]``. Behind a table that a page has recorded stands a
-        line ``# outputs from: NAME``: that column and those after it are what came out, and are not read.
+        line ``# outputs from: NAME``: that column and those after it are what came out, and are not read. A line
+        ``# state: FILE at TIME`` names a saved state of the FMU to begin with, beside the table. A folder that holds a
+        recording of the simulator is its last drive.
 
     Returns
     -------
@@ -113,6 +127,11 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
         With the line and the reason.
     """
     path = Path(manoeuvre)
+    if path.is_dir() and (path / "recording.json").is_file():
+        from hosts.simulator.recorded_drive import read_recording
+        from hosts.simulator.to_manoeuvre import recorded_manoeuvre
+
+        return recorded_manoeuvre(read_recording(path))
     if path.suffix not in (".csv", ".ini"):
         if manoeuvre not in manoeuvre_names():
             names = ", ".join(manoeuvre_names())
@@ -121,7 +140,7 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     table, settings = path.with_suffix(".csv"), path.with_suffix(".ini")
     if not table.is_file() and not settings.is_file():
         raise HostError(f"There is no file {path}.")
-    time, inputs, start = _read_table(table) if table.is_file() else (np.zeros(0), {}, {})
+    time, inputs, start, state = _read_table(table) if table.is_file() else (np.zeros(0), {}, {}, (None, 0.0))
     driver: dict[str, str] = {}
     stop_time = float(time[-1]) if len(time) else math.nan
     if settings.is_file():
@@ -138,11 +157,14 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
                 raise HostError(f"{settings}: stop_time is {stop_time:g} s; it must be positive.")
     if not stop_time > 0.0:
         raise HostError(f"{path} does not say how long it lasts; give a later time in the table or stop_time in [run].")
-    return Manoeuvre(path.stem, time, inputs, stop_time, start, driver)
+    return Manoeuvre(path.stem, time, inputs, stop_time, start, driver, *state)
 
 
-def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], dict[str, Value]]:
+def _read_table(
+    path: Path,
+) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], dict[str, Value], tuple[bytes | None, float]]:
     start: dict[str, Value] = {}
+    state: tuple[bytes | None, float] = (None, 0.0)
     names: list[str] = []
     rows: list[list[float]] = []
     recorded = ""
@@ -153,6 +175,8 @@ def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.f
             key, _, rest = line.lstrip("# ").partition(":")
             if key.strip() == "start":
                 start |= _assignments(rest.split(","), where)
+            elif key.strip() == "state":
+                state = _state(path.parent, rest, where)
             elif key.strip() == "outputs from":
                 recorded = rest.strip()
         elif not line.strip():
@@ -177,7 +201,19 @@ def _read_table(path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.f
         raise HostError(f"{path}: there is no column '{recorded}', with which outputs would begin.")
     values = np.array(rows)
     inputs = names[1 : names.index(recorded)] if recorded else names[1:]
-    return values[:, 0], {name: values[:, k] for k, name in enumerate(inputs, start=1)}, start
+    return values[:, 0], {name: values[:, k] for k, name in enumerate(inputs, start=1)}, start, state
+
+
+def _state(folder: Path, text: str, where: str) -> tuple[bytes, float]:
+    """The state of a line ``FILE at TIME`` and its time."""
+    name, at, time = text.rpartition(" at ")
+    if not at:
+        raise HostError(f"{where}: {text.strip()!r} is not of the form FILE at TIME.")
+    file = folder / name.strip()
+    try:
+        return file.read_bytes(), _number(time, f"{where}, time of the state")
+    except OSError as error:
+        raise HostError(f"{where}: the state {file} cannot be read: {reason(error)}.") from None
 
 
 def _read_text(path: Path) -> str:

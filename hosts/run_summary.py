@@ -78,6 +78,10 @@ def summary(
         rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))
     if "solver.halvings" in result:
         rows.append(("steps repeated in halves", f"{result['solver.halvings'][-1]:.0f}"))
+    if "solver.capped_steps" in result and result["solver.capped_steps"][-1] > 0:
+        left = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
+        count = f"{result['solver.capped_steps'][-1]:.0f}"
+        rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {left:.2g} mm"))
     rows.append(("failed steps", f"{result.failed_steps} of {len(result.time) - 1 + result.failed_steps}"))
     factor = result.simulated / result.wall if result.wall > 0.0 else float("inf")
     rows.append(

@@ -15,6 +15,8 @@ from hosts.errors import HostError
 from hosts.geometry import RESOURCE, scene_from, scene_of
 from hosts.options import Wishes
 from hosts.recorded import read_table
+from hosts.simulator.recorded_drive import is_recording
+from hosts.simulator.recorded_view import recorded_view
 from viewer.recording import Recording
 
 # What a car without inputs of the user's is driven through.
@@ -74,9 +76,12 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
         if not path.exists():
             hint = f" Build it with: {command_name('build')}" if path.suffix == ".fmu" else ""
             raise HostError(f"There is no file {path}.{hint}")
-        if path.suffix.lower() == ".fmu" or (path.suffix.lower() not in (".csv", ".json") and zipfile.is_zipfile(path)):
+        suffix = path.suffix.lower()
+        if is_recording(path):
+            recording, words = recorded_view(path, name, geometry)
+        elif suffix == ".fmu" or (suffix not in (".csv", ".json") and zipfile.is_zipfile(path)):
             recording, words = _of_fmu(path, name, run)
-        elif path.suffix.lower() in (".csv", ".json"):
+        elif suffix in (".csv", ".json"):
             recording, words = _of_result(path, name, geometry)
         else:
             raise HostError(_no_kind(path))
@@ -89,7 +94,7 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
 
 def _no_kind(path: Path) -> str:
     if path.is_dir():
-        return f"{path} is a folder; name a result in it (a .csv file) or an FMU."
+        return f"{path} is a folder; name a result in it (a .csv file), an FMU, or the folder of a recording."
     if path.suffix.lower() in (".toml", ".py"):
         return f"{path} is shown when it is built: {command_name('build')} makes an FMU of a car or a scene."
     return f"{path} is neither a result (.csv, .json) nor an FMU (.fmu)."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import struct
 from collections.abc import Iterator
 from contextlib import nullcontext
@@ -34,7 +35,7 @@ from hosts.variables import Variables
 
 HERE = Path(__file__).parent
 PLATFORM = fmpy.platform
-NAMES = ["spring.stiffness", "spring.damping", "spring.free_length", "step_size"]
+NAMES = ["spring.stiffness", "spring.damping", "spring.free_length", "step_size", "solver.step_iterations"]
 HEAD = (
     '<ssv:ParameterSet xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" '
     'xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon" version="{}" name="test"><ssv:Parameters>'
@@ -109,7 +110,7 @@ def test_what_a_build_writes_every_reader_reads(tuned: Path, file: Path) -> None
         units = {unit.name: unit.base_unit.to_dict() for unit in other.units}
     for p in read_ssv(str(file)).parameters:
         assert bits(float(p.value)) == bits(float(description[p.name].start)) == bits(float(second[p.name]["value"]))
-        assert p.unit == description[p.name].unit == second[p.name]["unit"]
+        assert p.unit == description[p.name].unit == second[p.name].get("unit")
     assert units["N.s/m"] == {"kg": "1", "s": "-1", "factor": "1.0"}
     text = file.read_text()
     assert "Of the spring: stiffness; 10 to 900 N/m; tunable" in text
@@ -130,7 +131,7 @@ def test_values_come_back_to_the_last_bit(tuned: Path, file: Path, tmp_path: Pat
         made = Settings(fmu.table)
         made.add_set(file)
         fmu.initialise(made.start)
-        back = fmu.getter(NAMES)()
+        back = fmu.getter(list(odd))()
     assert [bits(x) for x in back] == [bits(x) for x in odd.values()]
     other = {p.name: float(p.value) for p in read_ssv(str(file)).parameters}
     with Fmu(tuned) as fmu:
@@ -400,7 +401,8 @@ def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFix
     assert "sets nothing to another value" in capsys.readouterr().out
     assert parameters.main([str(tuned)]) == 0
     printed = capsys.readouterr().out
-    assert "spring.free_length  0.8    m      0.1 to 2       fixed    Of the spring: free_length" in printed
+    rows = [re.split(r"\s{2,}", line) for line in printed.splitlines()]
+    assert ["spring.free_length", "0.8", "m", "0.1 to 2", "fixed", "Of the spring: free_length"] in rows
 
 
 @pytest.mark.parametrize("command", [drive, run, parameters])

@@ -1,0 +1,1 @@
+"""The driving simulator: an FMU driven in real time by a person."""

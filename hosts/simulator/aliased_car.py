@@ -1,0 +1,72 @@
+"""A car whose variables have our names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from hosts.aliases import Aliases
+from hosts.numbers import Value
+from hosts.simulator.car import Car, Event, Moment
+from hosts.simulator.step_times import StepTimes
+
+
+class AliasedCar:
+    """A `Car` seen through aliases; with none of them it is the car as it is.
+
+    Parameters
+    ----------
+    car : Car
+    aliases : Aliases
+
+    Attributes
+    ----------
+    names, inputs : tuple of str
+        Ours, where there are aliases.
+    units : dict of str to str
+        Of the names; "" where a factor or an offset changes the number.
+    constants : dict of str to float
+        Of the FMU, and those of the aliases.
+    step : float
+        s.
+    """
+
+    def __init__(self, car: Car, aliases: Aliases) -> None:
+        self._car = car
+        self._aliases = aliases
+        self.names = aliases.names(car.names)
+        self.inputs = aliases.names(car.inputs)
+        self.step = car.step
+        self._factors, self._offsets = aliases.scales(car.names)
+        self._plain = bool((self._factors == 1.0).all() and (self._offsets == 0.0).all())
+        scaled = (self._factors != 1.0) | (self._offsets != 0.0)
+        self.units = {
+            ours: "" if changed else car.units[theirs]
+            for ours, theirs, changed in zip(self.names, car.names, scaled, strict=True)
+        }
+        self.constants = {**car.constants, **aliases.constants}
+
+    def want(self, values: Mapping[str, tuple[float, float]]) -> None:
+        """See `Car.want`."""
+        self._car.want(self._aliases.inputs(values))
+
+    def command(self, name: str, value: float = 0.0) -> None:
+        """See `Car.command`."""
+        self._car.command(name, value)
+
+    def restart(self, changes: Mapping[str, Value]) -> None:
+        """See `Car.restart`."""
+        self._car.restart(self._aliases.values(changes))
+
+    def latest(self) -> Moment:
+        """See `Car.latest`."""
+        moment = self._car.latest()
+        return moment if self._plain else replace(moment, values=(moment.values - self._offsets) / self._factors)
+
+    def events(self) -> list[Event]:
+        """See `Car.events`."""
+        return self._car.events()
+
+    def step_times(self) -> StepTimes:
+        """See `Car.step_times`."""
+        return self._car.step_times()

@@ -1,0 +1,247 @@
+"""The car in a process of its own: what is wanted goes in, what it does comes out, and neither waits for the other."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import tempfile
+import threading
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+
+from hosts.errors import HostError
+from hosts.fmu import described
+from hosts.numbers import Value
+from hosts.simulator.car_process import COMMANDS, Order
+from hosts.simulator.mail import Mail, Records
+from hosts.simulator.moments import CarSettings, Event, Moment
+from hosts.simulator.process import Process
+from hosts.simulator.shared_values import RECORDING, ROW, STOP, SharedValues, Sizes
+from hosts.simulator.step_times import StepTimes
+from hosts.variables import Variables
+
+__all__ = ["Car", "CarSettings", "Event", "Moment", "StepTimes"]
+
+SLOWEST = 0.05
+"""Least speed of slow motion, simulated over wall seconds."""
+_ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
+
+
+class Car:
+    """An FMU that runs in a process of its own; it begins paused, at time 0.
+
+    Parameters
+    ----------
+    settings : CarSettings
+
+    Attributes
+    ----------
+    names : tuple of str
+        Inputs, then outputs, real and whole ones.
+    inputs : tuple of str
+    units : dict of str to str
+        Of the names.
+    constants : dict of str to float
+    step : float
+        s.
+
+    Raises
+    ------
+    HostError
+        The FMU cannot be started; later, by every method, that the process has ended unasked.
+    """
+
+    def __init__(self, settings: CarSettings) -> None:
+        self._settings, self.step = settings, settings.step
+        description = described(settings.fmu)
+        table = Variables(description)
+        start = {n: table.settable(n, "start values").check(v, "start values") for n, v in settings.start.items()}
+        if not (math.isfinite(settings.step) and settings.step > 0.0):
+            raise HostError(f"The communication step is {settings.step:g} s; it must be positive.")
+        variables = {v.name: v for v in description.modelVariables if v.type in ("Real", "Integer")}
+        self.inputs = tuple(n for n, v in variables.items() if v.causality == "input")
+        self.names = (*self.inputs, *(n for n, v in variables.items() if v.causality == "output"))
+        if not self.names:
+            raise HostError(f"{settings.fmu} has neither inputs nor outputs that are numbers: nothing could be driven.")
+        self.units = {n: variables[n].unit or "1" for n in self.names}
+        self.constants = {
+            n: float(v.start) for n, v in variables.items() if v.variability == "constant" and v.type == "Real"
+        }
+        self._table, self._ranges = table, [(table[n].low, table[n].high) for n in self.inputs]
+        self._places = {n: k for k, n in enumerate(self.inputs)}
+        self._lock, self._wishes = threading.Lock(), 0
+        self._wants = np.zeros(3 * len(self.inputs))
+        self._closed = False
+        rows = max(_LEAST_ROWS, round(_ROW_SECONDS / settings.step)) if settings.record is not None else 1
+        rows = min(rows, max(1, _MOST_ROW_BYTES // (8 * (len(ROW) + len(self.names)))))
+        sizes = Sizes(len(self.inputs), len(self.names), rows)
+        self._shared, self._folder = SharedValues(sizes), Path(tempfile.mkdtemp(prefix="car_"))
+        self._shared.flags[RECORDING] = settings.record is not None
+        self._process: Process | None = None
+        self._mail: Mail | None = None
+        try:
+            how = (settings.step, settings.paced, settings.priority)
+            fmu = settings.fmu.absolute()
+            self._process = Process(Order(fmu, self._folder, start, *how, sizes, self._shared.name))
+            self._mail = Mail(self._shared, self._recorder(start))
+        except BaseException:
+            self.close()
+            raise
+
+    def _recorder(self, start: Mapping[str, Value]) -> Records | None:
+        settings = self._settings
+        if settings.record is None:
+            return None
+        from hosts.simulator.recording import Recorder, recording_meta
+
+        meta = recording_meta(settings.fmu, settings.step, start, seed=settings.seed, world=settings.world)
+        return Recorder(settings.record, self.names, self.units, meta)
+
+    @property
+    def ended(self) -> str:
+        """Why the process has ended unasked, as one sentence; empty while it lives."""
+        return self._process.ended if self._process is not None else ""
+
+    def _alive(self) -> None:
+        if self.ended:
+            raise HostError(self.ended)
+        if self._closed:
+            raise HostError("The car is closed.")
+
+    def want(self, values: Mapping[str, tuple[float, float]]) -> None:
+        """What inputs are to become.
+
+        Parameters
+        ----------
+        values : mapping of str to (float, float)
+            Input to its value, limited to the range of the model description, and its largest change per second of
+            simulated time; infinite: at once, which whole numbers always do.
+
+        Raises
+        ------
+        HostError
+            There is no such input, or a number cannot be used; nothing is then changed.
+        """
+        checked = []
+        for name, (value, rate) in values.items():
+            place = self._places.get(name)
+            if place is None:
+                raise HostError(f"The FMU has no input '{name}'; it has: {', '.join(self.inputs) or 'none'}.")
+            if not math.isfinite(value):
+                raise HostError(f"The input '{name}' is wanted to be {value}; only finite numbers can be used.")
+            if not rate > 0.0:
+                raise HostError(f"The input '{name}' is wanted to change by {rate} per second; it must be positive.")
+            low, high = self._ranges[place]
+            checked.append((place, min(max(value, low), high), rate))
+        with self._lock:
+            self._alive()
+            for place, value, rate in checked:
+                self._wishes += 1
+                self._wants[3 * place : 3 * place + 3] = value, rate, self._wishes
+            self._shared.wants.begin()[:] = self._wants
+            self._shared.wants.finish()
+
+    def command(self, name: str, value: float = 0.0) -> None:
+        """Ask for something.
+
+        Parameters
+        ----------
+        name : str
+            ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
+            simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``.
+        value : float
+
+        Raises
+        ------
+        HostError
+            There is no such command, or its value cannot be used.
+        """
+        known = COMMANDS[:-1]
+        if name not in known:
+            raise HostError(f"There is no command '{name}'; there are: {', '.join(known)}.")
+        if name == "step":
+            value = value or 1.0
+            if not (1.0 <= value <= 1e9 and value == int(value)):
+                raise HostError(f"{value:g} steps are asked for; it must be a whole number of at least 1.")
+        elif name == "speed" and not SLOWEST <= value <= 1.0:
+            raise HostError(f"The speed is {value:g}; it must be from {SLOWEST:g} to 1.")
+        elif name == "rewind" and not (math.isfinite(value) and value > 0.0):
+            raise HostError(f"It is to go back by {value:g} s; it must be a positive time.")
+        with self._lock:
+            self._send(name, value)
+
+    def restart(self, changes: Mapping[str, Value]) -> None:
+        """A new start at time 0 with other start values, which stay for later resets.
+
+        Parameters
+        ----------
+        changes : mapping of str to float, int, bool or str
+            Parameters and start values over those so far.
+
+        Raises
+        ------
+        HostError
+            There is no such parameter or input, or it cannot have this value.
+        """
+        checked = {n: self._table.settable(n, "start values").check(v, "start values") for n, v in changes.items()}
+        with self._lock:
+            self._send("restart", 0.0, checked)
+
+    def _send(self, name: str, value: float, start: Mapping[str, Value] | None = None) -> None:
+        self._alive()
+        commands = self._shared.commands
+        if not commands.has_room():
+            raise HostError(f"The car has not yet taken the commands before; '{name}' was left out.")
+        if start is not None and self._process is not None:
+            self._process.send(start)
+        commands.slot()[:] = COMMANDS.index(name), value, self._wishes
+        commands.finish()
+
+    def latest(self) -> Moment:
+        """The car as it is now; it never waits for the car, nor the car for it."""
+        with self._lock:
+            self._alive()
+            v = self._shared.moments.read()
+        return Moment.of(v)
+
+    def events(self) -> list[Event]:
+        """What there is to be said since the last call."""
+        events = self._mail.events() if self._mail is not None else []
+        if not events and self.ended:
+            raise HostError(self.ended)
+        return events
+
+    def step_times(self) -> StepTimes:
+        """Times of the steps so far."""
+        with self._lock:
+            if not self._closed:
+                self._last_times = StepTimes.of(self._shared.times, self.step, self._settings.paced)
+        return self._last_times
+
+    def close(self) -> None:
+        """End the process, within 2 s whatever it does."""
+        self.step_times()
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+            self._shared.flags[STOP] = 1
+        try:
+            if self._process is not None:
+                self._process.close()
+            if self._mail is not None:
+                self._mail.close()
+        finally:  # also where Ctrl-C cuts the end of a recording short
+            shutil.rmtree(self._folder, ignore_errors=True)
+            self._shared.close()
+
+    def __enter__(self) -> Car:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

@@ -1,0 +1,295 @@
+"""The process of the car: nothing else runs in it."""
+
+from __future__ import annotations
+
+import gc
+import json
+import os
+import shutil
+import signal
+import sys
+import tempfile
+import threading
+import traceback
+from collections.abc import Mapping
+from dataclasses import dataclass
+from multiprocessing import connection, parent_process
+from pathlib import Path
+from typing import Any
+
+from fmpy.fmi1 import FMICallException
+
+from hosts.errors import HostError
+from hosts.fmu import StepRefusedError
+from hosts.numbers import Value
+from hosts.simulator.clock import Clock, make_clock
+from hosts.simulator.driven_fmu import DrivenFmu, Told
+from hosts.simulator.notices import Notices
+from hosts.simulator.pace import Pace
+from hosts.simulator.priority import ask_for_priority
+from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, STOP, SharedValues, Sizes
+from hosts.simulator.step_times import TimesRecord
+
+COMMANDS = ("run", "pause", "step", "speed", "reset", "rewind", "upright", "restart")
+_IDLE, _IDLE_UNPACED = 0.004, 0.0005
+_WORST = 0.5
+_GRACE = 1.5
+
+
+@dataclass(frozen=True)
+class Order:
+    """What the process is started with.
+
+    Parameters
+    ----------
+    fmu, folder : Path
+        The FMU, and a folder to unpack it in.
+    start : mapping of str to float, int, bool or str
+    step : float
+    paced, priority : bool
+    sizes : Sizes
+    memory : str
+        Name of the shared memory.
+    """
+
+    fmu: Path
+    folder: Path
+    start: Mapping[str, Value]
+    step: float
+    paced: bool
+    priority: bool
+    sizes: Sizes
+    memory: str
+
+
+def run_car(order: Order, link: connection.Connection) -> None:
+    """Drive the FMU until the main process says stop or is gone; the process's whole life."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the main process, which then ends this one
+    tempfile.tempdir = str(order.folder)
+    shared = SharedValues(order.sizes, order.memory)
+    threading.Thread(target=_end_with_parent, args=(shared.flags, order.folder), daemon=True).start()
+    car = None
+    try:
+        try:
+            car = DrivenFmu(order.fmu, order.start, order.step)
+        except HostError as error:
+            link.send(str(error))
+            return
+        loop = Loop(order, car, shared, link, make_clock())
+        link.send("")
+        loop.run()
+    except Exception as error:
+        link.send(f"The car's process met an error of its own ({type(error).__name__}: {error}).")
+        traceback.print_exc()
+    finally:
+        if car is not None:
+            car.close()
+        link.close()
+        if _is_alone():
+            shutil.rmtree(order.folder, ignore_errors=True)
+        sys.stderr.flush()
+        # Views of the shared memory are still held where an error was met; a usual exit would complain of them.
+        os._exit(0)
+
+
+def _is_alone() -> bool:
+    """Whether the main process is gone, so that nobody else removes the folder."""
+    parent = parent_process()
+    return parent is not None and not parent.is_alive()
+
+
+def _end_with_parent(flags: Any, folder: Path) -> None:
+    """Wait for the end of the main process, whatever ends it, and end this one: no orphan is left."""
+    parent = parent_process()
+    if parent is None:
+        return
+    connection.wait([parent.sentinel])
+    flags[STOP] = 1
+    threading.Event().wait(_GRACE)
+    shutil.rmtree(folder, ignore_errors=True)
+    os._exit(1)
+
+
+class Loop:
+    """Commands in, steps at their times, values out.
+
+    Parameters
+    ----------
+    order : Order
+    car : DrivenFmu
+    shared : SharedValues
+    link : Connection
+        Brings what is too large for the shared memory: new start values.
+    clock : Clock
+    """
+
+    def __init__(
+        self, order: Order, car: DrivenFmu, shared: SharedValues, link: connection.Connection, clock: Clock
+    ) -> None:
+        self._order, self._car, self._shared, self._link, self._clock = order, car, shared, link, clock
+        self._times = TimesRecord(shared.times)
+        self._pace = Pace(clock, order.step, self._times, order.paced)
+        self._notices = Notices(car.names, clock, self._times)
+        self._running = self._refused = self._runs_on = self._active = False
+        self._to_do = 0
+        self._wants = 0
+        self._worst, self._worst_before, self._worst_since = 0.0, 0.0, clock.now()
+        self._mark = clock.now()
+        self._publish(row=True)
+
+    def run(self) -> None:
+        """Until it is to stop."""
+        if self._order.priority and self._order.paced:
+            self._tell(Told("priority", ask_for_priority()))
+        for told in self._notices.of_step(self._car):
+            self._tell(told)
+        gc.collect()
+        gc.freeze()
+        gc.disable()
+        shared, pace, paced = self._shared, self._pace, self._order.paced
+        self._mark = self._clock.now()
+        while not shared.flags[STOP]:
+            self._take_commands()
+            if not (self._running or self._to_do):
+                self._idle()
+            elif (paced or self._has_room()) and pace.wait():
+                self._step()
+            self._account()
+
+    def _has_room(self) -> bool:
+        """Without deadlines, the car waits for whoever takes the rows, so that none is lost."""
+        if not self._shared.flags[RECORDING] or self._shared.rows.has_room():
+            return True
+        self._clock.sleep_until(self._clock.now() + _IDLE_UNPACED)
+        return False
+
+    def _idle(self) -> None:
+        self._clock.sleep_until(self._clock.now() + (_IDLE if self._order.paced else _IDLE_UNPACED))
+
+    def _account(self) -> None:
+        """Wall time goes to what the car did in it."""
+        now = self._clock.now()
+        self._times.add("wall" if self._active else "paused", now - self._mark)
+        self._mark, self._active = now, bool(self._running or self._to_do)
+
+    def _step(self) -> None:
+        car, wants = self._car, self._shared.wants
+        if wants.written != self._wants:
+            self._wants = wants.written
+            car.inputs.want(wants.read())
+        try:
+            car.advance()
+        except StepRefusedError as error:
+            self._refuse(error)
+            return
+        if self._to_do and not self._running:
+            self._to_do -= 1
+        self._row()
+        words = self._pace.done()
+        if words:
+            self._tell(Told("behind", words))
+        for told in self._notices.of_step(car):
+            self._tell(told)
+        self._publish()
+
+    def _refuse(self, error: StepRefusedError) -> None:
+        self._runs_on, self._running, self._to_do, self._refused = self._running, False, 0, True
+        text = f"The FMU refused the step at {self._car.time:.3f} s: {error} The car is paused in the state before it."
+        self._tell(Told("refused", text, {"inputs": self._car.refused_inputs}))
+        self._car.messages()
+        self._publish()
+
+    def _take_commands(self) -> None:
+        commands = self._shared.commands.take()
+        for code, value, wish in commands.tolist():
+            try:
+                self._obey(COMMANDS[int(code)], value, wish)
+            except (HostError, StepRefusedError, FMICallException) as error:
+                self._tell(Told("told", str(error)))
+                self._car.messages()
+            self._publish()
+
+    def _obey(self, name: str, value: float, wish: float) -> None:
+        car = self._car
+        if name == "run" or name == "step":
+            if self._refused:
+                raise HostError(
+                    f"The step at {car.time:.3f} s was refused: rewind, reset or upright go on, {name} does not."
+                )
+            if not (self._running or self._to_do):
+                self._pace.restart()
+            self._running, self._to_do = name == "run", self._to_do + int(value) if name == "step" else 0
+        elif name == "pause":
+            self._running, self._runs_on, self._to_do = False, False, 0
+        elif name == "speed":
+            self._pace.speed = value
+        else:
+            epoch = car.epoch
+            try:
+                self._jump(name, value, wish)
+            finally:
+                self._pace.restart()
+                if car.epoch != epoch:
+                    self._notices.jumped(car)
+                    self._publish(row=True)
+
+    def _jump(self, name: str, value: float, wish: float) -> None:
+        car = self._car
+        if name == "reset":
+            told = car.reset(wish)
+        elif name == "upright":
+            told = car.upright(wish)
+        elif name == "restart":
+            told = car.restart(self._link.recv(), wish)
+        else:
+            told = car.rewind(value)
+        if self._refused:
+            self._running, self._runs_on, self._refused = self._runs_on, False, False
+        self._to_do = 0
+        self._tell(told)
+
+    def _row(self) -> None:
+        """Hand a row to the recording; where there is no room the loop does not wait."""
+        shared, car = self._shared, self._car
+        if not shared.flags[RECORDING]:
+            return
+        if not shared.rows.has_room():
+            shared.flags[LOST_ROWS] += 1
+            return
+        row = shared.rows.slot()
+        row[0], row[1], row[2] = car.count, car.time, car.epoch
+        row[3:] = car.values
+        shared.rows.finish()
+
+    def _tell(self, told: Told) -> None:
+        car = self._car
+        record = {"time": car.time, "epoch": car.epoch, "kind": told.kind, "text": told.text, "details": told.details}
+        if not self._shared.messages.put(json.dumps(record).encode()):
+            self._shared.flags[LOST_MESSAGES] += 1
+
+    def _publish(self, row: bool = False) -> None:
+        """Show the moment to the main process."""
+        if row:
+            self._row()
+        car, pace, now = self._car, self._pace, self._clock.now()
+        if now - self._worst_since > _WORST:
+            self._worst_before, self._worst, self._worst_since = self._worst, 0.0, now
+        self._worst = max(self._worst, pace.cost)
+        slot = self._shared.moments.begin()
+        slot[:13] = (
+            car.count,
+            car.time,
+            car.epoch,
+            self._running,
+            self._refused,
+            pace.behind,
+            pace.speed,
+            now,
+            pace.cost,
+            max(self._worst, self._worst_before),
+            pace.lateness,
+            self._times["missed"],
+            car.saved,
+        )
+        slot[13:] = car.values
+        self._shared.moments.finish()

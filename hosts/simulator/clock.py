@@ -1,0 +1,87 @@
+"""The clock of the car's loop: one monotonic time for all processes of a machine, and sleeps to an absolute time of it.
+
+`time.perf_counter` is that time: `CLOCK_MONOTONIC` on Linux, the performance counter on Windows, where `time.monotonic`
+has steps of 16 ms before Python 3.13, and the absolute time of Mach on macOS.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+import time
+from typing import Protocol
+
+# Beyond these a sleep wakes too late; what is left is waited for in a loop, s.
+_SPIN, _SPIN_OLD_WINDOWS = 0.0005, 0.002
+_CLOCK_MONOTONIC, _TIMER_ABSTIME = 1, 1
+_PR_SET_TIMERSLACK, _SLACK = 29, 1
+
+
+class Clock(Protocol):
+    """What the pacing needs; tests give it a time of their own."""
+
+    def now(self) -> float:
+        """Time, s."""
+
+    def sleep_until(self, until: float) -> None:
+        """Return at this time or as soon after it as the system wakes this thread; at once if it has passed."""
+
+
+class _TimeSpec(ctypes.Structure):
+    _fields_ = (("seconds", ctypes.c_long), ("nanoseconds", ctypes.c_long))
+
+
+class LinuxClock:
+    """Sleeps of `clock_nanosleep` to an absolute time, without the 50 us by which the system may delay timers."""
+
+    def __init__(self) -> None:
+        library = ctypes.CDLL(None, use_errno=True)
+        self._sleep = library.clock_nanosleep
+        self._sleep.argtypes = (ctypes.c_int, ctypes.c_int, ctypes.POINTER(_TimeSpec), ctypes.c_void_p)
+        self._time = _TimeSpec()
+        self._pointer = ctypes.pointer(self._time)
+        # A default of 50 us belongs to threads without real-time priority; where it stays, the sleep is only coarser.
+        library.prctl(_PR_SET_TIMERSLACK, ctypes.c_ulong(_SLACK), 0, 0, 0)
+
+    def now(self) -> float:
+        return time.perf_counter()
+
+    def sleep_until(self, until: float) -> None:
+        seconds = int(until)
+        self._time.seconds, self._time.nanoseconds = seconds, int(1e9 * (until - seconds))
+        self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, self._pointer, None)
+
+
+class SleepingClock:
+    """Sleeps of Python, and a loop for the last fraction of a millisecond.
+
+    Parameters
+    ----------
+    spin : float
+        Length of the loop, s.
+    """
+
+    def __init__(self, spin: float = _SPIN) -> None:
+        self._spin = spin
+
+    def now(self) -> float:
+        return time.perf_counter()
+
+    def sleep_until(self, until: float) -> None:
+        rest = until - time.perf_counter() - self._spin
+        if rest > 0.0:
+            time.sleep(rest)
+        while time.perf_counter() < until:
+            pass
+
+
+def make_clock() -> Clock:
+    """The finest clock of this system; on Windows its timer is set to 1 ms until the process ends."""
+    if sys.platform == "win32":
+        ctypes.WinDLL("winmm").timeBeginPeriod(1)
+        # Python sleeps by a timer of high resolution since 3.11.
+        return SleepingClock(_SPIN if sys.version_info >= (3, 11) else _SPIN_OLD_WINDOWS)
+    if sys.platform == "linux" and hasattr(os, "sched_getscheduler"):
+        return LinuxClock()
+    return SleepingClock()

@@ -1,0 +1,199 @@
+"""One device that is plugged in: what it wants of the car."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
+
+from hosts.simulator.devices.calibration import Assignment, Calibration
+from hosts.simulator.devices.force_feedback import ForceFeedback
+from hosts.simulator.devices.joysticks import Joystick
+from hosts.simulator.devices.mapping import SELECTOR, DeviceMapping, InputMapping
+from hosts.simulator.devices.reading import Reading, Source
+from hosts.simulator.devices.steering import Steering
+from hosts.simulator.hands import LET_GO
+
+TOUCHED = 0.02
+"""Movement of an input from which on the device has a word there; a device that lies untouched moves nothing."""
+BUTTON_RATES = {"throttle": 2.5, "brake": 4.0, "hand_brake": 8.0}
+"""Largest change per second of a pedal that is a button and goes down, as with keys; up it goes as when let go."""
+ALL_SETTINGS = "rotation", "force", "full_torque", "force_inverted", "smoothing", "damper", "spring"
+
+
+class Device:
+    """A device.
+
+    Parameters
+    ----------
+    id, label : str
+        For programs and for people; each device has its own.
+    joystick : Joystick
+    mapping : DeviceMapping
+    inputs : collection of str
+        That the car has, in the words of mappings.
+    steering : Steering
+    """
+
+    def __init__(
+        self,
+        id: str,
+        label: str,
+        joystick: Joystick,
+        mapping: DeviceMapping,
+        inputs: Collection[str],
+        steering: Steering,
+    ) -> None:
+        self.id, self.label, self.joystick = id, label, joystick
+        self.source = f"device {label}"
+        self.mapping = mapping
+        self.reading = joystick.read()
+        self.calibration: Calibration | None = None
+        self.assignment: Assignment | None = None
+        self.force: ForceFeedback | None = None
+        self.force_problem = ""
+        self._inputs, self._steering = inputs, steering
+        self._at_rest: dict[str, float] = {}
+        self._awake: set[str] = set()
+        self._pressed: set[str] = self.reading.pressed()
+        self._sent: dict[str, tuple[float, float]] = {}
+        self._rest(list(mapping.inputs))
+
+    def remap(self, mapping: DeviceMapping) -> list[str]:
+        """Another mapping; the inputs whose mapping is another sleep until they are touched.
+
+        Returns
+        -------
+        list of str
+            Inputs that the device drove and now waits to be touched for.
+        """
+        changed = {
+            n for n in {*mapping.inputs, *self.mapping.inputs} if mapping.inputs.get(n) != self.mapping.inputs.get(n)
+        }
+        self.mapping = mapping
+        return self.sleep(changed)
+
+    def sleep(self, names: Collection[str]) -> list[str]:
+        """Inputs that are wanted again when they are touched; those of them that were wanted."""
+        awake = [name for name in names if name in self._awake]
+        self._rest(names)
+        return awake
+
+    def _rest(self, names: Collection[str]) -> None:
+        """These inputs are where they lie untouched now."""
+        for name in names:
+            self._awake.discard(name)
+            self._at_rest.pop(name, None)
+            self._sent.pop(name, None)
+            mapping = self.mapping.inputs.get(name)
+            value = None if mapping is None or name in SELECTOR else self.value(name, mapping)
+            if value is not None:
+                self._at_rest[name] = value
+
+    def wants(self, everything: bool) -> dict[str, tuple[float, float]]:
+        """What it wants of the car, by the reading it has.
+
+        Parameters
+        ----------
+        everything : bool
+            Also what has not changed since the last call.
+
+        Returns
+        -------
+        dict of str to (float, float)
+            Value, and largest change per second.
+        """
+        found: dict[str, tuple[float, float]] = {}
+        for name, mapping in self.mapping.inputs.items():
+            if name not in self._inputs or name in SELECTOR:
+                continue
+            value = self.value(name, mapping)
+            if value is None:
+                continue
+            if name not in self._awake:
+                if abs(value - self._at_rest.setdefault(name, value)) <= TOUCHED:
+                    continue
+                self._awake.add(name)
+            want = value, self._rate(name, mapping, value)
+            if everything or self._sent.get(name) != want:
+                self._sent[name] = want
+                found.update(self._asked(name, mapping, want))
+        found.update(self._selector())
+        return found
+
+    def value(self, name: str, mapping: InputMapping) -> float | None:
+        """Of an input of the car, as the reading has it."""
+        value = mapping.value(name, self.reading)
+        if value is None or name != "steering":
+            return value
+        return self._steering.share(value, self.mapping.settings.rotation)
+
+    def _asked(self, name: str, mapping: InputMapping, want: tuple[float, float]) -> dict[str, tuple[float, float]]:
+        """In the words of the car: it may be steered by an angle."""
+        turn = mapping.value(name, self.reading) if name == "steering" else None
+        if turn is None:
+            return {name: want}
+        steers, value = self._steering.want(turn, self.mapping.settings.rotation)
+        return {steers: (value, want[1])}
+
+    def _rate(self, name: str, mapping: InputMapping, value: float) -> float:
+        if Source.read(mapping.source).kind == "axis":
+            return math.inf
+        return BUTTON_RATES[name] if value else LET_GO[name]
+
+    def _selector(self) -> Mapping[str, tuple[float, float]]:
+        """A press moves the selector; a button that stays down does not."""
+        pressed = self.reading.pressed()
+        new, self._pressed = pressed - self._pressed, pressed
+        for name, value in SELECTOR.items():
+            mapping = self.mapping.inputs.get(name)
+            if mapping is not None and name in self._inputs and mapping.source in new:
+                return {"selector": (value, math.inf)}
+        return {}
+
+    def start_force(self, torque: Callable[[], float | None], fail: Callable[[str], None]) -> None:
+        """Begin to move its motor."""
+        handle, sdl = self.joystick.handle, self.joystick.sdl
+        self.force = ForceFeedback(sdl, handle, torque, lambda: self.mapping.settings, fail)
+
+    def close(self, timeout: float) -> bool:
+        """Let the motor go and close the device; False if its motor hangs: it is then left open."""
+        if self.force is not None and not self.force.stop(timeout):
+            return False
+        self.joystick.close()
+        return True
+
+    def state(self) -> dict[str, Any]:
+        """For the page."""
+        reading: Reading = self.reading
+        inputs = {}
+        for name, m in self.mapping.inputs.items():
+            value = None if name in SELECTOR else self.value(name, m)
+            inputs[name] = {
+                "source": m.source,
+                "inverted": m.inverted,
+                "low": m.low,
+                "high": m.high,
+                "dead_zone": m.dead_zone,
+                "centre": m.centre,
+                "value": value if value is None else round(value, 4),
+            }
+        calibration = self.calibration
+        return {
+            "id": self.id,
+            "name": self.label,
+            "kind": self.joystick.kind,
+            "usb": self.joystick.usb,
+            "axes": [round(a, 4) for a in reading.axes],
+            "buttons": [int(b) for b in reading.buttons],
+            "hats": list(reading.hats),
+            "force": self.force is not None and self.force.works,
+            "force_problem": self.force_problem,
+            "mapping": inputs,
+            "inputs": list(self._inputs),
+            "settings": {name: getattr(self.mapping.settings, name) for name in ALL_SETTINGS},
+            "assigning": self.assignment.name if self.assignment else None,
+            "calibration": None
+            if calibration is None
+            else {"stage": calibration.stage, "text": calibration.words, "ends": calibration.ends()},
+        }

@@ -1,0 +1,193 @@
+"""Steering wheels, pedals and gamepads, for the host of the car."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from hosts.errors import HostError
+from hosts.simulator.devices.calibration import Assignment, Calibration
+from hosts.simulator.devices.device import Device
+from hosts.simulator.devices.mapping import DeviceMapping, drivable, read_input, read_settings
+from hosts.simulator.devices.messages import obey
+from hosts.simulator.devices.reader import HandsLike, Reader
+from hosts.simulator.devices.reading import Source
+from hosts.simulator.devices.steering import ANGLE_MAX, Steering
+from hosts.simulator.devices.words import and_list, number_said
+
+ASSIGN_TIME = 15.0
+"""s for which an input waits to be assigned by moving something."""
+
+
+class Devices:
+    """Wheels, pedals and gamepads that drive the car; a context manager.
+
+    Without SDL and without a device one sentence is told and everything else goes on.
+
+    Parameters
+    ----------
+    hands : Hands
+        Takes what devices want, as source ``device NAME``.
+    inputs : collection of str
+        Of the car.
+    constants : mapping of str to float
+        Of the car; `vehicle.steering_wheel_angle_max` is used.
+    tell : callable
+        Takes sentences for people, from any thread.
+    folder : path
+        Of the mapping files.
+    torque : callable or None
+        Torque of the driver's hands on the car's steering wheel, N m, positive to the left; None while the car does not
+        run. Called from a thread of each motor. Instead of a callable None: the car does not have it.
+    """
+
+    def __init__(
+        self,
+        hands: HandsLike,
+        inputs: Collection[str],
+        constants: Mapping[str, float],
+        tell: Callable[[str], None],
+        folder: Path,
+        torque: Callable[[], float | None] | None,
+    ) -> None:
+        self._inputs = drivable(inputs)
+        steering = Steering(constants.get(ANGLE_MAX), "steering" not in inputs)
+        self._reader = Reader(hands, self._inputs, steering, tell, Path(folder), torque)
+
+    def __enter__(self) -> Devices:
+        self._reader.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let motors go and end all threads."""
+        self._reader.close()
+
+    def state(self) -> list[dict[str, Any]]:
+        """The devices that are plugged in, for the page."""
+        with self._reader.lock:
+            return [device.state() for device in self._reader.devices.values()]
+
+    def assign(self, device: str, name: str, mapping: Mapping[str, Any] | None) -> None:
+        """Another mapping of an input; it is kept in the device's file.
+
+        Parameters
+        ----------
+        device : str
+            Its `id`.
+        name : str
+            Of the input.
+        mapping : mapping or None
+            Fields of `InputMapping`; None: the device does not drive this input.
+
+        Raises
+        ------
+        HostError
+            The device is not there, or the mapping is wrong; nothing changes.
+        """
+        with self._reader.lock:
+            found = self._device(device)
+            made = None if mapping is None else read_input(name, mapping)
+            if name not in self._inputs:
+                raise HostError(f"The car has no input for '{name}'; {number_said(self._inputs)}.")
+            if made is not None and not Source.read(made.source).is_in(found.reading):
+                raise HostError(f"{found.label} has no {made.source}; it has {found.reading.counts()}.")
+            self._reader.remap(found, found.mapping.with_input(name, made))
+
+    def assign_by_moving(self, device: str, name: str, on: bool = True) -> None:
+        """The next axis or button that is moved on this device drives this input; see `assign`."""
+        with self._reader.lock:
+            found = self._device(device)
+            if name not in self._inputs:
+                raise HostError(f"The car has no input for '{name}'; {number_said(self._inputs)}.")
+            found.assignment = Assignment(name, found.reading, time.monotonic() + ASSIGN_TIME) if on else None
+
+    def calibrate(self, device: str, on: bool, keep: bool = True) -> None:
+        """Begin a calibration, or end it.
+
+        Parameters
+        ----------
+        device : str
+            Its `id`.
+        on : bool
+            True: begin; the device drives nothing until the end.
+        keep : bool
+            At the end, whether what was found counts.
+
+        Raises
+        ------
+        HostError
+            The device is not there.
+        """
+        with self._reader.lock:
+            found = self._device(device)
+            if on:
+                self._reader.let_go(found)
+                found.calibration = Calibration(found.mapping)
+                return
+            calibration, found.calibration = found.calibration, None
+            if calibration is None or not keep:
+                return
+            mapping, new, still = calibration.result()
+            self._reader.remap(found, mapping)
+            if new:
+                self._reader.tell(f"{found.label}: the ends of {and_list(new)} are found.")
+            if still:
+                self._reader.tell(f"{found.label}: {and_list(still)} was not moved far enough and is as before.")
+
+    def reset_mapping(self, device: str) -> None:
+        """The mapping that a device of this kind begins with; its file is removed."""
+        with self._reader.lock:
+            found = self._device(device)
+            self._reader.files.remove(device)
+            self._reader.remap(found, self._reader.default(found.joystick), save=False)
+
+    def set_settings(self, device: str, settings: Mapping[str, Any]) -> None:
+        """Other `DeviceSettings`; those not named stay. Kept in the device's file; see `assign` for errors."""
+        with self._reader.lock:
+            found = self._device(device)
+            made = read_settings(settings, found.mapping.settings)
+            self._reader.remap(found, DeviceMapping(found.mapping.inputs, made))
+
+    def test_force(self, device: str) -> None:
+        """A short push to the left.
+
+        Raises
+        ------
+        HostError
+            The device is not there or has no motor that works.
+        """
+        with self._reader.lock:
+            found = self._device(device)
+            if found.force is None or not found.force.works:
+                raise HostError(f"{found.label} has no force: {found.force_problem or 'it has no motor'}.")
+            found.force.pulse()
+
+    def message(self, message: Mapping[str, Any]) -> None:
+        """Do what a message of the page asks for.
+
+        Parameters
+        ----------
+        message : mapping
+            `type` is ``assign``, ``assign by moving``, ``calibrate``, ``reset mapping``, ``device settings`` or
+            ``test force``; `device` an `id`; see the method of that name for the others.
+
+        Raises
+        ------
+        HostError
+            It cannot be done; nothing changes.
+        """
+        obey(self, message)
+
+    def _device(self, device: str) -> Device:
+        found = self._reader.devices.get(device)
+        if found is None:
+            raise HostError(f"The device '{device}' is not plugged in.")
+        return found

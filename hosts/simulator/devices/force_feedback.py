@@ -1,0 +1,100 @@
+"""The thread that moves the motor of one device."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from hosts.errors import HostError
+from hosts.simulator.devices.force import FULL, ForceLaw
+from hosts.simulator.devices.mapping import DeviceSettings
+from hosts.simulator.devices.motor import Motor
+
+PERIOD = 0.008
+"""s; motors on a USB cable take about 125 values per second."""
+PULSE, PULSE_TIME = 0.3, 0.4
+"""Test of the force: share of the largest, and seconds."""
+
+
+class ForceFeedback:
+    """Moves the motor until it is stopped, or fails once.
+
+    Parameters
+    ----------
+    sdl : module
+    joystick : pointer
+        Open until `stop` has returned True.
+    torque : callable
+        Torque of the driver's hands on the car's steering wheel, N m, positive to the left; None while the car does not
+        run.
+    settings : callable
+        Those of the device now.
+    fail : callable
+        Told, in words, why there is no force any more.
+    """
+
+    def __init__(
+        self,
+        sdl: Any,
+        joystick: Any,
+        torque: Callable[[], float | None],
+        settings: Callable[[], DeviceSettings],
+        fail: Callable[[str], None],
+    ) -> None:
+        self._sdl, self._joystick = sdl, joystick
+        self._torque, self._settings, self._fail = torque, settings, fail
+        self._end = threading.Event()
+        self._pulse_until = 0.0
+        self.works = False
+        """Whether the motor moves."""
+        self.level = 0
+        """Of the constant force, now."""
+        self._thread = threading.Thread(target=self._run, name="force feedback", daemon=True)
+        self._thread.start()
+
+    def pulse(self) -> None:
+        """Push to the left for a moment, whatever the car does."""
+        self._pulse_until = time.monotonic() + PULSE_TIME
+
+    def stop(self, timeout: float) -> bool:
+        """End it; whether the motor is closed and the thread has ended in time."""
+        self._end.set()
+        self._thread.join(timeout)
+        return not self._thread.is_alive()
+
+    def _run(self) -> None:
+        try:
+            motor = Motor(self._sdl, self._joystick)
+        except HostError as error:
+            self._fail(str(error))
+            return
+        self.works = True
+        why = ""
+        try:
+            self._move(motor)
+        except HostError as error:
+            why = str(error)
+        except Exception as error:  # whatever the torque's source does: the motor must not go on pulling
+            why = f"{type(error).__name__}: {error}"
+        finally:
+            self.works, self.level = False, 0
+            motor.close()
+        if why and not self._end.is_set():
+            self._fail(why)
+
+    def _move(self, motor: Motor) -> None:
+        law, last = ForceLaw(), time.monotonic()
+        while not self._end.is_set():
+            now = time.monotonic()
+            settings, torque = self._settings(), self._torque()
+            level = law.level(torque, settings, now - last)
+            last = now
+            if now < self._pulse_until:
+                level = round(PULSE * FULL) * (-1 if settings.force_inverted else 1)
+            motor.push(level)
+            self.level = level
+            motor.condition("damper", settings.damper)
+            motor.condition("spring", settings.spring if torque is None else 0.0)
+            time.sleep(max(0.0, PERIOD - (time.monotonic() - now)))

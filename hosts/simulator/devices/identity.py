@@ -1,0 +1,55 @@
+"""Names by which devices keep their mapping, two of the same model as well."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+MOST_OF_A_MODEL = 8
+"""Devices of one model that are remembered."""
+
+
+class Identities:
+    """An `id` for each device that is plugged in: its GUID, for a second one of the model with ``-2`` behind.
+
+    A device that was pulled out and comes back has its old one. Two of a model are told apart by serial number, else by
+    the place they are plugged in at, else by their order.
+
+    Parameters
+    ----------
+    kept_serial : callable
+        Serial number that is kept in the file of an `id`, else empty.
+    """
+
+    def __init__(self, kept_serial: Callable[[str], str]) -> None:
+        self._kept_serial = kept_serial
+        self._there: set[str] = set()
+        self._before: dict[str, tuple[str, str]] = {}
+
+    def take(self, guid: str, serial: str, path: str) -> str:
+        """The `id` of a device that came."""
+        names = (_named(guid, k) for k in range(1, len(self._there) + MOST_OF_A_MODEL + 1))
+        free = [name for name in names if name not in self._there]
+        found = self._same(free, serial, path) or self._unclaimed(free, serial)
+        self._there.add(found)
+        self._before[found] = (serial, path)
+        return found
+
+    def leave(self, device: str) -> None:
+        """It was pulled out."""
+        self._there.discard(device)
+
+    def _serial(self, device: str) -> str:
+        return self._before.get(device, ("", ""))[0] or self._kept_serial(device)
+
+    def _same(self, free: list[str], serial: str, path: str) -> str:
+        if serial:
+            return next((i for i in free if self._serial(i) == serial), "")
+        return next((i for i in free if path and self._before.get(i, ("", ""))[1] == path), "")
+
+    def _unclaimed(self, free: list[str], serial: str) -> str:
+        """The first that does not belong to another one; without serial numbers simply the first."""
+        return next((i for i in free if not (serial and self._serial(i))), free[-1])
+
+
+def _named(guid: str, number: int) -> str:
+    return guid if number == 1 else f"{guid}-{number}"

@@ -1,0 +1,149 @@
+"""Devices that are plugged in, read by SDL's joystick interface."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any
+
+from hosts.simulator.devices.reading import Reading
+from hosts.simulator.devices.sdl import text
+
+_LOWEST, _HIGHEST = -32768, 32767
+_ALL_EVENTS = 0x0, 0xFFFF
+
+
+@dataclass
+class Joystick:
+    """A device that is open.
+
+    Parameters
+    ----------
+    sdl : module
+    handle : pointer
+        Of SDL.
+    instance : int
+        Number that SDL gives at each plugging in.
+    guid : str
+        The same for all devices of a model.
+    serial, path : str
+        Empty where the device or the system has none.
+    name : str
+    kind : str
+        ``wheel``, ``gamepad`` or ``other``.
+    bindings : str
+        SDL's table of a gamepad: which axis is which trigger.
+    usb : str
+        Numbers of maker and product, such as ``046d:c24f``.
+    """
+
+    sdl: Any
+    handle: Any
+    instance: int
+    guid: str
+    serial: str
+    path: str
+    name: str
+    kind: str
+    bindings: str
+    usb: str
+
+    def __post_init__(self) -> None:
+        count = (self.sdl.SDL_JoystickNumAxes, self.sdl.SDL_JoystickNumButtons, self.sdl.SDL_JoystickNumHats)
+        self._axes, self._buttons, self._hats = (range(max(0, number(self.handle))) for number in count)
+        self._known = [False] * len(self._axes)
+        self._first = ctypes.c_int16()
+
+    def read(self) -> Reading:
+        """Its values as of the last `Joysticks.update`."""
+        sdl, handle = self.sdl, self.handle
+        for k in self._axes:
+            if not self._known[k]:
+                told = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._first))
+                self._known[k] = bool(told)
+        return Reading(
+            tuple([_share(sdl.SDL_JoystickGetAxis(handle, k)) for k in self._axes]),
+            tuple(self._known),
+            tuple([bool(sdl.SDL_JoystickGetButton(handle, k)) for k in self._buttons]),
+            tuple([int(sdl.SDL_JoystickGetHat(handle, k)) for k in self._hats]),
+        )
+
+    def close(self) -> None:
+        self.sdl.SDL_JoystickClose(self.handle)
+
+
+class Joysticks:
+    """All devices. One thread calls this.
+
+    Parameters
+    ----------
+    sdl : module
+        Started.
+    """
+
+    def __init__(self, sdl: Any) -> None:
+        self._sdl = sdl
+        self._open: dict[int, Joystick] = {}
+        self._refused: set[int] = set()
+
+    def update(self) -> tuple[list[Joystick], list[Joystick], list[str]]:
+        """Fetch the values of all devices, and see which came and went.
+
+        Returns
+        -------
+        added, removed : list of Joystick
+            Those that went are still to be closed by the caller.
+        refused : list of str
+            Names of those that came and cannot be opened.
+        """
+        sdl = self._sdl
+        sdl.SDL_JoystickUpdate()
+        sdl.SDL_FlushEvents(*_ALL_EVENTS)  # nobody takes events here: they would fill SDL's queue
+        there = {sdl.SDL_JoystickGetDeviceInstanceID(k): k for k in range(sdl.SDL_NumJoysticks())}
+        removed = [self._open.pop(i) for i in [*self._open] if i not in there]
+        self._refused &= there.keys()
+        added, refused = [], []
+        for instance, index in there.items():
+            if instance < 0 or instance in self._open or instance in self._refused:
+                continue
+            made = self._opened(index)
+            if made is None:
+                self._refused.add(instance)
+                refused.append(text(sdl.SDL_JoystickNameForIndex(index)) or "A device without a name")
+            else:
+                self._open[instance] = made
+                added.append(made)
+        return added, removed, refused
+
+    def close(self) -> None:
+        """Close all."""
+        for joystick in self._open.values():
+            joystick.close()
+        self._open.clear()
+
+    def _opened(self, index: int) -> Joystick | None:
+        sdl = self._sdl
+        handle = sdl.SDL_JoystickOpen(index)
+        if not handle:
+            return None
+        guid = ctypes.create_string_buffer(33)
+        sdl.SDL_JoystickGetGUIDString(sdl.SDL_JoystickGetGUID(handle), guid, 33)
+        gamepad = bool(sdl.SDL_IsGameController(index))
+        wheel = sdl.SDL_JoystickGetType(handle) == sdl.SDL_JOYSTICK_TYPE_WHEEL
+        return Joystick(
+            sdl,
+            handle,
+            sdl.SDL_JoystickInstanceID(handle),
+            text(guid.value),
+            text(sdl.SDL_JoystickGetSerial(handle)),
+            text(sdl.SDL_JoystickPath(handle)),
+            text(sdl.SDL_JoystickName(handle)) or "device without a name",
+            "wheel" if wheel else "gamepad" if gamepad else "other",
+            text(sdl.SDL_GameControllerMappingForDeviceIndex(index)) if gamepad else "",
+            f"{sdl.SDL_JoystickGetVendor(handle):04x}:{sdl.SDL_JoystickGetProduct(handle):04x}",
+        )
+
+
+def _share(value: int) -> float:
+    """From SDL's whole numbers to -1 to 1, both ends exactly."""
+    return value / _HIGHEST if value >= 0 else -value / _LOWEST

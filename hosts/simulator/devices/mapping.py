@@ -1,0 +1,231 @@
+"""How a source of a device moves an input of the car."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
+
+from hosts.errors import HostError
+from hosts.simulator.devices.reading import Reading, Source
+
+CENTRED = ("steering",)
+"""Inputs from -1 to 1; those of `PEDALS` go from 0 to 1."""
+ANGLE = "steering_wheel_angle_demand"
+"""Input in rad by which a car without `steering` is steered."""
+PEDALS = ("throttle", "brake", "hand_brake")
+SELECTOR = {"selector drive": 1.0, "selector neutral": 0.0, "selector reverse": -1.0}
+"""What a press of a button sets the input `selector` to."""
+NARROWEST = 0.05
+"""Least distance of the ends of an axis."""
+MOST_DEAD = 0.9
+
+
+def drivable(inputs: Collection[str]) -> list[str]:
+    """What devices can drive of the inputs of a car, in the words of mappings."""
+    steering = ["steering"] if {"steering", ANGLE} & {*inputs} else []
+    return steering + [name for name in PEDALS if name in inputs] + (list(SELECTOR) if "selector" in inputs else [])
+
+
+@dataclass(frozen=True)
+class InputMapping:
+    """How a source moves an input.
+
+    Parameters
+    ----------
+    source : str
+        Such as ``axis 0``, ``button 5`` or ``hat 0 up``.
+    inverted : bool
+        Whether the input grows as the axis falls.
+    low, high : float
+        Ends of the axis, from -1 to 1; beyond them nothing changes. Half an axis: 0 and 1, or -1 and 0.
+    dead_zone : float
+        Share of the way that does nothing: to both sides of the middle, or at the rest of a pedal.
+    centre : float or None
+        Where an axis of the steering rests; None: halfway.
+    """
+
+    source: str
+    inverted: bool = False
+    low: float = -1.0
+    high: float = 1.0
+    dead_zone: float = 0.0
+    centre: float | None = None
+
+    def value(self, name: str, reading: Reading) -> float | None:
+        """The input.
+
+        Parameters
+        ----------
+        name : str
+            Of the input: whether it has a middle depends on it.
+        reading : Reading
+
+        Returns
+        -------
+        float or None
+            From -1 to 1 with a middle, else from 0 to 1; at the ends of the axis exactly these. None: the device does
+            not say.
+        """
+        source = Source.read(self.source)
+        at = source.position(reading)
+        if at is None:
+            return None
+        if source.kind != "axis":
+            return 1.0 - at if self.inverted else at
+        return self._centred(at) if name in CENTRED else self._pedal(at)
+
+    def _centred(self, at: float) -> float:
+        centre = 0.5 * (self.low + self.high) if self.centre is None else self.centre
+        way = self.high - centre if at >= centre else centre - self.low
+        share = max(-1.0, min(1.0, (at - centre) / way))
+        size = max(0.0, abs(share) - self.dead_zone) / (1.0 - self.dead_zone)
+        return math.copysign(size, -share if self.inverted else share) if size else 0.0
+
+    def _pedal(self, at: float) -> float:
+        gone = self.high - at if self.inverted else at - self.low
+        share = max(0.0, min(1.0, gone / (self.high - self.low)))
+        return max(0.0, share - self.dead_zone) / (1.0 - self.dead_zone)
+
+
+@dataclass(frozen=True)
+class DeviceSettings:
+    """What belongs to a device rather than to one of its inputs.
+
+    Parameters
+    ----------
+    rotation : float
+        Degrees between the ends of the real wheel: the steering wheel of the car then turns by the same angle. 0: the
+        ends of the axis are full steering.
+    force : float
+        Factor on the force; 0: none.
+    full_torque : float
+        Torque of the car's steering wheel, N m, at which the motor gives all it can with `force` 1.
+    force_inverted : bool
+        Whether the motor of this device turns the other way.
+    smoothing : float
+        Time constant of the force, s.
+    damper : float
+        Share of the motor's largest damping, always on.
+    spring : float
+        Share of the motor's largest spring to the middle, on while the car does not run.
+    """
+
+    rotation: float = 0.0
+    force: float = 0.5
+    full_torque: float = 10.0
+    force_inverted: bool = False
+    smoothing: float = 0.01
+    damper: float = 0.1
+    spring: float = 0.1
+
+
+_RANGES = {
+    "rotation": (0.0, 3600.0),
+    "force": (0.0, 5.0),
+    "full_torque": (0.1, 100.0),
+    "smoothing": (0.0, 1.0),
+    "damper": (0.0, 1.0),
+    "spring": (0.0, 1.0),
+}
+
+
+@dataclass(frozen=True)
+class DeviceMapping:
+    """All that is kept of a device.
+
+    Parameters
+    ----------
+    inputs : dict of str to InputMapping
+    settings : DeviceSettings
+    """
+
+    inputs: dict[str, InputMapping] = field(default_factory=dict)
+    settings: DeviceSettings = DeviceSettings()
+
+    def with_input(self, name: str, mapping: InputMapping | None) -> DeviceMapping:
+        """A copy in which an input is driven by another source, or by none."""
+        rest = {k: v for k, v in self.inputs.items() if k != name}
+        return replace(self, inputs=rest if mapping is None else {**rest, name: mapping})
+
+
+def read_input(name: str, table: object) -> InputMapping:
+    """The mapping of an input from a table of its fields.
+
+    Parameters
+    ----------
+    name : str
+    table : mapping
+        What is not in it is as by default.
+
+    Raises
+    ------
+    HostError
+        A field is unknown or has a value that cannot be.
+    """
+    what = f"The mapping of '{name}'"
+    if name not in (*CENTRED, *PEDALS, *SELECTOR):
+        raise HostError(f"'{name}' cannot be driven by a device; {_list([*CENTRED, *PEDALS, *SELECTOR])} can.")
+    fields = _fields(what, table, asdict(InputMapping("")))
+    if "source" not in fields:
+        raise HostError(f"{what} has no source; it needs one such as “axis 2”.")
+    source = Source.read(fields["source"])
+    if source.kind != "axis" and name in CENTRED:
+        raise HostError(f"{what} has the source “{source}”; '{name}' needs an axis.")
+    if source.kind == "axis" and name in SELECTOR:
+        raise HostError(f"{what} has the source “{source}”; '{name}' needs a button or a hat.")
+    for number in ("low", "high", "centre"):
+        if fields.get(number) is not None:
+            fields[number] = _number(what, number, fields[number], -1.0, 1.0)
+    if "dead_zone" in fields:
+        fields["dead_zone"] = _number(what, "dead_zone", fields["dead_zone"], 0.0, MOST_DEAD)
+    _check_bool(what, fields, "inverted")
+    made = InputMapping(**fields)
+    if made.high - made.low < NARROWEST:
+        raise HostError(f"{what} has low = {made.low:g} and high = {made.high:g}; high must be larger by {NARROWEST}.")
+    margin = 0.2 * NARROWEST
+    if made.centre is not None and not made.low + margin <= made.centre <= made.high - margin:
+        raise HostError(f"{what} has centre = {made.centre:g}, which is not between {made.low:g} and {made.high:g}.")
+    return made
+
+
+def read_settings(table: object, base: DeviceSettings | None = None) -> DeviceSettings:
+    """Settings from a table; what is not in it is that of `base`.
+
+    Raises
+    ------
+    HostError
+        A field is unknown or has a value that cannot be.
+    """
+    what, base = "The settings of the device", base or DeviceSettings()
+    fields = _fields(what, table, asdict(base))
+    _check_bool(what, fields, "force_inverted")
+    for name in fields:
+        if name in _RANGES:
+            fields[name] = _number(what, name, fields[name], *_RANGES[name])
+    return replace(base, **fields)
+
+
+def _fields(what: str, table: object, known: Mapping[str, object]) -> dict[str, Any]:
+    if not isinstance(table, Mapping):
+        raise HostError(f"{what} is {table!r}; it must be a table.")
+    for name in table:
+        if name not in known:
+            raise HostError(f"{what} has '{name}', which is none of {_list(list(known))}.")
+    return dict(table)
+
+
+def _number(what: str, name: str, value: object, low: float, high: float) -> float:
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and low <= value <= high:
+        return float(value)
+    raise HostError(f"{what} has {name} = {value!r}; it must be a number from {low:g} to {high:g}.")
+
+
+def _check_bool(what: str, fields: Mapping[str, object], name: str) -> None:
+    if not isinstance(fields.get(name, False), bool):
+        raise HostError(f"{what} has {name} = {fields[name]!r}; it must be true or false.")
+
+
+def _list(names: list[str]) -> str:
+    return ", ".join(f"'{name}'" for name in names)

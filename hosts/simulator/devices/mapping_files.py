@@ -1,0 +1,132 @@
+"""Mappings of devices in TOML files in the user's configuration folder."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+from platformdirs import user_config_path
+
+from ali3.files import reason, whole_file
+from hosts.errors import HostError
+from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_settings
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+FORMAT, VERSION = "ALi3 device", 1
+_LARGEST = 100_000
+_HEAD = """\
+# How this device drives the car; written by the simulator's page of devices, and may be edited.
+# source: "axis 0", "button 3" or "hat 0 up". low, high: ends of the axis, from -1 to 1. inverted: the input grows as
+# the axis falls. dead_zone: share of the way that does nothing. centre: where the steering rests.
+"""
+
+
+def configuration_folder() -> Path:
+    """Folder of the mappings: in ``ALI3_CONFIG``, else in the user's folder of configurations of this system."""
+    given = os.environ.get("ALI3_CONFIG")
+    if given:
+        return Path(given, "devices")
+    return user_config_path("ali3", appauthor=False) / "devices"
+
+
+class MappingFiles:
+    """The files in a folder, one for each device.
+
+    Parameters
+    ----------
+    folder : path
+        Made when something is written.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def file(self, device: str) -> Path:
+        """The file of a device by its `id`."""
+        return self.folder / f"{device}.toml"
+
+    def serial(self, device: str) -> str:
+        """Serial number in a device's file, empty without one."""
+        try:
+            return str(self._table(self.file(device)).get("serial", ""))
+        except (OSError, HostError):
+            return ""
+
+    def read(self, device: str) -> DeviceMapping | None:
+        """The mapping of a device; None if it has no file.
+
+        Raises
+        ------
+        HostError
+            The file cannot be read or is damaged; the sentence names it.
+        """
+        file = self.file(device)
+        try:
+            table = self._table(file)
+            return _mapping(table)
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            raise HostError(f"{file} cannot be read: {reason(error)}.") from None
+        except HostError as error:
+            raise HostError(f"{file} is damaged: {error}") from None
+
+    def write(self, device: str, mapping: DeviceMapping, name: str, serial: str = "") -> None:
+        """Write the file of a device. One that is damaged is kept beside it, with `.damaged` added to its name.
+
+        Raises
+        ------
+        FileError
+            It cannot be written.
+        """
+        file = self.file(device)
+        inputs = {k: {f: v for f, v in asdict(m).items() if v is not None} for k, m in mapping.inputs.items()}
+        table: dict[str, Any] = {"format": FORMAT, "version": VERSION, "name": name, "serial": serial}
+        table |= {"settings": asdict(mapping.settings), "inputs": inputs}
+        try:
+            self.read(device)
+        except HostError:
+            if file.is_file():
+                with whole_file(file.with_name(file.name + ".damaged")) as kept:
+                    kept.write_bytes(file.read_bytes())
+        with whole_file(file) as made:
+            made.write_text(_HEAD + tomli_w.dumps(table), encoding="utf-8")
+
+    def remove(self, device: str) -> None:
+        """Remove the file of a device, if there is one."""
+        try:
+            self.file(device).unlink(missing_ok=True)
+        except OSError as error:
+            raise HostError(f"{self.file(device)} cannot be removed: {reason(error)}.") from None
+
+    @staticmethod
+    def _table(file: Path) -> dict[str, Any]:
+        with file.open("rb") as opened:
+            data = opened.read(_LARGEST + 1)
+        if len(data) > _LARGEST:
+            raise HostError(f"it has more than {_LARGEST} bytes.")
+        try:
+            return tomllib.loads(data.decode("utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise HostError(f"{error}.") from None
+
+
+def _mapping(table: dict[str, Any]) -> DeviceMapping:
+    if table.get("format") != FORMAT or table.get("version") != VERSION:
+        raise HostError(f'format = "{FORMAT}" and version = {VERSION} are missing.')
+    for name in table:
+        if name not in ("format", "version", "name", "serial", "settings", "inputs"):
+            raise HostError(f"'{name}' is unknown.")
+    inputs = table.get("inputs", {})
+    if not isinstance(inputs, dict):
+        raise HostError(f"inputs = {inputs!r} is no table.")
+    read = {name: read_input(name, fields) for name, fields in inputs.items()}
+    return DeviceMapping(read, read_settings(table.get("settings", {})))

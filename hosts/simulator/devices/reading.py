@@ -1,0 +1,95 @@
+"""What a device says at one instant, and the sources in it that can move an input."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from hosts.errors import HostError
+
+WAYS = {"up": 1, "right": 2, "down": 4, "left": 8}
+"""Bits of a hat, as SDL has them."""
+_SOURCE = re.compile(r"(axis|button) (\d{1,3})|hat (\d{1,3}) (up|right|down|left)")
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Values of a device.
+
+    Parameters
+    ----------
+    axes : tuple of float
+        From -1 to 1.
+    known : tuple of bool
+        Whether the device has told the value of this axis; else it reads 0.
+    buttons : tuple of bool
+    hats : tuple of int
+        Bits of `WAYS`.
+    """
+
+    axes: tuple[float, ...] = ()
+    known: tuple[bool, ...] = ()
+    buttons: tuple[bool, ...] = ()
+    hats: tuple[int, ...] = ()
+
+    def counts(self) -> str:
+        """How many of what, for people."""
+        return f"axes: {len(self.axes)}, buttons: {len(self.buttons)}, hats: {len(self.hats)}, numbered from 0"
+
+    def pressed(self) -> set[str]:
+        """Sources that are pressed: buttons and ways of hats."""
+        found = {f"button {k}" for k, down in enumerate(self.buttons) if down}
+        for k, bits in enumerate(self.hats):
+            found.update(f"hat {k} {way}" for way, bit in WAYS.items() if bits & bit)
+        return found
+
+
+@dataclass(frozen=True)
+class Source:
+    """An axis, a button or a way of a hat.
+
+    Parameters
+    ----------
+    kind : str
+        ``axis``, ``button`` or ``hat``.
+    number : int
+    way : str
+        Of a hat.
+    """
+
+    kind: str
+    number: int
+    way: str = ""
+
+    @classmethod
+    def read(cls, text: object) -> Source:
+        """From its words: ``axis 2``, ``button 7``, ``hat 0 up``.
+
+        Raises
+        ------
+        HostError
+            It is none.
+        """
+        found = _SOURCE.fullmatch(text) if isinstance(text, str) else None
+        if found is None:
+            raise HostError(f"{text!r} is no source; “axis 2”, “button 7” or “hat 0 up” would be.")
+        if found[1]:
+            return cls(found[1], int(found[2]))
+        return cls("hat", int(found[3]), found[4])
+
+    def __str__(self) -> str:
+        return f"{self.kind} {self.number} {self.way}".strip()
+
+    def is_in(self, reading: Reading) -> bool:
+        """Whether a device has it."""
+        return self.number < len({"axis": reading.axes, "button": reading.buttons, "hat": reading.hats}[self.kind])
+
+    def position(self, reading: Reading) -> float | None:
+        """Where it is: an axis from -1 to 1, the others 0 or 1; None where the device does not say."""
+        if not self.is_in(reading):
+            return None
+        if self.kind == "axis":
+            return reading.axes[self.number] if reading.known[self.number] else None
+        if self.kind == "button":
+            return float(reading.buttons[self.number])
+        return float(bool(reading.hats[self.number] & WAYS[self.way]))

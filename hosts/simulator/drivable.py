@@ -1,0 +1,52 @@
+"""Whether an FMU is a car that can be driven, in words where it is not."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from pathlib import Path
+
+STEERING = ("steering", "steering_wheel_angle_demand", "steering_torque")
+"""Any of them steers."""
+PEDALS = ("throttle", "brake")
+POSE = ("chassis.x", "chassis.y", "chassis.z", "chassis.yaw")
+_SHOWN = 12
+
+
+def lacking(inputs: Collection[str], outputs: Collection[str]) -> tuple[list[str], list[str]]:
+    """Inputs and outputs that driving needs and that are not there."""
+    steers = [] if any(name in inputs for name in STEERING) else [STEERING[0]]
+    pedals = [name for name in PEDALS if name not in inputs]
+    return steers + pedals, [name for name in POSE if name not in outputs]
+
+
+def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], drawn: bool) -> str:
+    """What an FMU lacks to be driven, what would help, and what works without; empty where nothing is lacking.
+
+    Parameters
+    ----------
+    path : Path
+        The FMU.
+    inputs, outputs : sequence of str
+        Names, after aliases.
+    drawn : bool
+        Whether it has a drawing.
+    """
+    no_inputs, no_outputs = lacking(inputs, outputs)
+    parts = [f"no input {' and '.join([', '.join(no_inputs)])}"] if no_inputs else []
+    parts += [f"no output {', '.join(no_outputs)}"] if no_outputs else []
+    if not parts:
+        return ""
+    still = "its inputs that have our names can be moved; it" if len(no_inputs) < len(PEDALS) + 1 else "it"
+    picture = "" if drawn else ", but is not drawn, since it has no drawing"
+    return (
+        f"{path.name} has {' and '.join(parts)}, which driving needs. If it has them under other names, an alias file "
+        f"says so (--aliases FILE). Its inputs are {_some(inputs)}; its outputs {_some(outputs)}. "
+        f"As it is, {still} runs, can be paused, slowed down, reset and recorded{picture}."
+    )
+
+
+def _some(names: Sequence[str]) -> str:
+    if not names:
+        return "none"
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return ", ".join(names[:_SHOWN]) + more

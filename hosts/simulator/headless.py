@@ -1,0 +1,143 @@
+"""Driving without a page: inputs are held, or come from a manoeuvre or from a driver without sense."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
+
+from tqdm import tqdm
+
+from hosts.driver import ACTS, SENSES, Driver, make_driver
+from hosts.errors import HostError
+from hosts.manoeuvre import Manoeuvre
+from hosts.simulator.aliased_car import AliasedCar
+from hosts.wild_driver import WildDriver
+
+_PERIOD = 0.005
+_BAR = "{n:.1f} of {total:.1f} s simulated |{bar}| {elapsed}<{remaining}"
+_STILL = 10.0
+"""A car that computes no step for so long, s, is given up."""
+
+
+class HeadlessDriver(Protocol):
+    """Who moves the inputs."""
+
+    def act(self, time: float, senses: Mapping[str, float]) -> Mapping[str, float]:
+        """Values of inputs at a time, s."""
+
+
+class Held:
+    """Inputs stay as the FMU starts with them."""
+
+    def act(self, time: float, senses: Mapping[str, float]) -> Mapping[str, float]:
+        return {}
+
+
+class OfManoeuvre:
+    """Inputs of a manoeuvre: of its table, and of its driver where it has one.
+
+    Parameters
+    ----------
+    manoeuvre : Manoeuvre
+    car : AliasedCar
+
+    Raises
+    ------
+    HostError
+        The car has not what it needs.
+    """
+
+    def __init__(self, manoeuvre: Manoeuvre, car: AliasedCar) -> None:
+        unknown = next((name for name in manoeuvre.inputs if name not in car.inputs), None)
+        if unknown is not None:
+            raise HostError(
+                f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is no input of this FMU; the "
+                f"simulator moves inputs only: {', '.join(car.inputs) or 'none'}."
+            )
+        self._manoeuvre = manoeuvre
+        self._driver: Driver | None = None
+        if manoeuvre.driver:
+            missing = [n for n in ACTS if n not in car.inputs] + [n for n in SENSES if n not in car.names]
+            if missing:
+                raise HostError(f"The driver needs variables that this FMU does not have: {', '.join(missing)}.")
+            self._driver = make_driver(manoeuvre.driver, car.constants)
+
+    def act(self, time: float, senses: Mapping[str, float]) -> Mapping[str, float]:
+        found = self._manoeuvre.at(time)
+        return found if self._driver is None else {**found, **self._driver.act(time, senses)}
+
+
+def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | None) -> HeadlessDriver:
+    """Who moves the inputs of a car.
+
+    Parameters
+    ----------
+    car : AliasedCar
+    manoeuvre : Manoeuvre, optional
+    wild : int, optional
+        Seed of a driver without sense.
+    """
+    if manoeuvre is not None:
+        return OfManoeuvre(manoeuvre, car)
+    return Held() if wild is None else WildDriver(wild, car.inputs)
+
+
+def run_headless(
+    car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: Callable[[str, str], None], bar: bool = True
+) -> bool:
+    """Drive for a simulated time.
+
+    Parameters
+    ----------
+    car : AliasedCar
+        Paused.
+    driver : HeadlessDriver
+    seconds : float
+        Simulated time.
+    tell : callable
+        Takes kind and text of what there is to be said.
+    bar : bool
+        Whether a progress bar is shown, where there is a terminal.
+
+    Returns
+    -------
+    bool
+        Whether no step was refused.
+
+    Raises
+    ------
+    HostError
+        The car computes no steps any more.
+    """
+    places = [(name, car.names.index(name)) for name in SENSES if name in car.names]
+    _act(car, driver, places)
+    car.command("step", max(1, round(seconds / car.step)))
+    last, since = -1, time.monotonic()
+    try:
+        with tqdm(total=seconds, delay=2.0, disable=None if bar else True, bar_format=_BAR) as progress:
+            while True:
+                moment = car.latest()
+                for event in car.events():
+                    progress.clear()
+                    tell(event.kind, event.text)
+                progress.update(min(moment.time, seconds) - progress.n)
+                if moment.refused or moment.time >= seconds - 0.5 * car.step:
+                    return not moment.refused
+                now = time.monotonic()
+                if moment.count != last:
+                    last, since = moment.count, now
+                elif now - since > _STILL:
+                    raise HostError(f"The car has computed no step for {_STILL:g} s; the run is given up.")
+                _act(car, driver, places)
+                time.sleep(_PERIOD)
+    finally:
+        car.command("pause")
+
+
+def _act(car: AliasedCar, driver: HeadlessDriver, places: Sequence[tuple[str, int]]) -> None:
+    moment = car.latest()
+    wanted = driver.act(moment.time, {name: float(moment.values[k]) for name, k in places})
+    if wanted:
+        car.want({name: (value, math.inf) for name, value in wanted.items()})

@@ -1,0 +1,66 @@
+"""Inputs that move towards what is wanted by at most so much per second of simulated time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Inputs:
+    """Values of the inputs, and where they are going.
+
+    Parameters
+    ----------
+    start : sequence of float
+        Values at every new start.
+    whole : sequence of bool
+        Which can only have whole numbers: these change at once.
+
+    Attributes
+    ----------
+    values : ndarray of shape (n,)
+        Of the step that comes or was made.
+    """
+
+    def __init__(self, start: Sequence[float], whole: Sequence[bool]) -> None:
+        self._start, self._whole = np.array(start, float), list(whole)
+        self.values = self._start.copy()
+        self._targets: list[float] = list(start)
+        self._rates: list[float] = [0.0] * len(start)
+        self._oldest_wish = 0.0
+
+    def want(self, wants: NDArray[np.float64]) -> None:
+        """Take over what is wanted.
+
+        Parameters
+        ----------
+        wants : ndarray of shape (3 n,)
+            For each input its value, largest change per second (infinite: at once) and the number of the wish; wishes
+            from before the last `restart` do not count.
+        """
+        for k in range(len(self._rates)):
+            value, rate, wish = wants[3 * k : 3 * k + 3].tolist()
+            if wish > self._oldest_wish:
+                self._targets[k] = float(round(value)) if self._whole[k] else value
+                self._rates[k] = float("inf") if self._whole[k] else rate
+
+    def restart(self, wish: float) -> None:
+        """Back to the start values; wishes up to this number are forgotten."""
+        self.values[:] = self._start
+        self._targets, self._rates = self._start.tolist(), [0.0] * len(self._rates)
+        self._oldest_wish = wish
+
+    def set_start(self, start: Sequence[float]) -> None:
+        """Other values at every new start from now on."""
+        self._start[:] = start
+
+    def advance(self, step: float) -> None:
+        """Move the values on by one step of this length, s."""
+        values = self.values
+        for k, (target, rate) in enumerate(zip(self._targets, self._rates, strict=True)):
+            value = float(values[k])
+            if value != target:
+                most = rate * step
+                values[k] = target if abs(target - value) <= most else value + (most if target > value else -most)

@@ -1,0 +1,117 @@
+"""What the car's process says and records, brought to the main process."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections import deque
+from typing import Any, Protocol
+
+from numpy.typing import ArrayLike
+
+from ali3.errors import UserError
+from hosts.simulator.moments import Event
+from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, ROW, SharedValues
+
+_PERIOD = 0.03
+_MOST_EVENTS = 10_000  # that nobody asked for
+RECORDING_CUT = "recording"
+"""Kind of the event that a recording lacks its end."""
+_REMEDY = "What was written so far can be opened; make room, or record into another folder."
+
+
+class Records(Protocol):
+    """What is needed of `hosts.simulator.recording.Recorder`."""
+
+    told: list[str]
+
+    def row(self, count: int, time: float, epoch: int, values: ArrayLike) -> None: ...
+    def event(self, time: float, kind: str, text: str, *, epoch: int, **details: Any) -> None: ...
+    def close(self) -> None: ...
+
+
+class Mail:
+    """Collects events, and hands rows and events to a recording in a thread of its own.
+
+    Parameters
+    ----------
+    shared : SharedValues
+    recorder : Records, optional
+    """
+
+    def __init__(self, shared: SharedValues, recorder: Records | None) -> None:
+        self._shared, self._recorder = shared, recorder
+        self._lock, self._end = threading.Lock(), threading.Event()
+        self._events: deque[Event] = deque(maxlen=_MOST_EVENTS)
+        self._to_record: list[dict[str, Any]] = []
+        self._lost = {LOST_ROWS: 0, LOST_MESSAGES: 0}
+        self._thread: threading.Thread | None = None
+        if recorder is not None:
+            self._say(*recorder.told)
+            self._thread = threading.Thread(target=self._write_on, name="recording", daemon=True)
+            self._thread.start()
+
+    def events(self) -> list[Event]:
+        """Those since the last call."""
+        with self._lock:
+            if not self._end.is_set():
+                self._collect()
+            events = list(self._events)
+            self._events.clear()
+        return events
+
+    def close(self) -> None:
+        """Bring what still waits, once the process writes no more, and finish the recording."""
+        with self._lock:
+            self._collect()
+            self._end.set()
+        if self._thread is not None and self._recorder is not None:
+            self._thread.join()
+            whole = self._write()
+            try:
+                self._recorder.close()
+            except (OSError, UserError) as error:
+                if whole:
+                    self._say(f"The recording could not be finished: {error} {_REMEDY}", kind=RECORDING_CUT)
+
+    def _say(self, *texts: str, kind: str = "told", time: float = 0.0) -> None:
+        self._events.extend(Event(time, kind, text) for text in texts)
+
+    def _collect(self) -> None:
+        for message in self._shared.messages.take():
+            record = json.loads(message)
+            self._events.append(Event(record["time"], record["kind"], record["text"]))
+            if self._recorder is not None:
+                self._to_record.append(record)
+        for flag, what in ((LOST_ROWS, "rows of the recording"), (LOST_MESSAGES, "messages")):
+            lost = int(self._shared.flags[flag])
+            if lost > self._lost[flag]:
+                self._lost[flag] = lost
+                text = f"{lost} {what} were lost so far: the computer did not take them in time."
+                self._say(text, kind="overflow", time=float(self._shared.moments.read()[1]))
+
+    def _write_on(self) -> None:
+        while not self._end.wait(_PERIOD) and self._write():
+            pass
+
+    def _write(self) -> bool:
+        """Whether the recording goes on; an error ends it, and the car drives on."""
+        recorder, shared = self._recorder, self._shared
+        if recorder is None or not shared.flags[RECORDING]:
+            return False
+        with self._lock:
+            if not self._end.is_set():
+                self._collect()
+            records, self._to_record = self._to_record, []
+        head = len(ROW)
+        try:
+            for row in shared.rows.take():
+                recorder.row(int(row[0]), float(row[1]), int(row[2]), row[head:])
+            for r in records:
+                recorder.event(r["time"], r["kind"], r["text"], epoch=r["epoch"], **r["details"])
+        except (OSError, UserError) as error:
+            shared.flags[RECORDING] = 0
+            with self._lock:
+                self._say(f"The recording ends here: {error} {_REMEDY}", kind=RECORDING_CUT)
+            return False
+        return True

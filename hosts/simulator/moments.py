@@ -1,0 +1,118 @@
+"""What a car is started with, and what it tells."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.numbers import Value
+from hosts.simulator.shared_values import MOMENT
+
+
+@dataclass(frozen=True)
+class CarSettings:
+    """What a car is started with.
+
+    Parameters
+    ----------
+    fmu : Path
+        Of FMI 2.0, co-simulation.
+    start : mapping of str to float, int, bool or str
+        Parameters and start values.
+    step : float
+        Communication step, s.
+    paced : bool
+        False: as fast as it goes.
+    record : Path, optional
+        Folder of the recording.
+    priority : bool
+        Whether to ask for real-time priority; what was got is an event.
+    world : str, optional
+        What a recording calls the world.
+    seed : int, optional
+        Of the driver, for the recording.
+    """
+
+    fmu: Path
+    start: Mapping[str, Value]
+    step: float = 0.002
+    paced: bool = True
+    record: Path | None = None
+    priority: bool = True
+    world: str | None = None
+    seed: int | None = None
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The car after a step.
+
+    Parameters
+    ----------
+    count : int
+        Steps computed; it never falls.
+    time : float
+        Simulated time, s; it falls at a rewind or reset.
+    epoch : int
+        One more at every jump: nothing may be interpolated across it.
+    running, refused, behind : bool
+        Not paused; the FMU refused the last step; the car is late, or was within the last second.
+    speed : float
+        Simulated over wall seconds that are asked for.
+    wall : float
+        When this was written, by `time.perf_counter`, which all processes of a machine share, s.
+    cost, worst, lateness : float
+        Work of the last step, largest of about the last second, and begin of the last step after its time, s.
+    missed : int
+        Deadlines missed so far.
+    saved : float
+        Simulated time that can be rewound, s.
+    values : ndarray of shape (n,)
+        One for each of `Car.names`, in the units of the model description.
+    """
+
+    count: int
+    time: float
+    epoch: int
+    running: bool
+    refused: bool
+    behind: bool
+    speed: float
+    wall: float
+    cost: float
+    worst: float
+    lateness: float
+    missed: int
+    saved: float
+    values: NDArray[np.float64]
+
+    @staticmethod
+    def of(record: NDArray[np.float64]) -> Moment:
+        """From the shared memory."""
+        known = dict(zip(MOMENT, record.tolist(), strict=False))
+        whole = {name: int(known[name]) for name in ("count", "epoch", "missed")}
+        flags = {name: bool(known[name]) for name in ("running", "refused", "behind")}
+        return Moment(**(known | whole | flags), values=record[len(MOMENT) :])
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that is to be said.
+
+    Parameters
+    ----------
+    time : float
+        Simulated time, s.
+    kind : str
+        ``told``, ``refused``, ``capped``, ``behind``, ``reset``, ``rewind``, ``upright``, ``priority``, ``overflow``.
+    text : str
+        One or two sentences.
+    """
+
+    time: float
+    kind: str
+    text: str

@@ -1,0 +1,78 @@
+"""What is said of the steps: messages of the FMU and work that a limit cut short, at most once in a while."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hosts.simulator.clock import Clock
+from hosts.simulator.driven_fmu import DrivenFmu, Told
+from hosts.simulator.step_times import TimesRecord
+
+_EVERY = 1.0
+_WORTH = 1e-4
+"""Of a residual that is left nothing is said up to here, m."""
+_LIMIT = "solver.step_iterations"
+_COUNT, _RESIDUAL = "solver.capped_steps", "solver.capped_residual"
+
+
+class Notices:
+    """Collects them over a second of wall time.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Columns.
+    clock : Clock
+    times : TimesRecord
+        Where steps that were cut short are counted, also those of which nothing is said.
+    """
+
+    def __init__(self, names: Sequence[str], clock: Clock, times: TimesRecord) -> None:
+        self._clock, self._times, self._next = clock, times, 0.0
+        self._capped = names.index(_COUNT) if _COUNT in names else -1
+        self._residual = names.index(_RESIDUAL) if _RESIDUAL in names else -1
+        self._before = 0.0
+        self._steps, self._largest, self._messages = 0.0, 0.0, 0
+        self._message = ""
+
+    def jumped(self, car: DrivenFmu) -> None:
+        """The count of the FMU is another now."""
+        if self._capped >= 0:
+            self._before = float(car.values[self._capped])
+
+    def of_step(self, car: DrivenFmu) -> list[Told]:
+        """What is to be said after this step."""
+        if self._capped >= 0:
+            self._count(car)
+        for message in car.messages():
+            # The FMU's own words on its limit, however little was left, are in the count.
+            if self._capped < 0 or _LIMIT not in message:
+                self._messages, self._message = self._messages + 1, message
+        worth = self._steps and (self._residual < 0 or self._largest > _WORTH)
+        if not (worth or self._messages) or self._clock.now() < self._next:
+            return []
+        self._next = self._clock.now() + _EVERY
+        told = []
+        if worth:
+            residual = f"; it left up to {1e3 * self._largest:.3g} mm" if self._residual >= 0 else ""
+            stopped = _number(self._steps, "inner step")
+            told.append(Told("capped", f"The solver stopped {stopped} at the limit of iterations{residual}."))
+            self._steps, self._largest = 0.0, 0.0
+        if self._messages:
+            more = f" (and {_number(self._messages - 1, 'message')} before it)" if self._messages > 1 else ""
+            told.append(Told("told", f"{self._message}{more}"))
+            self._messages = 0
+        return told
+
+    def _count(self, car: DrivenFmu) -> None:
+        count = float(car.values[self._capped])
+        if count > self._before:
+            residual = float(car.values[self._residual]) if self._residual >= 0 else 0.0
+            self._steps, self._largest = self._steps + count - self._before, max(self._largest, residual)
+            self._times.add("capped", count - self._before)
+            self._times.raise_to("capped_largest", residual)
+        self._before = count
+
+
+def _number(count: float, what: str) -> str:
+    return f"{count:g} {what}{'' if count == 1 else 's'}"

@@ -1,0 +1,227 @@
+"""Everything before the first step: the FMU, what is set in it, its world and its drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fmpy.model_description import ModelDescription
+
+from ali3.files import check_writable, make_folder
+from ali3.running import command_name
+from hosts.aliases import Aliases, read_aliases
+from hosts.errors import HostError
+from hosts.fmu import described
+from hosts.geometry import scene_of
+from hosts.manoeuvre import Manoeuvre, with_names_of
+from hosts.numbers import Value
+from hosts.options import Wishes
+from hosts.page_parts import description_record
+from hosts.road import PARAMETER as ROAD
+from hosts.settings import Settings
+from hosts.simulator.drivable import not_drivable
+from hosts.simulator.fmu_file import FoundFmu, find_fmu
+from hosts.simulator.recording import DESCRIPTION, check_new
+from hosts.simulator.world_files import DEFAULT_WORLD, World, make_world, no_world
+from hosts.variables import Variables
+
+ITERATIONS = "solver.step_iterations"
+_MOST_ITERATIONS = 6
+"""Of an inner step of about 2 ms; what it leaves open is measured in docs/fmu.md."""
+_EMPTY_SCENE = {"format": "ALi3 scene", "version": 1, "extent": 5.0, "frames": {}, "shapes": []}
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the command line says of the car and its world.
+
+    Parameters
+    ----------
+    fmu : Path, optional
+    world : str, optional
+        Name or file.
+    place : str, optional
+        Of the world.
+    fidelity : float, optional
+    wishes : Wishes
+        Of ``--set`` and ``--parameters``.
+    aliases : Path, optional
+    record : Path, optional
+        Folder.
+    manoeuvre : Manoeuvre, optional
+        Its start values come first.
+    """
+
+    fmu: Path | None
+    world: str | None
+    place: str | None
+    fidelity: float | None
+    wishes: Wishes
+    aliases: Path | None
+    record: Path | None
+    manoeuvre: Manoeuvre | None = None
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A car that can be started.
+
+    Parameters
+    ----------
+    fmu : FoundFmu
+    description : ModelDescription
+    variables : Variables
+    aliases : Aliases
+    settings : Settings
+        What is set in it, the road and the place among it.
+    world : World
+    scene : dict or None
+        The drawing of the FMU without roads; None: it has none.
+    """
+
+    fmu: FoundFmu
+    description: ModelDescription
+    variables: Variables
+    aliases: Aliases
+    settings: Settings
+    world: World
+    scene: dict[str, Any] | None
+
+    def hello(
+        self, constants: Mapping[str, float], columns: tuple[str, ...], step: float, record: str
+    ) -> dict[str, Any]:
+        """The first message to a page, under our names."""
+        record_of_fmu = description_record(self.description, self.variables)
+        ours = self.aliases.names([v["name"] for v in record_of_fmu["variables"]])
+        for variable, name in zip(record_of_fmu["variables"], ours, strict=True):
+            variable["name"] = name
+        return {
+            "description": record_of_fmu,
+            "scene": self.scene or {**_EMPTY_SCENE, "name": self.description.modelName},
+            "columns": list(columns),
+            "constants": dict(constants),
+            "step": step,
+            "world": self.world.for_hello(),
+            "recording": record,
+        }
+
+    def places(self) -> dict[str, dict[str, Value]]:
+        """Start values by name of those places where this FMU can be put."""
+        known = set(self.aliases.names(self.variables.names))
+        return {n: values for n, values in self.world.places().items() if set(values) <= known}
+
+
+def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
+    """Find, check and read everything.
+
+    Parameters
+    ----------
+    asked : Asked
+    tell : callable
+        Takes sentences.
+
+    Raises
+    ------
+    HostError
+        Something is wrong or cannot be used; one sentence with what would be right.
+    """
+    if asked.record is not None:
+        check_new(asked.record)
+        check_writable(make_folder(asked.record) / DESCRIPTION)
+    with ThreadPoolExecutor() as pool:
+        ahead = None if asked.fmu is not None else pool.submit(_wanted_world, asked, tell)  # both may take a while
+        fmu = find_fmu(asked.fmu, tell)
+        description = described(fmu.path)
+        _check_kind(fmu.path, description)
+        variables = Variables(description)
+        aliases = Aliases() if asked.aliases is None else read_aliases(asked.aliases, variables.names)
+        drawing = pool.submit(scene_of, fmu.path)
+        _check_road(asked, fmu.path, ROAD in aliases.names(variables.names))
+        if ROAD not in aliases.names(variables.names):
+            world = None
+        else:
+            world = _wanted_world(asked, tell) if ahead is None else ahead.result()
+        scene = drawing.result()
+    if world is None:
+        world = no_world([] if scene is None else scene["roads"])
+    settings = _settings(asked, aliases, variables, world)
+    inputs, outputs = _names(variables, aliases, "input"), _names(variables, aliases, "output")
+    words = not_drivable(fmu.path, inputs, outputs, scene is not None)
+    if words:
+        tell(words)
+    for item in [] if scene is None else scene["missing"]:
+        tell(f"{item['name']} is not drawn: {item['why'].rstrip('.')}.")
+    return Prepared(
+        fmu, description, variables, aliases, settings, world, None if scene is None else scene | {"roads": []}
+    )
+
+
+def _names(variables: Variables, aliases: Aliases, causality: str) -> tuple[str, ...]:
+    """Our names of the variables of a causality."""
+    return aliases.names([name for name in variables.names if variables[name].causality == causality])
+
+
+def _check_kind(path: Path, description: ModelDescription) -> None:
+    if description.fmiVersion != "2.0" or description.coSimulation is None:
+        kind = "" if description.coSimulation is not None else " for model exchange"
+        raise HostError(
+            f"{path} is an FMU of FMI {description.fmiVersion}{kind}; the simulator drives FMI 2.0 co-simulation, the "
+            f"kind native of {command_name('build')}."
+        )
+
+
+def _check_road(asked: Asked, path: Path, reads: bool) -> None:
+    """Refuse a world where another road was given, or where none can be put under the FMU."""
+    if asked.world is None:
+        return
+    if ROAD in dict(asked.wishes.values):
+        raise HostError(f"The road is given by --world and by --set {ROAD}; give it once.")
+    if not reads:
+        raise HostError(
+            f"{path} has no parameter '{ROAD}', so that the world {asked.world} cannot be put under it; without "
+            "--world it is driven on its own ground."
+        )
+
+
+def _wanted_world(asked: Asked, tell: Callable[[str], None]) -> World | None:
+    """The world that was asked for, by default the proving ground; None where the user sets a road."""
+    if asked.world is not None:
+        return make_world(asked.world, tell)
+    if ROAD in dict(asked.wishes.values):
+        return None
+    try:
+        return make_world(DEFAULT_WORLD, tell)
+    except HostError as error:
+        tell(f"The world {DEFAULT_WORLD} cannot be made; the car is driven on its own road. {error}")
+        return None
+
+
+def _settings(asked: Asked, aliases: Aliases, variables: Variables, world: World) -> Settings:
+    """What is set: the world, the place, the manoeuvre, then what the user says."""
+    start: dict[str, Value] = {} if world.road is None else {ROAD: str(world.road)}
+    places = world.places()
+    if asked.place is not None and asked.place not in places:
+        has = ", ".join(places) or "none"
+        raise HostError(f"The world {world.name or 'of this FMU'} has no place '{asked.place}'; it has: {has}.")
+    place = asked.place if asked.place is not None else next(iter(places), None)
+    if place is not None:
+        start |= places[place]
+    start = {name: value for name, value in aliases.values(start).items() if name in variables.names}
+    settings = Settings(variables)
+    if ITERATIONS in variables.names:
+        settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")
+    settings.add_numbers(start, f"the world {world.name}")
+    if asked.manoeuvre is not None:
+        manoeuvre = with_names_of(asked.manoeuvre, variables.names)
+        settings.add_numbers(manoeuvre.start, f"start of {manoeuvre.name}")
+    for file in asked.wishes.sets:
+        settings.add_set(file)
+    settings.add_texts(asked.wishes.values, "--set")
+    if asked.fidelity is not None:
+        if "fidelity" in dict(asked.wishes.values):
+            raise HostError("The fidelity is given by --fidelity and by --set; give it once.")
+        settings.add_numbers({"fidelity": asked.fidelity}, "--fidelity")
+    return settings

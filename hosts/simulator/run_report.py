@@ -1,0 +1,109 @@
+"""What is said while the simulator runs, and the report at its end."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ali3.files import write_text
+from hosts.simulator.mail import RECORDING_CUT
+
+if TYPE_CHECKING:
+    from hosts.simulator.preparation import Prepared
+    from hosts.simulator.step_times import StepTimes
+
+_KEPT_EVENTS = 1000
+
+
+class RunReport:
+    """Sentences for the terminal, and figures of the run.
+
+    Parameters
+    ----------
+    begin : float
+        When the command was started, by `time.monotonic`.
+    show : callable
+        Takes a line.
+    """
+
+    def __init__(self, begin: float, show: Callable[[str], None] = lambda line: print(line, flush=True)) -> None:
+        self._begin = begin
+        self._show = show
+        self._figures: dict[str, Any] = {}
+        self._marks: dict[str, float] = {}
+        self._events: list[dict[str, str]] = []
+        self._kinds: Counter[str] = Counter()
+
+    @property
+    def whole(self) -> bool:
+        """Whether the recording that was asked for, if any, has its end and all its rows."""
+        return not (self._kinds[RECORDING_CUT] or self._kinds["overflow"])
+
+    def tell(self, text: str) -> None:
+        """Show a sentence."""
+        self._show(text)
+
+    def event(self, kind: str, text: str) -> None:
+        """Show and keep something that happened to the car."""
+        self._kinds[kind] += 1
+        if len(self._events) < _KEPT_EVENTS:
+            self._events.append({"kind": kind, "text": text})
+        self._show(text)
+
+    def passed(self, what: str) -> float:
+        """Note that something is done; seconds since the start of the command."""
+        self._marks[what] = time.monotonic() - self._begin
+        return self._marks[what]
+
+    def prepared(self, prepared: Prepared, step: float) -> None:
+        """Take over what is driven."""
+        self.passed("prepared")
+        self._figures |= {
+            "fmu": str(prepared.fmu.path),
+            "model": prepared.description.modelName,
+            "guid": prepared.description.guid,
+            "world": prepared.world.name,
+            "step": step,
+            "settings": prepared.settings.records(),
+            "built": prepared.fmu.built,
+        }
+        for name, words in prepared.settings.rows():
+            self._show(f"{name}: {words}")
+
+    def ready(self) -> None:
+        """Say how long it took until a page could come, or a run without one began."""
+        seconds, built = self.passed("ready"), self._figures["built"]
+        how = f"cold: the FMU was built in {built:.1f} s of it" if built else "warm: the FMU was there"
+        self._show(f"Ready {seconds:.2f} s after the start of the command ({how}).")
+
+    def first_frame(self) -> None:
+        """Say when the first page had its first frame."""
+        self._show(f"First frame sent to a page {self.passed('first frame'):.2f} s after the start of the command.")
+
+    def finish(self, times: StepTimes, file: Path | None) -> None:
+        """Show the report, and write it.
+
+        Parameters
+        ----------
+        times : StepTimes
+        file : Path, optional
+            JSON.
+
+        Raises
+        ------
+        FileError
+            It cannot be written.
+        """
+        self._show(times.text())
+        if self._kinds:
+            told = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))
+            self._show(f"what was said: {told}")
+        if file is not None:
+            self._figures |= {"seconds since the start": self._marks, "steps": times.report()}
+            self._figures |= {"events": self._events, "event counts": dict(self._kinds)}
+            write_text(file, json.dumps(self._figures, indent=1, allow_nan=False) + "\n")
+            self._show(f"report: {file}")

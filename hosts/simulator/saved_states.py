@@ -1,0 +1,149 @@
+"""Saved states of the FMU and the inputs since, so that any step of the last seconds can be gone back to."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.fmu import State
+
+SECONDS, EVERY = 30.0, 0.5
+# New starts save a state each; more than these shorten what can be rewound in place of filling the memory.
+_MOST_STATES = 200
+# Of the inputs; steps so short, or inputs so many, that they would take more shorten it too.
+_MOST_BYTES = 1 << 26
+
+
+class SavesStates(Protocol):
+    """What is needed of `hosts.fmu.Fmu`."""
+
+    def state(self) -> State: ...
+    def restore(self, state: State) -> None: ...
+    def free(self, state: State) -> None: ...
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A step of the past.
+
+    Parameters
+    ----------
+    count, epoch : int
+        Of its row.
+    begin : float
+        Time at which the FMU was started, s.
+    steps : int
+        Since that start.
+    """
+
+    count: int
+    epoch: int
+    begin: float
+    steps: int
+
+
+@dataclass(frozen=True)
+class _Saved:
+    place: int
+    state: State
+    mark: Mark
+
+
+class SavedStates:
+    """States every half second of simulated time, for the last 30 s, and the inputs of every step since the oldest.
+
+    Parameters
+    ----------
+    fmu : SavesStates
+    inputs : int
+        Number of inputs.
+    step : float
+        Communication step, s.
+    """
+
+    def __init__(self, fmu: SavesStates, inputs: int, step: float) -> None:
+        self._fmu, self._step = fmu, step
+        most = _MOST_BYTES // (8 * inputs + 16)
+        self._every = max(1, min(round(EVERY / step), most // 8))
+        self._length = max(1, min(round(SECONDS / step), most))
+        capacity = self._length + self._every + 1
+        self._inputs = np.empty((capacity, inputs))
+        self._marks: NDArray[np.int64] = np.empty((capacity, 2), np.int64)
+        self._saved: deque[_Saved] = deque()
+        self._place = 0
+
+    @property
+    def bytes(self) -> int:
+        """Memory of the inputs."""
+        return self._inputs.nbytes + self._marks.nbytes
+
+    @property
+    def seconds(self) -> float:
+        """Simulated time that can be gone back."""
+        return self._step * self.steps
+
+    @property
+    def steps(self) -> int:
+        """Steps that can be gone back."""
+        return self._place - self._saved[0].place if self._saved else 0
+
+    def begin(self, inputs: NDArray[np.float64], mark: Mark) -> None:
+        """Save the state of a new start, with the inputs held there."""
+        self._note(inputs, mark)
+        self._save(mark)
+
+    def add(self, inputs: NDArray[np.float64], mark: Mark) -> None:
+        """Note a step that was made with these inputs; its state is saved where it is due."""
+        self._note(inputs, mark)
+        if self._place - self._saved[-1].place >= self._every:
+            self._save(mark)
+
+    def _note(self, inputs: NDArray[np.float64], mark: Mark) -> None:
+        self._place += 1
+        k = self._place % len(self._inputs)
+        self._inputs[k] = inputs
+        self._marks[k] = mark.count, mark.epoch
+
+    def _save(self, mark: Mark) -> None:
+        self._saved.append(_Saved(self._place, self._fmu.state(), mark))
+        while len(self._saved) > 1 and (
+            self._saved[1].place <= self._place - self._length or len(self._saved) > _MOST_STATES
+        ):
+            self._fmu.free(self._saved.popleft().state)
+
+    def back(self, steps: int) -> tuple[Mark, NDArray[np.float64], NDArray[np.float64]]:
+        """Restore the last saved state that is not after the step that lies `steps` back.
+
+        Parameters
+        ----------
+        steps : int
+            Not more than `steps`.
+
+        Returns
+        -------
+        Mark
+            The step whose state was restored, with the count and epoch of the step that was asked for.
+        ndarray of shape (inputs,)
+            Those held at the step that was asked for.
+        ndarray of shape (k, inputs)
+            Those of the steps to repeat.
+        """
+        target = self._place - steps
+        while self._saved[-1].place > target:
+            self._fmu.free(self._saved.pop().state)
+        saved = self._saved[-1]
+        self._fmu.restore(saved.state)
+        self._place = target
+        k = np.arange(saved.place + 1, target + 1) % len(self._inputs)
+        here = target % len(self._inputs)
+        count, epoch = self._marks[here].tolist()
+        return Mark(count, epoch, saved.mark.begin, saved.mark.steps), self._inputs[here].copy(), self._inputs[k]
+
+    def clear(self) -> None:
+        """Free all states."""
+        while self._saved:
+            self._fmu.free(self._saved.pop().state)

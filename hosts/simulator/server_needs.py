@@ -1,0 +1,63 @@
+"""What the server needs: a car, devices, and what it hands out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol
+
+from hosts.numbers import Value
+
+if TYPE_CHECKING:
+    from hosts.simulator.car import Event, Moment
+    from hosts.simulator.step_times import StepTimes
+
+
+class DrivenCar(Protocol):
+    """What the server needs of a car; see `hosts.simulator.car.Car`."""
+
+    @property
+    def inputs(self) -> tuple[str, ...]: ...
+
+    @property
+    def step(self) -> float: ...
+
+    def command(self, name: str, value: float = 0.0) -> None: ...
+
+    def restart(self, changes: Mapping[str, Value]) -> None: ...
+
+    def latest(self) -> Moment: ...
+
+    def events(self) -> list[Event]: ...
+
+    def step_times(self) -> StepTimes: ...
+
+
+class ShownDevices(Protocol):
+    """What the server needs of devices; see `hosts.simulator.devices.Devices`."""
+
+    def state(self) -> list[dict[str, Any]]: ...
+
+    def message(self, content: dict[str, Any]) -> None: ...
+
+
+@dataclass(frozen=True)
+class Content:
+    """What the server hands out.
+
+    Parameters
+    ----------
+    page : str
+        HTML.
+    world : mapping
+        JSON of the drawing of the world, as the command ``ali3 world`` writes it.
+    hello : mapping
+        The first message to a page.
+    places : mapping of str to mapping
+        Start values by name of the places of the world.
+    """
+
+    page: str
+    world: Mapping[str, Any]
+    hello: Mapping[str, Any]
+    places: Mapping[str, Mapping[str, Value]]

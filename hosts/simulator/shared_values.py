@@ -1,0 +1,236 @@
+"""Memory that the car's process and the main process share; neither ever waits for the other."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from multiprocessing.shared_memory import SharedMemory
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.simulator.step_times import TIMES_SIZE
+
+MOMENT = (
+    *("count", "time", "epoch", "running", "refused", "behind", "speed", "wall"),
+    *("cost", "worst", "lateness", "missed", "saved"),
+)
+"""Values of a moment before those of the columns."""
+ROW = ("count", "time", "epoch")
+"""Values of a row of a recording before those of the columns."""
+STOP, RECORDING, LOST_ROWS, LOST_MESSAGES = range(4)
+"""Places among the flags: asks the car's process to end; somebody takes the rows; what found no room."""
+_FLAGS, _COMMANDS, _MESSAGE_BYTES = 8, 256, 1 << 18
+_TRIES = 4
+_ORDER = threading.Lock()
+
+
+def _fence() -> None:
+    """What was written before is seen by others before what comes after, on processors that would change the order."""
+    with _ORDER:
+        pass
+
+
+class TwoSlots:
+    """A record with one writer and any readers: it is written into two slots in turn.
+
+    A reader takes the slot that was finished last. It is torn only if the writer began twice meanwhile; after a few
+    such attempts the reader keeps the record it had.
+
+    Parameters
+    ----------
+    counters : ndarray of shape (2,)
+        int64, zero at first: numbers of the last record that was begun and that was finished.
+    slots : ndarray of shape (2, n)
+    """
+
+    def __init__(self, counters: NDArray[np.int64], slots: NDArray[np.float64]) -> None:
+        self._counters, self._slots = counters, slots
+        self._last: NDArray[np.float64] = slots[0].copy()
+
+    @property
+    def written(self) -> int:
+        """Records that were finished so far."""
+        return int(self._counters[1])
+
+    def begin(self) -> NDArray[np.float64]:
+        """The slot to write the next record into; `finish` shows it to readers."""
+        number = int(self._counters[0]) + 1
+        self._counters[0] = number
+        _fence()
+        slot: NDArray[np.float64] = self._slots[number % 2]
+        return slot
+
+    def finish(self) -> None:
+        _fence()
+        self._counters[1] = self._counters[0]
+
+    def read(self) -> NDArray[np.float64]:
+        """A copy of the last record, or of an older one where the writer was too fast."""
+        for _ in range(_TRIES):
+            number = int(self._counters[1])
+            _fence()
+            copy: NDArray[np.float64] = self._slots[number % 2].copy()
+            _fence()
+            if self._counters[0] <= number + 1:
+                self._last = copy
+                break
+        return self._last
+
+
+class Ring:
+    """Rows from one writer to one reader; without room they are counted and left out.
+
+    Parameters
+    ----------
+    counters : ndarray of shape (2,)
+        int64, zero at first: rows written and read.
+    rows : ndarray of shape (capacity, n)
+    """
+
+    def __init__(self, counters: NDArray[np.int64], rows: NDArray[np.float64]) -> None:
+        self._counters, self._rows = counters, rows
+        self._capacity = len(rows)
+
+    def has_room(self) -> bool:
+        return int(self._counters[0] - self._counters[1]) < self._capacity
+
+    def slot(self) -> NDArray[np.float64]:
+        """The row to write into where there is room; `finish` shows it to the reader."""
+        row: NDArray[np.float64] = self._rows[int(self._counters[0]) % self._capacity]
+        return row
+
+    def finish(self) -> None:
+        _fence()
+        self._counters[0] += 1
+
+    def take(self) -> NDArray[np.float64]:
+        """Copies of all rows that wait, shape (k, n), in their order."""
+        read, written = int(self._counters[1]), int(self._counters[0])
+        _fence()
+        rows: NDArray[np.float64] = self._rows[np.arange(read, written) % self._capacity]
+        _fence()
+        self._counters[1] = written
+        return rows
+
+
+class ByteRing:
+    """Messages of any length from one writer to one reader; without room they are counted by the caller.
+
+    Parameters
+    ----------
+    counters : ndarray of shape (2,)
+        int64, zero at first: bytes written and read.
+    data : ndarray of shape (n,)
+        uint8.
+    """
+
+    _HEAD = 4
+
+    def __init__(self, counters: NDArray[np.int64], data: NDArray[np.uint8]) -> None:
+        self._counters, self._data = counters, data
+
+    def put(self, message: bytes) -> bool:
+        """Whether there was room."""
+        written, size = int(self._counters[0]), len(self._data)
+        record = np.frombuffer(len(message).to_bytes(self._HEAD, "little") + message, np.uint8)
+        if written - int(self._counters[1]) + len(record) > size:
+            return False
+        self._data[np.arange(written, written + len(record)) % size] = record
+        _fence()
+        self._counters[0] = written + len(record)
+        return True
+
+    def take(self) -> list[bytes]:
+        """All messages that wait."""
+        read, written = int(self._counters[1]), int(self._counters[0])
+        _fence()
+        data = self._data[np.arange(read, written) % len(self._data)].tobytes()
+        _fence()
+        self._counters[1] = written
+        messages, place = [], 0
+        while place < len(data):
+            begin = place + self._HEAD
+            place = begin + int.from_bytes(data[place:begin], "little")
+            messages.append(data[begin:place])
+        return messages
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """What the layout follows from.
+
+    Parameters
+    ----------
+    inputs, columns : int
+        Number of inputs, and of inputs and outputs.
+    rows : int
+        Rows of a recording that may wait.
+    """
+
+    inputs: int
+    columns: int
+    rows: int
+
+
+class SharedValues:
+    """Views of the shared memory.
+
+    Parameters
+    ----------
+    sizes : Sizes
+    name : str, optional
+        Of memory that another process has made; without it, it is made.
+
+    Attributes
+    ----------
+    flags : ndarray of shape (8,)
+        int64, see `STOP` and its neighbours.
+    moments : TwoSlots
+        From the car: `MOMENT`, then the columns.
+    wants : TwoSlots
+        To the car, for each input: value, largest change per second, number of the wish.
+    commands : Ring
+        To the car: number of the command, value, number of the last wish before it.
+    rows : Ring
+        From the car: `ROW`, then the columns.
+    messages : ByteRing
+        From the car.
+    times : ndarray
+        From the car, see `hosts.simulator.step_times`.
+    """
+
+    def __init__(self, sizes: Sizes, name: str | None = None) -> None:
+        moment, wants, row = len(MOMENT) + sizes.columns, 3 * sizes.inputs, len(ROW) + sizes.columns
+        counters = 10
+        doubles = 2 * moment + 2 * wants + 3 * _COMMANDS + row * sizes.rows + TIMES_SIZE
+        size = 8 * (_FLAGS + counters + doubles) + _MESSAGE_BYTES
+        self._memory = SharedMemory(name) if name else SharedMemory(create=True, size=size)
+        self.name = self._memory.name
+        assert self._memory.buf is not None
+        self._free, self._owner = self._memory.buf, name is None
+        self.flags = np.frombuffer(self._take(8 * _FLAGS), np.int64)
+        pairs = np.frombuffer(self._take(8 * counters), np.int64).reshape(5, 2)
+        self.moments = TwoSlots(pairs[0], self._doubles(2, moment))
+        self.wants = TwoSlots(pairs[1], self._doubles(2, wants))
+        self.commands = Ring(pairs[2], self._doubles(_COMMANDS, 3))
+        self.rows = Ring(pairs[3], self._doubles(sizes.rows, row))
+        self.times = self._doubles(1, TIMES_SIZE)[0]
+        self.messages = ByteRing(pairs[4], np.frombuffer(self._take(_MESSAGE_BYTES), np.uint8))
+        del self._free
+
+    def _doubles(self, rows: int, columns: int) -> NDArray[np.float64]:
+        return np.frombuffer(self._take(8 * rows * columns), np.float64).reshape(rows, columns)
+
+    def _take(self, size: int) -> memoryview:
+        part, self._free = self._free[:size], self._free[size:]
+        return part
+
+    def close(self) -> None:
+        """Give the memory back; the views are no longer to be used."""
+        del self.flags, self.moments, self.wants, self.commands, self.rows, self.times, self.messages
+        try:
+            self._memory.close()
+        finally:
+            if self._owner:
+                self._memory.unlink()

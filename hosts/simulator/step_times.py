@@ -1,0 +1,241 @@
+"""Costs and lateness of the steps: histograms of fixed size, and what a person or a program reads of them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+_FIRST, _DECADES, _PER_DECADE = 1e-6, 7, 40
+BINS = _DECADES * _PER_DECADE + 2
+"""Bins of a histogram: below 1 us, 40 in each decade up to 10 s, above."""
+_SCALARS = (
+    *("steps", "simulated", "scheduled", "wall", "paused", "missed", "skipped", "lost"),
+    *("cost_sum", "cost_largest", "lateness_largest", "capped", "capped_largest"),
+)
+_PLACES = {name: k for k, name in enumerate(_SCALARS)}
+TIMES_SIZE = len(_SCALARS) + 2 * BINS
+"""Doubles of a record."""
+_COST, _LATENESS = len(_SCALARS), len(_SCALARS) + BINS
+_QUANTILES = (("median", 0.5), ("p99", 0.99), ("p999", 0.999))
+
+
+def bin_of(seconds: float) -> int:
+    """The bin of a time."""
+    if seconds <= _FIRST:
+        return 0
+    return min(1 + int(_PER_DECADE * math.log10(seconds / _FIRST)), BINS - 1)
+
+
+class TimesRecord:
+    """Where the car's loop adds a step; only it writes.
+
+    Parameters
+    ----------
+    values : ndarray of shape (TIMES_SIZE,)
+        Zero at first.
+    """
+
+    def __init__(self, values: NDArray[np.float64]) -> None:
+        self._values = memoryview(values.data).cast("B").cast("d")
+
+    def add(self, name: str, amount: float) -> None:
+        """Add to a figure: steps, simulated, scheduled, wall, paused, missed, skipped, lost, capped."""
+        self._values[_PLACES[name]] += amount
+
+    def __getitem__(self, name: str) -> float:
+        return self._values[_PLACES[name]]
+
+    def add_step(self, cost: float, lateness: float) -> None:
+        """Count a step by its cost and the lateness of its begin, s."""
+        values = self._values
+        values[_COST + bin_of(cost)] += 1.0
+        values[_LATENESS + bin_of(lateness)] += 1.0
+        self.add("cost_sum", cost)
+        self.raise_to("cost_largest", cost)
+        self.raise_to("lateness_largest", lateness)
+
+    def raise_to(self, name: str, value: float) -> None:
+        """Keep the largest: cost_largest, lateness_largest, capped_largest."""
+        if value > self._values[_PLACES[name]]:
+            self._values[_PLACES[name]] = value
+
+
+@dataclass(frozen=True)
+class Spread:
+    """A histogram and its largest value.
+
+    Parameters
+    ----------
+    counts : ndarray of shape (BINS,)
+    largest : float
+        s.
+    """
+
+    counts: NDArray[np.float64]
+    largest: float
+
+    def quantile(self, part: float) -> float:
+        """The time that this part of the steps does not exceed, s: the upper edge of its bin (6 %), 0 without steps."""
+        total = float(self.counts.sum())
+        if total == 0.0:
+            return 0.0
+        place = int(np.searchsorted(np.cumsum(self.counts), part * total))
+        return min(self.largest, edge(place))
+
+    def report(self) -> dict[str, Any]:
+        used = np.flatnonzero(self.counts)
+        bins = [[min(edge(int(k)), self.largest), int(self.counts[k])] for k in used]
+        return {name: self.quantile(part) for name, part in _QUANTILES} | {"largest": self.largest, "bins": bins}
+
+    def words(self) -> str:
+        parts = [self.quantile(part) for _, part in _QUANTILES]
+        named = zip(("median", "p99", "p99.9", "largest"), (*parts, self.largest), strict=True)
+        return ", ".join(f"{name} {1e3 * value:.3g} ms" for name, value in named)
+
+    def lines(self) -> list[str]:
+        """A bar for each part of a decade that has steps."""
+        rows: dict[float, float] = {}
+        for k in np.flatnonzero(self.counts):
+            top = next(t for t in _TOPS if t >= edge(int(k)) * (1.0 - 1e-9))
+            rows[top] = rows.get(top, 0.0) + float(self.counts[k])
+        most = max(rows.values(), default=1.0)
+        return [
+            f"  <= {1e3 * t:>8g} ms {int(n):>10}  {'#' * math.ceil(40.0 * n / most)}" for t, n in sorted(rows.items())
+        ]
+
+
+def edge(place: int) -> float:
+    """Upper edge of a bin, s; infinite for the last."""
+    return math.inf if place >= BINS - 1 else float(_FIRST * 10.0 ** (place / _PER_DECADE))
+
+
+_TOPS = [float(f"{m}e{e}") for e in range(-6, 2) for m in (1, 2, 5)] + [math.inf]
+
+
+@dataclass(frozen=True)
+class StepTimes:
+    """Times of the steps so far.
+
+    Parameters
+    ----------
+    step : float
+        Communication step, s.
+    paced : bool
+    steps : int
+    simulated : float
+        Simulated time of these steps, s.
+    scheduled : float
+        Wall time that they were to take at the speeds that were asked for, s.
+    wall, paused : float
+        Wall time in which the car ran and in which it was paused, s.
+    missed : int
+        Deadlines that were missed: the step was not done when the next was to begin.
+    skipped : int
+        How often the schedule was moved on because the car was too late.
+    lost : float
+        Wall time by which it was moved, s.
+    cost, lateness : Spread
+        Of the work of a step, and of its begin after its scheduled time.
+    mean : float
+        Of the costs, s.
+    capped : int
+        Inner steps of the FMU that a limit of iterations cut short.
+    capped_residual : float
+        The largest that they left, m.
+    """
+
+    step: float
+    paced: bool
+    steps: int
+    simulated: float
+    scheduled: float
+    wall: float
+    paused: float
+    missed: int
+    skipped: int
+    lost: float
+    cost: Spread
+    lateness: Spread
+    mean: float
+    capped: int
+    capped_residual: float
+
+    @staticmethod
+    def of(values: NDArray[np.float64], step: float, paced: bool) -> StepTimes:
+        """From a record that the loop writes."""
+        v = values.copy()
+        scalar = {name: float(v[k]) for name, k in _PLACES.items()}
+        steps = int(scalar["steps"])
+        return StepTimes(
+            step,
+            paced,
+            steps,
+            scalar["simulated"],
+            scalar["scheduled"],
+            scalar["wall"],
+            scalar["paused"],
+            int(scalar["missed"]),
+            int(scalar["skipped"]),
+            scalar["lost"],
+            Spread(v[_COST : _COST + BINS], scalar["cost_largest"]),
+            Spread(v[_LATENESS : _LATENESS + BINS], scalar["lateness_largest"]),
+            scalar["cost_sum"] / max(1, steps),
+            int(scalar["capped"]),
+            scalar["capped_largest"],
+        )
+
+    @property
+    def factor(self) -> float:
+        """Scheduled over wall seconds while it ran: 1 where it kept up, whatever the speed that was asked for."""
+        return self.scheduled / self.wall if self.wall > 0.0 else 1.0
+
+    def report(self) -> dict[str, Any]:
+        """For JSON; times in s, `bins` as upper edge and count."""
+        return {
+            "step": self.step,
+            "paced": self.paced,
+            "steps": self.steps,
+            "simulated": self.simulated,
+            "scheduled": self.scheduled,
+            "wall": self.wall,
+            "paused": self.paused,
+            "factor": self.factor,
+            "missed": self.missed,
+            "skipped": self.skipped,
+            "lost": self.lost,
+            "mean": self.mean,
+            "capped": self.capped,
+            "capped_residual": self.capped_residual,
+            "cost": self.cost.report(),
+            "lateness": self.lateness.report(),
+        }
+
+    def text(self) -> str:
+        """For a person."""
+        if not self.steps:
+            return f"No step was computed; paused for {self.paused:.1f} s."
+        ratio = self.simulated / self.wall if self.wall > 0.0 else math.inf
+        rows = [
+            f"{self.steps} steps of {1e3 * self.step:g} ms: {self.simulated:.3f} s simulated in {self.wall:.3f} s of "
+            f"wall time (ratio {ratio:.4f}), besides {self.paused:.1f} s paused",
+            f"cost of a step: {self.cost.words()}, mean {1e3 * self.mean:.3g} ms",
+        ]
+        if self.paced:
+            share = 100.0 * self.missed / self.steps
+            rows += [
+                f"lateness of its begin: {self.lateness.words()}",
+                f"missed deadlines: {self.missed} ({share:.3g} % of the steps)",
+            ]
+            if self.skipped:
+                rows.append(
+                    f"too slow: the schedule was moved on {self.skipped} times, by {self.lost:.3f} s in all; "
+                    f"{self.factor:.3f} of the speed that was asked for was reached"
+                )
+        if self.capped:
+            left = f"the largest residual left was {1e3 * self.capped_residual:.3g} mm"
+            rows.append(f"inner steps that ended at the limit of iterations: {self.capped}; {left}")
+        return "\n".join([*rows, "histogram of the costs:", *self.cost.lines()])

@@ -1,0 +1,7 @@
+"""``python -m hosts.soak``."""
+
+import sys
+
+from hosts.soak.command import main
+
+sys.exit(main())

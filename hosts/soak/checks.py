@@ -1,0 +1,145 @@
+"""What a soak test looks at in every step of a drive."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+WHEELS = ("FL", "FR", "RL", "RR")
+LARGEST_BALANCE = 0.04
+"""Of `solver.energy_balance`: above it no run of the engine's trials was right, and the FMU itself warns."""
+
+_SETTLED = 100  # steps of a run before its energy is looked at, as the FMU does
+_WORKS = tuple(f"energy.{name}" for name in ("drive", "brakes", "tyres", "dampers", "drag", "ground"))
+_OVERTURNED = 0.3  # of the height of a unit vector that points up in the car
+_LOWEST, _HIGHEST = -5.0, 100.0  # m: a car that is lower has fallen through its road
+
+
+class BadStepError(Exception):
+    """A step after which something is wrong; `kind` is a word for the table."""
+
+    def __init__(self, kind: str, text: str) -> None:
+        super().__init__(text)
+        self.kind = kind
+
+
+@dataclass
+class Counts:
+    """Numbers of a drive; see `docs/driving.md`."""
+
+    steps: int = 0
+    top_speed: float = 0.0
+    farthest: float = 0.0
+    jumps: int = 0
+    longest_jump: float = 0.0
+    highest: float = 0.0
+    rollovers: int = 0
+    largest_balance: float = 0.0
+    largest_open_energy: float = 0.0
+    most_iterations: float = 0.0
+    halvings: float = 0.0
+    capped: float = 0.0
+    slow_steps: int = 0
+
+
+class Watch:
+    """Looks at the outputs after each step.
+
+    Parameters
+    ----------
+    outputs : sequence of str
+        Names; what is not among them is not looked at.
+    step : float
+        s.
+    largest_balance : float
+        Of `solver.energy_balance`.
+    """
+
+    def __init__(self, outputs: Sequence[str], step: float, largest_balance: float = LARGEST_BALANCE) -> None:
+        self.counts = Counts()
+        self._place = {name: k for k, name in enumerate(outputs)}
+        self._outputs, self._step, self._largest = list(outputs), step, largest_balance
+        self._loads = self._all(f"wheel_{wheel}.Fz" for wheel in WHEELS)
+        self._works = self._all(_WORKS)
+        self._total, self._error = self._one("energy.total"), self._one("solver.energy_error")
+        self._balance, self._kinetic = self._one("solver.energy_balance"), self._one("energy.kinetic")
+        self._speed, self._iterations = self._one("speed"), self._one("solver.iterations")
+        self._halvings, self._capped = self._one("solver.halvings"), self._one("solver.capped_steps")
+        self._position = self._all(f"chassis.{axis}" for axis in "xyz")
+        self._tilt = self._all(("chassis.qx", "chassis.qy"))
+        self._ground = self._one("chassis.ground_points")
+        self.overturned = False
+        self.begin([0.0] * len(outputs))
+
+    def begin(self, row: Sequence[float]) -> None:
+        """Say that the car starts anew, with these outputs."""
+        self._steps, self._air, self.overturned = 0, 0, False
+        self._begin_total = row[self._total] if self._total >= 0 else 0.0
+        self._most_kinetic = 0.0
+        self._before = 0.0, 0.0
+
+    def step(self, row: Sequence[float]) -> None:
+        """Count, and check; `BadStepError` if the step is bad."""
+        counts = self.counts
+        counts.steps += 1
+        self._steps += 1
+        if not math.isfinite(sum(row)):
+            name = next(
+                (n for n, x in zip(self._outputs, row, strict=True) if not math.isfinite(x)), "a sum of outputs"
+            )
+            raise BadStepError("not finite", f"{name} is no finite number.")
+        self._motion(row)
+        if self._iterations >= 0:
+            counts.most_iterations = max(counts.most_iterations, row[self._iterations])
+        halvings = row[self._halvings] if self._halvings >= 0 else 0.0
+        capped = row[self._capped] if self._capped >= 0 else 0.0
+        counts.halvings += halvings - self._before[0]
+        counts.capped += capped - self._before[1]
+        self._before = halvings, capped
+        self._energy(row)
+
+    def _motion(self, row: Sequence[float]) -> None:
+        counts = self.counts
+        if self._speed >= 0:
+            counts.top_speed = max(counts.top_speed, row[self._speed])
+        if self._position:
+            x, y, z = (row[k] for k in self._position)
+            counts.farthest = max(counts.farthest, math.hypot(x, y))
+            counts.highest = max(counts.highest, z)
+            if not _LOWEST < z < _HIGHEST:
+                raise BadStepError("left the road", f"chassis.z is {z:g} m.")
+        if self._loads:
+            flying = not any(row[k] > 0.0 for k in self._loads) and not (self._ground >= 0 and row[self._ground] > 0.0)
+            self._air = self._air + 1 if flying else 0
+            counts.longest_jump = max(counts.longest_jump, self._air * self._step)
+            counts.jumps += self._air == round(0.1 / self._step)
+        if self._tilt:
+            up = 1.0 - 2.0 * sum(row[k] ** 2 for k in self._tilt)
+            counts.rollovers += up < _OVERTURNED and not self.overturned
+            self.overturned = up < _OVERTURNED if not self.overturned else up < 2.0 * _OVERTURNED
+
+    def _energy(self, row: Sequence[float]) -> None:
+        if self._steps < _SETTLED:
+            return
+        if self._kinetic >= 0 and self._works and self._total >= 0 and self._error >= 0:
+            self._most_kinetic = max(self._most_kinetic, row[self._kinetic])
+            works = [row[k] for k in self._works]
+            opened = row[self._total] - self._begin_total - sum(works) - row[self._error]
+            size = self._most_kinetic + sum(map(abs, works))
+            self.counts.largest_open_energy = max(self.counts.largest_open_energy, abs(opened) / max(size, 1.0))
+        if self._balance >= 0:
+            balance = row[self._balance]
+            self.counts.largest_balance = max(self.counts.largest_balance, balance)
+            if balance > self._largest:
+                raise BadStepError(
+                    "energy", f"solver.energy_balance is {balance:.3g}; at most {self._largest:g} is good."
+                )
+
+    def _one(self, name: str) -> int:
+        return self._place.get(name, -1)
+
+    def _all(self, names: Iterable[str]) -> list[int]:
+        """Places of several outputs, none if one is missing."""
+        places = [self._place.get(name, -1) for name in names]
+        return places if min(places) >= 0 else []

@@ -1,0 +1,298 @@
+"""One drive of a soak test: runs of some seconds, one after the other in one instance of the FMU.
+
+As a program it takes a task as JSON and prints lines of JSON: the seconds that are done, and the outcome.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+import sys
+import time as clock
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ali3.running import run_command
+from hosts.fmu import Fmu, StepRefusedError
+from hosts.numbers import Value
+from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Counts, Watch
+from hosts.soak.grounds import Ground, ground_of
+from hosts.soak.memory import Memory
+from hosts.soak.stretch import Stretch
+from hosts.wild_driver import SENSES, WildDriver, wild_start
+
+_RUN = (15.0, 60.0)  # s, shortest and longest run
+_LYING = 1.0  # s that an overturned car lies still before it is set upright
+_STILL = 1.0  # m/s
+_AGAIN = 100  # steps that are repeated from a saved state
+_MOST_SAVED = 5  # failing stretches of a drive that are written
+_PLACE = ("chassis.x", "chassis.y", "chassis.yaw")
+_TOLD = 5.0  # s simulated between lines of progress
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is driven.
+
+    Parameters
+    ----------
+    fmu : str
+    seed : int
+    fidelity : int or None
+        None: the FMU has no choice.
+    seconds : float
+        Simulated.
+    step : float
+        Communication step, s.
+    start : dict of str to float, int, bool or str
+        Set before every start, over those of the seed.
+    grounds : list of dict
+        Of `Ground.record`.
+    out : str
+        Folder for failing stretches.
+    largest_balance : float
+    """
+
+    fmu: str
+    seed: int
+    fidelity: int | None
+    seconds: float
+    step: float
+    start: dict[str, Value]
+    grounds: list[dict[str, Any]]
+    out: str
+    largest_balance: float = LARGEST_BALANCE
+
+
+@dataclass
+class Failure:
+    """A failing stretch.
+
+    Parameters
+    ----------
+    kind, text : str
+    run : int
+        Of the drive, from 0.
+    time : float
+        In the run, s.
+    road : str
+    manoeuvre : str
+        File for ``ali3 drive``; empty where it was not written.
+    """
+
+    kind: str
+    text: str
+    run: int
+    time: float
+    road: str
+    manoeuvre: str = ""
+
+
+@dataclass
+class Outcome:
+    """What a drive gave.
+
+    Parameters
+    ----------
+    seed : int
+    fidelity : int or None
+    simulated, wall : float
+        s.
+    runs, uprights, rewinds : int
+    counts : Counts
+    failures : list of Failure
+    messages : dict of str to int
+        What the FMU logged, and how often.
+    memory_first, memory_last, memory_growth : float
+        MB: of the process after a quarter of the drive and at its end, and the growth between.
+    """
+
+    seed: int
+    fidelity: int | None
+    simulated: float = 0.0
+    wall: float = 0.0
+    runs: int = 0
+    uprights: int = 0
+    rewinds: int = 0
+    counts: Counts = field(default_factory=Counts)
+    failures: list[Failure] = field(default_factory=list)
+    messages: dict[str, int] = field(default_factory=dict)
+    memory_first: float = 0.0
+    memory_last: float = 0.0
+    memory_growth: float = 0.0
+
+
+class _Drive:
+    """The instance with what is kept between its runs."""
+
+    def __init__(self, task: Task, fmu: Fmu, tell: Callable[[float], None]) -> None:
+        self.task, self.fmu, self._tell = task, fmu, tell
+        self.inputs, self.outputs = fmu.names("input"), fmu.names("output")
+        self.set, self.get = fmu.setter(self.inputs), fmu.getter(self.outputs)
+        self.watch = Watch(self.outputs, task.step, task.largest_balance)
+        self.stretch = Stretch(fmu, [*self.inputs, *self.outputs], self.inputs, task.step)
+        self.memory = Memory()
+        self.outcome = Outcome(task.seed, task.fidelity, counts=self.watch.counts)
+        self.grounds = [ground_of(record) for record in task.grounds] or [Ground("", ())]
+        self.senses = [(name, self.outputs.index(name)) for name in SENSES if name in self.outputs]
+        self.rest = fmu.start_values(self.inputs).tolist()
+        self.settable = {n for n, v in fmu.variables.items() if v.causality in ("parameter", "input")}
+        self._started = False
+        self._told = 0.0
+
+    def start(self, values: Mapping[str, Value]) -> list[float]:
+        """A new start of the FMU; outputs after it."""
+        if self._started:
+            self.fmu.reset()
+        self._started = True
+        start = {name: value for name, value in values.items() if name in self.settable}
+        self.fmu.initialise(start)
+        row = self.get()
+        self.watch.begin(row)
+        self.stretch.begin(start, 0.0, [*self.rest, *row])
+        return row
+
+    def run(self) -> None:
+        """A run from a start by chance until its end or a failure."""
+        task, number = self.task, self.outcome.runs
+        self.outcome.runs += 1
+        seed = 100_000 * task.seed + number
+        chance = random.Random(f"run {seed}")
+        ground = self.grounds[int(chance.random() * len(self.grounds))]
+        seconds = _RUN[0] + (_RUN[1] - _RUN[0]) * chance.random()
+        steps = round(min(seconds, task.seconds - self.outcome.simulated) / task.step)
+        again = 1 + int(chance.random() * (steps - _AGAIN - 1))
+        start: dict[str, Value] = {**wild_start(seed, ground.targets)}
+        if ground.road:
+            start["road.file"] = ground.road
+        if task.fidelity is not None:
+            start["fidelity"] = task.fidelity
+        driver = WildDriver(seed, self.inputs, ground.targets)
+        try:
+            self._steps(driver, start | task.start, max(steps, 1), again if steps > 2 * _AGAIN else 0)
+        except (BadStepError, StepRefusedError) as error:
+            self._failed(error, number, ground.road)
+        for message in self.fmu.messages:
+            self.outcome.messages[message] = self.outcome.messages.get(message, 0) + 1
+        self.fmu.messages.clear()
+
+    def _steps(self, driver: WildDriver, start: dict[str, Value], steps: int, again: int) -> None:
+        """Drive; a car that lies on its roof is set upright where it is."""
+        h = self.task.step
+        row = self.start(start)
+        self._count, lying = 0, 0
+        k = 0
+        while k < steps:
+            wanted = driver.act(k * h, {name: row[j] for name, j in self.senses})
+            row = self._step([wanted.get(name, rest) for name, rest in zip(self.inputs, self.rest, strict=True)])
+            k += 1
+            if k == again:
+                row = self._repeated(row)
+                k += _AGAIN
+            lying = lying + 1 if self.watch.overturned and self._still(row) else 0
+            if lying * h > _LYING:
+                row = self.start(start | self._upright(row))
+                self.outcome.uprights += 1
+                self._count, lying = 0, 0
+
+    def _step(self, inputs: list[float]) -> list[float]:
+        """A step with its checks; outputs after it."""
+        h = self.task.step
+        self._tried = inputs
+        self.set(inputs)
+        self.fmu.step(self._count * h, h)
+        self._count += 1
+        row = self.get()
+        self.stretch.add(self._count * h, [*inputs, *row])
+        self.watch.step(row)
+        self.outcome.simulated += h
+        if self.outcome.simulated - self._told >= _TOLD:
+            self._told = self.outcome.simulated
+            self.memory.sample()
+            self._tell(self._told)
+        return row
+
+    def _repeated(self, row: list[float]) -> list[float]:
+        """Save the state, drive on, restore it and drive the same again: outputs must be the same bits."""
+        state, count = self.fmu.state(), self._count
+        try:
+            first = [row := self._step(self._tried) for _ in range(_AGAIN)]
+            self.fmu.restore(state)
+        finally:
+            self.fmu.free(state)
+        for k, before in enumerate(first):
+            self.fmu.step((count + k) * self.task.step, self.task.step)
+            if self.get() != before:
+                raise BadStepError("restored", f"{k + 1} steps after a state was restored the outputs are others.")
+        self.outcome.rewinds += 1
+        return row
+
+    def _still(self, row: Sequence[float]) -> bool:
+        return all(row[j] < _STILL for name, j in self.senses if name == "speed")
+
+    def _upright(self, row: Sequence[float]) -> dict[str, Value]:
+        """Start values on the wheels where the car is."""
+        x, y, yaw = (row[self.outputs.index(name)] for name in _PLACE)
+        return {"initial.x": x, "initial.y": y, "initial.z": 0.0, "initial.yaw": yaw, "initial.speed": 0.0}
+
+    def _failed(self, error: BadStepError | StepRefusedError, number: int, road: str) -> None:
+        kind, refused = (error.kind, None) if isinstance(error, BadStepError) else ("refused", self._tried)
+        failure = Failure(kind, str(error), number, self._count * self.task.step, road)
+        if len(self.outcome.failures) < _MOST_SAVED:
+            name = f"seed_{self.task.seed}_fidelity_{self.task.fidelity or 0}_run_{number}"
+            folder = Path(self.task.out) / "failures" / name
+            failure.manoeuvre = str(self.stretch.save(folder, kind, str(error), self.task.seed, refused))
+        self.outcome.failures.append(failure)
+
+
+def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> Outcome:
+    """Drive a task.
+
+    Parameters
+    ----------
+    task : Task
+    tell : callable
+        Hears the simulated seconds that are done.
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    HostError
+        The FMU cannot be started with what is set.
+    """
+    begin = clock.perf_counter()
+    with Fmu(Path(task.fmu)) as fmu:
+        made = _Drive(task, fmu, tell)
+        while made.outcome.simulated < task.seconds - 0.5 * task.step:
+            before = made.outcome.simulated
+            made.run()
+            if made.outcome.simulated == before:  # a start whose first step fails gets no second
+                made.outcome.simulated += task.step
+    outcome = made.outcome
+    outcome.wall = clock.perf_counter() - begin
+    outcome.memory_first, outcome.memory_last, outcome.memory_growth = made.memory.growth()
+    return outcome
+
+
+def main() -> int:
+    """Drive the task of the first argument."""
+
+    def work() -> int:
+        outcome = drive(Task(**json.loads(sys.argv[1])), lambda seconds: _say({"done": seconds}))
+        _say({"outcome": asdict(outcome)})
+        return 0
+
+    return run_command(work)
+
+
+def _say(record: Mapping[str, Any]) -> None:
+    print(json.dumps(record), flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,159 @@
+"""Roads that a soak test drives on: one with ramps, kerbs and a hill, those in the FMU, and worlds."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.files import make_folder, whole_file
+from ali3.running import module_command
+from hosts.errors import HostError
+from hosts.road import road_value
+from hosts.wild_driver import Target
+
+_SPACING = 0.25  # m, of the points of the road
+_HALF = 80.0  # m, half the side of its square; beyond it is level
+_QUARTER = 0.5 * math.pi
+
+_RAMPS = (  # x, y of the foot, direction in quarter turns, height and length in m
+    (20.0, 0.0, 0, 0.3, 3.0),
+    (-20.0, 30.0, 1, 0.5, 4.0),
+    (-30.0, -20.0, 2, 0.7, 4.0),
+    (40.0, -30.0, 3, 1.0, 5.0),
+    (45.0, 40.0, 0, 1.0, 3.0),
+)
+_RAMP_WIDTH = 5.0  # m
+_KERBS = ((0.0, -45.0, 12.0, 0.08), (-50.0, 45.0, 8.0, 0.15))  # x, y, side and height of blocks with steep sides, m
+_HILL = (55.0, 0.0, 0.2, 15.0, 8.0)  # x, y, grade, length of a slope, length of its top and width, m
+_WAVES = (-45.0, 0.0, 20.0, 1.8, 0.03)  # x, y, side, wavelength, amplitude, m
+
+
+@dataclass(frozen=True)
+class Ground:
+    """A road with what is driven at on it.
+
+    Parameters
+    ----------
+    road : str
+        Of the parameter `road.file`.
+    targets : tuple of Target
+    """
+
+    road: str
+    targets: tuple[Target, ...]
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """For JSON."""
+        return {"road": self.road, "targets": [asdict(target) for target in self.targets]}
+
+
+def ground_of(record: dict[str, Any]) -> Ground:
+    """The ground of a `Ground.record`."""
+    return Ground(record["road"], tuple(Target(**target) for target in record["targets"]))
+
+
+IN_THE_FMU = (
+    Ground("", ()),
+    Ground("kerb.road", (Target(10.0, 0.0, math.pi), Target(10.0, 0.0, 0.0))),
+    Ground("washboard.road", (Target(10.0, 0.0, 0.0),)),
+    Ground("rough.road", (Target(5.0, 0.0, 0.0),)),
+    Ground("split.road", ()),
+)
+"""Roads that every car's FMU has."""
+
+
+def jump_heights() -> tuple[NDArray[np.float64], tuple[Target, ...]]:
+    """Heights of the road with ramps, and the feet of the ramps.
+
+    Returns
+    -------
+    heights : ndarray of shape (n, n)
+        m, rows along x.
+    targets : tuple of Target
+    """
+    at = np.arange(-_HALF, _HALF + 0.5 * _SPACING, _SPACING)
+    x, y = np.meshgrid(at, at, indexing="ij")
+    heights = np.zeros_like(x)
+    targets = []
+    for x0, y0, quarters, height, length in _RAMPS:
+        yaw = quarters * _QUARTER
+        along = (x - x0) * math.cos(yaw) + (y - y0) * math.sin(yaw)
+        across = (y - y0) * math.cos(yaw) - (x - x0) * math.sin(yaw)
+        inside = (along >= 0.0) & (along <= length) & (np.abs(across) <= 0.5 * _RAMP_WIDTH)
+        heights = np.where(inside, height * along / length, heights)
+        targets.append(Target(x0, y0, yaw))
+    for x0, y0, side, height in _KERBS:
+        heights = np.where(np.maximum(np.abs(x - x0), np.abs(y - y0)) <= 0.5 * side, height, heights)
+        targets += [Target(x0 - 0.5 * side, y0, 0.0), Target(x0, y0 + 0.5 * side, -_QUARTER)]
+    x0, y0, grade, length, flat = _HILL
+    slope = np.clip((length + 0.5 * flat - np.abs(x - x0)) * grade, 0.0, grade * length)
+    heights = np.where(np.abs(y - y0) <= flat, np.maximum(heights, slope), heights)
+    targets.append(Target(x0 - length - 0.5 * flat, y0, 0.0))
+    x0, y0, side, wave, amplitude = _WAVES
+    inside = np.maximum(np.abs(x - x0), np.abs(y - y0)) <= 0.5 * side
+    heights = np.where(inside, amplitude * np.sin(2.0 * math.pi * (x - x0) / wave), heights)
+    return heights, tuple(targets)
+
+
+def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
+    """Make the road file with ramps, by ``ali3 road``.
+
+    Parameters
+    ----------
+    folder : Path
+    centre : (float, float)
+        Of the square, m.
+
+    Raises
+    ------
+    HostError
+        The road cannot be made.
+    """
+    heights, targets = jump_heights()
+    x, y = centre
+    file = make_folder(folder) / f"jumps_{x:.0f}_{y:.0f}.npz"
+    with whole_file(file) as made, made.open("wb") as stream:
+        np.savez(
+            stream,
+            heights=heights,
+            frictions=np.full(heights.shape, 1.2),
+            origin=np.array([x - _HALF, y - _HALF]),
+            spacing=np.array([_SPACING, _SPACING]),
+        )
+    road = road_value(str(file), folder)
+    file.unlink()
+    return Ground(road, tuple(Target(t.x + x, t.y + y, t.yaw) for t in targets))
+
+
+def world_ground(name: str, folder: Path) -> Ground:
+    """The road of a world, by ``ali3 world``; its places are driven at.
+
+    Parameters
+    ----------
+    name : str
+        Or a file.
+    folder : Path
+
+    Raises
+    ------
+    HostError
+        It is no world; with the words of ``ali3 world``.
+    """
+    command = module_command("mbs.roads.world_command", name, "--out", str(make_folder(folder)))
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    files = sorted(folder.glob("*.json"), key=lambda file: file.stat().st_mtime)
+    if done.returncode != 0 or not files:
+        words = done.stderr.strip().splitlines()
+        raise HostError(words[-1].removeprefix("error: ") if words else f"{name} is no world.")
+    world = json.loads(files[-1].read_text(encoding="utf-8"))
+    places = tuple(Target(place["x"], place["y"], place["yaw"]) for place in world["places"])
+    return Ground(str((folder / world["road"]).absolute()), places)

@@ -1,0 +1,92 @@
+"""The last seconds of a drive, kept so that a failure can be repeated from a saved state."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from hosts.fmu import Fmu
+from hosts.numbers import Value
+from hosts.simulator.recorded_drive import read_recording
+from hosts.simulator.recording import REFUSED, Recorder, recording_meta
+from hosts.simulator.to_manoeuvre import to_manoeuvre
+
+_SPAN = 2.0  # s between saved states; a stretch has one or two of them
+
+
+class _Row(NamedTuple):
+    time: float
+    values: list[float]
+
+
+class _Part(NamedTuple):
+    """A saved state and what followed."""
+
+    state: bytes
+    rows: list[_Row]
+
+
+class Stretch:
+    """Keeps what led to the present state.
+
+    Parameters
+    ----------
+    fmu : Fmu
+    names, inputs : sequence of str
+        Inputs and outputs; and the inputs alone.
+    step : float
+        s.
+    """
+
+    def __init__(self, fmu: Fmu, names: Sequence[str], inputs: Sequence[str], step: float) -> None:
+        self._fmu, self._names, self._inputs, self._step = fmu, list(names), list(inputs), step
+        self._parts: list[_Part] = []
+        self._start: dict[str, Value] = {}
+        self._most = max(1, round(_SPAN / step))
+
+    def begin(self, start: Mapping[str, Value], time: float, values: list[float]) -> None:
+        """Say that the FMU was started with these values."""
+        self._start, self._parts = dict(start), []
+        self._next(time, values)
+
+    def add(self, time: float, values: list[float]) -> None:
+        """Keep a step: inputs, and outputs after it."""
+        self._parts[-1].rows.append(_Row(time, values))
+        if len(self._parts[-1].rows) > self._most:
+            self._next(time, values)
+
+    def _next(self, time: float, values: list[float]) -> None:
+        self._parts = [*self._parts[-1:], _Part(self._fmu.state_bytes(), [_Row(time, values)])]
+
+    def save(self, folder: Path, kind: str, text: str, seed: int, refused: Sequence[float] | None) -> Path:
+        """Write the stretch as a recording, with a manoeuvre of it.
+
+        Parameters
+        ----------
+        folder : Path
+        kind, text : str
+            What was wrong.
+        seed : int
+        refused : sequence of float, optional
+            Inputs of a step that was refused.
+
+        Returns
+        -------
+        Path
+            The manoeuvre, for ``ali3 drive``.
+        """
+        rows = [*self._parts[0].rows, *(row for part in self._parts[1:] for row in part.rows[1:])]
+        units = {name: self._fmu.variables[name].unit or "1" for name in self._names}
+        meta = recording_meta(self._fmu.path, self._step, self._start, seed=seed)
+        with Recorder(folder, self._names, units, meta) as recorder:
+            recorder.state(0, self._parts[0].state)
+            for count, row in enumerate(rows):
+                recorder.row(count, row.time, 0, row.values)
+            if refused is not None:
+                recorder.event(rows[-1].time, REFUSED, text, epoch=0, inputs=list(refused))
+            else:
+                recorder.event(rows[-1].time, kind, text, epoch=0)
+        manoeuvre = folder / "manoeuvre.csv"
+        to_manoeuvre(read_recording(folder), manoeuvre)
+        return manoeuvre

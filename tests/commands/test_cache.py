@@ -1,0 +1,44 @@
+"""The cache of the user: where the system keeps caches, where the user says, or a folder that goes."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from ali3 import cache
+from ali3.cache import cache_folder
+from ali3.errors import FileError
+
+
+def test_the_user_may_name_it(tmp_path, monkeypatch):
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "mine"))
+    assert cache_folder("worlds", "named") == tmp_path / "mine" / "worlds" / "named"
+    assert cache_folder("worlds", "named").is_dir()
+
+
+def test_one_that_cannot_be_written_is_refused_if_it_was_named(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "file"))
+    with pytest.raises(FileError, match="ALI3_CACHE is '.*file', which cannot be written: "):
+        cache_folder("worlds")
+
+
+def test_without_a_home_it_is_a_folder_that_goes(tmp_path, monkeypatch):
+    monkeypatch.delenv("ALI3_CACHE", raising=False)
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(cache, "_usual", lambda: tmp_path / "file")
+    folder = cache_folder("worlds")
+    assert folder.is_dir()
+    assert tmp_path not in folder.parents
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the place on Linux")
+def test_the_usual_place(tmp_path, monkeypatch):
+    monkeypatch.delenv("ALI3_CACHE", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert cache_folder("a") == tmp_path / "ali3" / "a"
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
+    assert cache_folder("a") == tmp_path / "home" / ".cache" / "ali3" / "a"

@@ -1,0 +1,79 @@
+"""SDL without video, and `Devices` on virtual devices."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from hosts.simulator.devices import Devices, sdl
+
+Attach = Callable[..., Any]
+Start = Callable[..., Any]
+
+
+@pytest.fixture(scope="session")
+def sdl_started() -> Iterator[None]:
+    pytest.importorskip("sdl2dll", reason="SDL is not installed")
+    module = sdl.load()
+    sdl.start(module)
+    yield
+    sdl.stop(module)
+
+
+@pytest.fixture
+def attach(sdl_started: None) -> Iterator[Attach]:
+    """Plugs in a virtual device; all are pulled out at the end."""
+    from tests.hosts.simulator.devices.virtual import VirtualDevice
+
+    made: list[VirtualDevice] = []
+
+    def attach(*arguments: Any, **named: Any) -> VirtualDevice:
+        made.append(VirtualDevice(*arguments, **named))
+        return made[-1]
+
+    yield attach
+    for device in made:
+        device.pull_out()
+
+
+class Run:
+    """`Devices` that run, with what they told and want."""
+
+    def __init__(self, folder: Path, torque: Any = None, **changed: Any) -> None:
+        from tests.hosts.simulator.devices.virtual import ANGLE_MAX, INPUTS, Wishes
+
+        self.hands, self.told = Wishes(), list[str]()
+        given = {"inputs": INPUTS, "constants": {"vehicle.steering_wheel_angle_max": ANGLE_MAX}} | changed
+        self.devices = Devices(self.hands, tell=self.told.append, folder=folder, torque=torque, **given)
+        self.devices.__enter__()
+
+    def only(self) -> dict[str, Any]:
+        """State of the one device."""
+        (state,) = self.devices.state()
+        return state
+
+    def said(self, words: str) -> bool:
+        return any(words in sentence for sentence in self.told)
+
+
+@pytest.fixture
+def start(sdl_started: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
+    """Starts `Devices`; at the end its threads are gone within a second, and only then what is patched."""
+    before = set(threading.enumerate())
+    runs: list[Run] = []
+
+    def start(torque: Any = None, **changed: Any) -> Run:
+        runs.append(Run(tmp_path, torque, **changed))
+        return runs[-1]
+
+    yield start
+    begin = time.monotonic()
+    for run in runs:
+        run.devices.close()
+    assert set(threading.enumerate()) - before == set()
+    assert time.monotonic() - begin < 1.0

@@ -1,0 +1,383 @@
+"""Devices as SDL reads them: virtual ones, plugged in, moved, pulled out."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import time
+from contextlib import suppress
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hosts.errors import HostError
+from hosts.simulator.devices import configuration_folder
+from hosts.simulator.devices.mapping import read_settings
+from hosts.simulator.hands import LET_GO, Hands
+from hosts.simulator.protocol import DEVICE_MESSAGES
+from tests.hosts.simulator.devices.virtual import ANGLE_MAX, GAMEPAD, INPUTS, OTHER, sdl2, until
+
+WHEEL = "device Wheel"
+PEDALS = "device Pedals"
+
+
+def rested(device):
+    """A wheel whose pedals rest at the high end, as most do."""
+    for k in (1, 2, 3):
+        device.axis(k, 1.0)
+    return device
+
+
+def test_a_wheel_turns_the_steering_by_its_angle_and_presses_pedals(attach, start):
+    wheel = rested(attach())
+    run = start()
+    wheel.axis(0, -1.0)
+    wheel.axis(2, -1.0)
+    wheel.axis(3, 0.5)
+    until(lambda: run.hands.value(WHEEL, "throttle"))
+    value, rate = run.hands.by_source[WHEEL]["steering"]
+    assert value == pytest.approx(math.radians(450.0) / ANGLE_MAX, rel=1e-12), "to the left is positive"
+    assert rate == math.inf
+    assert run.hands.value(WHEEL, "throttle") == 1.0
+    assert run.hands.value(WHEEL, "brake") == pytest.approx((0.25 - 0.03) / 0.97, abs=1e-4)
+    wheel.axis(0, 0.5)
+    until(lambda: run.hands.value(WHEEL, "steering") < 0.0)
+    assert run.said("Wheel is plugged in and drives steering by axis 0, throttle by axis 2 and brake by axis 3")
+
+
+def test_a_device_that_lies_untouched_moves_nothing(attach, start):
+    wheel = rested(attach())
+    wheel.axis(0, 0.6)
+    run = start()
+    wheel.axis(2, 0.0)
+    until(lambda: run.hands.value(WHEEL, "throttle"))
+    assert list(run.hands.by_source[WHEEL]) == ["throttle"]
+
+
+def test_wishes_are_said_again_for_who_comes_later(attach, start):
+    wheel = rested(attach())
+    run = start()
+    wheel.axis(2, -1.0)
+    until(lambda: run.hands.value(WHEEL, "throttle"))
+    run.hands.by_source.clear()
+    assert until(lambda: run.hands.value(WHEEL, "throttle")) == 1.0
+    said, begin = [], time.monotonic()
+    run.hands.listen = lambda source, values: said.append(values)
+    until(lambda: len(said) == 3)
+    assert time.monotonic() - begin >= 0.45, "what does not move is not said at every reading"
+
+
+def test_without_the_angle_of_the_car_a_whole_turn_is_full_steering(attach, start):
+    wheel = rested(attach())
+    run = start(constants={})
+    wheel.axis(0, -1.0)
+    assert until(lambda: run.hands.value(WHEEL, "steering")) == 1.0
+    assert run.said("does not say vehicle.steering_wheel_angle_max")
+
+
+def test_a_car_that_is_steered_by_an_angle_follows_it(attach, start):
+    wheel = rested(attach())
+    run = start(inputs=("steering_wheel_angle_demand", "throttle"), constants={})
+    assert not run.said("does not say")
+    wheel.axis(0, -1.0)
+    angle = until(lambda: run.hands.value(WHEEL, "steering_wheel_angle_demand"))
+    assert angle == pytest.approx(math.radians(450.0), rel=1e-12)
+
+
+def test_a_device_pulled_out_lets_go_and_says_so_and_comes_back_as_it_was(attach, start):
+    run = start()
+    assert run.said("No wheel, pedals or gamepad is plugged in")
+    wheel = rested(attach())
+    until(run.devices.state)
+    run.devices.assign(run.only()["id"], "throttle", {"source": "axis 1", "inverted": True})
+    wheel.axis(1, -1.0)
+    until(lambda: run.hands.value(WHEEL, "throttle"))
+    wheel.pull_out()
+    until(lambda: run.said("Wheel was pulled out; throttle let go."))
+    assert run.hands.left[-1] == WHEEL
+    assert run.devices.state() == []
+    rested(attach())
+    until(run.devices.state)
+    assert run.only()["mapping"]["throttle"]["source"] == "axis 1"
+    assert run.said("as it was assigned")
+
+
+def test_a_wheel_and_separate_pedals_drive_together(attach, start):
+    wheel, pedals = attach(axes=1), attach(OTHER, "Pedals", axes=2, buttons=0, hats=0)
+    pedals.axis(0, -1.0)
+    pedals.axis(1, -1.0)
+    run = start()
+    wheel.axis(0, 1.0)
+    pedals.axis(1, 1.0)
+    until(lambda: run.hands.value(PEDALS, "brake") == 1.0)
+    until(lambda: run.hands.value(WHEEL, "steering"))
+    assert set(run.hands.by_source[WHEEL]) == {"steering"}
+    assert set(run.hands.by_source[PEDALS]) == {"brake"}
+    wheel.pull_out()
+    until(lambda: run.said("Wheel was pulled out"))
+    assert run.hands.value(PEDALS, "brake") == 1.0
+
+
+def test_two_of_a_model_are_told_apart(attach, start):
+    first, second = rested(attach()), rested(attach())
+    run = start()
+    ids = {state["name"]: state["id"] for state in run.devices.state()}
+    assert list(ids) == ["Wheel", "Wheel (2)"]
+    assert ids["Wheel (2)"] == ids["Wheel"] + "-2"
+    assert {state["usb"] for state in run.devices.state()} == {"1234:5678"}
+    run.devices.assign(ids["Wheel (2)"], "brake", {"source": "axis 1"})
+    second.axis(2, -1.0)
+    until(lambda: run.hands.value("device Wheel (2)", "throttle"))
+    assert run.hands.value(WHEEL, "throttle") is None
+    first.pull_out()
+    until(lambda: len(run.devices.state()) == 1)
+    assert run.only()["mapping"]["brake"]["source"] == "axis 1"
+
+
+def test_a_gamepad_drives_by_its_triggers_and_buttons_move_the_selector(attach, start):
+    pad = attach(GAMEPAD, "Pad", axes=6, buttons=15, hats=0)
+    pad.axis(4, -1.0)
+    pad.axis(5, -1.0)
+    run = start()
+    pad.axis(5, 1.0)
+    assert until(lambda: run.hands.value("device Pad", "throttle")) == 1.0
+    pad.axis(0, -1.0)
+    assert until(lambda: run.hands.value("device Pad", "steering")) == 1.0
+    pad.button(0, True)
+    until(lambda: run.hands.by_source["device Pad"].get("hand_brake") == (1.0, 8.0))
+    pad.button(12, True)
+    assert until(lambda: run.hands.value("device Pad", "selector")) == -1.0
+
+
+def test_a_press_moves_the_selector_once(attach, start):
+    wheel = rested(attach())
+    run = start()
+    run.devices.assign(run.only()["id"], "selector reverse", {"source": "hat 0 down"})
+    moved = []
+    run.hands.listen = lambda source, values: moved.append(values["selector"][0]) if "selector" in values else None
+    wheel.hat(0, 4)
+    until(lambda: moved)
+    wheel.axis(2, 0.0)
+    until(lambda: run.hands.value(WHEEL, "throttle"))
+    assert moved == [-1.0]
+
+
+def test_through_real_hands_a_device_shares_the_car_with_keys_and_lets_go(attach, start):
+    asked = {}
+    wheel = rested(attach())
+    run = start()
+    hands = Hands(asked.update, INPUTS)
+    run.devices._reader._hands = hands
+    wheel.axis(2, -1.0)
+    until(lambda: asked.get("throttle") == (1.0, math.inf))
+    hands.want("page 1 keys", {"throttle": (0.4, 2.5)})
+    assert asked["throttle"] == (0.4, 2.5)
+    wheel.axis(3, -1.0)
+    until(lambda: asked.get("brake") == (1.0, math.inf))
+    assert asked["throttle"] == (0.4, 2.5), "the pedal was not moved again"
+    wheel.pull_out()
+    until(lambda: run.said("Wheel was pulled out; brake let go."))
+    assert asked["brake"] == (0.0, LET_GO["brake"])
+
+
+def test_an_input_is_assigned_by_moving_it(attach, start):
+    wheel = rested(attach())
+    run = start()
+    id = run.only()["id"]
+    run.devices.message({"type": "assign by moving", "device": id, "input": "brake", "on": True})
+    assert run.only()["assigning"] == "brake"
+    wheel.axis(1, 0.7)
+    wheel.axis(1, -0.2)
+    until(lambda: run.only()["assigning"] is None)
+    mapping = run.only()["mapping"]["brake"]
+    assert (mapping["source"], mapping["inverted"], mapping["low"], mapping["high"]) == ("axis 1", True, -1.0, 1.0)
+    run.devices.assign_by_moving(id, "hand_brake")
+    wheel.button(7, True)
+    until(lambda: run.only()["mapping"].get("hand_brake", {}).get("source") == "button 7")
+
+
+def test_a_calibration_finds_ends_and_drives_nothing_meanwhile(attach, start):
+    wheel = rested(attach())
+    run = start()
+    wheel.axis(2, 0.0)
+    until(lambda: run.hands.value(WHEEL, "throttle"))
+    wheel.axis(2, 0.9)
+    id = run.only()["id"]
+    run.devices.message({"type": "calibrate", "device": id, "on": True})
+    assert run.hands.left == [WHEEL]
+    run.hands.by_source.clear()
+    until(lambda: run.only()["calibration"]["stage"] == "move")
+    for k, value in ((0, -0.8), (0, 0.84), (0, 0.0), (2, -0.7), (2, 0.9)):
+        wheel.axis(k, value)
+        until(lambda k=k, value=value: abs(run.only()["axes"][k] - value) < 1e-3)
+    run.devices.message({"type": "calibrate", "device": id, "on": False})
+    mapping = run.only()["mapping"]
+    assert (mapping["steering"]["low"], mapping["steering"]["high"]) == pytest.approx((-0.8, 0.84), abs=1e-4)
+    assert mapping["throttle"]["low"] == pytest.approx(-0.7 + 0.02 * 1.6, abs=1e-3)
+    assert run.said("the ends of steering and throttle are found")
+    assert run.said("brake was not moved far enough")
+    assert run.hands.by_source == {}
+    wheel.axis(2, -0.7)
+    assert until(lambda: run.hands.value(WHEEL, "throttle")) == 1.0
+
+
+def test_a_pedal_that_is_held_while_it_is_assigned_anew_is_let_go(attach, start):
+    wheel = rested(attach())
+    run = start()
+    wheel.axis(2, -1.0)
+    until(lambda: run.hands.value(WHEEL, "throttle"))
+    run.devices.assign(run.only()["id"], "throttle", {"source": "axis 2", "inverted": True, "dead_zone": 0.2})
+    assert run.hands.left == [WHEEL]
+    wheel.axis(2, 0.0)
+    assert until(lambda: run.hands.value(WHEEL, "throttle")) == pytest.approx((0.5 - 0.2) / 0.8, abs=1e-4)
+
+
+def test_a_mapping_is_kept_and_reset(attach, start, tmp_path):
+    rested(attach())
+    run = start()
+    id, before = run.only()["id"], run.only()["mapping"]
+    file = tmp_path / f"{id}.toml"
+    run.devices.message({"type": "device settings", "device": id, "settings": {"rotation": 540, "force": 1}})
+    run.devices.message({"type": "assign", "device": id, "input": "brake", "mapping": None})
+    assert "brake" not in run.only()["mapping"]
+    assert "rotation = 540" in file.read_text(encoding="utf-8")
+    run.devices.message({"type": "reset mapping", "device": id})
+    assert run.only()["mapping"] == before
+    assert not file.exists()
+
+
+def test_a_damaged_file_is_said_and_kept_and_the_kind_drives(attach, start, tmp_path):
+    run = start()
+    rested(attach())
+    until(run.devices.state)
+    file = tmp_path / f"{run.only()['id']}.toml"
+    run.devices.close()
+    file.write_text("inputs = 3\nnot toml", encoding="utf-8")
+    again = start()
+    until(again.devices.state)
+    assert again.said(f"{file} is damaged")
+    assert again.only()["mapping"]["throttle"]["source"] == "axis 2"
+    again.devices.assign(again.only()["id"], "brake", None)
+    assert file.with_name(file.name + ".damaged").read_text(encoding="utf-8") == "inputs = 3\nnot toml"
+    assert 'format = "ALi3 device"' in file.read_text(encoding="utf-8")
+
+
+def test_a_file_with_a_source_that_the_device_lacks_is_said(attach, start, tmp_path):
+    run = start()
+    rested(attach())
+    until(run.devices.state)
+    id = run.only()["id"]
+    run.devices.close()
+    text = 'format = "ALi3 device"\nversion = 1\n[inputs.brake]\nsource = "axis 9"\n'
+    (tmp_path / f"{id}.toml").write_text(text, encoding="utf-8")
+    again = start()
+    until(again.devices.state)
+    assert again.said("Wheel has no axis 9, as its file says; it has axes: 4")
+
+
+def test_a_folder_that_cannot_be_written_is_said_and_the_mapping_holds(attach, start, tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("", encoding="utf-8")
+    rested(attach())
+    run = start()
+    run.devices._reader.files.folder = blocked / "devices"
+    run.devices.assign(run.only()["id"], "brake", {"source": "axis 1"})
+    assert run.only()["mapping"]["brake"]["source"] == "axis 1"
+    assert run.said("holds until it is pulled out")
+
+
+@pytest.mark.parametrize(
+    ("message", "words"),
+    [
+        ({"type": "assign", "device": "?", "input": "brake", "mapping": None}, "'\\?' is not plugged in"),
+        ({"type": "assign", "input": "brake"}, "the device None"),
+        ({"type": "assign", "device": "ID"}, "the input None"),
+        ({"type": "assign", "device": "ID", "input": "wipers", "mapping": None}, "no input for 'wipers'"),
+        ({"type": "assign", "device": "ID", "input": "brake", "mapping": {"source": "axle"}}, "'axle' is no source"),
+        (
+            {"type": "assign", "device": "ID", "input": "brake", "mapping": {"source": "axis 4"}},
+            "Wheel has no axis 4; it has axes: 4, buttons: 12, hats: 1",
+        ),
+        ({"type": "device settings", "device": "ID", "settings": [1]}, "must be a table"),
+        ({"type": "test force", "device": "ID"}, "Wheel has no force"),
+        ({"type": "dance", "device": "ID"}, "'dance', which is unknown"),
+    ],
+)
+def test_a_wrong_message_is_refused_and_changes_nothing(attach, start, message, words):
+    rested(attach())
+    run = start()
+    before = run.only()["mapping"]
+    with pytest.raises(HostError, match=words):
+        run.devices.message({k: run.only()["id"] if v == "ID" else v for k, v in message.items()})
+    assert run.only()["mapping"] == before
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.floats() | st.integers() | st.sampled_from(["axis 0", "button 1", "throttle", "x"]),
+    lambda inner: (
+        st.lists(inner, max_size=3)
+        | st.dictionaries(st.sampled_from(["source", "low", "high", "inverted", "dead_zone", "force", "x"]), inner)
+    ),
+    max_leaves=6,
+)
+KEYS = {"input": st.just("throttle") | JSON, "mapping": JSON, "settings": JSON, "on": JSON, "keep": JSON}
+
+
+def test_no_message_does_more_than_be_refused(attach, start):
+    rested(attach())
+    run = start()
+    id = run.only()["id"]
+
+    @settings(deadline=None)
+    @given(st.sampled_from(DEVICE_MESSAGES), st.fixed_dictionaries({}, optional=KEYS))
+    def send(kind, message):
+        with suppress(HostError):
+            run.devices.message({"type": kind, "device": id, **message})
+        state = run.only()
+        assert json.loads(json.dumps(state, allow_nan=False)) == state
+        run.devices._reader.files.read(id)  # what was written can be read
+        read_settings(state["settings"])
+
+    send()
+    assert not run.said("no longer read")
+
+
+def test_without_sdl_a_sentence_is_said_and_the_rest_goes_on(monkeypatch, tmp_path, start):
+    monkeypatch.setitem(sys.modules, "sdl2", None)
+    run = start()
+    assert run.told == [
+        "Wheels, pedals and gamepads of this computer are not read, because PySDL2 is not installed: "
+        "pip install 'ali3[simulator]' brings it; the keyboard, and gamepads in the page, still drive."
+    ]
+    assert run.devices.state() == []
+    with pytest.raises(HostError, match="not plugged in"):
+        run.devices.message({"type": "test force", "device": "x"})
+
+
+def test_where_sdl_cannot_start_a_sentence_is_said(monkeypatch, start):
+    monkeypatch.setattr(sdl2, "SDL_InitSubSystem", lambda what: -1)
+    run = start()
+    assert len(run.told) == 1
+    assert run.said("SDL says")
+
+
+def test_an_error_in_the_thread_lets_go_and_is_said(attach, start):
+    wheel = rested(attach())
+    run = start()
+
+    def fail(source, values):
+        raise OSError("the car is gone")
+
+    run.hands.listen = fail
+    wheel.axis(2, -1.0)
+    until(lambda: run.said("Devices are no longer read; the keyboard drives. OSError: the car is gone."))
+    until(lambda: run.hands.left == [WHEEL])
+
+
+def test_the_folder_of_mappings(monkeypatch, tmp_path):
+    monkeypatch.setenv("ALI3_CONFIG", str(tmp_path))
+    assert configuration_folder() == tmp_path / "devices"
+    monkeypatch.delenv("ALI3_CONFIG")
+    assert configuration_folder().name == "devices"

@@ -1,0 +1,127 @@
+"""Files of mappings and the names of devices."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ali3.files import FileError
+from hosts.errors import HostError
+from hosts.simulator.devices.identity import Identities
+from hosts.simulator.devices.mapping import CENTRED, PEDALS, SELECTOR, DeviceMapping, DeviceSettings, InputMapping
+from hosts.simulator.devices.mapping_files import MappingFiles
+
+UNHURRIED = settings(deadline=None)
+"""A busy machine fails no test."""
+
+AXIS = st.builds(
+    InputMapping,
+    source=st.integers(0, 15).map("axis {}".format),
+    inverted=st.booleans(),
+    low=st.floats(-1.0, -0.1),
+    high=st.floats(0.1, 1.0),
+    dead_zone=st.floats(0.0, 0.9),
+    centre=st.none() | st.floats(-0.05, 0.05),
+)
+BUTTON = st.builds(InputMapping, source=st.sampled_from(["button 3", "hat 0 left"]), inverted=st.booleans())
+INPUTS = st.fixed_dictionaries({}, optional=dict.fromkeys((*CENTRED, *PEDALS), AXIS) | dict.fromkeys(SELECTOR, BUTTON))
+SETTINGS = st.builds(
+    DeviceSettings,
+    rotation=st.floats(0.0, 3600.0),
+    force=st.floats(0.0, 5.0),
+    full_torque=st.floats(0.1, 100.0),
+    force_inverted=st.booleans(),
+    smoothing=st.floats(0.0, 1.0),
+    damper=st.floats(0.0, 1.0),
+    spring=st.floats(0.0, 1.0),
+)
+
+
+@UNHURRIED
+@given(INPUTS, SETTINGS, st.text(max_size=40))
+def test_a_mapping_is_read_as_it_was_written(tmp_path_factory, inputs, settings, name):
+    files, mapping = MappingFiles(tmp_path_factory.mktemp("devices")), DeviceMapping(inputs, settings)
+    files.write("0300", mapping, name, "A1")
+    assert files.read("0300") == mapping
+    assert files.serial("0300") == "A1"
+
+
+def test_without_a_file_there_is_no_mapping(tmp_path):
+    files = MappingFiles(tmp_path / "none")
+    assert files.read("0300") is None
+    assert files.serial("0300") == ""
+    files.remove("0300")
+
+
+GOOD = 'format = "ALi3 device"\nversion = 1\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "format = .* are missing"),
+        ("version = ", "Invalid value"),
+        ("\udcff", "can't decode"),
+        (GOOD.replace("1", "2"), "version = 1 are missing"),
+        (GOOD + "colour = 1", "'colour' is unknown"),
+        (GOOD + "inputs = 3", "inputs = 3 is no table"),
+        (GOOD + "[inputs.brake]\nsource = 'axle'", "'axle' is no source"),
+        (GOOD + "[settings]\nrotation = 'much'", "rotation = 'much'; it must be a number"),
+        ("#" * 100_001, "more than 100000 bytes"),
+    ],
+)
+def test_a_damaged_file_is_named_with_what_is_wrong(tmp_path, text, words):
+    files = MappingFiles(tmp_path)
+    files.file("0300").write_bytes(text.encode("utf-8", "surrogateescape"))
+    with pytest.raises(HostError, match=rf"0300\.toml is damaged: .*{words}"):
+        files.read("0300")
+
+
+def test_a_file_that_cannot_be_read_or_written_is_named(tmp_path):
+    files = MappingFiles(tmp_path)
+    files.file("0300").mkdir()
+    with pytest.raises(HostError, match=r"0300\.toml cannot be read"):
+        files.read("0300")
+    with pytest.raises(HostError, match=r"0300\.toml cannot be removed"):
+        files.remove("0300")
+    with pytest.raises(FileError, match=r"0300\.toml is a folder"):
+        files.write("0300", DeviceMapping(), "Wheel")
+
+
+def names(kept: dict[str, str] | None = None) -> Identities:
+    return Identities(lambda device: (kept or {}).get(device, ""))
+
+
+def test_two_of_a_model_come_back_as_they_were_by_place():
+    identities = names()
+    assert [identities.take("g", "", place) for place in ("usb1", "usb2")] == ["g", "g-2"]
+    identities.leave("g")
+    identities.leave("g-2")
+    assert [identities.take("g", "", place) for place in ("usb2", "usb1")] == ["g-2", "g"]
+
+
+def test_serial_numbers_tell_them_apart_in_a_later_run():
+    kept = {"g": "A", "g-2": "B"}
+    identities = names(kept)
+    assert [identities.take("g", serial, "") for serial in ("B", "C", "A")] == ["g-2", "g-3", "g"]
+
+
+def test_without_serial_number_or_place_they_come_in_order():
+    identities = names()
+    assert [identities.take("g", "", "") for _ in range(3)] == ["g", "g-2", "g-3"]
+    identities.leave("g-2")
+    assert identities.take("g", "", "") == "g-2"
+    assert identities.take("h", "", "") == "h"
+
+
+def test_the_file_in_the_documents_can_be_read(tmp_path):
+    page = (Path(__file__).parents[4] / "docs" / "devices.md").read_text(encoding="utf-8")
+    files = MappingFiles(tmp_path)
+    files.file("0300").write_text(page.split("```toml\n")[1].split("```")[0], encoding="utf-8")
+    mapping = files.read("0300")
+    assert mapping is not None
+    assert mapping.settings == DeviceSettings(rotation=900.0), "but for the turn of the wheel they are as by default"
+    assert set(mapping.inputs) == {"steering", "brake", "selector reverse"}

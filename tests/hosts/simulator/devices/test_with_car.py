@@ -1,0 +1,56 @@
+"""A virtual wheel drives the FMU of a car, and its motor feels the car."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+
+import mbs
+from fmu_src.build import build_fmu
+from hosts.simulator.car import Car, CarSettings
+from hosts.simulator.hands import Hands
+from mbs.scenes import prototype_car
+from tests.hosts.simulator.devices.haptics import Haptics
+from tests.hosts.simulator.devices.virtual import until
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("car")
+    return build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, [fmpy.platform])
+
+
+@pytest.mark.slow
+def test_the_car_follows_the_angle_of_the_wheel_and_pulls_it_back(fmu, attach, start, monkeypatch):
+    haptics = Haptics().install(monkeypatch)
+    wheel = attach()
+    for k in (1, 2, 3):
+        wheel.axis(k, 1.0)
+    with Car(CarSettings(fmu=fmu, start={"initial.speed": 12.0}, priority=False)) as car:
+
+        def now(name: str) -> float:
+            return float(car.latest().values[car.names.index(name)])
+
+        def torque() -> float | None:
+            return now("steering_wheel_torque") if car.latest().running else None
+
+        run: Any = start(torque, inputs=car.inputs, constants=car.constants)
+        run.devices._reader._hands = Hands(car.want, car.inputs)
+        car.command("run")
+        turned = math.radians(60.0)
+        wheel.axis(0, -turned / math.radians(450.0))
+        until(lambda: abs(now("steering_wheel_angle") - turned) < 1e-3, 20.0)
+        until(lambda: now("chassis.ay") > 1.0, 20.0)
+        until(lambda: haptics.levels[-1] < -200, 20.0)
+        assert now("steering_wheel_torque") > 0.0
+        car.command("pause")
+        until(lambda: haptics.levels[-1] == 0, 20.0)
+        car.command("run")
+        wheel.pull_out()
+        until(lambda: run.said("Wheel was pulled out; steering let go."))
+        until(lambda: abs(now("steering_wheel_angle")) < 1e-3, 20.0)
+        run.devices.close()

@@ -1,0 +1,397 @@
+"""The car in a process of its own: it runs, pauses, steps, goes back, and nobody else can delay it."""
+
+from __future__ import annotations
+
+import json
+import math
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hosts.errors import HostError
+from hosts.simulator.car import Car, CarSettings, Event, Moment
+from hosts.simulator.driven_fmu import DrivenFmu
+from hosts.simulator.shared_values import SharedValues, Sizes
+
+ROOT = Path(__file__).parents[3]
+H = 0.002
+AT_ONCE = math.inf
+PATIENCE = 60.0
+POSIX = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+
+Made = Callable[..., Car]
+
+
+@pytest.fixture
+def make(fmu: Callable[[str], Path]) -> object:
+    """Makes cars that are closed at the end; unpaced and without priority unless it is asked for."""
+    cars: list[Car] = []
+
+    def car(scene: str = "sledge", start: dict[str, float] | None = None, **settings: object) -> Car:
+        chosen = {"paced": False, "priority": False} | settings
+        cars.append(Car(CarSettings(fmu(scene), {} if start is None else start, **chosen)))
+        return cars[-1]
+
+    yield car
+    for made in cars:
+        made.close()
+
+
+def until(car: Car, reached: Callable[[Moment], bool]) -> Moment:
+    """The first moment seen that is as asked."""
+    end = time.perf_counter() + PATIENCE
+    while not reached(moment := car.latest()):
+        assert time.perf_counter() < end, moment
+        time.sleep(0.002)
+    return moment
+
+
+def steps(car: Car, count: int) -> Moment:
+    """So many more steps, and the moment after them."""
+    goal = car.latest().count + count
+    car.command("step", count)
+    return until(car, lambda m: m.count >= goal)
+
+
+def said(car: Car, kind: str) -> Event:
+    """The next event of a kind."""
+    end = time.perf_counter() + PATIENCE
+    while True:
+        for event in car.events():
+            if event.kind == kind:
+                return event
+        assert time.perf_counter() < end, f"no event of kind {kind}"
+        time.sleep(0.002)
+
+
+def gone(pid: int) -> bool:
+    end = time.perf_counter() + 10.0
+    while time.perf_counter() < end:
+        try:
+            os.kill(pid, 0)
+            if Path(f"/proc/{pid}/stat").exists() and Path(f"/proc/{pid}/stat").read_text().split()[2] == "Z":
+                return True
+        except (ProcessLookupError, FileNotFoundError):
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def pid_of(car: Car) -> int:
+    assert car._process is not None
+    assert car._process.pid is not None
+    return car._process.pid
+
+
+def test_it_begins_paused_and_tells_what_it_is(make: Made) -> None:
+    car = make(start={"initial.speed": 10.0})
+    assert car.inputs == ("steering", "throttle", "brake")
+    assert car.names[:4] == ("steering", "throttle", "brake", "chassis.x")
+    assert (car.units["speed"], car.step) == ("m/s", H)
+    moment = car.latest()
+    assert (moment.count, moment.time, moment.epoch, moment.running, moment.refused) == (0, 0.0, 0, False, False)
+    assert moment.values[car.names.index("speed")] == pytest.approx(10.0)
+    assert moment.values.shape == (len(car.names),)
+
+
+def test_steps_are_those_of_the_fmu_and_rates_are_of_simulated_time(make: Made, fmu: Callable[[str], Path]) -> None:
+    car = make(start={"initial.speed": 10.0})
+    car.want({"steering": (1.0, 2.0), "throttle": (0.5, AT_ONCE)})
+    moment = steps(car, 100)
+    assert (moment.count, moment.time, moment.running) == (100, 100 * H, False)
+    assert moment.values[:2].tolist() == pytest.approx([0.4, 0.5])
+    other = DrivenFmu(fmu("sledge"), {"initial.speed": 10.0}, H)
+    other.inputs.want(np.array([1.0, 2.0, 1.0, 0.5, AT_ONCE, 2.0, 0.0, 0.0, 0.0]))
+    for _ in range(100):
+        other.advance()
+    assert np.array_equal(moment.values, other.values)
+    other.close()
+
+
+def test_run_pause_and_slow_motion_keep_the_schedule(make: Made) -> None:
+    car = make(paced=True)
+    car.command("run")
+    until(car, lambda m: m.count > 50 and m.running)
+    car.command("pause")
+    still = until(car, lambda m: not m.running)
+    time.sleep(0.05)
+    assert car.latest().count == still.count
+    before = car.step_times()
+    assert before.scheduled == pytest.approx(before.steps * H)
+    car.command("speed", 0.1)
+    car.command("run")
+    until(car, lambda m: m.count > still.count + 20 and m.speed == 0.1)
+    car.command("pause")
+    until(car, lambda m: not m.running)
+    after = car.step_times()
+    assert after.scheduled - before.scheduled == pytest.approx((after.steps - before.steps) * 10.0 * H)
+    assert after.wall >= 20 * 10.0 * H
+    assert after.paused > 0.03
+    assert after.simulated == pytest.approx(after.steps * H)
+
+
+def test_a_step_while_it_runs_pauses_it(make: Made) -> None:
+    car = make(paced=True)
+    car.command("run")
+    until(car, lambda m: m.count > 10)
+    car.command("step", 3)
+    moment = until(car, lambda m: not m.running)
+    time.sleep(0.1)
+    assert moment.count <= car.latest().count <= moment.count + 3
+    at = car.latest().count
+    assert steps(car, 1).count == at + 1
+
+
+def test_jumps_raise_the_epoch_and_are_said(make: Made) -> None:
+    car = make(start={"initial.speed": 10.0})
+    first = car.latest()
+    moment = steps(car, 1000)
+    assert moment.saved == pytest.approx(1000 * H)
+    car.command("rewind", 0.5)
+    back = until(car, lambda m: m.epoch == 1)
+    assert (back.time, back.count, back.running) == (750 * H, 1000, False)
+    assert "went back by 0.5 s" in said(car, "rewind").text
+    assert steps(car, 250).time == 1000 * H
+    assert np.array_equal(car.latest().values, moment.values)
+    car.command("upright")
+    assert until(car, lambda m: m.epoch == 2).time == 1000 * H
+    said(car, "upright")
+    car.command("reset")
+    assert np.array_equal(until(car, lambda m: m.epoch == 3).values, first.values)
+    said(car, "reset")
+    car.restart({"initial.x": 25.0})
+    assert until(car, lambda m: m.epoch == 4).values[car.names.index("chassis.x")] == 25.0
+    assert "initial.x = 25" in said(car, "reset").text
+
+
+def test_what_is_wanted_before_a_reset_is_forgotten_and_after_it_is_not(make: Made) -> None:
+    car = make()
+    car.want({"throttle": (1.0, AT_ONCE)})
+    car.command("reset")
+    car.want({"brake": (0.5, AT_ONCE)})
+    assert steps(car, 1).values[:3].tolist() == [0.0, 0.0, 0.5]
+
+
+def test_a_refused_step_pauses_and_a_rewind_runs_on(make: Made) -> None:
+    car = make("reach", step=0.2, paced=True)
+    car.command("run")
+    until(car, lambda m: m.count >= 3)
+    car.want({"pull": (5.0, AT_ONCE)})
+    moment = until(car, lambda m: m.refused)
+    assert not moment.running
+    text = said(car, "refused").text
+    assert "refused the step" in text
+    assert "step_size" in text
+    car.command("run")
+    assert "rewind, reset or upright" in said(car, "told").text
+    assert car.latest().count == moment.count
+    car.want({"pull": (0.0, AT_ONCE)})
+    car.command("rewind", 0.4)
+    assert until(car, lambda m: m.count > moment.count + 1).running
+    assert not car.latest().refused
+
+
+def test_two_cars_at_once(make: Made) -> None:
+    one, two = make(start={"initial.speed": 10.0}), make(start={"initial.speed": 5.0})
+    one.want({"steering": (0.5, AT_ONCE)})
+    one.command("step", 400)
+    two.command("step", 300)
+    a, b = until(one, lambda m: m.count == 400), until(two, lambda m: m.count == 300)
+    speed = one.names.index("speed")
+    assert a.values[speed] == pytest.approx(10.0, abs=0.5)
+    assert b.values[speed] == pytest.approx(5.0, abs=0.5)
+    one.close()
+    assert steps(two, 10).count == 310
+
+
+def read_for_ever(name: str, sizes: Sizes) -> None:
+    shared = SharedValues(sizes, name)
+    while True:
+        shared.moments.read()
+
+
+@POSIX
+def test_a_reader_that_stalls_or_dies_delays_no_step(make: Made) -> None:
+    car = make()
+    sizes = Sizes(len(car.inputs), len(car.names), 1)
+    reader = multiprocessing.get_context("spawn").Process(target=read_for_ever, args=(car._shared.name, sizes))
+    reader.start()
+    assert reader.pid is not None
+    time.sleep(0.5)
+    os.kill(reader.pid, signal.SIGSTOP)
+    assert steps(car, 3000).count == 3000
+    os.kill(reader.pid, signal.SIGKILL)
+    assert steps(car, 3000).count == 6000
+    reader.join()
+
+
+def test_nobody_takes_the_events_and_the_car_drives_on(make: Made) -> None:
+    car = make()
+    assert car._mail is not None
+    for _ in range(200):  # batches that the queue of commands holds
+        for _ in range(20):
+            car.command("rewind", 1.0)
+        assert steps(car, 1).count
+    assert car.latest().count == 200
+    events = car.events()
+    lost = [e for e in events if e.kind == "overflow"]
+    assert len(lost) == 1
+    assert car.events() == []  # said once
+    told = int(lost[0].text.split()[0]) + len(events) - 1
+    assert 200 * 20 <= told <= 200 * 20 + 5  # the FMU has a word of its own on its step
+
+
+def for_ever(ask: Callable[[], None]) -> None:
+    for _ in range(100_000):
+        ask()
+
+
+def test_too_many_commands_are_refused(make: Made) -> None:
+    car = make(paced=True, step=0.5)
+    for ask in (lambda: car.command("pause"), lambda: car.restart({})):
+        with pytest.raises(HostError, match="not yet taken"):
+            for_ever(ask)
+    until(car, lambda _: car._shared.commands.has_room())
+    car.restart({"initial.x": 3.0})
+    until(car, lambda m: m.values[car.names.index("chassis.x")] == 3.0)
+
+
+@POSIX
+@pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGSEGV])
+def test_a_process_that_is_killed_is_one_sentence(make: Made, blow: signal.Signals) -> None:
+    car = make(paced=True)
+    car.command("run")
+    until(car, lambda m: m.count > 5)
+    os.kill(pid_of(car), blow)
+    end = time.perf_counter() + PATIENCE
+    while not car.ended:
+        assert time.perf_counter() < end
+        time.sleep(0.01)
+    for call in (car.latest, lambda: car.command("run"), lambda: car.want({"throttle": (1.0, 1.0)})):
+        with pytest.raises(HostError, match=rf"^The car's process was ended by the signal {blow.name}; start"):
+            call()
+    assert car.step_times().steps > 5
+    car.close()
+    with pytest.raises(HostError):
+        car.latest()
+
+
+@POSIX
+def test_close_ends_a_process_that_does_not_listen(make: Made) -> None:
+    car = make()
+    pid, folder = pid_of(car), car._folder
+    os.kill(pid, signal.SIGSTOP)
+    car.close()
+    assert gone(pid)
+    assert not folder.exists()
+
+
+@POSIX
+def test_ctrl_c_is_for_the_main_process(make: Made) -> None:
+    car = make()
+    os.kill(pid_of(car), signal.SIGINT)
+    assert steps(car, 10).count == 10
+
+
+@POSIX
+def test_no_orphan_is_left_when_the_main_process_is_killed(fmu: Callable[[str], Path], tmp_path: Path) -> None:
+    script = tmp_path / "main.py"
+    script.write_text(
+        "import sys, time\nfrom pathlib import Path\nfrom hosts.simulator.car import Car, CarSettings\n"
+        "if __name__ == '__main__':\n"
+        f"    car = Car(CarSettings(Path({str(fmu('sledge'))!r}), {{}}, priority=False))\n"
+        "    car.command('run')\n    print(car._process.pid, car._folder, flush=True)\n    time.sleep(600)\n"
+    )
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    main = subprocess.Popen(
+        [sys.executable, str(script)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=environment
+    )
+    assert main.stdout is not None
+    pid, folder = main.stdout.readline().split()
+    assert not gone_now(int(pid))
+    main.kill()
+    main.wait()
+    main.stdout.close()
+    assert gone(int(pid))
+    assert not Path(folder).exists()
+
+
+def gone_now(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return True
+    return False
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"start": {"nothing": 1.0}}, "no parameter or input 'nothing'"),
+        ({"start": {"chassis.x": 1.0}}, "is an output of the FMU"),
+        ({"step": 0.0}, "must be positive"),
+        ({"step": math.nan}, "must be positive"),
+        ({"fmu": Path("nowhere.fmu")}, "There is no file"),
+    ],
+)
+def test_what_cannot_be_started(fmu: Callable[[str], Path], settings: dict[str, object], sentence: str) -> None:
+    with pytest.raises(HostError, match=sentence):
+        Car(CarSettings(**({"fmu": fmu("sledge"), "start": {}} | settings)))
+
+
+def test_an_fmu_that_refuses_its_start_leaves_no_process(fmu: Callable[[str], Path]) -> None:
+    before = set(multiprocessing.active_children())
+    with pytest.raises(HostError, match="step_size"):
+        Car(CarSettings(fmu("sledge"), {"step_size": 1e-30}, priority=False))
+    assert set(multiprocessing.active_children()) == before
+
+
+def test_wants_and_commands_that_are_none(make: Made) -> None:
+    car = make()
+    for values, sentence in (
+        ({"wings": (1.0, 1.0)}, "no input 'wings'; it has: steering, throttle, brake"),
+        ({"steering": (math.nan, 1.0)}, "'steering' is wanted to be nan"),
+        ({"brake": (1.0, 1.0), "steering": (1.0, 0.0)}, "must be positive"),
+        ({"steering": (1.0, math.nan)}, "must be positive"),
+    ):
+        with pytest.raises(HostError, match=sentence):
+            car.want(values)
+    for name, value, sentence in (
+        ("fly", 0.0, "no command 'fly'; there are: run, pause"),
+        ("restart", 0.0, "no command 'restart'"),
+        ("step", 1.5, "whole number"),
+        ("step", -1.0, "whole number"),
+        ("speed", 2.0, "from 0.05 to 1"),
+        ("speed", math.nan, "from 0.05 to 1"),
+        ("rewind", 0.0, "positive time"),
+        ("rewind", math.inf, "positive time"),
+    ):
+        with pytest.raises(HostError, match=sentence):
+            car.command(name, value)
+    car.want({"steering": (7.0, AT_ONCE)})
+    assert steps(car, 1).values[:3].tolist() == [1.0, 0.0, 0.0]  # its range; the brake of a refused wish is as it was
+
+
+def test_the_report_of_an_unpaced_drive(make: Made) -> None:
+    car = make()
+    steps(car, 500)
+    times = car.step_times()
+    assert times.steps == 500
+    assert "500 steps of 2 ms: 1.000 s simulated in" in times.text()
+    report = json.loads(json.dumps(times.report(), allow_nan=False))
+    assert sum(count for _, count in report["cost"]["bins"]) == 500
+    car.close()
+    assert car.step_times().steps == 500
+
+
+def test_priority_is_an_event(make: Made) -> None:
+    car = make(paced=True, priority=True)
+    assert "priority" in said(car, "priority").text

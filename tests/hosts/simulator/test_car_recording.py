@@ -1,0 +1,135 @@
+"""The rows of a car reach its recording, whatever the one who writes them does."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import hosts.simulator.car as car_module
+from ali3.errors import FileError
+from hosts.errors import HostError
+from hosts.simulator.car import Car, CarSettings
+from hosts.simulator.recorded_drive import read_recording
+from hosts.simulator.recording import Recorder
+from hosts.simulator.replay import replay
+
+PATIENCE = 60.0
+AT_ONCE = math.inf
+
+
+def settings(fmu: Path, folder: Path, **others: Any) -> CarSettings:
+    return CarSettings(fmu, {"initial.speed": 10.0}, record=folder, **({"paced": False, "priority": False} | others))
+
+
+def until(reached: Callable[[], bool]) -> None:
+    end = time.perf_counter() + PATIENCE
+    while not reached():
+        assert time.perf_counter() < end
+        time.sleep(0.002)
+
+
+def steps(car: Car, count: int) -> None:
+    goal = car.latest().count + count
+    car.command("step", count)
+    until(lambda: car.latest().count >= goal)
+
+
+def counts(folder: Path) -> list[tuple[int, int]]:
+    """Epoch and count of every row."""
+    found = []
+    for rows in read_recording(folder).blocks():
+        found += [(int(epoch), int(count)) for _, count, epoch, _ in zip(*(c.tolist() for c in rows), strict=True)]
+    return found
+
+
+def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu: Callable[[str], Path], tmp_path: Path) -> None:
+    folder = tmp_path / "drive"
+    with Car(settings(fmu("sledge"), folder, world="a plane")) as car:
+        car.want({"steering": (0.4, 1.0), "throttle": (1.0, 2.0)})
+        steps(car, 700)
+        car.command("rewind", 0.333)
+        car.want({"steering": (-0.4, 1.0)})
+        steps(car, 300)
+        car.command("upright")
+        car.want({"throttle": (0.7, AT_ONCE)})
+        steps(car, 300)
+        car.command("reset")
+        car.command("rewind", 0.1)  # back over the reset
+        steps(car, 100)
+        car.command("reset")
+        steps(car, 50)
+        car.command("rewind", 0.1)  # to the first row after it
+        car.want({"brake": (0.3, 3.0)})
+        steps(car, 50)
+        car.restart({"initial.x": 5.0})
+        steps(car, 100)
+        assert car.latest().epoch == 7
+    drive = read_recording(folder)
+    made = replay(drive)
+    assert made.different == 0, made.notes
+    assert made.rows == 700 + 300 + 300 + 100 + 50 + 50 + 100 + 8
+    assert drive.meta["world"] == "a plane"
+
+
+def test_unpaced_the_car_waits_for_a_slow_recorder(
+    fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(car_module, "_LEAST_ROWS", 16)
+    monkeypatch.setattr(car_module, "_ROW_SECONDS", 0.0)
+    with Car(settings(fmu("sledge"), tmp_path / "drive")) as car:
+        steps(car, 500)
+    assert counts(tmp_path / "drive") == [(0, k) for k in range(501)]
+    assert not [e for e in car.events() if e.kind == "overflow"]
+
+
+def test_paced_it_does_not_wait_and_counts_what_is_lost(
+    fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(car_module, "_LEAST_ROWS", 16)
+    monkeypatch.setattr(car_module, "_ROW_SECONDS", 0.0)
+    stall, write = threading.Event(), Recorder.row
+
+    def stalled(self: Recorder, *row: Any) -> None:
+        stall.wait(PATIENCE)
+        write(self, *row)
+
+    monkeypatch.setattr(Recorder, "row", stalled)
+    with Car(settings(fmu("sledge"), tmp_path / "drive", paced=True)) as car:
+        steps(car, 200)
+        stall.set()
+        until(lambda: car._mail is not None and car._shared.rows.has_room())
+        lost = [e for e in car.events() if e.kind == "overflow"]
+    lost += [e for e in car.events() if e.kind == "overflow"]
+    number = int(lost[-1].text.split()[0])
+    assert "rows of the recording" in lost[-1].text
+    assert number > 100
+    rows = counts(tmp_path / "drive")
+    assert len(rows) + number == 201
+    assert rows[:16] == [(0, k) for k in range(16)]
+
+
+def test_a_disk_that_is_full_ends_the_recording_and_not_the_drive(
+    fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(self: Recorder, *row: Any) -> None:
+        raise FileError("the disk is full")
+
+    monkeypatch.setattr(Recorder, "row", full)
+    with Car(settings(fmu("sledge"), tmp_path / "drive")) as car:
+        steps(car, 5000)
+        texts = [e.text for e in car.events() if e.kind == "recording"]
+        assert len(texts) == 1
+        assert texts[0].startswith("The recording ends here: the disk is full ")
+
+
+def test_a_folder_with_a_recording_is_refused(fmu: Callable[[str], Path], tmp_path: Path) -> None:
+    with Car(settings(fmu("sledge"), tmp_path / "drive")):
+        pass
+    with pytest.raises(HostError, match="holds a recording already"):
+        Car(settings(fmu("sledge"), tmp_path / "drive"))

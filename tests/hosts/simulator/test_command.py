@@ -1,0 +1,327 @@
+"""The command without a page, with a real car in its process: report, manoeuvres, aliases, and what is refused."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import time
+import zipfile
+from contextlib import contextmanager
+from pathlib import Path
+
+import fmpy
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts.aliases import Aliases, read_aliases
+from hosts.errors import HostError
+from hosts.manoeuvre import load_manoeuvre
+from hosts.options import Wishes
+from hosts.simulator import fmu_file
+from hosts.simulator.aliased_car import AliasedCar
+from hosts.simulator.car import Car, CarSettings
+from hosts.simulator.command import main
+from hosts.simulator.headless import headless_driver, run_headless
+from hosts.simulator.preparation import Asked, prepare
+from hosts.simulator.recording_tables import ParquetTable
+from hosts.wild_driver import WildDriver
+from viewer.scene import scene_errors
+
+TESTS = Path(__file__).parents[2]
+TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("fmus")
+    made = {}
+    for scene, file in (("sledge", TESTS / "hosts" / "scenes.py"), ("reach", TESTS / "fmu" / "scenes.py")):
+        name, system = load_scene(f"{file}:{scene}")
+        made[scene] = build_fmu(system, name, folder, [fmpy.platform])
+    return made
+
+
+@pytest.fixture
+def told(capsys):
+    """What the command said: run it, give exit code, lines, and the error."""
+
+    def run(*arguments):
+        code = main([str(a) for a in arguments])
+        said = capsys.readouterr()
+        return code, said.out, said.err.strip().splitlines()[-1] if said.err.strip() else ""
+
+    return run
+
+
+def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
+    code, out, _ = told(fmus["sledge"], "--headless", "--seconds", 0.5, "--step", 0.005, "--json", tmp_path / "r.json")
+    assert code == 0
+    for words in (
+        "100 steps of 5 ms: 0.500 s simulated in ",
+        "median",
+        "p99.9",
+        "largest",
+        "missed deadlines: ",
+        "<= ",
+    ):
+        assert words in out
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["steps"]["steps"] == 100
+    assert report["steps"]["simulated"] == pytest.approx(0.5)
+    assert report["steps"]["wall"] >= 0.45  # paced
+    assert sum(n for _, n in report["steps"]["cost"]["bins"]) == 100
+    assert report["seconds since the start"]["ready"] > 0.0
+    assert "warm: the FMU was there" in out
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without asking it")
+def test_a_run_without_a_page_that_is_terminated_ends_with_its_report(fmus, tmp_path):
+    command = [sys.executable, "-m", "hosts.simulator", str(fmus["sledge"]), "--headless", "--seconds", "600"]
+    command += ["--step", "0.005", "--record", str(tmp_path / "drive")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as program:
+        assert any(line.startswith("Ready") for line in program.stdout)
+        time.sleep(0.5)
+        program.terminate()
+        said = program.communicate(timeout=30)[0]
+    assert program.returncode == 0
+    assert "Ended by Ctrl-C or a signal." in said
+    assert " steps of 5 ms: " in said
+    assert (tmp_path / "drive" / "inputs_outputs.parquet").is_file()
+
+
+def test_a_recording_that_cannot_be_finished_is_said_in_the_report(fmus, told, tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(ParquetTable, "close", full)
+    arguments = ("--headless", "--seconds", 0.1, "--step", 0.005, "--record", tmp_path / "r", "--json", tmp_path / "j")
+    code, out, _ = told(fmus["sledge"], *arguments)
+    assert code == 1
+    assert out.count("The recording could not be finished: ") == 1
+    assert "make room, or record into another folder" in out
+    events = json.loads((tmp_path / "j").read_text())["events"]
+    assert sum("No space left on device" in event["text"] for event in events) == 1
+
+
+@contextmanager
+def started(fmu, aliases=None, **start):
+    with Car(CarSettings(fmu, start, 0.005, priority=False)) as car:
+        yield AliasedCar(car, aliases or Aliases())
+
+
+def value(car, name):
+    return float(car.latest().values[car.names.index(name)])
+
+
+def test_a_manoeuvre_moves_the_inputs_by_the_clock_of_the_car(fmus, tmp_path):
+    (tmp_path / "turn.csv").write_text(TURN)
+    manoeuvre = load_manoeuvre(str(tmp_path / "turn.csv"))
+    with started(fmus["sledge"]) as car:
+        assert run_headless(car, headless_driver(car, manoeuvre, None), 0.8, lambda *_: None, bar=False)
+        moment = car.latest()
+        assert (moment.count, moment.running) == (160, False)
+        assert value(car, "throttle") == pytest.approx(0.8, abs=0.1)  # it is read some milliseconds before its step
+        assert value(car, "speed") > 0.0
+        assert value(car, "steering") == 0.0
+
+
+def test_a_driver_without_sense_moves_them_too(fmus):
+    wanted = WildDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
+    assert any(wanted.values())
+    with started(fmus["sledge"]) as car:
+        assert run_headless(car, headless_driver(car, None, 5), 0.1, lambda *_: None, bar=False)
+        assert {name: value(car, name) for name in wanted} == wanted
+
+
+def test_a_manoeuvre_that_needs_more_than_the_car_has(fmus, tmp_path):
+    (tmp_path / "sail.csv").write_text('"time","sail"\n0,0\n1,1\n')
+    with started(fmus["sledge"]) as car, pytest.raises(HostError, match="a column 'sail', which is no input"):
+        headless_driver(car, load_manoeuvre(str(tmp_path / "sail.csv")), None)
+    with started(fmus["reach"]) as car, pytest.raises(HostError, match="does not have: steering, throttle, brake"):
+        headless_driver(car, load_manoeuvre("double_lane_change"), None)
+
+
+def test_a_refused_step_ends_the_run_with_the_words_of_the_fmu(fmus, told, tmp_path):
+    (tmp_path / "pull.csv").write_text('"time","pull"\n0,0\n1,10\n')
+    arguments = ("--headless", "-m", tmp_path / "pull.csv", "--seconds", 5, "--step", 0.01)
+    code, out, _ = told(fmus["reach"], *arguments, "--json", tmp_path / "r")
+    assert code == 1
+    report = json.loads((tmp_path / "r").read_text())
+    assert report["event counts"]["refused"] == 1
+    assert report["steps"]["simulated"] < 1.0
+    assert next(e["text"] for e in report["events"] if e["kind"] == "refused") in out
+
+
+NAMES = {"steering": "StrAng", "throttle": "Acc_ped", "brake": "Brk", "chassis.x": "X", "chassis.yaw": "Psi"}
+ALIASES = """
+steering = { name = "StrAng", factor = 0.5 }
+throttle = "Acc_ped"
+brake = "Brk"
+"chassis.x" = { name = "X", factor = 0.001 }
+"chassis.yaw" = "Psi"
+"""
+
+
+@pytest.fixture
+def renamed(fmus, tmp_path):
+    """The sledge as another program would name its variables."""
+    made = tmp_path / "foreign.fmu"
+    with zipfile.ZipFile(fmus["sledge"]) as old, zipfile.ZipFile(made, "w") as new:
+        for item in old.infolist():
+            content = old.read(item)
+            if item.filename == "modelDescription.xml":
+                for ours, theirs in NAMES.items():
+                    content = content.replace(f'name="{ours}"'.encode(), f'name="{theirs}"'.encode())
+            if item.filename != "resources/geometry.json":
+                new.writestr(item, content)
+    return made
+
+
+def test_an_fmu_with_other_names_says_what_it_lacks_and_runs_all_the_same(renamed, told):
+    code, out, _ = told(renamed, "--headless", "--seconds", 0.1)
+    assert code == 0
+    words = "foreign.fmu has no input steering, throttle, brake and no output chassis.x, chassis.z, chassis.yaw, which"
+    assert words in out
+    assert "(--aliases FILE). Its inputs are StrAng, Acc_ped, Brk; its outputs X," in out
+    assert "is not drawn" in out
+    assert "20 steps" in told(renamed, "--headless", "--seconds", 0.1, "--step", 0.005)[1]
+
+
+def test_an_alias_file_gives_it_our_names(renamed, told, tmp_path):
+    (tmp_path / "names.toml").write_text(ALIASES)
+    out = told(renamed, "--headless", "--seconds", 0.1, "--aliases", tmp_path / "names.toml")[1]
+    assert "foreign.fmu has no output chassis.z, which driving needs." in out
+    aliases = read_aliases(tmp_path / "names.toml", [*NAMES.values(), "chassis.y", "speed"])
+    with started(renamed, aliases) as car:
+        assert car.inputs == ("steering", "throttle", "brake")
+        assert (car.units["chassis.x"], car.units["speed"]) == ("", "m/s")
+        car.want({"steering": (0.6, math.inf), "throttle": (1.0, math.inf)})
+        assert run_headless(car, headless_driver(car, None, None), 1.0, lambda *_: None, bar=False)
+        x, y = value(car, "chassis.x"), value(car, "chassis.y")
+        assert value(car, "steering") == pytest.approx(0.6)
+        speed = value(car, "speed")
+    with started(renamed) as plain:
+        plain.want({"StrAng": (0.3, math.inf), "Acc_ped": (1.0, math.inf)})
+        assert run_headless(plain, headless_driver(plain, None, None), 1.0, lambda *_: None, bar=False)
+        assert value(plain, "X") == pytest.approx(0.001 * x)
+        assert value(plain, "chassis.y") == y
+        assert value(plain, "speed") == speed
+
+
+def test_a_hello_has_our_names(renamed, tmp_path):
+    (tmp_path / "names.toml").write_text(ALIASES)
+    asked = Asked(renamed, None, None, None, Wishes([], []), tmp_path / "names.toml", None)
+    prepared = prepare(asked, lambda text: None)
+    hello = prepared.hello({}, ("steering",), 0.002, "")
+    names = {v["name"] for v in hello["description"]["variables"]}
+    assert names >= set(NAMES)
+    assert not names & set(NAMES.values())
+    assert scene_errors(hello["scene"]) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--headless"], "needs its length: --headless --seconds N, or a --manoeuvre"),
+        (["--seconds", 3], "--seconds is for a run without a page; add --headless"),
+        (["--wild", 3], "--wild is for a run without a page"),
+        (["--headless", "--seconds", 0], "--seconds is 0; it must be positive"),
+        (["--headless", "--seconds", "nan"], "--seconds is nan"),
+        (["--headless", "--seconds", 1, "--wild", 1, "-m", "slalom"], "give one of them"),
+        (["--headless", "--seconds", 1, "--step", 3], "The step is 3 s"),
+        (["--headless", "--seconds", 1, "--step", "nan"], "The step is nan s"),
+        (["--headless", "-m", "waltz"], "There is no manoeuvre 'waltz'"),
+        (["--headless", "--seconds", 1, "--world", "moon"], "has no parameter 'road.file', so that the world moon"),
+        (["--headless", "--seconds", 1, "--place", "start"], "of this FMU has no place 'start'; it has: none."),
+        (["--headless", "--seconds", 1, "--fidelity", 2], "no parameter or input 'fidelity'"),
+        (["--headless", "--seconds", 1, "--set", "steering=2"], "its range is -1 to 1"),
+        (["--headless", "--seconds", 1, "--aliases", "none.toml"], "The alias file none.toml cannot be read"),
+        (["--port", 70000], "The port is 70000"),
+        (["--listen", "203.0.113.1"], "cannot listen on 203.0.113.1"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_done_is_one_sentence(fmus, told, arguments, words):
+    code, _, error = told(fmus["sledge"], *arguments)
+    assert code == 2
+    assert error.startswith("error: ")
+    assert words in error
+
+
+def test_a_folder_that_cannot_be_written_is_refused_before_the_run(fmus, told, tmp_path):
+    (tmp_path / "file").write_text("")
+    for option in ("--record", "--json"):
+        code, out, error = told(fmus["sledge"], "--headless", "--seconds", 1, option, tmp_path / "file" / "x")
+        assert code == 2
+        assert "file" in error
+        assert "simulated" not in out
+
+
+def test_a_recording_is_not_written_over_another(fmus, told, tmp_path):
+    run = (fmus["sledge"], "--headless", "--seconds", 0.1, "--wild", 7, "--record", tmp_path / "rec")
+    assert told(*run)[0] == 0
+    assert json.loads((tmp_path / "rec" / "recording.json").read_text())["seed"] == 7
+    code, out, error = told(*run)
+    assert (code, out) == (2, "")
+    assert error.endswith("holds a recording already, or another program is recording there; name another folder.")
+    (tmp_path / "rec" / "recording.json").unlink()  # as while it is being made
+    assert "another program is recording there" in told(*run)[2]
+
+
+def test_no_fmu_and_fmus_of_other_kinds(told, tmp_path):
+    assert "There is no file none.fmu" in told("none.fmu", "--headless", "--seconds", 1)[2]
+    (tmp_path / "text.fmu").write_text("text")
+    assert "is not an FMU" in told(tmp_path / "text.fmu", "--headless", "--seconds", 1)[2]
+    name, system = load_scene(f"{TESTS / 'hosts' / 'scenes.py'}:sledge")
+    made = build_fmu(system, name, tmp_path, [fmpy.platform], kind="fmi3")
+    error = told(made, "--headless", "--seconds", 1)[2]
+    assert "is an FMU of FMI 3.0; the simulator drives FMI 2.0 co-simulation, the kind native of " in error
+
+
+def test_without_an_fmu_one_is_built_and_kept(fmus, told, tmp_path, monkeypatch):
+    """The build itself is tested elsewhere; here it takes an FMU that is there."""
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    built = []
+
+    def build(folder):
+        built.append(folder)
+        folder.mkdir(parents=True)
+        shutil.copy(fmus["sledge"], folder / fmu_file.NAME)
+
+    monkeypatch.setattr(fmu_file, "_build", build)
+    out = told("--headless", "--seconds", 0.1)[1]
+    assert "There is no dist" in out
+    assert "(cold: the FMU was built in 0.0 s of it)" in out
+    assert "(warm: the FMU was there)" in told("--headless", "--seconds", 0.1)[1]
+    assert len(built) == 1
+    monkeypatch.setattr(fmu_file, "_version", lambda: "other")
+    assert "(cold: " in told("--headless", "--seconds", 0.1)[1]
+    (tmp_path / "dist").mkdir()
+    shutil.copy(fmus["reach"], tmp_path / "dist" / fmu_file.NAME)
+    assert "Its inputs are pull" in told("--headless", "--seconds", 0.1)[1]
+
+
+def test_a_build_that_fails_is_one_sentence(told, tmp_path, monkeypatch):
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(
+        fmu_file, "module_command", lambda *_: [sys.executable, "-c", "import sys; sys.exit('error: No.')"]
+    )
+    code, _, error = told("--headless", "--seconds", 1)
+    assert (code, error) == (2, "error: The FMU of the car cannot be built: No.")
+
+
+def test_packages_that_are_missing_are_named_with_their_extra(fmus, told, monkeypatch):
+    there = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "websockets" else there(name))
+    code, _, error = told(fmus["sledge"])
+    assert (code, error) == (
+        2,
+        'error: The package websockets is not installed; run: python -m pip install "ali3[simulator]"',
+    )

@@ -1,0 +1,221 @@
+"""An FMU that goes back, starts anew and is set upright is bit for bit the one that never did."""
+
+from __future__ import annotations
+
+import math
+import zipfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hosts.errors import HostError
+from hosts.fmu import StepRefusedError
+from hosts.simulator.driven_fmu import DrivenFmu
+
+H = 0.002
+AT_ONCE = math.inf
+
+
+@pytest.fixture
+def sledge(fmu: Callable[[str], Path]) -> Iterator[DrivenFmu]:
+    car = DrivenFmu(fmu("sledge"), {"initial.speed": 10.0}, H)
+    yield car
+    car.close()
+
+
+class Hands:
+    """Wants that depend on the step only, so that they can be repeated."""
+
+    def __init__(self, car: DrivenFmu) -> None:
+        self.car, self.wish = car, 0
+
+    def drive(self, first: int, last: int) -> list[np.ndarray]:
+        """Steps `first` to `last`; values after each."""
+        rows = []
+        for k in range(first, last + 1):
+            if k % 40 == 0:
+                self.want(k)
+            self.car.advance()
+            rows.append(self.car.values.copy())
+        return rows
+
+    def want(self, k: int) -> None:
+        random = np.random.default_rng(k)
+        table = np.zeros((len(self.car.inputs.values), 3))
+        table[:, 0], table[:, 1] = random.uniform(0, 1, len(table)), random.uniform(0.5, 5.0, len(table))
+        self.wish += 1
+        table[:, 2] = self.wish
+        self.car.inputs.want(table.ravel())
+
+
+@pytest.mark.parametrize("back", [1, 40, 120, 249, 250, 251, 999])
+def test_back_and_on_is_as_without(fmu: Callable[[str], Path], sledge: DrivenFmu, back: int) -> None:
+    rows = Hands(sledge).drive(0, 1000)
+    told = sledge.rewind(back * H)
+    assert (told.kind, told.details["back_to"], sledge.epoch, sledge.count) == ("rewind", 1001 - back, 1, 1001)
+    assert sledge.time == (1001 - back) * H
+    assert np.array_equal(sledge.values, rows[1000 - back])
+    # The hands are elsewhere by now: the drive goes on with what is wanted now, from the inputs held then.
+    hands = Hands(sledge)
+    begin = 40 * math.ceil((1001 - back) / 40)
+    other = DrivenFmu(fmu("sledge"), {"initial.speed": 10.0}, H)
+    again = Hands(other)
+    again.drive(0, 1000 - back)
+    for driven in (hands, again):
+        driven.want(7)
+        driven.wish += 100
+    first = hands.drive(begin, begin + 300)
+    second = again.drive(begin, begin + 300)
+    other.close()
+    assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
+
+
+def test_more_than_is_kept_goes_as_far_as_it_can_and_says_so(sledge: DrivenFmu) -> None:
+    first = sledge.values.copy()
+    Hands(sledge).drive(0, 99)
+    told = sledge.rewind(12.0)
+    assert "went back by 0.2 s" in told.text
+    assert "12 s were asked for" in told.text
+    assert np.array_equal(sledge.values, first)
+    with pytest.raises(HostError, match="nothing to go back to"):
+        sledge.rewind(1.0)
+
+
+def test_a_reset_is_the_start_and_can_be_taken_back(sledge: DrivenFmu) -> None:
+    start, hands = sledge.values.copy(), Hands(sledge)
+    rows = hands.drive(0, 299)
+    told = sledge.reset(wish=hands.wish)
+    assert told.details["start"] == {"initial.speed": 10.0}
+    assert (sledge.time, sledge.epoch, sledge.count) == (0.0, 1, 300)
+    assert np.array_equal(sledge.values, start)
+    sledge.advance()  # what was wanted before does not count
+    assert sledge.inputs.values.tolist() == [0.0, 0.0, 0.0]
+    sledge.rewind(2 * H)
+    assert sledge.time == 300 * H
+    assert np.array_equal(sledge.values, rows[-1])
+    sledge.rewind(100 * H)
+    assert np.array_equal(sledge.values, rows[199])
+    anew = Hands(sledge).drive(200, 299)[39:]  # from the next want on
+    assert not np.array_equal(anew[-1], rows[-1])  # until then the wants of the reset held
+    assert sledge.time == 300 * H
+
+
+def test_a_start_after_a_reset_is_the_first_drive_again(sledge: DrivenFmu) -> None:
+    rows = Hands(sledge).drive(0, 300)
+    sledge.reset(wish=1e9)
+    sledge.inputs.restart(0.0)
+    assert all(np.array_equal(a, b) for a, b in zip(rows, Hands(sledge).drive(0, 300), strict=True))
+
+
+def test_upright_stays_where_it_is_and_time_goes_on(sledge: DrivenFmu) -> None:
+    sledge.restart({"initial.yaw": 1.0, "initial.y": -3.0}, wish=0.0)
+    Hands(sledge).drive(0, 700)
+    places = [sledge.names.index(n) for n in ("chassis.x", "chassis.y", "chassis.yaw")]
+    before, time = sledge.values[places], sledge.time
+    told = sledge.upright(wish=100.0)
+    assert sledge.values[places] == pytest.approx(before, abs=1e-9)
+    assert sledge.values[sledge.names.index("speed")] == 0.0
+    assert (sledge.time, sledge.epoch) == (time, 2)
+    assert told.details["start"]["initial.speed"] == 0.0
+    hands = Hands(sledge)
+    hands.wish = 100
+    hands.drive(0, 20)
+    assert sledge.time == pytest.approx(time + 21 * H)
+    sledge.rewind(23 * H)
+    assert sledge.time == pytest.approx(time - H)
+
+
+def test_other_start_values_stay_for_later_resets(sledge: DrivenFmu) -> None:
+    sledge.restart({"initial.x": 40.0, "throttle": 0.25}, wish=0.0)
+    x, throttle = sledge.names.index("chassis.x"), sledge.names.index("throttle")
+    assert (sledge.values[x], sledge.values[throttle]) == (40.0, 0.25)
+    Hands(sledge).drive(0, 50)
+    sledge.reset(wish=100.0)
+    assert (sledge.values[x], sledge.values[throttle]) == (40.0, 0.25)
+    assert sledge.start == {"initial.speed": 10.0, "initial.x": 40.0, "throttle": 0.25}
+
+
+def test_a_start_that_is_refused_changes_nothing(fmu: Callable[[str], Path]) -> None:
+    car = DrivenFmu(fmu("reach"), {}, 0.01)
+    for _ in range(5):
+        car.advance()
+    before, time = car.values.copy(), car.time
+    with pytest.raises(HostError, match="no parameter or input 'nothing'"):
+        car.restart({"nothing": 1.0}, wish=0.0)
+    assert (car.start, car.time, car.epoch) == ({}, time, 0)
+    assert np.array_equal(car.values, before)
+    car.advance()
+    assert car.time == pytest.approx(time + 0.01)
+    with pytest.raises(HostError, match=r"no chassis.x; a reset"):
+        car.upright(wish=0.0)
+    car.close()
+
+
+def test_a_refused_step_keeps_the_state_and_the_past(fmu: Callable[[str], Path]) -> None:
+    car = DrivenFmu(fmu("reach"), {}, 0.2)
+    free = DrivenFmu(fmu("reach"), {}, 0.2)
+    for driven in (car, free):
+        driven.advance()
+        driven.advance()
+    before = car.values.copy()
+    car.inputs.want(np.array([5.0, AT_ONCE, 1.0]))
+    with pytest.raises(StepRefusedError, match="step_size"):
+        car.advance()
+    assert (car.count, car.time, car.refused_inputs) == (2, 0.4, [5.0])
+    assert car.inputs.values.tolist() == [0.0]
+    assert np.array_equal(car.values, before)
+    car.rewind(0.2)
+    assert car.time == 0.2
+    car.inputs.want(np.array([0.0, AT_ONCE, 2.0]))
+    car.advance()
+    assert np.array_equal(car.values, free.values)
+    car.close()
+    free.close()
+
+
+def test_whole_inputs_and_outputs(fmu: Callable[[str], Path]) -> None:
+    car = DrivenFmu(fmu("switched"), {}, H)
+    gear, used = car.names.index("gear"), car.names.index("gear_used")
+    assert car.values[gear] == 1.0
+    car.inputs.want(np.array([0.0, 0.0, 0.0, 2.6, 0.1, 1.0]))
+    car.advance()
+    assert (car.values[gear], car.values[used]) == (3.0, 3.0)
+    car.rewind(H)
+    assert (car.values[gear], car.values[used]) == (1.0, 1.0)
+    car.close()
+
+
+@pytest.fixture
+def forgetful(fmu: Callable[[str], Path], tmp_path: Path) -> Path:
+    """The sledge without saved states."""
+    changed = tmp_path / "forgetful.fmu"
+    with zipfile.ZipFile(fmu("sledge")) as source, zipfile.ZipFile(changed, "w") as target:
+        for item in source.infolist():
+            content = source.read(item)
+            if item.filename == "modelDescription.xml":
+                assert b'canGetAndSetFMUstate="true"' in content
+                content = content.replace(b'canGetAndSetFMUstate="true"', b"")
+                content = content.replace(b'canSerializeFMUstate="true"', b"")
+            target.writestr(item, content)
+    return changed
+
+
+def test_an_fmu_that_saves_no_state_can_be_reset_and_set_upright_but_not_rewound(forgetful: Path) -> None:
+    car = DrivenFmu(forgetful, {"initial.speed": 10.0}, H)
+    start = car.values.copy()
+    rows = Hands(car).drive(0, 100)
+    with pytest.raises(HostError, match=r"forgetful.fmu cannot go back: it does not save its state"):
+        car.rewind(0.1)
+    assert (car.saved, car.epoch) == (0.0, 0)
+    assert np.array_equal(car.values, rows[-1])
+    car.upright(wish=100.0)
+    assert car.time == 101 * H
+    car.reset(wish=100.0)
+    assert np.array_equal(car.values, start)
+    with pytest.raises(HostError, match="starts anew as at first"):
+        car.restart({"step_size": 1e-30}, wish=100.0)
+    assert np.array_equal(car.values, start)
+    assert (car.time, car.epoch) == (0.0, 3)
+    car.close()

@@ -1,0 +1,448 @@
+"""What the server says to pages and takes from them, by two independent clients, and whom it refuses."""
+
+from __future__ import annotations
+
+import errno
+import gzip
+import json
+import select
+import struct
+import time
+import urllib.request
+from contextlib import ExitStack
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from hosts.errors import HostError
+from hosts.simulator import connected_page, web
+from hosts.simulator.connected_page import ConnectedPage
+from hosts.simulator.guard import Guard
+from tests.hosts.simulator.raw_client import RawClient, request
+from tests.hosts.simulator.served import PLACES, WORLD, FakeCar, serving
+
+HEADER = "<4I10d"
+
+
+@pytest.fixture
+def car():
+    return FakeCar()
+
+
+@pytest.fixture
+def served(car):
+    with serving(car) as found:
+        yield found
+
+
+def frames(page, count):
+    """The next frames, each acknowledged."""
+    found = []
+    while len(found) < count:
+        data = page.recv(timeout=10)
+        if isinstance(data, bytes):
+            found.append(data)
+            page.send(json.dumps({"type": "seen", "count": struct.unpack_from(HEADER, data)[4]}))
+    return found
+
+
+def texts(page, kind):
+    """The next text of a kind; frames are acknowledged."""
+    deadline = time.monotonic() + 20
+    while time.monotonic() < deadline:
+        data = page.recv(timeout=10)
+        if isinstance(data, bytes):
+            page.send(json.dumps({"type": "seen", "count": struct.unpack_from(HEADER, data)[4]}))
+        elif (message := json.loads(data))["type"] == kind:
+            return message
+    raise AssertionError(f"no {kind} came")
+
+
+def until(condition):
+    deadline = time.monotonic() + 10
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def test_a_page_gets_words_first_and_then_frames_with_every_number(served, car):
+    with connect(served.url) as page:
+        hello = json.loads(page.recv(timeout=10))
+        assert hello["type"] == "hello"
+        assert hello["version"] == 1
+        assert hello["columns"][-1] == "speed"
+        data = frames(page, 3)[-1]
+    magic, epoch, flags, n, count, seconds, *numbers = struct.unpack_from(HEADER, data)
+    assert data[:4] == b"A3F1"
+    assert (magic, epoch, flags, n) == (0x31463341, 3, 5, 5)
+    assert seconds == count * car.step
+    #                  speed, wall, cost, worst, lateness, missed, deadline, saved
+    assert numbers == [0.5, 12.5, 1e-4, 2e-4, 3e-4, 2.0, 0.004, 30.0]
+    assert len(data) == 96 + 8 * n
+    assert np.frombuffer(data, "<f8", offset=96).tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
+
+
+def test_the_same_by_a_client_of_raw_bytes(served):
+    with RawClient(served.port) as page:
+        assert json.loads(page.receive())["type"] == "hello"
+        first = page.receive()
+        assert struct.unpack_from("<I", first) == (0x31463341,)
+        page.send(json.dumps({"type": "want", "source": "keys", "values": {"throttle": [0.7, 2.5]}}))
+        page.send(json.dumps({"type": "report"}))
+        while not isinstance(answer := page.receive(), str):
+            pass
+        assert json.loads(answer) == {"type": "report", "steps": 11, "median": 1e-4}
+
+
+def test_a_page_that_acknowledges_nothing_gets_two_frames_and_the_newest_when_it_wakes(served):
+    with connect(served.url) as page:
+        page.recv(timeout=10)
+        last = [struct.unpack_from(HEADER, page.recv(timeout=10))[4] for _ in range(2)][-1]
+        with pytest.raises(TimeoutError):
+            page.recv(timeout=0.3)
+        page.send(json.dumps({"type": "seen", "count": last}))
+        woken = struct.unpack_from(HEADER, page.recv(timeout=10))[4]
+        assert woken > last + 1  # nothing old waited for it
+
+
+def test_a_car_that_stands_still_sends_no_frames(car, served):
+    car.running = False
+    with connect(served.url) as page:
+        texts(page, "hello")
+        frames(page, 1)
+        with pytest.raises(TimeoutError):
+            page.recv(timeout=0.3)
+
+
+def test_wishes_and_commands_reach_the_car(car, served):
+    with connect(served.url) as page:
+        page.send(
+            json.dumps({"type": "want", "source": "keys", "values": {"steering": [0.3, 1.6], "throttle": [1, None]}})
+        )
+        page.send(json.dumps({"type": "command", "name": "speed", "value": 0.5}))
+        page.send(json.dumps({"type": "command", "name": "speed", "value": 7}))
+        assert "must be from 0.05 to 1" in texts(page, "refused")["text"]
+        page.send(json.dumps({"type": "place", "name": "start"}))
+        page.send(json.dumps({"type": "place", "name": "moon"}))
+        assert texts(page, "refused")["text"] == "The world has no place 'moon'; it has start."
+    assert car.wanted["steering"] in ((0.3, 1.6), (0.0, 3.0))
+    assert car.orders == [("speed", 0.5), ("restart", PLACES["start"])]
+
+
+def test_events_go_to_every_page_and_the_terminal(car, served):
+    with connect(served.url) as one, connect(served.url) as two:
+        for page in (one, two):
+            texts(page, "hello")
+        car.told.append(SimpleNamespace(time=1.5, kind="behind", text="The car is late."))
+        for page in (one, two):
+            assert texts(page, "event") == {"type": "event", "kind": "behind", "time": 1.5, "text": "The car is late."}
+    assert "The car is late." in served.told
+
+
+class Devices:
+    def __init__(self):
+        self.axis, self.messages = 0.0, []
+
+    def state(self):
+        return [{"id": "wheel", "axes": [self.axis]}]
+
+    def message(self, content):
+        if content["type"] == "calibrate":
+            raise HostError("The wheel is not there.")
+        self.messages.append(content)
+
+
+def test_devices_are_shown_to_pages_that_watch_and_get_their_messages(car, served):
+    served.server.devices = devices = Devices()
+    with connect(served.url) as page:
+        page.send('{"type":"watch devices","on":true}')
+        assert texts(page, "devices")["devices"] == [{"id": "wheel", "axes": [0.0]}]
+        devices.axis = 0.5
+        while texts(page, "devices")["devices"][0]["axes"] != [0.5]:
+            pass
+        page.send('{"type":"assign","device":"wheel","input":"brake"}')
+        page.send('{"type":"calibrate","device":"wheel"}')
+        assert texts(page, "refused")["text"] == "The wheel is not there."
+        assert devices.messages == [{"type": "assign", "device": "wheel", "input": "brake"}]
+        served.server.say("The wheel was pulled out.")
+        assert texts(page, "event")["text"] == "The wheel was pulled out."
+    assert "The wheel was pulled out." in served.told
+
+
+def test_every_page_is_told_of_a_device_that_comes(car, served):
+    served.server.devices = devices = Devices()
+    with connect(served.url) as page:
+        for _ in range(2):  # with the hello, and as devices that are new to all pages
+            assert texts(page, "devices")["devices"][0]["axes"] == [0.0]
+        devices.axis = 0.5  # of no interest to a page that does not watch
+        time.sleep(0.2)
+        devices.state = lambda: [{"id": "wheel"}, {"id": "pedals"}]
+        while len(shown := texts(page, "devices")["devices"]) == 1:
+            assert shown[0]["axes"] == [0.0]
+        assert [device["id"] for device in shown] == ["wheel", "pedals"]
+
+
+def test_a_page_that_closes_lets_its_inputs_go(car, served):
+    with connect(served.url) as page:
+        page.send(
+            json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5], "steering": [0.4, 1.6]}})
+        )
+        until(lambda: car.wanted.get("throttle") == (1.0, 2.5))
+    until(lambda: car.wanted["throttle"] == (0.0, 5.0) and car.wanted["steering"] == (0.0, 3.0))
+    assert any("Page 1 was closed: steering, throttle let go." in text for text in served.told)
+
+
+def test_a_page_that_stalls_lets_its_inputs_go_and_has_the_word_again_when_it_wakes(car, served, monkeypatch):
+    monkeypatch.setattr(connected_page, "STALLED", 0.2)
+    want = json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5]}})
+    with connect(served.url) as page:
+        page.send(want)
+        until(lambda: car.wanted.get("throttle") == (1.0, 2.5))
+        until(lambda: car.wanted["throttle"] == (0.0, 5.0))
+        assert any("says nothing any more: throttle let go." in text for text in served.told)
+        page.send(want)
+        until(lambda: car.wanted["throttle"] == (1.0, 2.5))
+
+
+def test_a_second_page_may_drive_too(car, served):
+    with connect(served.url) as one, connect(served.url) as two:
+        one.send(json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5]}}))
+        until(lambda: car.wanted.get("throttle") == (1.0, 2.5))
+        two.send(json.dumps({"type": "want", "source": "keys", "values": {"brake": [1.0, 4.0]}}))
+        until(lambda: car.wanted.get("brake") == (1.0, 4.0))
+        one.close()
+        until(lambda: car.wanted["throttle"] == (0.0, 5.0))
+        assert car.wanted["brake"] == (1.0, 4.0)
+
+
+def test_page_and_world_are_handed_out_packed_where_the_client_can(served):
+    with urllib.request.urlopen(f"http://127.0.0.1:{served.port}/", timeout=10) as answer:
+        assert answer.read() == b"<!DOCTYPE html><title>page</title>"
+        assert answer.headers["Content-Type"] == "text/html; charset=utf-8"
+    status, headers, body = request(served.port, "/world", {"Accept-Encoding": "gzip, br"})
+    assert status == 200
+    assert headers["content-encoding"] == "gzip"
+    assert json.loads(gzip.decompress(body)) == WORLD
+
+
+@pytest.mark.parametrize(
+    ("headers", "words"),
+    [
+        ({"Host": "evil.example"}, "by its own address"),
+        ({"Host": "evil.example:{port}"}, "by its own address"),
+        ({"Host": "127.0.0.1.evil.example"}, "by its own address"),
+        ({"Host": "192.168.1.5:{port}"}, "by its own address"),
+        ({"Host": "[::1"}, "by its own address"),
+        ({"Origin": "http://evil.example"}, "Only pages of this server"),
+        ({"Origin": "null"}, "Only pages of this server"),
+        ({"Origin": "http://127.0.0.1:1"}, "Only pages of this server"),
+        ({"Origin": "https://127.0.0.1:{port}"}, "Only pages of this server"),
+    ],
+)
+@pytest.mark.parametrize("path", ["/", "/drive"])
+def test_foreign_pages_and_names_are_refused(served, path, headers, words):
+    sent = {name: value.format(port=served.port) for name, value in headers.items()}
+    status, _, body = request(served.port, path, sent, upgrade=path == "/drive")
+    assert status == 403
+    assert words in body.decode()
+
+
+def test_a_header_that_stands_twice_is_refused(served):
+    status, _, body = request(served.port, "/", {}, more=[("Host", "127.0.0.1")])
+    assert (status, body) == (403, b"The request says Host several times.\n")
+
+
+@pytest.mark.parametrize("name", ["127.0.0.1", "localhost", "LOCALHOST"])
+def test_its_own_page_is_taken(served, name):
+    headers = {"Host": f"{name}:{served.port}", "Origin": f"http://{name.lower()}:{served.port}"}
+    assert request(served.port, "/drive", headers, upgrade=True)[0] == 101
+
+
+def test_what_is_not_there_and_what_is_no_websocket(served):
+    assert request(served.port, "/etc/passwd", {})[0] == 404
+    assert request(served.port, "/../world", {})[0] == 404
+    assert request(served.port, "/drive", {})[0] == 426
+
+
+def test_others_need_the_token():
+    guard = Guard.of("0.0.0.0")
+    assert len(guard.token) >= 32
+    with serving(FakeCar(), guard) as served:
+        for path in ("/", "/world", "/drive", "/?token=", f"/?token={guard.token}x", "/?token=%C3%A9"):
+            status, _, body = request(served.port, path, {})
+            assert status == 403
+            assert b"guarded" in body
+        assert request(served.port, f"/?token={guard.token}", {})[0] == 200
+        assert request(served.port, f"/?token={guard.token}", {"Host": "192.168.1.5:80"})[0] == 200
+        assert request(served.port, f"/?token={guard.token}", {"Host": "evil.example"})[0] == 403
+        with connect(f"{served.url}?token={guard.token}") as page:
+            assert json.loads(page.recv(timeout=10))["type"] == "hello"
+
+
+def test_this_machine_alone_needs_none():
+    assert [Guard.of(name).token for name in ("127.0.0.1", "::1", "localhost", "127.3.2.1")] == [""] * 4
+    assert all(Guard.of(name).token for name in ("0.0.0.0", "::", "192.168.0.2", "carbox"))
+
+
+@pytest.mark.parametrize(
+    ("message", "words"),
+    [
+        ("{", "cannot be read"),
+        ("[" * 4000, "cannot be read"),
+        ("[]", "this one is none"),
+        (b"\x00\x01", "this one is binary"),
+        ('{"type":"sing"}', "known are want, command"),
+        ('{"type":["want"]}', "known are want, command"),
+        ('{"type":"want","source":"keys","values":{"throttle":[NaN,1]}}', "cannot be read"),
+        ('{"type":"want","source":"keys","values":{"throttle":[1e999,1]}}', "must be a number"),
+        ('{"type":"want","source":"keys","values":{"throttle":[true,1]}}', "must be a number"),
+        ('{"type":"want","source":"keys","values":{"throttle":[1,-1]}}', "must be positive"),
+        ('{"type":"want","source":"keys","values":{"throttle":1}}', "must be [value, rate]"),
+        ('{"type":"want","source":"keys","values":{"sail":[1,1]}}', "no input 'sail'; it has steering"),
+        ('{"type":"want","source":"mind","values":{}}', "must be keys, gamepad, touch"),
+        ('{"type":"want","source":["keys"],"values":[]}', "must be keys, gamepad, touch"),
+        ('{"type":"command","name":"explode"}', "known are run, pause"),
+        ('{"type":"command","name":"rewind","value":"x"}', "must be a number"),
+        ('{"type":"seen"}', "must be a number"),
+        ('{"type":"place","name":7}', "must be a text"),
+        ('{"type":"watch devices","on":1}', "true or false"),
+        ('{"type":"watch devices","on":true}', "started without devices"),
+        ('{"type":"assign","device":"1"}', "started without devices"),
+    ],
+)  # fmt: skip
+def test_a_message_that_is_wrong_is_one_sentence_and_the_page_stays(car, served, message, words):
+    with connect(served.url) as page:
+        page.send(message)
+        text = texts(page, "refused")["text"]
+        assert words in text
+        assert text.endswith(".")
+        assert "\n" not in text
+        frames(page, 3)
+    assert car.orders == []
+
+
+def read_to_the_end(page):
+    while True:
+        page.recv(timeout=10)
+
+
+def refused_with(page):
+    """The words that a connection is closed with."""
+    with pytest.raises(ConnectionClosed) as caught:
+        read_to_the_end(page)
+    return caught.value.rcvd.code, caught.value.rcvd.reason
+
+
+def test_a_large_message_ends_the_connection(served):
+    with connect(served.url) as page:
+        page.send("x" * 4097)
+        assert refused_with(page)[0] == 1009
+
+
+def test_too_many_wrong_messages_end_the_connection(served):
+    with connect(served.url) as page:
+        for _ in range(connected_page.MOST_MALFORMED + 1):
+            page.send("{")
+        assert refused_with(page) == (1008, "More than 20 messages of this page were wrong.")
+
+
+def test_too_many_messages_end_the_connection(served):
+    with connect(served.url) as page:
+        code = None
+        try:
+            for _ in range(5000):
+                page.send('{"type":"seen","count":0}')
+        except ConnectionClosed as closed:
+            code = closed.rcvd.code
+        assert (code or refused_with(page)[0]) == 1008
+    assert any("may send 400 messages a second" in text for text in served.told)
+
+
+def test_new_starts_are_taken_now_and_then_only(car, served):
+    with connect(served.url) as page:
+        for _ in range(20):
+            page.send(json.dumps({"type": "command", "name": "reset"}))
+        assert "passed over" in texts(page, "refused")["text"]
+        page.send(json.dumps({"type": "command", "name": "pause"}))
+        until(lambda: ("pause", 0.0) in car.orders)
+    assert car.orders.count(("reset", 0.0)) == 1
+
+
+def test_one_page_too_many_is_refused_with_a_sentence(served):
+    with ExitStack() as opened:
+        pages = [opened.enter_context(connect(served.url)) for _ in range(web.MOST_PAGES)]
+        for page in pages:
+            texts(page, "hello")
+        status, _, body = request(served.port, "/drive", {}, upgrade=True)
+        assert status == 503
+        assert b"8 pages are connected" in body
+        pages[3].close()
+        until(lambda: request(served.port, "/drive", {}, upgrade=True)[0] == 101)
+
+
+def test_connections_that_say_nothing_are_bounded(served):
+    with RawClient(served.port) as page, ExitStack() as opened:
+        silent = [opened.enter_context(RawClient.silent(served.port)) for _ in range(2 * web.MOST_CONNECTIONS)]
+        until(lambda: len(select.select(silent, [], [], 0)[0]) > web.MOST_CONNECTIONS)  # closed ones can be read
+        assert len(select.select(silent, [], [], 0)[0]) == web.MOST_CONNECTIONS + 1
+        page.send('{"type":"report"}')
+        while not (isinstance(data := page.receive(), str) and '"report"' in data):
+            pass
+    until(lambda: request(served.port, "/", {})[0] == 200)
+
+
+def test_a_car_that_has_ended_ends_the_server(car):
+    def ended():
+        raise HostError("The process of the car has ended.")
+
+    with serving(car) as served, connect(served.url) as page:
+        texts(page, "hello")
+        car.events = ended
+        with pytest.raises(ConnectionClosed) as closed:
+            read_to_the_end(page)
+        assert closed.value.rcvd.reason == "The process of the car has ended."
+        until(lambda: served.error)
+        assert str(served.error[0]) == "The process of the car has ended."
+
+
+def test_a_page_may_say_so_much_a_second():
+    now = [0.0]
+    page = ConnectedPage(1, None, lambda: now[0])
+
+    def say(times):
+        for _ in range(times):
+            page.heard()
+
+    for _ in range(5 * 400):
+        now[0] += 1 / 400
+        say(1)
+    say(int(connected_page.BURST) - 2)
+    with pytest.raises(HostError, match="400 messages a second"):
+        say(3)
+
+
+def test_a_port_that_is_taken_names_the_next_free_one():
+    with web.listening_socket("127.0.0.1", 0) as taken:
+        port = taken.getsockname()[1]
+        with pytest.raises(
+            HostError, match=rf"The port {port} of 127.0.0.1 is taken .*; the port (\d+) is free"
+        ) as told:
+            web.listening_socket("127.0.0.1", port)
+        free = int(str(told.value).rsplit(" ", 1)[1].rstrip("."))
+        web.listening_socket("127.0.0.1", free).close()
+    with pytest.raises(HostError, match=r"The port is 70000; it must be"):
+        web.listening_socket("127.0.0.1", 70000)
+    with pytest.raises(HostError, match=r"The server cannot listen on 203.0.113.1: "):
+        web.listening_socket("203.0.113.1", 0)
+
+
+def test_a_port_that_the_user_may_not_have(monkeypatch):
+    def refuse(*_, **__):
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr(web.socket, "create_server", refuse)
+    with pytest.raises(HostError, match=r"The port 80 may not be used by you; ports from 1024 on may\."):
+        web.listening_socket("127.0.0.1", 80)

@@ -1,0 +1,236 @@
+"""The command with pages, from the terminal to the car's process: a drive, hostile clients, Ctrl-C, and the report."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from websockets.exceptions import WebSocketException
+from websockets.sync.client import connect
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from tests.hosts.simulator.raw_client import RawClient, request
+from viewer import bundle
+
+ROOT = Path(__file__).parents[3]
+STEP = 0.005
+HOSTILE_SECONDS = 3.0
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C of another process is sent by a signal")
+
+
+@pytest.fixture(scope="module")
+def sledge(tmp_path_factory):
+    try:
+        bundle.bundle()
+    except RuntimeError as error:
+        pytest.skip(str(error))
+    name, system = load_scene(f"{ROOT / 'tests' / 'hosts' / 'scenes.py'}:sledge")
+    return build_fmu(system, name, tmp_path_factory.mktemp("fmu"), [fmpy.platform])
+
+
+class Program:
+    """The command as a user runs it."""
+
+    def __init__(self, *arguments):
+        command = [sys.executable, "-m", "hosts.simulator", *map(str, arguments), "--no-open", "--no-devices"]
+        self.process = subprocess.Popen(
+            command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, encoding="utf-8"
+        )
+        self.lines = []
+        for line in self.process.stdout:
+            self.lines.append(line)
+            if found := re.search(r"Drive at (http://\S+:(\d+)/\S*)", line):
+                self.address, self.port = found[1], int(found[2])
+                self.url = self.address.replace("http", "ws").replace("/?", "/drive?")
+                self.url = self.url if "?" in self.url else self.url + "drive"
+                return
+        raise AssertionError("".join(self.lines))
+
+    def end(self):
+        """Ctrl-C; the exit code."""
+        self.process.send_signal(signal.SIGINT)
+        self.lines.append(self.process.communicate(timeout=30)[0])
+        return self.process.returncode
+
+    @property
+    def said(self):
+        return "".join(self.lines)
+
+
+@contextmanager
+def program(*arguments):
+    running = Program(*arguments)
+    try:
+        yield running
+    finally:
+        if running.process.poll() is None:
+            running.process.kill()
+            running.process.communicate()
+
+
+class Page:
+    """What a page does: acknowledge, keep the columns and the newest frame."""
+
+    def __init__(self, connection):
+        self.connection = connection
+        self.hello = json.loads(connection.recv(timeout=10))
+        self.texts = []
+        self.next()
+
+    def next(self):
+        """Read until the next frame."""
+        while isinstance(data := self.connection.recv(timeout=10), str):
+            self.texts.append(json.loads(data))
+        head = struct.unpack_from("<4I10d", data)
+        self.epoch, self.flags, self.count, self.time = head[1], head[2], head[4], head[5]
+        values = np.frombuffer(data, "<f8", offset=96)
+        self.values = dict(zip(self.hello["columns"], values, strict=True))
+        self.say("seen", count=self.count)
+
+    def say(self, kind, **content):
+        self.connection.send(json.dumps({"type": kind, **content}))
+
+    def until(self, condition):
+        deadline = time.monotonic() + 20
+        while not condition(self):
+            assert time.monotonic() < deadline
+            self.next()
+
+
+def test_a_drive_from_a_page_and_the_report_at_ctrl_c(sledge, tmp_path):
+    with program(sledge, "--port", 0, "--step", STEP, "--json", tmp_path / "r.json") as running:
+        assert request(running.port, "/", {})[0] == 200
+        assert b"ALi3Viewer.simulate" in request(running.port, "/", {})[2]
+        world = json.loads(request(running.port, "/world", {})[2])
+        assert (world["name"], world["scenery"], world["places"]) == ("", [], [])
+        with connect(running.url) as connection:
+            page = Page(connection)
+            assert page.hello["scene"]["roads"] == []
+            page.until(lambda p: p.count > 20)
+            assert page.values["speed"] == 0.0
+            page.say("want", source="keys", values={"throttle": [1.0, 2.5]})
+            page.until(lambda p: p.values["throttle"] == 1.0 and p.values["speed"] > 0.0)
+            page.say("command", name="pause")
+            page.until(lambda p: not p.flags & 1)
+            before = page.time
+            page.say("command", name="run")
+            page.until(lambda p: p.time > before + 0.5)
+            page.say("command", name="rewind", value=0.3)
+            epoch = page.epoch
+            page.until(lambda p: p.epoch > epoch)
+            page.until(lambda p: any(text.get("kind") == "rewind" for text in p.texts))
+            page.say("report")
+            page.until(lambda p: any(text["type"] == "report" for text in p.texts))
+        assert running.end() == 0
+    assert "speed" in page.values
+    for words in ("Ready ", "First frame sent to a page ", "simulated in ", "histogram", "rewind 1"):
+        assert words in running.said
+    assert "Traceback" not in running.said
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["steps"]["steps"] > 100
+    assert set(report["seconds since the start"]) == {"prepared", "ready", "first frame"}
+
+
+def hostile(port, url, until, faults):
+    """Everything at once, again and again."""
+    rng = np.random.default_rng(1)
+    with ExitStack() as opened:
+        for _ in range(15):
+            opened.enter_context(RawClient.silent(port))
+        deaf = opened.enter_context(RawClient(port))  # reads nothing
+        deaf.send(json.dumps({"type": "want", "source": "keys", "values": {"brake": [1.0, None]}}))
+        while time.monotonic() < until:
+            with suppress(WebSocketException, EOFError, OSError), connect(url, close_timeout=1) as one:
+                attack(one, rng, int(rng.integers(5)))
+            with suppress(OSError):
+                faults.append(request(port, "/", {"Host": "evil.example"})[0])
+                faults.append(request(port, "/drive", {"Origin": "http://evil.example"}, upgrade=True)[0])
+            with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=5) as line:
+                line.sendall(rng.bytes(5000) if rng.random() < 0.5 else b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 5000)
+
+
+def attack(page, rng, kind):
+    """What a page must not do, of one kind."""
+    if kind == 0:
+        page.send("x" * 100_000)
+    for k in range(1000):
+        if kind == 1:
+            page.send(rng.bytes(200))
+        elif kind == 2:
+            page.send(json.dumps({"type": "command", "name": "rewind", "value": 0.01}))
+        elif kind == 3:
+            page.send(json.dumps({"type": "want", "source": "touch", "values": {"steering": [k % 2, None]}}))
+        elif kind == 4:
+            page.send('{"type":"seen","count":1e15}')
+
+
+def test_hostile_clients_do_not_stop_the_car(sledge):
+    with program(sledge, "--port", 0, "--step", STEP) as running:
+        with connect(running.url) as connection:
+            page, faults = Page(connection), []
+            page.until(lambda p: p.count > 20)
+            first, begin = page.count, time.monotonic()
+            until = begin + HOSTILE_SECONDS
+            attackers = [
+                threading.Thread(target=hostile, args=(running.port, running.url, until, faults)) for _ in range(2)
+            ]
+            for attacker in attackers:
+                attacker.start()
+            page.until(lambda p: time.monotonic() > until)
+            steps = page.count - first
+            for attacker in attackers:
+                attacker.join(30)
+            page.until(lambda p: p.flags & 1)
+            assert steps > 0.5 * HOSTILE_SECONDS / STEP
+            assert set(faults) == {403}
+            page.say("want", source="keys", values={"throttle": [1.0, None], "brake": [0.0, None]})
+            page.until(lambda p: p.values["throttle"] == 1.0)
+            page.until(lambda p: p.values["brake"] == 0.0)  # the deaf one was let go
+        assert running.end() == 0
+    assert "Traceback" not in running.said
+
+
+def test_opened_to_others_it_needs_the_token(sledge):
+    with program(sledge, "--port", 0, "--listen", "0.0.0.0") as running:
+        token = running.address.partition("token=")[2]
+        assert request(running.port, "/", {})[0] == 403
+        assert request(running.port, f"/?token={token}", {})[0] == 200
+        assert running.end() == 0
+        assert "not encrypted" in running.said
+
+
+def test_a_port_that_is_taken_is_one_sentence(sledge):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        done = subprocess.run(
+            [sys.executable, "-m", "hosts.simulator", str(sledge), "--port", str(port)],
+            cwd=ROOT, capture_output=True, text=True, check=False, timeout=60,
+        )  # fmt: skip
+    assert done.returncode == 2
+    assert re.search(rf"error: The port {port} of 127.0.0.1 is taken .* --port \d+\.$", done.stderr.strip())
+
+
+def test_a_car_that_dies_ends_the_command_with_a_sentence_and_the_report(sledge):
+    with program(sledge, "--port", 0, "--step", STEP) as running, connect(running.url) as connection:
+        page = Page(connection)
+        page.until(lambda p: p.count > 20)
+        children = Path(f"/proc/{running.process.pid}/task/{running.process.pid}/children").read_text().split()
+        os.kill(int(children[-1]), signal.SIGKILL)
+        out = running.process.communicate(timeout=30)[0]
+    assert running.process.returncode == 2
+    assert "error: The car's process was ended by the signal SIGKILL" in out
+    assert "simulated in " in out

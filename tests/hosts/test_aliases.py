@@ -1,0 +1,81 @@
+"""Alias files: our names for variables of other programs, there and back, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hosts.aliases import read_aliases
+from hosts.errors import HostError
+
+NAMES = ("StrAng", "Acc_ped", "X", "Psi", "brake")
+GOOD = """
+steering = { name = "StrAng", factor = -540.0, offset = 2.0 }   # degrees, positive to the right
+throttle = { name = "Acc_ped", factor = 100.0 }
+"chassis.x" = "X"
+"chassis.yaw" = { name = "Psi", factor = 57.29577951308232 }
+[constants]
+"vehicle.wheelbase" = 2.6
+"""
+
+
+@pytest.fixture
+def file(tmp_path):
+    def write(text):
+        path = tmp_path / "names.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def test_names_and_numbers_go_there_and_come_back(file):
+    aliases = read_aliases(file(GOOD), NAMES)
+    assert aliases.names(NAMES) == ("steering", "throttle", "chassis.x", "chassis.yaw", "brake")
+    assert aliases.constants == {"vehicle.wheelbase": 2.6}
+    wanted = aliases.inputs({"steering": (0.5, 1.6), "throttle": (0.25, 2.5), "brake": (1.0, 4.0)})
+    assert wanted == {"StrAng": (-268.0, 864.0), "Acc_ped": (25.0, 250.0), "brake": (1.0, 4.0)}
+    factors, offsets = aliases.scales(NAMES)
+    theirs = np.array([-268.0, 25.0, 7.0, 90.0, 1.0])
+    assert (theirs - offsets) / factors == pytest.approx([0.5, 0.25, 7.0, np.pi / 2, 1.0], abs=1e-15)
+
+
+def test_start_values_keep_their_kind(file):
+    aliases = read_aliases(file('"initial.x" = { name = "X", factor = 1000.0 }\n"road.file" = "Psi"'), NAMES)
+    assert aliases.values({"initial.x": 2, "road.file": "my.road", "brake": 1}) == {
+        "X": 2000.0,
+        "Psi": "my.road",
+        "brake": 1,
+    }
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("steering = ", "is not TOML: "),
+        ('steering = "StrAngle"', "'steering': the FMU has no variable 'StrAngle'; did you mean StrAng."),
+        ("steering = 3", "'steering' must be a name of the FMU"),
+        ('chassis.x = "X"', "a name with a dot needs quotation marks"),
+        ('steering = { name = "X", factor = 0 }', "factor is 0"),
+        ('steering = { name = "X", factor = nan }', "factor is nan; it must be a finite number"),
+        ('steering = { name = "X", factor = true }', "factor is True"),
+        ('steering = { name = "X", gain = 2 }', "has 'gain'; known are name, factor, offset"),
+        ('steering = "X"\nthrottle = "X"', "'X' is named steering and throttle"),
+        ('brake = "X"', "the FMU has a variable 'brake' itself"),
+        ('[constants]\n"vehicle.wheelbase" = "long"', "constants.vehicle.wheelbase is 'long'"),
+        ("constants = 3", "[constants] must be a table"),
+    ],
+)
+def test_what_is_wrong_is_one_sentence(file, text, words):
+    with pytest.raises(HostError) as told:
+        read_aliases(file(text), NAMES)
+    assert words in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+def test_a_file_that_cannot_be_read(tmp_path):
+    with pytest.raises(HostError, match=r"alias file .*none\.toml cannot be read: no such file"):
+        read_aliases(tmp_path / "none.toml", NAMES)
+    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(HostError, match="is not TOML"):
+        read_aliases(tmp_path / "bytes.toml", NAMES)

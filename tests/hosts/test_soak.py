@@ -1,0 +1,257 @@
+"""The soak test drives, sees what is wrong, and saves what repeats it."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from dataclasses import asdict, replace
+from mmap import mmap
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts.co_simulation import run
+from hosts.fmu import Fmu, StepRefusedError
+from hosts.manoeuvre import load_manoeuvre
+from hosts.simulator.recorded_drive import read_recording
+from hosts.simulator.replay import replay
+from hosts.soak import drive as drive_module
+from hosts.soak.checks import BadStepError, Watch
+from hosts.soak.command import main
+from hosts.soak.drive import Failure, Outcome, Task, drive
+from hosts.soak.grounds import Ground, ground_of, jump_ground, jump_heights
+from hosts.soak.memory import Memory
+from hosts.soak.table import is_good
+
+STEP = 0.002
+
+
+@pytest.fixture(scope="module")
+def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, system = load_scene("prototype_car")
+    return build_fmu(system, name, tmp_path_factory.mktemp("car"), [fmpy.platform])
+
+
+@pytest.fixture(scope="module")
+def ground(tmp_path_factory: pytest.TempPathFactory) -> Ground:
+    return jump_ground(tmp_path_factory.mktemp("road"))
+
+
+def task(car: Path, out: Path, **other: Any) -> Task:
+    return replace(Task(str(car), 1, None, 4.0, STEP, {}, [], str(out)), **other)
+
+
+@pytest.mark.slow
+def test_a_short_soak_test_is_good(car: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """Four drives of 10 s in processes of their own, on ramps, kerbs and rough roads."""
+    numbers = tmp_path / "soak.json"
+    hours = str(40.0 / 3600.0)
+    command = [str(car), "--seconds", "10", "--hours", hours, "--jobs", "2", "--seed", "3", "--out", str(tmp_path)]
+    assert main([*command, "--json", str(numbers)]) == 0
+    told = capfd.readouterr().out
+    assert "0.0111 h simulated in 20" in told
+    assert "0 failures, 0 drives whose memory grew" in told
+    outcomes = json.loads(numbers.read_text())["outcomes"]
+    assert [outcome["seed"] for outcome in outcomes] == [3, 4, 5, 6]
+    for outcome in outcomes:
+        assert outcome["simulated"] == pytest.approx(10.0)
+        assert outcome["counts"]["steps"] == 5000
+        assert 0.0 < outcome["counts"]["largest_balance"] < 0.04
+        assert outcome["messages"] == {}
+    assert max(outcome["counts"]["top_speed"] for outcome in outcomes) > 20.0
+
+
+def test_a_drive_is_the_same_by_its_seed(car: Path, ground: Ground, tmp_path: Path) -> None:
+    def numbers(seed: int) -> dict[str, Any]:
+        return asdict(drive(task(car, tmp_path, seed=seed, grounds=[ground.record])).counts)
+
+    assert numbers(1) == numbers(1)
+    assert numbers(1) != numbers(2)
+
+
+def test_what_is_set_wins_over_the_start_by_chance(car: Path, ground: Ground, tmp_path: Path) -> None:
+    """A start at 25 m/s and 1 m above the road, which the car reaches after 0.45 s."""
+    start = {"initial.x": 5e4, "initial.y": 0.0, "initial.z": 1.0, "initial.speed": 25.0}
+    counts = drive(task(car, tmp_path, seconds=1.0, start=start)).counts
+    assert counts.top_speed == pytest.approx(25.0, rel=0.05)
+    assert counts.farthest == pytest.approx(5e4, rel=1e-3)
+    assert counts.jumps >= 1
+    assert 0.3 < counts.longest_jump < 0.46
+    # Over a ramp of 1 m, as the driver by chance meets it.
+    ramp = next(target for target in ground.targets if target.yaw > 4.0)
+    start = {"initial.x": ramp.x, "initial.y": ramp.y + 10.0, "initial.yaw": ramp.yaw, "initial.speed": 16.0}
+    made = drive(task(car, tmp_path, seconds=2.5, start=start | {"initial.z": 0.0}, grounds=[ground.record]))
+    assert made.failures == []
+    assert 0.1 < made.counts.longest_jump < 1.2
+    assert made.counts.highest > 0.8
+
+
+def test_a_failing_stretch_is_saved_and_repeated(
+    car: Path, ground: Ground, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The limit of the energy is set so low that the drive fails; the drive of its manoeuvre ends in the same bits."""
+    monkeypatch.setattr(drive_module, "_MOST_SAVED", 1)
+    made = drive(task(car, tmp_path, seconds=9.0, grounds=[ground.record], largest_balance=1e-6))
+    assert made.failures
+    failure = made.failures[0]
+    assert failure.kind == "energy"
+    assert not any(other.manoeuvre for other in made.failures[1:])
+    folder = Path(failure.manoeuvre).parent
+    recorded = read_recording(folder)
+    assert recorded.meta["seed"] == 1
+    assert replay(recorded).different == 0
+    rows = recorded.rows()
+    assert rows.time[-1] == pytest.approx(failure.time)
+    assert rows.time[-1] - rows.time[0] <= 4.01
+    for source in (failure.manoeuvre, str(folder)):
+        with Fmu(car) as fmu:
+            again = run(fmu, load_manoeuvre(source), STEP)
+        assert np.array_equal(again.values[1:], rows.values[1:])
+        assert again["solver.energy_balance"][-1] > 1e-6
+
+
+def test_a_refused_step_is_saved_with_its_inputs(car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    real, tried = Fmu.step, []
+
+    def refuse(self: Fmu, time: float, step: float) -> None:
+        tried.append(time)
+        if len(tried) == 700:
+            raise StepRefusedError("no")
+        real(self, time, step)
+
+    monkeypatch.setattr(Fmu, "step", refuse)
+    made = drive(task(car, tmp_path, seconds=3.0))
+    monkeypatch.undo()
+    (failure,) = made.failures
+    assert (failure.kind, failure.text, failure.run) == ("refused", "no", 0)
+    assert made.runs == 2
+    assert made.simulated == pytest.approx(3.0, abs=0.01)
+    manoeuvre = load_manoeuvre(failure.manoeuvre)
+    events = read_recording(Path(failure.manoeuvre).parent).events
+    assert list(manoeuvre.at(manoeuvre.stop_time - STEP).values()) == pytest.approx(events[-1]["inputs"], abs=1e-12)
+    with Fmu(car) as fmu:
+        assert len(run(fmu, manoeuvre, STEP).time) == round(manoeuvre.stop_time / STEP) + 1
+    found = replay(read_recording(Path(failure.manoeuvre).parent))
+    assert "was refused when it was recorded only" in str(found.first[0])
+
+
+def test_a_state_that_is_not_restored_is_seen(car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert drive(task(car, tmp_path, seconds=2.0)).rewinds >= 1
+    real = Fmu.restore
+
+    def wrong(self: Fmu, state: Any) -> None:
+        real(self, state)
+        self._set({"throttle": 0.123456})
+
+    monkeypatch.setattr(Fmu, "restore", wrong)
+    made = drive(task(car, tmp_path, seconds=2.0))
+    assert "restored" in {failure.kind for failure in made.failures}
+
+
+OUTPUTS = [
+    *(f"chassis.{axis}" for axis in ("x", "y", "z", "qx", "qy", "ground_points")),
+    *(f"wheel_{wheel}.Fz" for wheel in ("FL", "FR", "RL", "RR")),
+    *("speed", "solver.energy_balance", "solver.halvings", "solver.capped_steps"),
+]
+
+
+def row(**values: float) -> list[float]:
+    known = {name.replace(".", "_"): 0.0 for name in OUTPUTS} | {"wheel_FL_Fz": 1000.0, "chassis_z": 0.3} | values
+    return list(known.values())
+
+
+def test_the_watch_sees_what_is_wrong() -> None:
+    def kind(steps: int = 1, **values: float) -> str:
+        watch = Watch(OUTPUTS, 0.01)
+        try:
+            for _ in range(steps):
+                watch.step(row(**values))
+        except BadStepError as error:
+            return f"{error.kind}: {error}"
+        return ""
+
+    assert kind() == ""
+    assert kind(speed=float("nan")) == "not finite: speed is no finite number."
+    assert kind(speed=float("inf")).startswith("not finite")
+    assert kind(chassis_z=-6.0).startswith("left the road")
+    assert kind(99, solver_energy_balance=0.05) == ""
+    assert kind(100, solver_energy_balance=0.05).startswith("energy: solver.energy_balance is 0.05")
+    assert kind(100, solver_energy_balance=0.039) == ""
+
+
+def test_the_watch_counts() -> None:
+    watch = Watch(OUTPUTS, 0.01)
+    watch.begin(row())
+    for k in range(40):
+        watch.step(row(wheel_FL_Fz=0.0 if 10 <= k < 35 else 900.0, chassis_x=10.0 * k, solver_halvings=k // 10))
+    for k in range(30):  # on its roof: no wheel, but the ground
+        lying = {"wheel_FL_Fz": 0.0, "chassis_ground_points": 3.0, "chassis_qx": 0.99}
+        watch.step(row(speed=float(k), solver_halvings=3, solver_capped_steps=k // 15, **lying))
+    watch.begin(row())
+    watch.step(row(solver_halvings=2))
+    counts = watch.counts
+    assert (counts.steps, counts.jumps, counts.rollovers) == (71, 1, 1)
+    assert counts.longest_jump == pytest.approx(0.25)
+    assert (counts.top_speed, counts.farthest, counts.halvings, counts.capped) == (29.0, 390.0, 5.0, 1.0)
+
+
+def test_growing_memory_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    memory = Memory()
+    held = []
+    for _ in range(40):
+        memory.sample()
+    assert abs(memory.growth()[2]) < 1.0
+    memory = Memory()
+    for _ in range(40):
+        held.append(mmap(-1, 800_000))  # pages of its own: the heap may hold freed ones
+        held[-1].write(bytes(800_000))
+        memory.sample()
+    assert memory.growth()[2] == pytest.approx(0.8 * 28.0, rel=0.3)
+    assert is_good(Outcome(1, 0))
+    assert not is_good(Outcome(1, 0, memory_growth=memory.growth()[2]))
+    assert not is_good(Outcome(1, 0, failures=[Failure("refused", "", 0, 0.0, "")]))
+
+
+def test_a_process_that_dies_is_a_failure(
+    car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    death = "print('{\"done\": 2.5}', flush=True); import os; os.kill(os.getpid(), 9 if os.name != 'nt' else 15)"
+    monkeypatch.setattr("hosts.soak.pool.module_command", lambda *_: [sys.executable, "-c", death])
+    hours = str(10.0 / 3600.0)
+    assert main([str(car), "--seconds", "5", "--hours", hours, "--out", str(tmp_path), "--seed", "8"]) == 1
+    told = capfd.readouterr().out
+    assert "seed 9, run -1, 2.5 s" in told
+    assert "the signal SIGKILL" in told or sys.platform == "win32"
+    assert re.search(r"the whole drive again: .* --seed 9 --seconds 5 --hours 0.0013888", told)
+    assert "2 failures" in told
+
+
+def test_bad_wishes_are_refused(car: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    def refused(*arguments: str) -> str:
+        assert main([str(car), "--out", str(tmp_path), *arguments]) == 2
+        return capfd.readouterr().err
+
+    assert "0 hours; a positive number is needed" in refused("--hours", "0")
+    assert "both must be positive" in refused("--seconds", "-1")
+    assert "has no choice of fidelity" in refused("--fidelity", "2")
+    assert "no parameter or input 'initial.sped'" in refused("--set", "initial.sped=1")
+    assert "its range is" in refused("--set", "step_size=7")
+
+
+def test_the_road_with_ramps() -> None:
+    heights, targets = jump_heights()
+    assert heights.max() == pytest.approx(3.0)  # the hill
+    assert heights.min() == pytest.approx(-0.03, abs=1e-3)
+    assert np.all(heights[[0, -1]] == 0.0)
+    assert np.all(heights[:, [0, -1]] == 0.0)
+    for target in targets[:5]:  # half-way up each ramp
+        x, y = target.x + 1.5 * np.cos(target.yaw), target.y + 1.5 * np.sin(target.yaw)
+        assert heights[round((x + 80.0) / 0.25), round((y + 80.0) / 0.25)] > 0.1
+    made = Ground("a.road", targets)
+    assert ground_of(json.loads(json.dumps(made.record))) == made
