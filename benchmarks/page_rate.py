@@ -6,9 +6,12 @@ one pixel is read, so that the picture is there. On a machine with a graphics ca
 
 from __future__ import annotations
 
+import json
 import statistics
 import sys
+import tempfile
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 from ali3.running import run_command
@@ -16,16 +19,28 @@ from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from mbs.compiler import compile
-from mbs.model import Model
+from mbs.roads import world_command
 from mbs.scenes import double_four_bar, prototype_car, puma
 from viewer import browser
 from viewer.bundle import bundle
 
 SIZE = (1280, 720)
-SCENES: dict[str, Callable[[], Model]] = {
-    "prototype_car": prototype_car.build,
-    "puma": puma.build,
-    "double_four_bar": double_four_bar.build,
+
+
+def in_world(name: str) -> dict[str, Any]:
+    """The prototype car in a world, as drawn."""
+    with tempfile.TemporaryDirectory() as folder:
+        if world_command.main([name, "--out", folder]) != 0:
+            raise RuntimeError(f"the world {name} cannot be made")
+        world = json.loads(Path(folder, f"{name}.json").read_text(encoding="utf-8"))
+    return compile(prototype_car.build()).scene | {"roads": world["roads"], "scenery": world["scenery"]}
+
+
+SCENES: dict[str, Callable[[], dict[str, Any]]] = {
+    "prototype_car": lambda: compile(prototype_car.build()).scene,
+    "proving_ground": lambda: in_world("proving_ground"),
+    "puma": lambda: compile(puma.build()).scene,
+    "double_four_bar": lambda: compile(double_four_bar.build()).scene,
 }
 QUALITIES = ("low", "high")
 MEASURE = """([scene, quality, count]) => {
@@ -59,6 +74,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = parser_of("page_rate", __doc__)
     parser.add_argument("--pictures", type=int, default=20, metavar="N", help="of each scene; default: 20")
+    parser.add_argument(
+        "--scenes", nargs="+", choices=SCENES, default=list(SCENES), metavar="NAME", help=f"of {', '.join(SCENES)}"
+    )
     options = parser.parse_args(arguments)
     if options.pictures < 1:
         parser.error("the number of pictures is positive")
@@ -73,8 +91,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         page = chromium.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
         page.set_content("<body style='margin:0'><div id='picture' style='width:100vw;height:100vh'></div></body>")
         page.add_script_tag(content=script)
-        for name, quality in watched([(name, quality) for name in SCENES for quality in QUALITIES]):
-            found = page.evaluate(MEASURE, [compile(SCENES[name]()).scene, quality, options.pictures])
+        for name, quality in watched([(name, quality) for name in options.scenes for quality in QUALITIES]):
+            found = page.evaluate(MEASURE, [SCENES[name](), quality, options.pictures])
             renderers.add(found["renderer"])
             rows.append(_row(name, quality, found))
         chromium.close()

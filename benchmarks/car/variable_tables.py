@@ -25,7 +25,8 @@ _WORDS = {
     "mass at rest; force of the ground on the chassis and points that touch it",
     "energy": "energies, and works since the start",
     "initial": "start: place of the front axle's centre, heading, speed; `initial.z` drops the car",
-    "solver": "iterations, violation, residual, halvings, status, error and balance of the energy",
+    "solver": "iterations, violation, residual, halvings, status, error and balance of the energy, steps that ended at "
+    "the limit of their iterations and what they left",
     "spring": "length and force of the coil springs",
     "stress": "stresses at the gauges, and whether they are computed",
     "used": "inputs after clamping to their ranges",
@@ -200,7 +201,7 @@ def _names(members: Sequence[Shown], part: str) -> str:
 def _words(members: Sequence[Shown], causality: str, part: str) -> str:
     """The second cell of a row of the overview."""
     known = _WORDS.get(_WHEEL.sub("", part))
-    if known is not None and causality != "input":
+    if known is not None and (part, causality) != ("solver", "parameter") and causality != "input":
         return known
     told = [_plain(s).partition(";")[0] + ("" if s.variable.unit == "1" else f", {s.variable.unit}") for s in members]
     kinds = [s.variable.variability for s in members]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.car import fidelity_runs, manoeuvres
+from benchmarks.car import fidelity_runs, manoeuvres, proving_ground
 from mbs.model import Model
 from mbs.scenes import (
     bicycle,
@@ -142,6 +142,13 @@ ANIMATIONS = {
     "spatial_chain": Animation("A chain of ten links", _scene(spatial_chain.build, 5.0, 0.005), 0.0, 5.0),
     "double_lane_change": Animation(
         "The prototype car, double lane change", _manoeuvre("double_lane_change_replay"), 1.0, 6.0, size=(480, 270)
+    ),
+    "proving_ground": Animation(
+        "The proving ground of the simulator: a jump from a metre, a sudden turn",
+        proving_ground.jump,
+        1.4,
+        5.4,
+        size=(480, 270),
     ),
     "kerb_test": Animation(
         "The car falls from the kerb; stress in the frame, its deformation 30 times larger",

@@ -25,6 +25,7 @@ typedef struct {
   fmi2Status (*step)(fmi2Component, fmi2Real, fmi2Real, fmi2Boolean);
   fmi2Status (*get)(fmi2Component, const fmi2ValueReference *, size_t, fmi2Real *);
   fmi2Status (*set)(fmi2Component, const fmi2ValueReference *, size_t, const fmi2Real *);
+  fmi2Status (*set_whole)(fmi2Component, const fmi2ValueReference *, size_t, const fmi2Integer *);
   fmi2Status (*get_state)(fmi2Component, fmi2FMUstate *), (*set_state)(fmi2Component, fmi2FMUstate);
   fmi2Status (*free_state)(fmi2Component, fmi2FMUstate *);
   fmi2Status (*state_size)(fmi2Component, fmi2FMUstate, size_t *);
@@ -46,6 +47,7 @@ static fmi2_library load_library(const char *path) {
                    {&fmu.step, "fmi2DoStep"},
                    {&fmu.get, "fmi2GetReal"},
                    {&fmu.set, "fmi2SetReal"},
+                   {&fmu.set_whole, "fmi2SetInteger"},
                    {&fmu.get_state, "fmi2GetFMUstate"},
                    {&fmu.set_state, "fmi2SetFMUstate"},
                    {&fmu.free_state, "fmi2FreeFMUstate"},

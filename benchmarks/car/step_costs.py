@@ -1,0 +1,252 @@
+"""What every step of a wild drive of an FMU costs: processor time of its thread, iterations, what a limit left."""
+
+from __future__ import annotations
+
+import gc
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.errors import HostError
+from hosts.fmu import Fmu, StepRefusedError
+from hosts.numbers import Value
+from hosts.wild_driver import SENSES, Target, WildDriver, wild_start
+
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None  # type: ignore[assignment]
+
+STRETCH = 250  # steps between saved states
+RUN = 20.0  # s, after which the car starts anew
+ROLLED, LYING = 1.2, 3.0  # rad, s: a car that lies so long starts anew
+KEPT = 3  # worst steps that are kept, by time and by iterations
+_READ = ("chassis.roll", "solver.iterations", "solver.halvings", "solver.capped_steps", "solver.capped_residual")
+
+
+@dataclass
+class Stretch:
+    """Steps from a saved state on.
+
+    Parameters
+    ----------
+    time : float
+        Of the state, s.
+    state : bytes
+    inputs : list of list of float
+        Of each step since, in the order of the FMU.
+    """
+
+    time: float
+    state: bytes
+    inputs: list[list[float]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Worst:
+    """One of the worst steps: the last of `steps` steps of a stretch."""
+
+    cost: float
+    iterations: int
+    stretch: Stretch
+    steps: int
+
+
+@dataclass
+class Costs:
+    """What was measured, for each step.
+
+    Parameters
+    ----------
+    us : array
+        Processor time of the thread, microseconds.
+    iterations, halvings, capped : array of int
+        Of this step.
+    residual : array
+        What a capped step left, m.
+    interrupted : array of bool
+        Whether the system took the processor away during the step.
+    refused : list of str
+        Messages of refused steps.
+    starts : int
+    worst : list of Worst
+        By time without interruption, then by iterations.
+    kinds : str
+        A letter for each input: r real, i whole.
+    """
+
+    us: NDArray[np.float64]
+    iterations: NDArray[np.int64]
+    halvings: NDArray[np.int64]
+    capped: NDArray[np.int64]
+    residual: NDArray[np.float64]
+    interrupted: NDArray[np.bool_]
+    refused: list[str]
+    starts: int
+    worst: list[Worst]
+    kinds: str
+
+
+def _switches() -> int:
+    """How often the system took the processor away from this thread."""
+    if resource is None:
+        return 0
+    return resource.getrusage(getattr(resource, "RUSAGE_THREAD", resource.RUSAGE_SELF)).ru_nivcsw
+
+
+def drive(
+    fmu: Path,
+    start: Mapping[str, Value],
+    step: float,
+    seconds: float,
+    seed: int,
+    targets: Sequence[Target],
+    progress: Callable[[float], None],
+) -> Costs:
+    """Drive wildly and measure.
+
+    Parameters
+    ----------
+    fmu : Path
+    start : mapping
+        Start values beside the place.
+    step : float
+        Communication and inner step, s.
+    seconds : float
+        Simulated.
+    seed : int
+    targets : sequence of Target
+        What is driven at.
+    progress : callable
+        Gets the share done.
+
+    Returns
+    -------
+    Costs
+    """
+    with Fmu(fmu) as car:
+        return _Drive(car, dict(start) | {"step_size": step}, step, seed, targets).go(round(seconds / step), progress)
+
+
+class _Drive:
+    def __init__(self, car: Fmu, start: dict[str, Value], step: float, seed: int, targets: Sequence[Target]) -> None:
+        self.car, self.values, self.h, self.seed, self.targets = car, start, step, seed, targets
+        self.inputs = car.names("input")
+        self.driver = WildDriver(seed, self.inputs, targets)
+        self.read, self.set = car.getter((*SENSES, *_READ)), car.setter(self.inputs)
+        self.held = dict(zip(self.inputs, car.start_values(self.inputs).tolist(), strict=True))
+        self.starts = self.steps = 0
+        self.lying = 0.0
+        self.seen: list[float] = []
+        self.stretch = Stretch(0.0, b"")
+
+    def begin(self) -> None:
+        """A new start; one that the FMU refuses, as in a ramp, is passed over."""
+        for _ in range(50):
+            self.starts += 1
+            try:
+                if self.starts > 1:
+                    self.car.reset()
+                self.car.initialise(self.values | wild_start(1000 * self.seed + self.starts, self.targets))
+                break
+            except HostError:
+                if self.starts >= 50:
+                    raise
+        self.steps, self.lying, self.seen = 0, 0.0, self.read()
+        self.stretch = Stretch(0.0, self.car.state_bytes())
+
+    def go(self, n: int, progress: Callable[[float], None]) -> Costs:
+        whole = [np.zeros(n, dtype=np.int64) for _ in range(3)]
+        us, residual, interrupted = np.zeros(n), np.zeros(n), np.zeros(n, dtype=bool)
+        refused: list[str] = []
+        by_time: list[Worst] = []
+        by_iterations: list[Worst] = []
+        self.begin()
+        collecting = gc.isenabled()
+        gc.disable()
+        try:
+            for k in range(n):
+                if k % 500 == 0:
+                    progress(k / n)
+                us[k], interrupted[k], refusal = self.step(k)
+                if refusal:
+                    refused.append(refusal)
+                else:
+                    roll, iterations, halvings, capped, residual[k] = self.seen[len(SENSES) :]
+                    before = self.last
+                    whole[0][k], whole[1][k], whole[2][k] = iterations, halvings - before[0], capped - before[1]
+                    self.last = halvings, capped
+                    self.lying = self.lying + self.h if abs(roll) > ROLLED else 0.0
+                    one = Worst(us[k], int(iterations), self.stretch, len(self.stretch.inputs))
+                    if not interrupted[k]:
+                        _keep(by_time, one, lambda w: w.cost)
+                    _keep(by_iterations, one, lambda w: w.iterations)
+                if refusal or self.lying > LYING or self.steps * self.h >= RUN:
+                    self.begin()
+                    self.driver.restart(k * self.h)
+                elif self.steps % STRETCH == 0:
+                    self.stretch = Stretch(self.steps * self.h, self.car.state_bytes())
+        finally:
+            if collecting:
+                gc.enable()
+        kinds = "".join("i" if self.car.variables[name].type == "Integer" else "r" for name in self.inputs)
+        return Costs(us, *whole, residual, interrupted, refused, self.starts, by_time + by_iterations, kinds)
+
+    last = (0.0, 0.0)  # halvings and capped steps since the start, before the present step
+
+    def step(self, k: int) -> tuple[float, bool, str]:
+        """One step: microseconds, whether it was interrupted, why it was refused."""
+        if self.steps == 0:
+            self.last = 0.0, 0.0
+        self.held |= self.driver.act(k * self.h, dict(zip(SENSES, self.seen, strict=False)))
+        row = [self.held[name] for name in self.inputs]
+        self.stretch.inputs.append(row)
+        self.set(row)
+        refusal = ""
+        switches, begin = _switches(), time.thread_time_ns()
+        try:
+            self.car.step(self.steps * self.h, self.h)
+        except StepRefusedError as error:
+            refusal = str(error)
+        spent = 1e-3 * (time.thread_time_ns() - begin)
+        interrupted = _switches() != switches
+        self.steps += 1
+        if not refusal:
+            self.seen = self.read()
+        return spent, interrupted, refusal
+
+
+def _keep(worst: list[Worst], one: Worst, size: Callable[[Worst], float]) -> None:
+    if len(worst) == KEPT and size(one) <= size(worst[-1]):
+        return
+    worst.append(one)
+    worst.sort(key=size, reverse=True)
+    del worst[KEPT:]
+
+
+def summary(costs: Costs, step: float) -> dict[str, object]:
+    """Numbers of a drive, for a table."""
+    us, alone = costs.us, costs.us[~costs.interrupted]
+    return {
+        "steps": len(us),
+        "mean_us": float(us.mean()),
+        "p99_us": float(np.percentile(us, 99.0)),
+        "p99_9_us": float(np.percentile(us, 99.9)),
+        "worst_us": float(us.max()),
+        "worst_alone_us": float(alone.max()) if len(alone) else math.nan,
+        "interrupted": int(costs.interrupted.sum()),
+        "quarter_us": 0.25e6 * step,
+        "iterations": float(costs.iterations.mean()),
+        "most_iterations": int(costs.iterations.max()),
+        "histogram": np.bincount(costs.iterations).tolist(),
+        "halvings": int(costs.halvings.sum()),
+        "capped": int(costs.capped.sum()),
+        "residual_mm": 1e3 * float(costs.residual.max()),
+        "refused": len(costs.refused),
+        "starts": costs.starts,
+    }

@@ -1,0 +1,86 @@
+"""Repeats the worst steps of a drive from C: their processor time without what disturbed it, and their instructions."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+
+from benchmarks.car.step_costs import Costs, Worst
+from fmu_src.native.sources import HERE as FMI_HEADERS
+from mbs.kernel import build
+
+SOURCE = Path(__file__).parent / "c" / "replay_fmu.c"
+REPEATS = 50
+_COLLECTED = re.compile(r"Collected : (\d+)")
+
+
+class Replay:
+    """A program that repeats steps of an FMU.
+
+    Parameters
+    ----------
+    fmu : Path
+    folder : Path
+        To unpack and compile in.
+    """
+
+    def __init__(self, fmu: Path, folder: Path) -> None:
+        with zipfile.ZipFile(fmu) as archive:
+            archive.extractall(folder)
+        description = fmpy.read_model_description(str(folder))
+        name = description.coSimulation.modelIdentifier + fmpy.sharedLibraryExtension
+        self.folder = folder
+        self.program = folder / ("replay_fmu.exe" if sys.platform == "win32" else "replay_fmu")
+        build.compile_c(
+            [SOURCE],
+            build.host_target(),
+            self.program,
+            include=(FMI_HEADERS,),
+            what="the program that repeats steps",
+            shared=False,
+        )
+        library = folder / "binaries" / fmpy.platform / name
+        self._command = [str(self.program), str(library), folder.joinpath("resources").as_uri(), description.guid]
+        self.valgrind = shutil.which("valgrind")
+
+    def _arguments(self, worst: Worst, kinds: str, step: float, repeats: int) -> list[str]:
+        state, inputs = self.folder / "worst.state", self.folder / "worst.inputs"
+        state.write_bytes(worst.stretch.state)
+        inputs.write_bytes(np.array(worst.stretch.inputs[: worst.steps], dtype="<f8").tobytes())
+        numbers = (worst.stretch.time, step, worst.steps, repeats)
+        return [*self._command, str(state), str(inputs), kinds, *map(repr, numbers)]
+
+    def time(self, worst: Worst, kinds: str, step: float) -> float:
+        """Least processor time of the step, us, of `REPEATS` repetitions; NaN where the system tells none."""
+        arguments = self._arguments(worst, kinds, step, REPEATS)
+        done = subprocess.run(arguments, capture_output=True, text=True, check=True)
+        return 1e-3 * min(map(int, done.stdout.split())) or float("nan")
+
+    def instructions(self, worst: Worst, kinds: str, step: float) -> int | None:
+        """Instructions of the step, counted by valgrind; None where it is not installed."""
+        if self.valgrind is None:
+            return None
+        shorter = Worst(worst.cost, worst.iterations, worst.stretch, worst.steps - 1)
+        return self._counted(worst, kinds, step) - (self._counted(shorter, kinds, step) if shorter.steps else 0)
+
+    def _counted(self, worst: Worst, kinds: str, step: float) -> int:
+        """Instructions of all steps of a stretch together."""
+        counter = [str(self.valgrind), "--tool=callgrind", "--toggle-collect=fmi2DoStep"]
+        command = [*counter, "--callgrind-out-file=/dev/null", *self._arguments(worst, kinds, step, 1)]
+        found = _COLLECTED.search(subprocess.run(command, capture_output=True, text=True, check=True).stderr)
+        if found is None:
+            raise RuntimeError(f"{self.valgrind} did not say how many instructions it has counted.")
+        return int(found[1])
+
+    def measure(self, costs: Costs, step: float) -> dict[str, float | int | None]:
+        """The worst of the kept steps: least time, us, of the slowest; instructions of that with most iterations."""
+        times = [self.time(worst, costs.kinds, step) for worst in costs.worst]
+        most = max(costs.worst, key=lambda worst: worst.iterations)
+        return {"replayed_us": max(times), "instructions": self.instructions(most, costs.kinds, step)}

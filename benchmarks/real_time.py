@@ -1,0 +1,130 @@
+"""Worst steps of wild driving: ``python -m benchmarks.real_time [--json FILE] [--chart FILE]``.
+
+A car is driven without sense over kerbs, rough ground and ramps at each fidelity and step, once without a limit of the
+iterations of a step and once with `LIMITS`. Measured is processor time of the thread, which leaves out what others do
+in between; the worst steps are repeated from their saved states by a C program, and their instructions are counted
+where valgrind is installed. An hour each (``--seconds 3600``) takes a day; the default is a few minutes.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+
+from ali3.running import run_command
+from benchmarks.car import limited_fall
+from benchmarks.car.step_chart import chart
+from benchmarks.car.step_costs import drive, summary
+from benchmarks.car.step_replay import REPEATS, Replay
+from benchmarks.car.wild_ground import write_ground
+from benchmarks.shared.command import parser_of, save_chart, save_rows
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_fidelities
+from mbs.progress import progress_for
+
+FIDELITIES, STEPS = (0, 1, 2, 3), (1.0, 2.0, 5.0, 10.0)
+LIMITS = {0: (6, 8, 12, 12), 1: (4, 6, 12, 12), 2: (3, 3, 8, 12), 3: (3, 3, 8, 12)}
+"""Limits of the iterations of a step by fidelity, for each of `STEPS`: what a quarter of the deadline has time for."""
+LEFT = {0: (2, 3, 6), 2: (2, 3, 5)}
+"""Limits that are compared after a fall, by fidelity."""
+COLUMNS = {
+    "fidelity": "d",
+    "step_ms": "g",
+    "limit": "d",
+    "mean_us": ".0f",
+    "p99_9_us": ".0f",
+    "worst_us": ".0f",
+    "worst_alone_us": ".0f",
+    "replayed_us": ".0f",
+    "quarter_us": ".0f",
+    "instructions": ",d",
+    "iterations": ".2f",
+    "most_iterations": "d",
+    "halvings": "d",
+    "capped": "d",
+    "residual_mm": ".2g",
+    "refused": "d",
+}
+WORDS = f"""worst_alone_us: of steps that the system did not interrupt; replayed_us: the worst repeated, the least
+of {REPEATS} times; quarter_us: a quarter of the deadline; instructions: of the step with most iterations; capped: steps
+that ended at the limit; residual_mm: the largest that they left"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = parser_of("real_time", __doc__, chart="worst steps and iterations")
+    parser.add_argument("--fmu", type=Path, metavar="FILE", help="a native FMU of a car; default: the prototype, built")
+    parser.add_argument("--road", type=Path, metavar="FILE", help="a road file; default: rough ground, kerbs and ramps")
+    parser.add_argument(
+        "--seconds", type=float, default=20.0, metavar="S", help="simulated, of each drive; default: 20"
+    )
+    parser.add_argument("--fidelity", type=int, action="append", choices=FIDELITIES, help="only this one; repeatable")
+    parser.add_argument("--step", type=float, action="append", choices=STEPS, help="ms, only this one; repeatable")
+    parser.add_argument("--limit", type=int, action="append", metavar="N", help="in place of none and the usual ones")
+    parser.add_argument("--fall", type=Path, metavar="FILE", help="draw what limits leave after a fall from 1 m (PNG)")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the driver; default: 1")
+    options = parser.parse_args(arguments)
+    if not 1.0 <= options.seconds < 1e6:
+        parser.error("the time of a drive is at least 1 s")
+    fidelities, steps = options.fidelity or FIDELITIES, options.step or STEPS
+    cases = [
+        (fidelity, step, limit)
+        for fidelity in fidelities
+        for step in steps
+        for limit in options.limit or (0, LIMITS[fidelity][STEPS.index(step)])
+    ]
+    rows = []
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        fmu = options.fmu or _built(Path(folder))
+        with progress_for(None) as bar:
+            road = options.road or Path(folder, "wild.road")
+            targets = write_ground(road) if options.road is None else []
+            replay = Replay(fmu, Path(folder, "unpacked"))
+            for k, (fidelity, ms, limit) in enumerate(cases):
+                start = {"fidelity": fidelity, "solver.step_iterations": limit, "road.file": str(road.resolve())}
+                costs = drive(
+                    *(fmu, start, 1e-3 * ms, options.seconds, options.seed, targets),
+                    lambda share, k=k: bar.update((k + share) / len(cases)),
+                )
+                row: dict[str, Any] = {"fidelity": fidelity, "step_ms": ms, "limit": limit}
+                rows.append(row | summary(costs, 1e-3 * ms) | replay.measure(costs, 1e-3 * ms))
+        if options.fall is not None:
+            save_chart(limited_fall.chart(_falls(fmu)), options.fall)
+    print_table(rows, COLUMNS)
+    print(f"\n{WORDS}")
+    if replay.valgrind is None:
+        print("valgrind is not installed: instructions were not counted")
+    save_rows(options.json, describe("real_time", seconds=options.seconds, seed=options.seed), rows)
+    if options.chart is not None:
+        save_chart(chart(rows), options.chart)
+    return 0
+
+
+def _falls(fmu: Path) -> dict[int, list[limited_fall.Fall]]:
+    """Runs by fidelity in steps of 2 ms, the first without a limit."""
+    found = {f: [limited_fall.fall(fmu, f, 2e-3, limit) for limit in (0, *LEFT[f])] for f in LEFT}
+    for fidelity, runs in found.items():
+        for run in runs:
+            apart = 1e3 * float(np.linalg.norm(run.place - runs[0].place, axis=1).max())
+            print(
+                f"fall from 1 m, fidelity {fidelity}, limit {run.limit}: {run.capped} steps capped, at most "
+                f"{run.residual.max():.2g} mm left, {apart:.2g} mm off, energy balance {run.balance:.3g}"
+            )
+    return found
+
+
+def _built(folder: Path) -> Path:
+    name, systems, default = load_fidelities("prototype_car")
+    return build_fmu(list(systems.values()), name, folder, [fmpy.platform], kind="native", fidelity=default)
+
+
+if __name__ == "__main__":
+    sys.exit(run_command(main))
