@@ -1,0 +1,1 @@
+"""Standard tests of cars, done with an FMU through FMI alone."""

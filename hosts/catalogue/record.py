@@ -1,0 +1,163 @@
+"""What a test is, and what it yields."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.co_simulation import Result
+from hosts.measures.measure import Measure
+
+if TYPE_CHECKING:
+    from hosts.catalogue.car import TestedCar
+
+
+@dataclass(frozen=True)
+class Clause:
+    """A part of a standard that a test follows.
+
+    Parameters
+    ----------
+    number : str
+        Such as ``8.2``; empty where only a summary is known.
+    text : str
+        What it demands, in our words.
+    checked : bool
+        Whether it was read in the text of the standard; else it is from public summaries.
+    """
+
+    number: str
+    text: str
+    checked: bool = False
+
+
+@dataclass(frozen=True)
+class Standard:
+    """A standard with its edition, such as ``ISO 4138:2021``."""
+
+    name: str
+    title: str
+    clauses: tuple[Clause, ...] = ()
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A number of a test that a user may change.
+
+    Parameters
+    ----------
+    name : str
+    value : float
+        By default, in `unit`.
+    unit, text : str
+    lowest, highest : float
+        Of what makes sense.
+    """
+
+    name: str
+    value: float
+    unit: str
+    text: str
+    lowest: float = -np.inf
+    highest: float = np.inf
+
+
+@dataclass(frozen=True)
+class Line:
+    """Points that are joined in a plot; of length n both, NaN where there is none."""
+
+    label: str
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A plot of a test; lines of several cars are drawn into the same.
+
+    Parameters
+    ----------
+    title : str
+        By which plots of several cars are matched.
+    x, y : str
+        Quantity and unit, such as ``lateral acceleration, m/s²``.
+    lines : sequence of Line
+    log_x, log_y : bool
+        Whether the axis is logarithmic.
+    equal : bool
+        Whether both axes have the same scale.
+    """
+
+    title: str
+    x: str
+    y: str
+    lines: Sequence[Line]
+    log_x: bool = False
+    log_y: bool = False
+    equal: bool = False
+
+
+@dataclass(frozen=True)
+class TestRecord:
+    """What a test of one car has yielded.
+
+    Parameters
+    ----------
+    measures : sequence of Measure
+    plots : sequence of Plot
+    runs : mapping of str to Result
+        Every run of the FMU by a short name, under our names of variables, in SI units.
+    notes : sequence of str
+        Sentences: what was not as asked, with a number and a remedy.
+    """
+
+    __test__ = False  # no test of pytest's
+
+    measures: Sequence[Measure]
+    plots: Sequence[Plot]
+    runs: Mapping[str, Result]
+    notes: Sequence[str] = field(default_factory=tuple)
+
+
+class StandardTest(Protocol):
+    """A test of the catalogue.
+
+    Parameters
+    ----------
+    name : str
+        Of the command, such as ``step_steer``.
+    title : str
+        For people.
+    standards : tuple of Standard
+    settings : tuple of Setting
+    needs : tuple of str
+        Variables by our names without which the test cannot be done.
+    """
+
+    name: str
+    title: str
+    standards: tuple[Standard, ...]
+    settings: tuple[Setting, ...]
+    needs: tuple[str, ...]
+
+    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+        """Do the test.
+
+        Parameters
+        ----------
+        car : TestedCar
+        settings : mapping of str to float
+            Every one of `settings`.
+        progress : callable
+            Called with the part that is done, 0 to 1.
+
+        Raises
+        ------
+        HostError
+            If the car cannot do it, with what is missing.
+        """
+        ...

@@ -1,0 +1,1 @@
+"""Measures of a car's motion, computed from recorded signals."""

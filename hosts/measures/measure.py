@@ -1,0 +1,59 @@
+"""A number that a test yields, with its unit, its meaning and its limit."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What a measure must keep.
+
+    Parameters
+    ----------
+    source : str
+        Who demands it: standard and clause.
+    lowest, highest : float
+        In the unit of the measure; infinite: not limited.
+    """
+
+    source: str
+    lowest: float = -math.inf
+    highest: float = math.inf
+
+    def holds(self, value: float) -> bool:
+        """Whether a value keeps it; a NaN does not."""
+        return self.lowest <= value <= self.highest
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A number.
+
+    Parameters
+    ----------
+    name : str
+        Within its test, such as ``yaw_rate.response_time``; letters, digits, dots and underscores.
+    value : float
+        In `unit`; NaN where the run does not yield it, and `note` says why.
+    unit : str
+        As units of FMI are written, such as ``rad/s``; ``1`` where there is none.
+    text : str
+        What it is, in a line.
+    limit : Limit, optional
+    note : str
+        A sentence where the number is not the plain one, else empty.
+    """
+
+    name: str
+    value: float
+    unit: str
+    text: str
+    limit: Limit | None = None
+    note: str = ""
+
+    @property
+    def is_kept(self) -> bool | None:
+        """Whether the limit is kept; None where there is none."""
+        return None if self.limit is None else self.limit.holds(self.value)
