@@ -28,8 +28,8 @@ class StudyMeasure(Protocol):
         """As the user wrote it."""
 
     @property
-    def signals(self) -> frozenset[str] | None:
-        """What it reads of a run; None: all, maybe."""
+    def signals(self) -> frozenset[str]:
+        """What it reads of a run; empty: all, maybe."""
 
     @property
     def digest(self) -> str:

@@ -50,9 +50,9 @@ class UserFunction:
         return f"{self.file}:{self.function}"
 
     @property
-    def signals(self) -> None:
-        """All, maybe."""
-        return None
+    def signals(self) -> frozenset[str]:
+        """Empty: all, maybe."""
+        return frozenset()
 
     @property
     def digest(self) -> str:
