@@ -44,6 +44,7 @@ def measure_section(
     effects = [main_effect(data.x[response.rows, k], response.values) for k in range(len(data.parameters))]
     indices = _indices(data, response)
     numbers += _numbers(response, data.parameters, effects, indices)
+    lost = bool(data.failed.any())
     name, label = f"{number + 1:02d}_{response.label}", response.label
     body = [f"<h2>{escape(response.title)}</h2>"]
     body.append(pictures.add(plot_overview(response, indices), f"{name}_overview", f"Distribution of {label}"))
@@ -56,9 +57,9 @@ def measure_section(
         body.append("<h3>Runs</h3>")
         figure = plot_scatter(data, response, effects)
         body.append(pictures.add(figure, f"{name}_runs", f"{label} over each parameter"))
-        body.append(_drawn("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs"))
+        body.append(_drawn("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs" * lost))
         body.append(pictures.add(plot_parallel(data, response), f"{name}_parallel", f"Parallel coordinates of {label}"))
-        body.append(_drawn("line", len(response.rows), MOST_LINES, "; dotted red lines are failed runs"))
+        body.append(_drawn("line", len(response.rows), MOST_LINES, "; dotted red lines are failed runs" * lost))
     highest, lowest = extremes(data, response, _WORST)
     body.append("<h3>Highest and lowest</h3>")
     body.append(_extremes(data, response, [*highest, *reversed(lowest)], commands))
