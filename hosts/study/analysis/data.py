@@ -91,8 +91,8 @@ class StudyData:
         Values; codes where a parameter is no number.
     responses : tuple of Response
     failed : ndarray of bool, shape (runs,)
-    study : mapping
-        What is known of the study as a whole: study.json.
+    about : mapping
+        What is known of the study as a whole: the attrs of the frame.
     """
 
     frame: pd.DataFrame
@@ -100,17 +100,17 @@ class StudyData:
     x: NDArray[np.float64]
     responses: tuple[Response, ...]
     failed: NDArray[np.bool_]
-    study: Mapping[str, Any]
+    about: Mapping[str, Any]
 
     @property
     def method(self) -> str:
         """How its points were chosen."""
-        return str(self.study["sampling"]["method"])
+        return str(self.about["sampling"]["method"])
 
     @property
     def planned(self) -> int:
         """Runs of the whole study."""
-        return int(self.study["runs"])
+        return int(self.about["runs"])
 
     def points(self, response: Response) -> NDArray[np.int64]:
         """Number in the plan of the point of each of its rows."""
@@ -128,17 +128,17 @@ def study_data(frame: pd.DataFrame) -> StudyData:
     Parameters
     ----------
     frame : DataFrame
-        With its attrs ``units``, ``parameters`` (names), ``measures`` (columns) and ``study``.
+        With its attrs.
     """
-    attrs, units, study = frame.attrs, dict(frame.attrs["units"]), frame.attrs["study"]
+    attrs, units = frame.attrs, dict(frame.attrs["units"])
     parameters, columns = [], []
     for name in attrs["parameters"]:
         column, words = _numbers(frame[name])
-        log = bool(study["parameters"].get(name, {}).get("log")) and bool((column > 0.0).all())
+        log = bool(attrs["parameters"][name].get("log")) and bool((column > 0.0).all())
         parameters.append(Parameter(name, units.get(name) or "1", log, words))
         columns.append(column)
     manoeuvres = frame["manoeuvre"].astype(str).to_numpy()
-    names = list(dict.fromkeys([m["name"] for m in study["manoeuvres"]]))
+    names = attrs["manoeuvres"]
     responses = []
     for measure in attrs["measures"]:
         values = frame[measure].to_numpy(dtype=np.float64)
@@ -152,7 +152,7 @@ def study_data(frame: pd.DataFrame) -> StudyData:
                 responses.append(Response(measure, manoeuvre, unit, rows, values[rows], int(mine.sum()), several))
     x = np.stack(columns, axis=1) if columns else np.empty((len(frame), 0))
     failed = np.asarray(frame["status"].astype(str) == FAILED)
-    return StudyData(frame, tuple(parameters), x, tuple(responses), failed, study)
+    return StudyData(frame, tuple(parameters), x, tuple(responses), failed, attrs)
 
 
 def _numbers(column: pd.Series[Any]) -> tuple[NDArray[np.float64], tuple[str, ...]]:

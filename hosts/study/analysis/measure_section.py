@@ -89,7 +89,7 @@ def _indices(data: StudyData, response: Response) -> Indices | str:
         return "The study has no parameters."
     if data.method == "saltelli":
         return saltelli_indices(
-            names, data.points(response), response.values, bool(data.study["sampling"].get("second_order"))
+            names, data.points(response), response.values, bool(data.about["sampling"].get("second_order"))
         )
     x = data.x[response.rows]
     if data.method == "grid":

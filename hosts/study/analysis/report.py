@@ -75,7 +75,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
         for k, response in enumerate(tqdm(shown, desc="report", unit="measure", delay=2.0)):
             body += measure_section(data, response, k, pictures, commands, numbers)
     file, rows = folder / "report.html", folder / "analysis" / "effects.csv"
-    write_text(file, document(f"Study {data.study['name']}", body))
+    write_text(file, document(f"Study {data.about['study']}", body))
     _write_numbers(rows, numbers)
     return [file, rows, *pictures.files]
 

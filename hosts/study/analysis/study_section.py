@@ -24,18 +24,18 @@ Commands: TypeAlias = "Callable[[int], Sequence[str]]"
 
 def head_section(data: StudyData) -> list[str]:
     """What was run, and how much of it is done."""
-    study, counts = data.study, data.frame["status"].astype(str).value_counts()
+    about, counts = data.about, data.frame["status"].astype(str).value_counts()
     words = ", ".join(f"{counts[s]} {s}" for s in ("done", "incomplete", FAILED) if s in counts)
-    versions = ", ".join(f"{k} {v}" for k, v in study["versions"].items())
-    sampling = study["sampling"]
+    versions = ", ".join(f"{k} {v}" for k, v in about["versions"].items())
+    sampling = about["sampling"]
     rows = [
-        ("FMU", f"{study['fmu']}, model {study['model']}, GUID {study['guid']}"),
-        ("manoeuvres", ", ".join(m["name"] for m in study["manoeuvres"])),
-        ("sampling", f"{sampling['method']}, seed {study['seed']}"),
+        ("FMU", f"{about['fmu']}, model {about['model']}, GUID {about['guid']}"),
+        ("manoeuvres", ", ".join(about["manoeuvres"])),
+        ("sampling", f"{sampling['method']}, seed {about['seed']}"),
         ("runs", f"{len(data.frame)} of {data.planned}: {words}"),
         ("versions", versions),
     ]
-    body = [f"<h1>Study {escape(str(study['name']))}</h1>", table(("", ""), rows, (0, 1))]
+    body = [f"<h1>Study {escape(str(about['study']))}</h1>", table(("", ""), rows, (0, 1))]
     if len(data.frame) < data.planned:
         missing = data.planned - len(data.frame)
         body.append(

@@ -41,15 +41,9 @@ def frame_of(
         frame.loc[rows, "reason"] = [f"The FMU refused the step at {0.1 * k:g} s." for k in np.flatnonzero(rows)]
         frame.loc[rows, list(measures)] = np.nan
     frame.attrs = {
-        "units": dict(units),
-        "parameters": list(x),
-        "measures": list(measures),
-        "study": {
-            "name": "trial", "guid": "{1234}", "model": "Car", "fmu": "Car.fmu", "seed": 7, "runs": count,
-            "points": points, "versions": {"ali3": "0.1"}, "step": 0.01,
-            "sampling": {"method": method, "second_order": second_order},
-            "parameters": {name: {"log": name in log} for name in x},
-            "manoeuvres": [{"name": m} for m in manoeuvres],
-        },
+        "study": "trial", "units": dict(units), "parameters": {name: {"log": name in log} for name in x},
+        "sampling": {"method": method, "second_order": second_order}, "seed": 7, "guid": "{1234}", "model": "Car",
+        "fmu": "Car.fmu", "versions": {"ali3": "0.1"}, "runs": count, "points": points, "measures": list(measures),
+        "manoeuvres": list(manoeuvres),
     }  # fmt: skip
     return frame
