@@ -43,7 +43,9 @@ def with_step_up_to(car: TestedCar, longest: float, why: str) -> tuple[TestedCar
     return car, (f"The step {whose} is {step:g} s; {why} needs {longest:g} s or less.",)
 
 
-def held(car: TestedCar, name: str, stop_time: float, inputs: Mapping[str, float], start: Mapping[str, Value]) -> Manoeuvre:
+def held(
+    car: TestedCar, name: str, stop_time: float, inputs: Mapping[str, float], start: Mapping[str, Value]
+) -> Manoeuvre:
     """A manoeuvre with inputs that do not change.
 
     Parameters

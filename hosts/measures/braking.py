@@ -14,7 +14,7 @@ STANDING = 0.1
 
 def travelled(time: NDArray[np.float64], speed: NDArray[np.float64]) -> NDArray[np.float64]:
     """Way since the first sample by trapezoids, m; exact where the acceleration is constant within a step."""
-    return np.asarray(cumulative_trapezoid(speed, time, initial=0.0))
+    return np.asarray(cumulative_trapezoid(speed, time, initial=0))
 
 
 def time_below(time: NDArray[np.float64], speed: NDArray[np.float64], value: float, after: float) -> float:
@@ -81,7 +81,9 @@ def mean_fully_developed_deceleration(
     return (fast**2 - slow**2) / (2.0 * way) if way > 0.0 else math.nan
 
 
-def stopping_distance(time: NDArray[np.float64], speed: NDArray[np.float64], onset: float, deceleration: float) -> float:
+def stopping_distance(
+    time: NDArray[np.float64], speed: NDArray[np.float64], onset: float, deceleration: float
+) -> float:
     """Way from the onset of braking to rest.
 
     Parameters

@@ -60,7 +60,7 @@ def settling_time(time: NDArray[np.float64], values: NDArray[np.float64], final:
 
 
 def rebound(height: NDArray[np.float64]) -> tuple[int, int]:
-    """Where a falling body is lowest first and, after that, highest.
+    """Where a body that has touched the ground is lowest first and, after that, highest.
 
     Parameters
     ----------

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
+from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import trapezoid
-from scipy.signal import bilinear_zpk, sosfilt, tf2zpk, zpk2sos
+from scipy.signal import bilinear, sosfilt, tf2sos
 
 # Corners in Hz and quality factors of Wk: band limits, acceleration-velocity transition, upward step.
 _HIGH_PASS, _LOW_PASS = 0.4, 100.0
 _TRANSITION, _TRANSITION_Q = 12.5, 0.63
 _STEP_LOW, _STEP_LOW_Q, _STEP_HIGH, _STEP_HIGH_Q = 2.37, 0.91, 3.35, 0.91
 LONGEST_STEP = 0.005
-"""Between samples, s: at 200 Hz the weighting is right within 2 % up to 20 Hz, and not above 60 Hz."""
+"""Between samples, s: with it the weighting is right within 3 % up to 20 Hz, with 2 ms up to 45 Hz."""
 
 
 def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -37,9 +38,8 @@ def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     transition = ([w(_TRANSITION), w(_TRANSITION) ** 2], second_order(_TRANSITION, _TRANSITION_Q))
     # the upward step is 1 at high frequencies
     step = (second_order(_STEP_LOW, _STEP_LOW_Q), second_order(_STEP_HIGH, _STEP_HIGH_Q))
-    numerator, denominator = np.ones(1), np.ones(1)
-    for top, bottom in (high, low, transition, step):
-        numerator, denominator = np.polymul(numerator, top), np.polymul(denominator, bottom)
+    parts = (high, low, transition, step)
+    numerator, denominator = (reduce(np.polymul, [np.array(part[k]) for part in parts]) for k in (0, 1))
     return np.asarray(numerator, float), np.asarray(denominator, float)
 
 
@@ -58,8 +58,8 @@ def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.f
     ndarray of shape (n,)
         m/s2; the filter starts at rest.
     """
-    zeros, poles, gain = tf2zpk(*weighting_wk())
-    return np.asarray(sosfilt(zpk2sos(*bilinear_zpk(zeros, poles, gain, 1.0 / interval)), acceleration))
+    numerator, denominator = bilinear(*weighting_wk(), fs=1.0 / interval)
+    return np.asarray(sosfilt(tf2sos(numerator, denominator), acceleration))
 
 
 def largest_running_rms(values: NDArray[np.float64], interval: float, window: float = 1.0) -> float:
@@ -84,4 +84,5 @@ def largest_running_rms(values: NDArray[np.float64], interval: float, window: fl
 
 def vibration_dose(values: NDArray[np.float64], interval: float) -> float:
     """Fourth root of the integral of the fourth power over time (VDV), m/s^1.75 of an acceleration in m/s2."""
-    return float(trapezoid(values**4, dx=interval)) ** 0.25
+    dose: float = float(trapezoid(values**4, dx=interval)) ** 0.25
+    return dose

@@ -49,8 +49,10 @@ def total_load(result: Result) -> NDArray[np.float64]:
     """All that the road carries, N, of shape (n,)."""
     loads = at_wheels(result, "Fz")
     assert loads is not None  # one of the needs
-    on_chassis = result["chassis.ground_force"] if "chassis.ground_force" in result else 0.0
-    return np.asarray(loads.sum(axis=1) + on_chassis)
+    total = loads.sum(axis=1)
+    if "chassis.ground_force" in result:
+        total = total + result["chassis.ground_force"]
+    return np.asarray(total)
 
 
 def measures_of(result: Result, settings: Mapping[str, float]) -> list[Measure]:
@@ -67,6 +69,7 @@ def measures_of(result: Result, settings: Mapping[str, float]) -> list[Measure]:
     loads = at_wheels(result, "Fz")
     assert loads is not None
     contact, ended = first_contact(time, load), bool(result.failed_steps)
+    peak = float(loads.sum(axis=1).max())
     step = float(time[1] - time[0]) if len(time) > 1 else math.nan
     short = "" if not ended else "the run ended early"
     weight = math.nan if ended or math.isnan(contact) else weight_from_momentum(time, load)
@@ -83,12 +86,13 @@ def measures_of(result: Result, settings: Mapping[str, float]) -> list[Measure]:
             "of a point that falls the height; wheels touch earlier by as much as they droop in the air",
         ),
         _fall(result, contact, weight, settings["gravity"]),
-        Measure("load.peak", float(load.max()), "N", "largest sum of the loads"),
-        Measure("load.peak_ratio", float(load.max()) / weight, "1", "the same over the weight", note=short),
+        Measure("load.peak", peak, "N", "largest sum of the loads of the wheels"),
+        Measure("load.peak_ratio", peak / weight, "1", "the same over the weight", note=short),
         *(
             Measure(f"load.peak_{wheel}", float(loads[:, k].max()), "N", f"largest load of the wheel {wheel}")
             for k, wheel in enumerate(WHEELS)
         ),
+        _on_chassis(result),
         *_travels(result),
         *_rebounds(result, loads, contact),
         Measure("settling_time", settled, "s", "from contact until the load stays in the band", note=at_rest),
@@ -124,6 +128,13 @@ def _fall(result: Result, contact: float, weight: float, gravity: float) -> Meas
     return Measure("fall.acceleration", -2.0 * float(np.polyfit(time, height, 2)[0]), "m/s2", text, limit)
 
 
+def _on_chassis(result: Result) -> Measure:
+    name, text = "load.peak_chassis", "largest load of the road on the chassis itself; 0: it did not touch"
+    if "chassis.ground_force" not in result:
+        return Measure(name, math.nan, "N", text, note="the car does not tell it")
+    return Measure(name, float(result["chassis.ground_force"].max()), "N", text)
+
+
 def _travels(result: Result) -> list[Measure]:
     travel = at_wheels(result, "travel")
     note = "" if travel is not None else "the car does not tell the travel of its wheels"
@@ -136,23 +147,29 @@ def _travels(result: Result) -> list[Measure]:
 
 def _rebounds(result: Result, loads: NDArray[np.float64], contact: float) -> list[Measure]:
     after = result.time >= contact
-    airborne = duration(result.time[after], lifted_wheels(loads[after]).all(axis=1)) if after.any() else math.nan
+    airborne = duration(result.time[after], np.all(lifted_wheels(loads[after]), axis=1)) if after.any() else math.nan
     height, note = math.nan, "the car does not tell its height"
-    if "chassis.z" in result:
-        z, note = result["chassis.z"], ""
+    if "chassis.z" in result and after.any():
+        z, note = result["chassis.z"][after], ""
         height = float(z[rebound(z)[1]] - z[-1])
     return [
-        Measure("rebound.height", height, "m", "highest point after the first fall over that of rest", note=note),
+        Measure("rebound.height", height, "m", "highest point after the first contact over that at the end", note=note),
         Measure("rebound.airborne_time", airborne, "s", "after the first contact with no wheel on the road"),
     ]
 
 
 def plots_of(result: Result) -> list[Plot]:
     """Load, height and travel over time."""
-    time, load = result.time, total_load(result)
-    plots = [Plot("Sum of wheel loads", "time, s", "load, N", [Line("", time, load)])]
+    time, loads = result.time, at_wheels(result, "Fz")
+    assert loads is not None
+    lines = [Line("wheels", time, loads.sum(axis=1))]
+    if "chassis.ground_force" in result and result["chassis.ground_force"].any():
+        lines.append(Line("chassis", time, result["chassis.ground_force"]))
+    plots = [Plot("Load on the road", "time, s", "load, N", lines)]
     if "chassis.z" in result:
-        plots.append(Plot("Height", "time, s", "height of the reference point, m", [Line("", time, result["chassis.z"])]))
+        plots.append(
+            Plot("Height", "time, s", "height of the reference point, m", [Line("", time, result["chassis.z"])])
+        )
     travel = at_wheels(result, "travel")
     if travel is not None:
         lines = [Line(name, time, travel[:, k]) for k, name in ((0, "front left"), (2, "rear left"))]
