@@ -100,7 +100,10 @@ class TestedCar:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
             start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
             step = communication_step(fmu, manoeuvre, self.step)
-            return run(fmu, replace(manoeuvre, start=start), step, pilot, until=until)
+            result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until)
+            if self.aliases.derived:
+                self.aliases.with_central_rates(result.names, result.time, result.values)
+            return result
 
     @cached_property
     def facts(self) -> CarFacts:
