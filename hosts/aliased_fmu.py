@@ -30,8 +30,8 @@ class AliasedFmu:
     Attributes
     ----------
     variables : dict of str to ScalarVariable
-        By our names, in the order of the model description; the unit of those whose number changes is ours. Derived ones
-        follow as outputs.
+        By our names, in the order of the model description; the unit of those whose number changes is ours. Derived
+        ones follow as outputs.
     table : dict of str to Variable
         The same with ranges and start values in our units.
     """

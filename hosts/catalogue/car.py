@@ -24,8 +24,8 @@ class CarFacts:
 
     Parameters
     ----------
-    inputs, outputs, parameters : frozenset of str
-        By our names; real and whole ones.
+    inputs, outputs, parameters : tuple of str
+        By our names, in the order of the FMU; real and whole ones.
     units : mapping of str to str
         Of all variables by our names.
     constants : mapping of str to float
@@ -34,9 +34,9 @@ class CarFacts:
         Communication step, s.
     """
 
-    inputs: frozenset[str]
-    outputs: frozenset[str]
-    parameters: frozenset[str]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    parameters: tuple[str, ...]
     units: Mapping[str, str]
     constants: Mapping[str, float]
     step: float
@@ -73,6 +73,7 @@ class TestedCar:
         manoeuvre: Manoeuvre,
         pilot: Pilot | None = None,
         until: Callable[[float, Mapping[str, float]], bool] | None = None,
+        record_step: float | None = None,
     ) -> Result:
         """Drive a new instance of the FMU.
 
@@ -84,6 +85,8 @@ class TestedCar:
             Overrules the inputs it acts on.
         until : callable, optional
             Of the time and the outputs; the run ends with the first step after which it is true.
+        record_step : float, optional
+            Time from one row of the record to the next, s, rounded to whole steps; by default every step.
 
         Returns
         -------
@@ -100,9 +103,10 @@ class TestedCar:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
             start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
             step = communication_step(fmu, manoeuvre, self.step)
-            result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until)
+            every = 1 if record_step is None else max(1, round(record_step / step))
+            result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
             if self.aliases.derived:
-                self.aliases.with_central_rates(result.names, result.time, result.values)
+                self.aliases.with_central_rates(result.names, result.time, result.values, every > 1)
             return result
 
     @cached_property
@@ -113,10 +117,30 @@ class TestedCar:
             experiment = fmu.description.defaultExperiment
             told = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
             return CarFacts(
-                frozenset(fmu.names("input")),
-                frozenset(fmu.names("output")),
-                frozenset(fmu.names("parameter")),
+                tuple(fmu.names("input")),
+                tuple(fmu.names("output")),
+                tuple(fmu.names("parameter")),
                 {n: v.unit or "1" for n, v in fmu.variables.items()},
                 fmu.constants(),
                 told if self.step is None else self.step,
             )
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """By our names."""
+        return self.facts.inputs
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """By our names; real and whole ones."""
+        return self.facts.outputs
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """By our names; real and whole ones."""
+        return self.facts.parameters
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """Of the FMU and of the alias file, which wins; by our names."""
+        return self.facts.constants
