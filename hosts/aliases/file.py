@@ -37,7 +37,10 @@ def find_aliases(name: str | Path, variables: Variables) -> Aliases:
     if not path.is_file() and str(name) in shipped_names():
         path = SHIPPED / f"{name}.toml"
     if not path.exists():
-        raise HostError(f"There is no alias file {name}; in the package there are {', '.join(shipped_names())}.")
+        raise HostError(
+            f"The alias file {name} cannot be read: there is none, nor one of that name in the package, which has "
+            f"{', '.join(shipped_names())}."
+        )
     return read_aliases(path, variables)
 
 
@@ -63,6 +66,7 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
     known = variables if isinstance(variables, Variables) else None
     constants = _constants(content, known)
     missing: dict[str, str] = {}
+    wanted: set[str] = set()
     aliases = []
     for entry in content.entries.values():
         if "from" in entry.value:
@@ -70,8 +74,10 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
         lacks = _lacks(entry, names)
         if lacks:
             missing[entry.ours] = lacks
+        elif entry.value.get("factor") in content.needs and entry.value["factor"] not in constants:
+            wanted.add(entry.value["factor"])
         else:
-            aliases.append(_alias(entry, content, constants, known))
+            aliases.append(_alias(entry, constants, known))
     aliases = [a for a in aliases if not _is_there_itself(a, content.entries[a.ours], aliases, names)]
     seen: dict[str, str] = {}
     for alias in aliases:
@@ -79,6 +85,7 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
         if other != alias.ours:
             raise HostError(f"{file}: '{alias.theirs}' is named {other} and {alias.ours}; give it one name.")
     derived = _derived(content, constants, aliases, names, known, missing)
+    _demand(wanted | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
     if content.entries and not aliases and not derived:
         first = next(iter(content.entries.values()))
         raise HostError(
@@ -99,14 +106,18 @@ def _constants(content: Content, known: Variables | None) -> dict[str, float]:
     return made
 
 
-def _demand(name: str, content: Content, where: str) -> HostError:
-    text = content.needs.get(name)
-    what = f" ({text})" if text else ""
+def _demand(wanted: Collection[str], content: Content) -> None:
+    """Refuse a car of which numbers are not known, all in one sentence."""
+    if not wanted:
+        return
+    numbers = ", ".join(f"'{name}' ({content.needs[name]})" for name in content.needs if name in wanted)
     base = Path(content.file)
-    how = f'write a file with extends = "{base.stem}" and' if base.parent == SHIPPED else f"give {base.name}"
-    return HostError(
-        f"{where} needs the number '{name}'{what} of this car: {how} that number in its table [constants]."
+    how = (
+        f'write a file with extends = "{base.stem}" and them in its table [constants], for --aliases'
+        if base.parent == SHIPPED
+        else "give them in its table [constants]"
     )
+    raise HostError(f"{base.name} needs numbers of this car, {numbers}: {how}.")
 
 
 def _lacks(entry: Entry, names: Collection[str]) -> str:
@@ -121,7 +132,7 @@ def _lacks(entry: Entry, names: Collection[str]) -> str:
     raise HostError(f"{entry.where}: the FMU has no variable '{theirs}'{hint}.")
 
 
-def _alias(entry: Entry, content: Content, constants: dict[str, float], known: Variables | None) -> Alias:
+def _alias(entry: Entry, constants: dict[str, float], known: Variables | None) -> Alias:
     value, where = entry.value, entry.where
     unknown = next((key for key in value if key not in _KEYS), None)
     if unknown is not None:
@@ -130,7 +141,7 @@ def _alias(entry: Entry, content: Content, constants: dict[str, float], known: V
     by_constant = isinstance(factor, str)
     if isinstance(factor, str):
         if factor not in constants:
-            raise _demand(factor, content, where)
+            raise HostError(f"{where}: factor is '{factor}'; it must be a number, or a constant of the file.")
         factor = constants[factor]
     factor = number(factor, f"{where}: factor")
     if factor == 0.0:
@@ -188,8 +199,6 @@ def _derived(
     for d in done:
         where = content.entries[d.ours].where
         for name in d.names:
-            if name in content.needs and name not in there:
-                raise _demand(name, content, where)
             if known is not None and name in known.names and name not in ours_of.values() and not is_si(known[name]):
                 raise HostError(
                     f"{where}: '{name}' is in {declared(known[name])} in the FMU, formulas take SI units; give it a "
