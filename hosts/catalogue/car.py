@@ -24,8 +24,8 @@ class CarFacts:
 
     Parameters
     ----------
-    inputs, outputs, parameters : frozenset of str
-        By our names; real and whole ones.
+    inputs, outputs, parameters : tuple of str
+        By our names, in the order of the FMU; real and whole ones.
     units : mapping of str to str
         Of all variables by our names.
     constants : mapping of str to float
@@ -34,9 +34,9 @@ class CarFacts:
         Communication step, s.
     """
 
-    inputs: frozenset[str]
-    outputs: frozenset[str]
-    parameters: frozenset[str]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    parameters: tuple[str, ...]
     units: Mapping[str, str]
     constants: Mapping[str, float]
     step: float
@@ -110,10 +110,30 @@ class TestedCar:
             experiment = fmu.description.defaultExperiment
             told = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
             return CarFacts(
-                frozenset(fmu.names("input")),
-                frozenset(fmu.names("output")),
-                frozenset(fmu.names("parameter")),
+                tuple(fmu.names("input")),
+                tuple(fmu.names("output")),
+                tuple(fmu.names("parameter")),
                 {n: v.unit or "1" for n, v in fmu.variables.items()},
                 fmu.constants(),
                 told if self.step is None else self.step,
             )
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """By our names."""
+        return self.facts.inputs
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """By our names; real and whole ones."""
+        return self.facts.outputs
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """By our names; real and whole ones."""
+        return self.facts.parameters
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """Of the FMU and of the alias file, which wins; by our names."""
+        return self.facts.constants

@@ -42,16 +42,16 @@ def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str
 
 
 def missing_for(test: StandardTest, car: TestedCar) -> Reason | None:
-    """Why a test cannot be done with a car, from what its FMU tells; None if it can."""
-    facts = car.facts
-    there = facts.inputs | facts.outputs | facts.parameters | set(facts.constants)
-    missing = [name for name in test.needs if name not in there]
+    """Why a test cannot be done with a car, from what its FMU tells; None if it can.
+
+    An entry ``a | b`` of what the test needs is there if one of its names is.
+    """
+    there = {*car.inputs, *car.outputs, *car.parameters, *car.constants}
+    missing = [need for need in test.needs if not there & {name.strip() for name in need.split("|")}]
     if not missing:
         return None
-    return (
-        f"The FMU {car.path.name} has no variable {' and none '.join(missing)}; if it has {'it' if len(missing) == 1 else 'them'} "
-        "under another name, an alias file says which (--aliases)."
-    )
+    words = " and no ".join(" or ".join(name.strip() for name in need.split("|")) for need in missing)
+    return f"The FMU {car.path.name} has no {words}; where it has another name, an alias file says which (--aliases)."
 
 
 def perform(
