@@ -8,7 +8,7 @@ from scipy.signal import butter, sosfiltfilt
 
 
 def resample(
-    time: ArrayLike, values: ArrayLike, interval: float
+    time: ArrayLike, values: ArrayLike, interval: float, first: float | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """A signal at even times, linear in between.
 
@@ -19,11 +19,13 @@ def resample(
     values : array_like, shape (n,)
     interval : float
         Between the new samples, s; longer than that of the old ones it needs a low-pass before.
+    first : float, optional
+        Time of the first new sample, s; by default that of the first old one.
 
     Returns
     -------
     time, values : ndarray of shape (m,)
-        From the first time to the last that is reached.
+        From `first` to the last that is reached.
 
     Raises
     ------
@@ -38,8 +40,9 @@ def resample(
     if not np.isfinite(x).all():
         raise ValueError(f"The signal is not finite at {t[~np.isfinite(x)][0]:g} s.")
     # half a thousandth of an interval: the last sample must not be lost for rounding
-    even = t[0] + interval * np.arange(int((t[-1] - t[0]) / interval + 5e-4) + 1)
-    return even, np.interp(even, t, x)
+    begin = t[0] if first is None else first
+    even = begin + interval * np.arange(int((t[-1] - begin) / interval + 5e-4) + 1)
+    return np.asarray(even, float), np.asarray(np.interp(even, t, x), float)
 
 
 def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, poles: int = 12) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Frequency response of one signal to another, with its coherence, by averaged periodograms."""
+"""Frequency response of one signal to another, with its coherence, by spectra that are averaged over bands."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import csd, welch
+from scipy.signal import csd
 
 
 @dataclass(frozen=True)
@@ -36,37 +36,35 @@ class FrequencyResponse:
     def phase(self) -> NDArray[np.float64]:
         """Phase without jumps, rad; negative: the output lags."""
         phase = np.unwrap(np.angle(self.response))
-        # unwrapping begins at the lowest frequency, where the phase is small or a half turn
-        return np.asarray(phase)
+        # a response of the other sign begins near a half turn, whichever side of it the lag has put it on
+        return np.asarray(phase + (2.0 * np.pi if len(phase) and phase[0] < -0.5 * np.pi else 0.0))
 
-    def at(self, frequency: float) -> complex:
-        """Response at a frequency, Hz, linear in gain and phase in between; NaN outside."""
-        if not len(self.frequency) or not self.frequency[0] <= frequency <= self.frequency[-1]:
-            return complex(float("nan"), float("nan"))
-        gain = np.interp(frequency, self.frequency, self.gain)
-        return complex(gain * np.exp(1j * np.interp(frequency, self.frequency, self.phase)))
+    def phase_at(self, frequency: float) -> float:
+        """Phase at a frequency in Hz, rad, linear in between; NaN outside."""
+        if not len(self.frequency):
+            return float("nan")
+        return float(np.interp(frequency, self.frequency, self.phase, left=np.nan, right=np.nan))
 
 
 def frequency_response(
     given: NDArray[np.float64],
     answer: NDArray[np.float64],
     interval: float,
-    lowest: float,
-    highest: float,
-    window: float = 20.0,
+    frequency: NDArray[np.float64],
+    relative_width: float = 0.05,
 ) -> FrequencyResponse:
-    """Estimate the response of `answer` to `given`.
+    """Estimate the response of `answer` to `given` from one record that begins and ends at rest.
 
     Parameters
     ----------
     given, answer : ndarray of shape (n,)
-        Input and output at even times.
+        Input and output at even times, less their values at rest.
     interval : float
         Between samples, s.
-    lowest, highest : float
-        Range of frequencies that is wanted, Hz; the input must have power in it.
-    window : float
-        Length of the periodograms, s: many times the memory of the system. Its inverse is the resolution.
+    frequency : ndarray of shape (m,)
+        At which the response is wanted, Hz, increasing; the input must have power there.
+    relative_width : float
+        Half of the width of the band over which spectra are averaged, over its frequency; at least six lines.
 
     Returns
     -------
@@ -75,24 +73,42 @@ def frequency_response(
     Raises
     ------
     ValueError
-        If the record is shorter than two windows, or the range is not below half the sampling frequency.
+        If the record has less than three periods of the lowest frequency, or the highest is not below half the sampling
+        frequency.
 
     Notes
     -----
-    H1 estimator of cross- over auto-spectrum, Hann windows that overlap by three quarters: noise of the output does not
-    bias it. A coherence that is well below 1 says that the output has noise, or that the system is not linear.
+    H1 estimator: averaged cross-spectrum over averaged auto-spectrum, so that noise of the output does not bias it. The
+    spectra are those of the whole record without a window, which is exact for a linear system at rest at both ends;
+    segments with windows would cut the answer off from its cause. A coherence that is well below 1 says that the output
+    has noise, or that the system is not linear.
     """
-    length = round(window / interval)
-    if len(given) != len(answer) or len(given) < 2 * length:
-        have = len(given) * interval
-        raise ValueError(f"A frequency response by windows of {window:g} s needs {2 * window:g} s; there are {have:g} s.")
-    if not 0.0 < lowest < highest < 0.5 / interval:
-        raise ValueError(f"Frequencies of {lowest:g} to {highest:g} Hz cannot be had from samples each {interval:g} s.")
-    options = {"fs": 1.0 / interval, "window": "hann", "nperseg": length, "noverlap": length * 3 // 4}
-    frequency, cross = csd(given, answer, detrend="constant", **options)
-    power = welch(given, detrend="constant", **options)[1]
-    other = welch(answer, detrend="constant", **options)[1]
-    kept = (frequency >= lowest - 1e-9) & (frequency <= highest + 1e-9)
-    coherence = np.abs(cross[kept]) ** 2 / np.maximum(power[kept] * other[kept], np.finfo(float).tiny)
-    response = cross[kept] / np.maximum(power[kept], np.finfo(float).tiny)
-    return FrequencyResponse(frequency[kept], response, np.minimum(coherence, 1.0))
+    duration = len(given) * interval
+    if len(given) != len(answer) or duration * frequency[0] < 3.0:
+        raise ValueError(
+            f"A response at {frequency[0]:g} Hz needs a record of {3.0 / frequency[0]:.3g} s, not {duration:.3g} s."
+        )
+    if not 0.0 < frequency[0] <= frequency[-1] < 0.5 / interval:
+        raise ValueError(
+            f"Responses at {frequency[0]:g} to {frequency[-1]:g} Hz cannot be had from samples each {interval:g} s."
+        )
+    # zeros behind the record make its lines closer than the bands are wide
+    padded = 4 * len(given)
+
+    def spectrum(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.complexfloating]:
+        return np.asarray(
+            csd(x, y, fs=1.0 / interval, window="boxcar", nperseg=len(x), nfft=padded, detrend=False)[1]
+        )
+
+    lines = np.fft.rfftfreq(padded, interval)
+    cross, power, other = spectrum(given, answer), spectrum(given, given), spectrum(answer, answer)
+    tiny = np.finfo(float).tiny
+    response, coherence = np.empty(len(frequency), complex), np.empty(len(frequency))
+    for k, f in enumerate(frequency):
+        width = max(relative_width * f, 3.0 / duration)
+        near = slice(*np.searchsorted(lines, (f - width, f + width)))
+        weight = 1.0 + np.cos(np.pi * (lines[near] - f) / width)
+        sxy, sxx, syy = (complex(weight @ x[near]) for x in (cross, power, other))
+        response[k] = sxy / max(sxx.real, tiny)
+        coherence[k] = min(abs(sxy) ** 2 / max(sxx.real * syy.real, tiny), 1.0)
+    return FrequencyResponse(np.asarray(frequency, float), response, coherence)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_trapezoid
+from scipy.integrate import cumulative_trapezoid, trapezoid
 
 from hosts.measures.filters import crossing
 
@@ -122,6 +122,6 @@ def _of(begin: float, time: NDArray[np.float64], acceleration: NDArray[np.float6
         return SineWithDwell(begin, *6 * (math.nan,))
     inner = time[(time > begin) & (time < at)]
     t = np.concatenate([[begin], inner, [at]])
-    velocity = cumulative_trapezoid(np.interp(t, time, acceleration), t, initial=0.0)
-    moved = float(np.trapezoid(velocity, t)) if hasattr(np, "trapezoid") else float(np.trapz(velocity, t))
+    velocity = np.asarray(cumulative_trapezoid(np.interp(t, time, acceleration), t, initial=0))
+    moved = float(trapezoid(velocity, t))
     return SineWithDwell(begin, *4 * (math.nan,), abs(moved), math.nan)

@@ -99,7 +99,8 @@ def step_response(
     Notes
     -----
     The peak is the largest sample improved by a parabola through it and its neighbours, so that the step of the record
-    does not round its time. An excess over the steady value below 0.1 % is no overshoot but a rest of the settling.
+    does not round its time. An excess below 1 % over the steady value is no overshoot but a rest of the settling, or of
+    the speed that the turn has taken.
     """
     if not np.isfinite(reference) or len(time) < 3 or time[-1] < steady[1] - 1e-6 or not np.isfinite(values).all():
         return NOTHING
@@ -112,7 +113,7 @@ def step_response(
     response = crossing(time, relative, 0.9, before[1]) - reference
     first = int(np.searchsorted(time, before[1]))
     at, peak = top(time[first:], relative[first:])
-    over = peak > 1.001
+    over = peak > 1.01
     return StepResponse(
         final,
         response,
