@@ -52,6 +52,22 @@ class SteadyMap:
             return math.nan
         return float(np.interp(acceleration, np.maximum.accumulate(self.acceleration), self.angle))
 
+    def need_angle_at(self, acceleration: float) -> float:
+        """The same of the setting `lateral_acceleration`.
+
+        Raises
+        ------
+        HostError
+            If it was not reached.
+        """
+        angle = self.angle_at(acceleration)
+        if math.isnan(angle):
+            raise HostError(
+                f"At {3.6 * self.speed:g} km/h the car reaches {self.largest:.3g} m/s² in a slow ramp of the steering, "
+                f"not the {acceleration:g} m/s² of lateral_acceleration; choose less."
+            )
+        return angle
+
 
 def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 1.0) -> SteadyMap:
     """Drive the ramp.
@@ -96,10 +112,8 @@ def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 
     if len(run.time) < 20:
         return SteadyMap(speed, np.zeros(0), np.zeros(0), run)
     # one filter for both, so that neither is late against the other
-    turned, lateral = (
-        side * phaseless_low_pass(x, run.interval, min(6.0, 0.2 / run.interval))
-        for x in (run.steering, run.acceleration)
-    )
+    frequency = min(6.0, 0.2 / run.interval)
+    turned, lateral = (side * phaseless_low_pass(x, run.interval, frequency) for x in (run.steering, run.acceleration))
     zero = run.time < 0.0
     if zero.any():
         turned, lateral = turned - turned[zero].mean(), lateral - lateral[zero].mean()
@@ -133,7 +147,8 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
         if len(second.angle):
             note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
             return SteadyMap(lower, second.angle, second.acceleration, second.run, (note,))
+    fastest = 3.6 * float(np.max(found.run.result["speed"]))
     raise HostError(
-        f"The car does not come to {3.6 * min(speed, lower):g} km/h on a straight line: its fastest was "
-        f"{3.6 * float(np.max(found.run.result['speed'])):.3g} km/h. Choose a lower speed (--test-setting TEST.speed=...)."
+        f"The car does not hold {3.6 * min(speed, lower):g} km/h on a straight line; its fastest was {fastest:.3g}. "
+        "Choose a lower speed (--test-setting TEST.speed=...)."
     )

@@ -110,7 +110,7 @@ class SteeredRun:
     Parameters
     ----------
     result : Result
-        As recorded, all of it.
+        As recorded, with rows at least 5 ms apart or each step.
     begin : float
         Of the steering in its time, s; NaN if the car did not come to its speed.
     time : ndarray of shape (n,)
@@ -185,8 +185,8 @@ def steer(
     def ends(t: float, senses: Mapping[str, float]) -> bool:
         return pilot.ends(t, senses) or abs(senses["chassis.ay"]) > lateral_limit
 
-    result = car.drive(manoeuvre, pilot, ends)
-    return _signals(result, pilot)
+    result = car.drive(manoeuvre, pilot, ends, _INTERVAL)
+    return _signals(result, pilot, car.facts.step)
 
 
 def level_acceleration(result: Result) -> NDArray[np.float64]:
@@ -198,12 +198,12 @@ def level_acceleration(result: Result) -> NDArray[np.float64]:
     return np.asarray(ay * np.cos(roll) - result["chassis.az"] * np.sin(roll))
 
 
-def _signals(result: Result, pilot: SteeredPilot) -> SteeredRun:
+def _signals(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
     none = np.zeros(0)
     if not math.isfinite(pilot.begin) or len(result.time) < 3 or result.time[-1] <= pilot.begin:
         return SteeredRun(result, math.nan, none, none, none, none, none, none, none, False)
-    step = float(result.time[1] - result.time[0])
-    interval = max(_INTERVAL, step)
+    row = float(result.time[1] - result.time[0])
+    interval = max(_INTERVAL, row)
     # the grid has a sample where the steering begins
     first = pilot.begin - interval * math.floor(min(1.0, pilot.begin) / interval)
     blank = np.full(len(result.time), math.nan)
@@ -220,11 +220,11 @@ def _signals(result: Result, pilot: SteeredPilot) -> SteeredRun:
         result,
         pilot.begin,
         grid - pilot.begin,
-        even(pilot.input.measured(result)),
+        even(pilot.input.measured(result, step)),
         yaw_rate,
         even(level_acceleration(result)),
         sideslip,
         roll,
         speed,
-        not result.failed_steps and bool(result.time[-1] >= pilot.begin + pilot.time[-1] - step),
+        not result.failed_steps and bool(result.time[-1] >= pilot.begin + pilot.time[-1] - 1.5 * row),
     )

@@ -74,13 +74,29 @@ class SteeringInput:
         )
         return cls("steering", 1.0, 1.0, False, note)
 
-    def measured(self, result: Result) -> NDArray[np.float64]:
-        """Angle of the steering wheel over a run, rad: that of the car where it tells it, else what was asked for."""
+    def measured(self, result: Result, step: float) -> NDArray[np.float64]:
+        """Angle of the steering wheel over a run: that of the car where it tells it, else what was asked for.
+
+        Parameters
+        ----------
+        result : Result
+            With n rows.
+        step : float
+            Communication step of the run, s.
+
+        Returns
+        -------
+        ndarray of shape (n,)
+            rad.
+        """
         if self.is_angle and ANGLE in result:
             return result[ANGLE]
         held = result[self.name] / self.per_radian
-        # a row has the input of the step that ends there; at that time stands the mean of both steps
-        return np.asarray(np.append(0.5 * (held[:-1] + held[1:]), held[-1:]))
+        if len(held) < 2:
+            return held
+        # a row has the input of the step that ends there, which stands for the middle of the step
+        ahead = 0.5 * step / float(result.time[1] - result.time[0])
+        return np.asarray(np.append(held[:-1] + ahead * np.diff(held), held[-1:]))
 
     def need_angles(self, test: str) -> None:
         """Refuse a car of which angles of the steering wheel are not known.

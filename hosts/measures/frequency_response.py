@@ -51,7 +51,7 @@ def frequency_response(
     answer: NDArray[np.float64],
     interval: float,
     frequency: NDArray[np.float64],
-    relative_width: float = 0.05,
+    relative_width: float = 0.03,
 ) -> FrequencyResponse:
     """Estimate the response of `answer` to `given` from one record that begins and ends at rest.
 
@@ -96,9 +96,7 @@ def frequency_response(
     padded = 4 * len(given)
 
     def spectrum(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.complexfloating]:
-        return np.asarray(
-            csd(x, y, fs=1.0 / interval, window="boxcar", nperseg=len(x), nfft=padded, detrend=False)[1]
-        )
+        return np.asarray(csd(x, y, fs=1.0 / interval, window="boxcar", nperseg=len(x), nfft=padded, detrend=False)[1])
 
     lines = np.fft.rfftfreq(padded, interval)
     cross, power, other = spectrum(given, answer), spectrum(given, given), spectrum(answer, answer)

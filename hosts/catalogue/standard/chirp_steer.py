@@ -92,17 +92,12 @@ class ChirpSteer:
         low, high = settings["lowest_frequency"], settings["highest_frequency"]
         if car.facts.step > 0.1 / high:
             raise HostError(
-                f"The communication step is {car.facts.step:g} s; for responses up to {high:g} Hz it must not be longer "
-                f"than {0.1 / high:.3g} s (--step, or less highest_frequency)."
+                f"The communication step is {car.facts.step:g} s; for responses up to {high:g} Hz it must not be "
+                f"longer than {0.1 / high:.3g} s (--step, or less highest_frequency)."
             )
         ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)
         progress(0.3)
-        amplitude = ramp.angle_at(wanted)
-        if math.isnan(amplitude):
-            raise HostError(
-                f"At {3.6 * ramp.speed:g} km/h the car reaches {ramp.largest:.3g} m/s² in a slow ramp of the steering, not "
-                f"the {wanted:g} m/s² of lateral_acceleration; choose less."
-            )
+        amplitude = ramp.need_angle_at(wanted)
         run = steer(car, "chirp", ramp.speed, *_table(amplitude, low, high, settings["duration"]), Pedals.HOLD_SPEED)
         progress(0.95)
         notes = [*ramp.notes, *filter(None, [given.note])]

@@ -14,7 +14,6 @@ from hosts.catalogue.steady_map import map_at_reachable_speed
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import NEED, SteeringInput
 from hosts.catalogue.two_sides import asymmetry, mean_of_sides
-from hosts.errors import HostError
 from hosts.measures.measure import Measure
 from hosts.measures.one_period import NOTHING, OnePeriod, one_period
 
@@ -54,12 +53,7 @@ class SineSteer:
         speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
         ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)
         progress(0.4)
-        amplitude = ramp.angle_at(wanted)
-        if math.isnan(amplitude):
-            raise HostError(
-                f"At {3.6 * ramp.speed:g} km/h the car reaches {ramp.largest:.3g} m/s² in a slow ramp of the steering, not "
-                f"the {wanted:g} m/s² of lateral_acceleration; choose less."
-            )
+        amplitude = ramp.need_angle_at(wanted)
         period = 1.0 / settings["frequency"]
         t = np.linspace(0.0, period, _POINTS + 1)
         sine = np.append(np.sin(2.0 * math.pi * t / period), 0.0)

@@ -8,20 +8,17 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.dwell_measures import EARLY, LATE, least_displacement, measures_of_dwell
 from hosts.catalogue.dwell_series import DwellRun, amplitudes, processed, series
 from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import NEED, SteeringInput
 from hosts.co_simulation import Result
 from hosts.errors import HostError
-from hosts.measures.measure import Limit, Measure
 from hosts.measures.slowly_increasing_steer import G, angle_by_regression
 
 _RATE = math.radians(13.5)
 _RAMP_TO = 0.5 * G
-_LAW = "49 CFR 571.126"
-_HEAVY = 3500.0
-_EARLY, _LATE = 0.35, 0.20
 _TRANSLATED = "Read in an English translation: "
 
 
@@ -110,8 +107,8 @@ class SineWithDwellTest:
         runs: dict[str, Result] = {"ramp_left": ramps[0].thinned(), "ramp_right": ramps[1].thinned()}
         for word, side_runs in zip(("left", "right"), sides, strict=True):
             runs |= {f"{word}_{math.degrees(r.amplitude):.0f}_deg": r.run.thinned() for r in side_runs}
-        measures = _measures(a, found, sides, wanted, settings["gross_mass"])
-        return TestRecord(measures, _plots(ramps, sides), runs, notes)
+        least = least_displacement(settings["gross_mass"])
+        return TestRecord(measures_of_dwell(a, found, sides, wanted, least), _plots(ramps, sides, least), runs, notes)
 
 
 TEST = SineWithDwellTest()
@@ -135,87 +132,15 @@ def _no_angle(ramps: list[SteeredRun], speed: float) -> str:
         return f"The car does not hold {speed:g} km/h on a straight line; its fastest was {fastest:.3g} km/h."
     reached = min(float(np.abs(r.acceleration).max()) for r in ramps) / G
     return (
-        f"The car reaches {reached:.2g} g at {speed:g} km/h while the steering wheel turns slowly; the angle A at 0.3 g "
-        "needs 0.375 g."
+        f"The car reaches {reached:.2g} g at {speed:g} km/h while the steering wheel turns slowly; the angle A at "
+        "0.3 g needs 0.375 g."
     )
-
-
-def _worst(values: list[float]) -> float:
-    """The largest; NaN if one is missing."""
-    return math.nan if not values or any(map(math.isnan, values)) else max(values)
-
-
-def _measures(
-    a: float, found: list[float], sides: list[list[DwellRun]], wanted: list[float], mass: float
-) -> list[Measure]:
-    every = [r for side in sides for r in side]
-    turned = [r for r in every if r.amplitude >= 4.995 * a]
-    least = 1.83 if mass <= _HEAVY else 1.52
-    lost = (
-        "A run ended before it: the car rolled over or the FMU refused a step."
-        if any(not r.run.whole for r in every)
-        else ""
-    )
-    moved = [r.measures.displacement for r in turned]
-    far = math.nan if not moved or any(map(math.isnan, moved)) else min(moved)
-    early = Limit(f"{_LAW} S5.2.1", highest=_EARLY)
-    late = Limit(f"{_LAW} S5.2.2", highest=_LATE)
-    side_notes = f"Left {math.degrees(found[0]):.1f}°, right {math.degrees(found[1]):.1f}°."
-    measures = [
-        Measure(
-            "angle_at_0_3_g", a, "rad", "A: angle of the steering wheel at 0.3 g, mean of both ramps", note=side_notes
-        ),
-        Measure(
-            "yaw_rate_ratio_1_00",
-            _worst([r.measures.ratio_1_00 for r in every]),
-            "1",
-            "yaw rate 1.00 s after the completion of steer over its second peak, worst of all runs",
-            early,
-            lost,
-        ),
-        Measure(
-            "yaw_rate_ratio_1_75",
-            _worst([r.measures.ratio_1_75 for r in every]),
-            "1",
-            "yaw rate 1.75 s after the completion of steer over its second peak, worst of all runs",
-            late,
-            lost,
-        ),
-        Measure(
-            "displacement",
-            far,
-            "m",
-            "lateral displacement 1.07 s after the begin of steer, least of the runs from 5 A",
-            Limit(f"{_LAW} S5.2.3", lowest=least),
-            "" if math.isfinite(far) else "No run with 5 A or more shows it.",
-        ),
-    ]
-    for word, side in zip(("left", "right"), sides, strict=True):
-        kept = 0.0
-        for r in side:
-            if not (r.run.whole and early.holds(r.measures.ratio_1_00) and late.holds(r.measures.ratio_1_75)):
-                break
-            kept = r.amplitude
-        text = f"largest amplitude up to which the yaw rate stays within both limits, first to the {word}"
-        note = "" if kept == wanted[-1] else f"The series goes to {math.degrees(wanted[-1]):.0f}°."
-        measures.append(Measure(f"stable_amplitude.{word}", kept, "rad", text, note=note))
-    slips = [r.measures.sideslip for r in every if math.isfinite(r.measures.sideslip)]
-    measures.append(
-        Measure(
-            "sideslip",
-            max(slips, default=math.nan),
-            "rad",
-            "largest sideslip angle of all runs",
-            note="" if slips else "The car does not tell it.",
-        )
-    )
-    return measures
 
 
 def _notes(sides: list[list[DwellRun]], wanted: list[float], a: float, given: SteeringInput) -> list[str]:
     notes = [
-        "The regulation is for cars with electronic stability control; where the model has none, a limit that is not kept "
-        "is a statement about the car without it."
+        "The regulation is for cars with electronic stability control; where the model has none, a limit that is not "
+        "kept is a statement about the car without it."
     ]
     for word, side in zip(("left", "right"), sides, strict=True):
         if side and side[-1].is_lost:
@@ -225,15 +150,16 @@ def _notes(sides: list[list[DwellRun]], wanted: list[float], a: float, given: St
                 else "the run ended early"
             )
             notes.append(
-                f"Begun to the {word}, the car is lost at {math.degrees(side[-1].amplitude):.0f}° ({side[-1].amplitude / a:.2g} A; "
-                f"{how}); larger amplitudes up to {math.degrees(wanted[-1]):.0f}° are not driven."
+                f"Begun to the {word}, the car is lost at {math.degrees(side[-1].amplitude):.0f}° "
+                f"({side[-1].amplitude / a:.2g} A; {how}); larger amplitudes, up to "
+                f"{math.degrees(wanted[-1]):.0f}°, are not driven."
             )
     if given.largest < math.radians(270.0) or wanted[-1] >= given.largest * 0.999:
         notes.append(f"The series ends at full lock, {math.degrees(given.largest):.0f}°.")
     return notes
 
 
-def _plots(ramps: list[SteeredRun], sides: list[list[DwellRun]]) -> list[Plot]:
+def _plots(ramps: list[SteeredRun], sides: list[list[DwellRun]], least: float) -> list[Plot]:
     plots = []
     ramp = [
         Line(word, np.degrees(np.abs(r.steering)), np.abs(r.acceleration) / G)
@@ -261,9 +187,7 @@ def _plots(ramps: list[SteeredRun], sides: list[list[DwellRun]]) -> list[Plot]:
 
     return [
         *plots,
-        over_amplitude("Yaw rate 1.00 s after", "over its second peak", lambda r: r.measures.ratio_1_00, _EARLY),
-        over_amplitude("Yaw rate 1.75 s after", "over its second peak", lambda r: r.measures.ratio_1_75, _LATE),
-        over_amplitude(
-            "Displacement 1.07 s after the begin", "displacement, m", lambda r: r.measures.displacement, 1.83
-        ),
+        over_amplitude("Yaw rate 1.00 s after", "over its second peak", lambda r: r.measures.ratio_1_00, EARLY),
+        over_amplitude("Yaw rate 1.75 s after", "over its second peak", lambda r: r.measures.ratio_1_75, LATE),
+        over_amplitude("Displacement 1.07 s after", "displacement, m", lambda r: r.measures.displacement, least),
     ]
