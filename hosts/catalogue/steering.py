@@ -98,15 +98,11 @@ class SteeringInput:
         ahead = 0.5 * step / float(result.time[1] - result.time[0])
         return np.asarray(np.append(held[:-1] + ahead * np.diff(held), held[-1:]))
 
-    def need_angles(self, test: str) -> None:
-        """Refuse a car of which angles of the steering wheel are not known.
-
-        Raises
-        ------
-        HostError
-        """
-        if not self.is_angle:
-            raise HostError(
-                f"The test {test} demands angles of the steering wheel in degrees, but the car takes only 'steering' "
-                f"from -1 to 1; give {LARGEST} in rad in the table [constants] of an alias file (--aliases)."
-            )
+    def why_no_angles(self, test: str) -> str | None:
+        """Why a test that demands angles of the steering wheel cannot be done; None if it can."""
+        if self.is_angle:
+            return None
+        return (
+            f"The test {test} demands angles of the steering wheel in degrees, but the car takes only 'steering' from "
+            f"-1 to 1; give {LARGEST} in rad in the table [constants] of an alias file (--aliases)."
+        )

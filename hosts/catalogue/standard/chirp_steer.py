@@ -16,7 +16,6 @@ from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRe
 from hosts.catalogue.steady_map import map_at_reachable_speed
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import NEED, SteeringInput
-from hosts.errors import HostError
 from hosts.measures.bandwidth import bandwidth
 from hosts.measures.frequency_response import FrequencyResponse, frequency_response
 from hosts.measures.measure import Measure
@@ -85,16 +84,25 @@ class ChirpSteer:
     )
     needs = ("chassis.wz", "chassis.ay", "speed", "throttle", NEED)
 
+    def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
+        """Why the test cannot be done with this car and these settings; None if it can."""
+        low, high, duration = (settings[n] for n in ("lowest_frequency", "highest_frequency", "duration"))
+        if high <= 2.0 * low:
+            return f"highest_frequency is {high:g} Hz; it must be above twice lowest_frequency, {2.0 * low:g} Hz."
+        if duration < 8.0 / low:
+            return f"duration is {duration:g} s; for {low:g} Hz it must be at least {8.0 / low:g} s."
+        if car.facts.step > 0.1 / high:
+            return (
+                f"The communication step is {car.facts.step:g} s; for responses up to {high:g} Hz it must not be "
+                f"longer than {0.1 / high:.3g} s (--step, or less highest_frequency)."
+            )
+        return None
+
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
         """See `hosts.catalogue.record.StandardTest.perform`."""
         given = SteeringInput.of(car.facts)
         speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
         low, high = settings["lowest_frequency"], settings["highest_frequency"]
-        if car.facts.step > 0.1 / high:
-            raise HostError(
-                f"The communication step is {car.facts.step:g} s; for responses up to {high:g} Hz it must not be "
-                f"longer than {0.1 / high:.3g} s (--step, or less highest_frequency)."
-            )
         ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)
         progress(0.3)
         amplitude = ramp.need_angle_at(wanted)

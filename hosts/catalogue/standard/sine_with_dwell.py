@@ -84,10 +84,13 @@ class SineWithDwellTest:
     )
     needs = ("chassis.wz", "chassis.ay", "speed", "throttle", NEED)
 
+    def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
+        """Why the test cannot be done with this car; None if it can."""
+        return SteeringInput.of(car.facts).why_no_angles(self.name)
+
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
         """See `hosts.catalogue.record.StandardTest.perform`."""
         given = SteeringInput.of(car.facts)
-        given.need_angles(self.name)
         speed = settings["speed"] / 3.6
         ramps = []
         for side in (1.0, -1.0):

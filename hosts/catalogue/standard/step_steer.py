@@ -14,7 +14,6 @@ from hosts.catalogue.steered_run import Pedals, steer
 from hosts.catalogue.steering import NEED, SteeringInput
 from hosts.catalogue.stepped_run import SteppedRun, measures_of_step, remarks, stepped
 from hosts.co_simulation import Result
-from hosts.errors import HostError
 from hosts.measures.measure import Measure
 
 _LEVELS = ("level_1", "level_2", "level_3")
@@ -54,17 +53,21 @@ class StepSteer:
     )
     needs = ("chassis.wz", "chassis.ay", "speed", "throttle", NEED)
 
+    def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
+        """Why the test cannot be done with these settings; None if it can."""
+        begin, end = settings["steady_from"], settings["steady_to"]
+        if end <= begin:
+            return (
+                f"The window of the steady state begins at steady_from = {begin:g} s and ends at steady_to = {end:g} "
+                "s; it must end later."
+            )
+        if not any(settings[name] > 0.0 for name in _LEVELS):
+            return "level_1, level_2 and level_3 are all 0; one of them must be above 0 m/s²."
+        return None
+
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
         """See `hosts.catalogue.record.StandardTest.perform`."""
-        steady = (settings["steady_from"], settings["steady_to"])
-        if steady[1] <= steady[0]:
-            raise HostError(
-                f"The window of the steady state begins at steady_from = {steady[0]:g} s and ends at steady_to = "
-                f"{steady[1]:g} s; it must end later."
-            )
         levels = {name: settings[name] for name in _LEVELS if settings[name] > 0.0}
-        if not levels:
-            raise HostError("level_1, level_2 and level_3 are all 0; one of them must be above 0 m/s².")
         given = SteeringInput.of(car.facts)
         speed = settings["speed"] / 3.6
         ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), max(levels.values()))
