@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import types
 import typing
 from collections.abc import Sequence
 from typing import Any
@@ -47,7 +46,7 @@ def _short(value: object) -> str:
 
 def _models(annotation: Any) -> list[type[BaseModel]]:
     """Models in an annotation, such as that of `list[Entry] | None`."""
-    if isinstance(annotation, type) and not isinstance(annotation, types.GenericAlias):
+    if typing.get_origin(annotation) is None and isinstance(annotation, type):
         return [annotation] if issubclass(annotation, BaseModel) else []
     return [model for part in typing.get_args(annotation) for model in _models(part)]
 

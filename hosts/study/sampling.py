@@ -12,8 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-_SEED: Any = "seed" if "seed" in inspect.signature(qmc.Sobol).parameters else "rng"
+_SEED = "seed" if "seed" in inspect.signature(qmc.Sobol).parameters else "rng"
 """How SciPy calls the seed. Where it has both names they draw different points, and `SALib` uses the old one."""
+
+
+def _seed(seed: int) -> dict[str, Any]:
+    return {_SEED: seed}
 
 
 class Sampler(Protocol):
@@ -42,7 +46,7 @@ class LatinHypercube:
 
     def __init__(self, dimensions: int, count: int, seed: int) -> None:
         self.count = count
-        self._points = qmc.LatinHypercube(dimensions, **{_SEED: seed}).random(count)
+        self._points = qmc.LatinHypercube(dimensions, **_seed(seed)).random(count)
 
     def block(self, first: int, count: int) -> NDArray[np.float64]:
         """See `Sampler`."""
@@ -59,7 +63,7 @@ class SobolSequence:
 
     def __init__(self, dimensions: int, count: int, seed: int) -> None:
         self.count = count
-        self._engine = qmc.Sobol(dimensions, **{_SEED: seed})
+        self._engine = qmc.Sobol(dimensions, **_seed(seed))
         self._next = 0
 
     def block(self, first: int, count: int) -> NDArray[np.float64]:

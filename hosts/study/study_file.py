@@ -32,11 +32,11 @@ class _Part(BaseModel):
 class ParameterEntry(_Part):
     """How a parameter of the FMU is varied."""
 
-    range: list[Number] | None = Field(None, min_length=2, max_length=2, description="two numbers, the lower first")
-    values: list[Setting] | None = Field(None, min_length=1, description="a list of at least one value")
-    count: int | None = Field(None, ge=1, description="a whole number, how many values of the range a grid has")
-    unit: str | None = Field(None, description="the unit of the FMU or a display unit of it, as text")
-    log: bool = Field(False, description="true or false: whether the range is divided by the logarithm")
+    range: list[Number] | None = Field(default=None, min_length=2, max_length=2, description="two numbers, the lower first")
+    values: list[Setting] | None = Field(default=None, min_length=1, description="a list of at least one value")
+    count: int | None = Field(default=None, ge=1, description="a whole number, how many values of the range a grid has")
+    unit: str | None = Field(default=None, description="the unit of the FMU or a display unit of it, as text")
+    log: bool = Field(default=False, description="true or false: whether the range is divided by the logarithm")
 
     @model_validator(mode="after")
     def _fits(self) -> ParameterEntry:
@@ -54,11 +54,11 @@ class ParameterEntry(_Part):
 class ManoeuvreEntry(_Part):
     """What is done with the FMU at each point."""
 
-    name: Name | None = Field(None, description="letters, digits, dots, minus signs and underscores")
-    manoeuvre: str | None = Field(None, description="a manoeuvre of the command drive: its name or a file")
-    test: str | None = Field(None, description="the name of a test of the command catalogue")
+    name: Name | None = Field(default=None, description="letters, digits, dots, minus signs and underscores")
+    manoeuvre: str | None = Field(default=None, description="a manoeuvre of the command drive: its name or a file")
+    test: str | None = Field(default=None, description="the name of a test of the command catalogue")
     settings: dict[str, Number] = Field(default_factory=dict, description="numbers by the name of a test's setting")
-    stop_time: Number | None = Field(None, gt=0.0, description="a positive number, s")
+    stop_time: Number | None = Field(default=None, gt=0.0, description="a positive number, s")
     start: dict[str, Setting] = Field(default_factory=dict, description="values by names of parameters or inputs")
 
     @model_validator(mode="after")
@@ -78,12 +78,12 @@ class SamplingEntry(_Part):
     """Which points there are."""
 
     method: Literal["grid", "latin_hypercube", "sobol", "saltelli", "table"] = Field(
-        "grid", description=f"one of {', '.join(METHODS)}"
+        default="grid", description=f"one of {', '.join(METHODS)}"
     )
-    runs: int | None = Field(None, ge=1, le=2**30, description="a positive whole number of points")
-    seed: int = Field(0, ge=0, lt=2**63, description="a whole number from 0")
-    second_order: bool = Field(False, description="true or false, for the method saltelli")
-    file: str | None = Field(None, description="a CSV file whose heading names parameters, for the method table")
+    runs: int | None = Field(default=None, ge=1, le=2**30, description="a positive whole number of points")
+    seed: int = Field(default=0, ge=0, lt=2**63, description="a whole number from 0")
+    second_order: bool = Field(default=False, description="true or false, for the method saltelli")
+    file: str | None = Field(default=None, description="a CSV file whose heading names parameters, for the method table")
 
     @model_validator(mode="after")
     def _fits(self) -> SamplingEntry:
@@ -109,17 +109,17 @@ class SignalsEntry(_Part):
 class StudyFile(_Part):
     """A study."""
 
-    name: Name | None = Field(None, description="letters, digits, dots, minus signs and underscores")
-    fmu: str | None = Field(None, description="the path of an FMU")
-    car: str | None = Field(None, description="a car of the package by its name, or a car file")
-    aliases: str | None = Field(None, description="an alias file, or the name of one of the package")
-    step: Number | None = Field(None, gt=0.0, description="a positive number, s")
-    time_limit: Number | None = Field(None, gt=0.0, description="a positive number: the most that a run may take, s")
+    name: Name | None = Field(default=None, description="letters, digits, dots, minus signs and underscores")
+    fmu: str | None = Field(default=None, description="the path of an FMU")
+    car: str | None = Field(default=None, description="a car of the package by its name, or a car file")
+    aliases: str | None = Field(default=None, description="an alias file, or the name of one of the package")
+    step: Number | None = Field(default=None, gt=0.0, description="a positive number, s")
+    time_limit: Number | None = Field(default=None, gt=0.0, description="a positive number: the most that a run may take, s")
     start: dict[str, Setting] = Field(default_factory=dict, description="values by names of parameters or inputs")
     manoeuvres: list[ManoeuvreEntry] = Field(min_length=1, description="at least one table [[manoeuvres]]")
-    sampling: SamplingEntry = Field(SamplingEntry(), description="a table")
+    sampling: SamplingEntry = Field(default=SamplingEntry(), description="a table")
     parameters: dict[str, ParameterEntry] = Field(default_factory=dict, description="a table for each parameter")
-    signals: SignalsEntry | None = Field(None, description="a table with names and interval")
+    signals: SignalsEntry | None = Field(default=None, description="a table with names and interval")
     measures: dict[Name, str] = Field(default_factory=dict, description="what is computed, as text, by its name")
 
     @model_validator(mode="after")
@@ -133,9 +133,9 @@ class StudyFile(_Part):
                 if entry.range is None and entry.values is None:
                     raise ValueError(f"parameters.'{name}' needs a range or values")
                 if self.sampling.method == "grid" and entry.range is not None and entry.count is None:
-                    raise ValueError(f"parameters.'{name}' needs a count, the number of values of its range in the grid")
+                    raise ValueError(f"parameters.'{name}' needs a count, how many values of its range the grid has")
                 if self.sampling.method != "grid" and entry.count is not None:
-                    raise ValueError(f"parameters.'{name}' has a count, which the method {self.sampling.method} has not")
+                    raise ValueError(f"parameters.'{name}' has a count, which goes with the method grid")
         both = sorted(set(self.start) & set(self.parameters))
         if both:
             raise ValueError(f"'{both[0]}' is a parameter and in [start]; give it once")

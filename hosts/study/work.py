@@ -132,6 +132,8 @@ class Outcome:
     simulated, wall : float
         s.
     signals : ndarray of shape (samples, signals), optional
+    units : dict of str to str
+        Of the measures of a test, where it is not yet known which there are.
     """
 
     status: str = DONE
@@ -140,6 +142,7 @@ class Outcome:
     simulated: float = 0.0
     wall: float = 0.0
     signals: NDArray[np.float64] | None = None
+    units: dict[str, str] = field(default_factory=dict)
 
 
 def seed_of(study_seed: int, point: int) -> int:
