@@ -187,6 +187,7 @@ def run(
     driver: Pilot | None = None,
     progress: Callable[[int], None] = lambda done: None,
     until: Callable[[float, Mapping[str, float]], bool] | None = None,
+    every: int = 1,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
@@ -203,6 +204,8 @@ def run(
         Called with the number of finished steps from time to time.
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
+    every : int
+        Steps from one recorded row to the next.
 
     Returns
     -------
@@ -228,7 +231,7 @@ def run(
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
     set_inputs = _setter(fmu, used)
     steps = max(1, round(manoeuvre.stop_time / step))
-    values = np.empty((steps + 1, len(inputs) + len(outputs)))
+    values = np.empty((steps // every + 1, len(inputs) + len(outputs)))
     columns = [inputs.index(n) for n in used]
     held = fmu.start_values(inputs)
     for name, value in {**manoeuvre.start, **first}.items():
@@ -253,8 +256,9 @@ def run(
             break
         done = k + 1
         row = get_outputs()
-        values[done, : len(inputs)] = held
-        values[done, len(inputs) :] = row
+        if done % every == 0:
+            values[done // every, : len(inputs)] = held
+            values[done // every, len(inputs) :] = row
         if done % 50 == 0:
             progress(done)
         if until is not None and until(done * step, _Senses(zip(outputs, row, strict=True))):
@@ -265,8 +269,8 @@ def run(
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
-        step * np.arange(done + 1, dtype=np.float64),
-        values[: done + 1],
+        step * every * np.arange(done // every + 1, dtype=np.float64),
+        values[: done // every + 1],
         wall,
         done * step,
         failed,

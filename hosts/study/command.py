@@ -69,13 +69,15 @@ def _out(options: argparse.Namespace) -> Path:
 
 
 def _report(folder: Path) -> int:
-    import importlib.util
+    import importlib
 
-    if importlib.util.find_spec("hosts.study.analysis") is None:
+    try:
+        report = importlib.import_module("hosts.study.analysis.report")
+    except ModuleNotFoundError as error:
+        if not (error.name or "").startswith("hosts.study"):
+            raise
         return 0
-    from hosts.study.analysis.report import write_report
-
-    print(f"written: {', '.join(str(file) for file in write_report(folder))}")
+    print(f"written: {', '.join(str(file) for file in report.write_report(folder))}")
     return 0
 
 

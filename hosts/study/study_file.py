@@ -32,7 +32,9 @@ class _Part(BaseModel):
 class ParameterEntry(_Part):
     """How a parameter of the FMU is varied."""
 
-    range: list[Number] | None = Field(default=None, min_length=2, max_length=2, description="two numbers, the lower first")
+    range: list[Number] | None = Field(
+        default=None, min_length=2, max_length=2, description="two numbers, low and high"
+    )
     values: list[Setting] | None = Field(default=None, min_length=1, description="a list of at least one value")
     count: int | None = Field(default=None, ge=1, description="a whole number, how many values of the range a grid has")
     unit: str | None = Field(default=None, description="the unit of the FMU or a display unit of it, as text")
@@ -83,7 +85,7 @@ class SamplingEntry(_Part):
     runs: int | None = Field(default=None, ge=1, le=2**30, description="a positive whole number of points")
     seed: int = Field(default=0, ge=0, lt=2**63, description="a whole number from 0")
     second_order: bool = Field(default=False, description="true or false, for the method saltelli")
-    file: str | None = Field(default=None, description="a CSV file whose heading names parameters, for the method table")
+    file: str | None = Field(default=None, description="a CSV file whose heading names parameters")
 
     @model_validator(mode="after")
     def _fits(self) -> SamplingEntry:
@@ -114,7 +116,7 @@ class StudyFile(_Part):
     car: str | None = Field(default=None, description="a car of the package by its name, or a car file")
     aliases: str | None = Field(default=None, description="an alias file, or the name of one of the package")
     step: Number | None = Field(default=None, gt=0.0, description="a positive number, s")
-    time_limit: Number | None = Field(default=None, gt=0.0, description="a positive number: the most that a run may take, s")
+    time_limit: Number | None = Field(default=None, gt=0.0, description="a positive number, s, that a run may take")
     start: dict[str, Setting] = Field(default_factory=dict, description="values by names of parameters or inputs")
     manoeuvres: list[ManoeuvreEntry] = Field(min_length=1, description="at least one table [[manoeuvres]]")
     sampling: SamplingEntry = Field(default=SamplingEntry(), description="a table")
