@@ -43,7 +43,7 @@ def difference(value: float, first: float) -> str:
     sign = "+" if change > 0.0 else "−"
     text = f"{sign}{shown(abs(change))}"
     if first != 0.0 and abs(change / first) < 10.0:
-        text += f" ({sign}{100.0 * abs(change / first):.2g} %)"
+        text += f" ({sign}{100.0 * abs(change / first):.3g} %)"
     return text
 
 

@@ -148,7 +148,7 @@ def _outcome(record: TestRecord | str | None) -> HtmlElement:
     if kept == len(limited):
         text = "limit kept" if kept == 1 else f"{kept} limits kept"
         return element("td", element("span", text, class_="kept"), *more)
-    text = f"{len(limited) - kept} of {len(limited)} limits not kept"
+    text = "limit not kept" if len(limited) == 1 else f"{len(limited) - kept} of {len(limited)} limits not kept"
     return element("td", element("span", text, class_="broken"), *more)
 
 

@@ -25,7 +25,7 @@ _MARKERS = ("", "o", "s", "^", "D", "v", "P")
 _MARKS = 9
 """Markers on a line that is one of several of its car."""
 # Inches; the height is that of the axes.
-_WIDTH, _HEIGHT, _LEFT, _RIGHT, _ABOVE, _BELOW, _LEGEND_ROW = 6.6, 3.0, 0.85, 0.15, 0.32, 0.55, 0.21
+_WIDTH, _HEIGHT, _LEFT, _RIGHT, _ABOVE, _BELOW, _LEGEND_ROW = 5.6, 2.9, 0.85, 0.15, 0.32, 0.55, 0.21
 _FEW = 40
 """Points that may be measured ones: each is marked."""
 _SETTINGS: Mapping[Any, Any] = {**STYLE, "svg.fonttype": "path", "svg.hashsalt": "report", "axes.titlesize": 10.5}
@@ -68,7 +68,7 @@ def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> list[Picture]:
 def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> Picture:
     first = next(iter(found.values()))[1]
     names = [_name(label, line, plot, many) for label, plot in found.values() for line in plot.lines]
-    columns = 1 if max(map(len, names), default=0) > 38 else 2
+    columns = 1 if max(map(len, names), default=0) > 30 else 2
     rows = -(-len(names) // columns) if len(names) > 1 else 0
     below = _BELOW + _LEGEND_ROW * rows
     height = _ABOVE + _HEIGHT * (1.3 if first.equal else 1.0) + below
