@@ -32,8 +32,8 @@ def fmu(tmp_path_factory):
     text = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="Small &lt;b&gt;" guid="{1-2}" generationTool="a tool"
 numberOfEventIndicators="0"><CoSimulation modelIdentifier="small"/>
-<UnitDefinitions><Unit name="N/m"><BaseUnit kg="1" s="-2"/></Unit></UnitDefinitions><DefaultExperiment stepSize="0.004"/>
-<ModelVariables><ScalarVariable name="front.spring.stiffness" valueReference="0" causality="parameter"
+<UnitDefinitions><Unit name="N/m"><BaseUnit kg="1" s="-2"/></Unit></UnitDefinitions>
+<DefaultExperiment stepSize="0.004"/><ModelVariables><ScalarVariable name="front.spring.stiffness" valueReference="0" causality="parameter"
 variability="fixed"><Real start="12360" unit="N/m"/></ScalarVariable>
 <ScalarVariable name="initial.x" valueReference="1" causality="parameter" variability="fixed"><Real start="0"/>
 </ScalarVariable></ModelVariables><ModelStructure/></fmiModelDescription>"""
@@ -110,7 +110,7 @@ def test_a_section_has_all_of_a_test(report):
         assert words in text
     not_done = texts(document.xpath("//section[@id='test_1']"))[0]
     assert "with $stiff$ springs: not done. The FMU has no variable steering;" in not_done
-    assert "--test-setting test_1.speed=80 --tests test_1" in not_done
+    assert "--test-setting test_1.speed=80 --jobs 2 --tests test_1" in not_done
     assert len(document.xpath("//section[@id='test_0']//details")) == 4
 
 
