@@ -175,11 +175,7 @@ def _report(
     settings: Mapping[str, Mapping[str, float]],
     command: Sequence[str],
 ) -> list[Path]:
-    from importlib.util import find_spec
-
-    if find_spec("hosts.catalogue.report") is None:
-        return []
-    from hosts.catalogue.report import write_report  # type: ignore[import-not-found]
+    from hosts.catalogue.report import write_report
 
     write_report(file, tests, cars, outcomes, settings, command)
     return [file]

@@ -33,7 +33,8 @@ def fmu(tmp_path_factory):
 <fmiModelDescription fmiVersion="2.0" modelName="Small &lt;b&gt;" guid="{1-2}" generationTool="a tool"
 numberOfEventIndicators="0"><CoSimulation modelIdentifier="small"/>
 <UnitDefinitions><Unit name="N/m"><BaseUnit kg="1" s="-2"/></Unit></UnitDefinitions>
-<DefaultExperiment stepSize="0.004"/><ModelVariables><ScalarVariable name="front.spring.stiffness" valueReference="0" causality="parameter"
+<DefaultExperiment stepSize="0.004"/>
+<ModelVariables><ScalarVariable name="front.spring.stiffness" valueReference="0" causality="parameter"
 variability="fixed"><Real start="12360" unit="N/m"/></ScalarVariable>
 <ScalarVariable name="initial.x" valueReference="1" causality="parameter" variability="fixed"><Real start="0"/>
 </ScalarVariable></ModelVariables><ModelStructure/></fmiModelDescription>"""

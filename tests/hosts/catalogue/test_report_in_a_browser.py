@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from tests.hosts.catalogue.synthetic_records import synthetic
 
 from hosts.catalogue.report import write_report
+from tests.hosts.catalogue.synthetic_records import synthetic
 from viewer import browser
 
 
@@ -40,7 +40,7 @@ def seen(tmp_path_factory):
 def test_it_opens_without_a_word_and_loads_nothing(seen):
     _, told, asked = seen
     assert told == []
-    assert {url.partition(":")[0] for url in asked} == {"file", "data"}
+    assert {url.partition(":")[0] for url in asked} <= {"file", "data"}
     assert sum(url.startswith("file") for url in asked) == 2
 
 
