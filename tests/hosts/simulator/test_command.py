@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import math
+import re
 import os
 import shutil
 import subprocess
@@ -178,6 +179,8 @@ def renamed(fmus, tmp_path):
             if item.filename == "modelDescription.xml":
                 for ours, theirs in NAMES.items():
                     content = content.replace(f'name="{ours}"'.encode(), f'name="{theirs}"'.encode())
+                # One that is in kilometres, of which the other program says nothing.
+                content = re.sub(rb'(name="X"[^>]*>\s*<Real)[^>]*', rb"\1 /", content)
             if item.filename != "resources/geometry.json":
                 new.writestr(item, content)
     return made
