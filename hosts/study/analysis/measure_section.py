@@ -53,7 +53,9 @@ def measure_section(
         body.append("<h3>Main effects</h3>")
         figure = plot_main_effects(data.parameters, response, effects)
         body.append(pictures.add(figure, f"{name}_effects", f"Main effects on {label}"))
-        body.append(paragraph("Mean over all runs of a class of the parameter, with its interval of 95 %.", "note"))
+        of_blocks = " (about: runs of a block of the design share values)" * (data.method == "saltelli")
+        words = f"Mean over all runs of a class of the parameter, with its interval of 95 %{of_blocks}."
+        body.append(paragraph(words, "note"))
         body.append("<h3>Runs</h3>")
         figure = plot_scatter(data, response, effects)
         body.append(pictures.add(figure, f"{name}_runs", f"{label} over each parameter"))

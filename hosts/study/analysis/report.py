@@ -50,7 +50,8 @@ def write_report(folder: Path) -> list[Path]:
     from hosts.study.store import read_study
 
     def commands(index: int) -> list[str]:
-        repeat = repeat_command(folder, index, write=True)
+        # Whole paths: the report is read from any folder.
+        repeat = repeat_command(folder.absolute(), index, write=True)
         return [line for line in (repeat.drive, repeat.view) if line]
 
     return report_of(read_study(folder), folder, commands)

@@ -20,6 +20,7 @@ import pytest
 
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
+from hosts import built_fmu
 from hosts.aliases import Aliases, read_aliases
 from hosts.errors import HostError
 from hosts.manoeuvre import load_manoeuvre
@@ -314,7 +315,7 @@ def test_a_build_that_fails_is_one_sentence(told, tmp_path, monkeypatch):
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(
-        fmu_file, "module_command", lambda *_: [sys.executable, "-c", "import sys; sys.exit('error: No.')"]
+        built_fmu, "module_command", lambda *_: [sys.executable, "-c", "import sys; sys.exit('error: No.')"]
     )
     code, _, error = told("--headless", "--seconds", 1)
     assert (code, error) == (2, "error: The FMU of the car cannot be built: No.")
