@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.steered_run import level_acceleration
 from hosts.catalogue.steering import SteeringInput
 from hosts.co_simulation import Result
 from hosts.manoeuvre import Manoeuvre
@@ -148,7 +149,7 @@ def drive_circle(
     result = car.drive(Manoeuvre(name, np.zeros(0), {}, stop, dict(start)), pilot, ends, record_step=_RECORD)
     if result.failed_steps:
         watch.end = f"the FMU refused the step at {result.time[-1]:.4g} s: {' '.join(result.messages[-1:])}".strip()
-    return _signals(result, watch, steering)
+    return _signals(result, watch, steering, car.facts.step)
 
 
 def _pilot(
@@ -184,7 +185,7 @@ class _Wheel:
         return {self.steering.name: self.steering.per_radian * self.angle(time)}
 
 
-def _signals(result: Result, watch: _Watch, steering: SteeringInput) -> CircleRun:
+def _signals(result: Result, watch: _Watch, steering: SteeringInput, step: float) -> CircleRun:
     rows = result.time >= (watch.begin if math.isfinite(watch.begin) else math.inf)
     blank = np.full(int(rows.sum()), math.nan)
 
@@ -192,8 +193,7 @@ def _signals(result: Result, watch: _Watch, steering: SteeringInput) -> CircleRu
         return result[name][rows] if name in result else blank
 
     roll = of("chassis.roll")
-    # Level and across the travel: on a circle the body has no acceleration upwards.
-    acceleration = of("chassis.ay") / np.cos(np.where(np.isfinite(roll), roll, 0.0))
+    acceleration = level_acceleration(result)[rows]
     largest = math.nan
     if rows.any():
         width = max(1, round(1.0 / _interval(result.time)))
@@ -202,7 +202,7 @@ def _signals(result: Result, watch: _Watch, steering: SteeringInput) -> CircleRu
         result,
         result.time[rows],
         acceleration,
-        steering.measured(result)[rows],
+        steering.measured(result, step)[rows],
         of("sideslip"),
         roll,
         of("steering_wheel_torque"),

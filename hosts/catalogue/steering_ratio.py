@@ -40,4 +40,4 @@ def steering_ratio(car: TestedCar) -> float:
     rows = result.time > 1.0
     if rows.sum() < 10 or not np.ptp(wheels[rows]) > 1e-3:
         return car.constants.get(RATIO, math.nan)
-    return 1.0 / float(stats.linregress(steering.measured(result)[rows], wheels[rows]).slope)
+    return 1.0 / float(stats.linregress(steering.measured(result, car.facts.step)[rows], wheels[rows]).slope)
