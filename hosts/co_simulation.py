@@ -105,7 +105,7 @@ def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | N
         return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
 
 
-def driver_of(fmu: Fmu, manoeuvre: Manoeuvre) -> Driver | None:
+def driver_of(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
 
     Raises
@@ -119,7 +119,7 @@ def driver_of(fmu: Fmu, manoeuvre: Manoeuvre) -> Driver | None:
     return make_driver(manoeuvre.driver, fmu.constants())
 
 
-def _check_drivable(fmu: Fmu) -> None:
+def _check_drivable(fmu: Fmu | AliasedFmu) -> None:
     inputs, outputs = fmu.names("input"), fmu.names("output")
     missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
     if missing:
