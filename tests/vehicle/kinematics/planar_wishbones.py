@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from scipy.optimize import brentq
@@ -23,14 +24,17 @@ class FourBar:
 
     def car(self, **more):
         """The prototype with these wishbones; its tie rod is a copy of the lower arm, so that nothing steers."""
-        points = "front.suspension.points"
+        return _car(self, tuple(more.items()))
+
+    def points(self):
+        """Hard points as the file names them."""
         (ly, lz), (by, bz), (uy, uz), (vy, vz) = (
             self.lower_pivot,
             self.lower_ball,
             self.upper_pivot,
             self.upper_ball,
         )
-        changes = {
+        return {
             "lower_pivot_front": [0.15, ly, lz],
             "lower_pivot_rear": [-0.15, ly, lz],
             "upper_pivot_front": [0.13, uy, uz],
@@ -39,9 +43,7 @@ class FourBar:
             "upper_ball_joint": [0.0, vy, vz],
             "tie_rod_inner": [-0.125, ly, lz],
             "tie_rod_outer": [-0.125, by, bz],
-        } | more
-        moved = {f"{points}.{name}": value for name, value in changes.items()}
-        return load("prototype").changed(moved | {"chassis.frame.or_rigid": True})  # the frame has other joints
+        }
 
     def upright(self, angle):
         """Lower ball joint and turn of the upright about x for an angle of the lower arm, rad."""
@@ -90,3 +92,9 @@ class FourBar:
         low, turn = self.upright(angle)
         gap = np.subtract((TRACK_HALF, CENTRE), self.lower_ball)
         return low[1] + np.sin(turn) * gap[0] + np.cos(turn) * gap[1]
+
+
+@cache
+def _car(linkage, more):
+    moved = {f"front.suspension.points.{name}": list(value) for name, value in (linkage.points() | dict(more)).items()}
+    return load("prototype").changed(moved | {"chassis.frame.or_rigid": True})  # the frame has other joints
