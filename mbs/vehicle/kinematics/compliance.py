@@ -137,12 +137,13 @@ def _responses(held: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, flo
 
 def _load(wheel: HeldWheel, load: str) -> Array:
     """Generalised force (nq,) of a unit load on a wheel's carrier."""
-    return {
+    rows = {
         "lateral_force": wheel.contact[1],
         "longitudinal_force": wheel.contact[0],
         "drive_force": wheel.centre[0],
         "aligning_torque": wheel.turn[2],
-    }[load]
+    }
+    return np.asarray(rows[load])
 
 
 def _responding(wheel: HeldWheel) -> dict[str, Array]:

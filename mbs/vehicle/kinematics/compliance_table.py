@@ -36,17 +36,33 @@ def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
         Of a car.
     """
     title = f"Compliance of the left wheel per load (fidelity {found.fidelity.value})"
-    lines = [(title, "", "", "", "")]
+    lines: list[tuple[str, str, str, str, str]] = [(title, "", "", "", "")]
     for load in LOADS if found.freedoms else ():
         units = _TORQUE if load == "aligning_torque" else _FORCE
         for sense in SENSES:
             for name, kind, meaning in (*_ANGLES, *_SHOWN.get(load, ())):
                 factor, unit = units[kind]
                 values = [found.values[axle][f"{load}.{sense}.{name}"] * factor for axle in ("front", "rear")]
-                lines.append((f"{_WORDS[load]}, {_SENSE[sense]}", *map(shown_number, values), unit, meaning))
+                lines.append(
+                    (
+                        f"{_WORDS[load]}, {_SENSE[sense]}",
+                        shown_number(values[0]),
+                        shown_number(values[1]),
+                        unit,
+                        meaning,
+                    )
+                )
     for name, words in (("wheel_rate", "wheel rate with what gives"), ("roll_wheel_rate", "the same in roll")):
         values = [1e-3 * found.values[axle][name] for axle in ("front", "rear")]
-        lines.append((words, *map(shown_number, values), "N/mm", "load per travel, frame or column in series"))
+        lines.append(
+            (
+                words,
+                shown_number(values[0]),
+                shown_number(values[1]),
+                "N/mm",
+                "load per travel, frame or column in series",
+            )
+        )
     return lines
 
 

@@ -172,8 +172,8 @@ def _curve(linkage: Linkage, motion: str, values: Array, measures: Callable[[Pos
         if end is not None:
             what = "rack travel" if motion == "steer" else "wheel travel"
             notes.append(
-                f"{linkage.name} axle, {WORDS[motion]}: the curve ends at {1e3 * end:.1f} mm of {what}, before the "
-                f"{1e3 * last:.1f} mm asked for; beyond it the links are at a dead point or too short or too long."
+                f"{linkage.name} axle, {WORDS[motion]}: the links allow no more than {1e3 * end:+.1f} mm of {what} (a "
+                f"dead point, or a link too short or too long); the curve ends there, not at {1e3 * last:+.1f} mm."
             )
     middle = [linkage.drawn] if np.any(values == 0.0) else []
     rows = [measures(at) for at in (*below[::-1], *middle, *above)]

@@ -10,6 +10,7 @@ import pytest
 from mbs.vehicle import load
 from mbs.vehicle.kinematics.curves import steer_curve, travel_curve
 from mbs.vehicle.kinematics.linkage import Linkage
+from tests.vehicle import instant
 from tests.vehicle.kinematics.point_and_link import Beam, Upright
 
 TRAVEL = np.linspace(-0.08, 0.08, 9)
@@ -114,3 +115,42 @@ def test_gradients_are_slopes_of_their_curves(car, axle, motion):
         np.testing.assert_allclose(curve[f"{ratio}_left"][1:-1], slope[1:-1], atol=2e-5)
     slope = np.gradient(curve["spring_load_left"], fine, edge_order=2)
     np.testing.assert_allclose(curve["wheel_rate_left"][1:-1], slope[1:-1], rtol=2e-4)
+
+
+def test_signs_of_toe_and_camber_are_those_of_their_names():
+    """By the twist of the left upright per travel: its z part turns it to the left, its x part to the right."""
+    link = linkage("hatchback", "front")
+    twist = instant.per_travel(instant.macpherson(link.data.suspension.points), link.data.wheel.centre)
+    drawn = travel_curve(link, "parallel", np.array([-0.01, 0.0, 0.01])).drawn()
+    for side in ("left", "right"):
+        assert drawn[f"toe_gradient_{side}"] == pytest.approx(-twist[5], rel=1e-9)
+        assert drawn[f"camber_gradient_{side}"] == pytest.approx(-twist[3], rel=1e-9)
+    assert twist[5] > 0.05  # the front of the left wheel goes to the left in bump: it toes out
+
+
+def test_roll_of_the_twist_beam():
+    """Each half turns about the line through its pivot and the middle of the shear axis."""
+    link = linkage("hatchback", "rear")
+    twist = instant.per_travel(instant.twist_beam(link.data.suspension.points, "roll"), link.data.wheel.centre)
+    roll = -0.5 * link.data.track * twist  # per roll angle, left side up: the left wheel goes down by half the track
+    drawn = travel_curve(link, "opposite", np.array([-0.01, 0.0, 0.01])).drawn()
+    assert drawn["roll_steer"] == pytest.approx(roll[5], rel=1e-9)
+    assert drawn["roll_camber"] == pytest.approx(1.0 + roll[3], rel=1e-9)
+    way = instant.velocity(roll, instant.contact(link.data.wheel.centre))
+    assert drawn["roll_centre_height"] == pytest.approx(0.5 * link.data.track * way[1] / way[2], rel=1e-9)
+    lever = instant.lever_rate(link.data.anti_roll_bar, twist)
+    assert drawn["anti_roll_bar_ratio"] == pytest.approx(lever, rel=1e-9)  # both levers turn, per both travels
+    bar, beam = link.data.anti_roll_bar.stiffness * lever**2, link.data.suspension.torsional_stiffness * twist[4] ** 2
+    assert 2.0 * (bar + beam) < drawn["wheel_rate_left"] < 2.0 * (bar + beam) + link.data.spring.stiffness
+
+
+def test_no_bar_no_part_of_the_bar():
+    """The bar's share of the wheel rate in roll is its stiffness times twice the square of its ratio."""
+    car = load("hatchback")
+    bare = Linkage(car.changed({"front.anti_roll_bar.factor": 0.0}), "front")
+    travel = np.array([-0.01, 0.0, 0.01])
+    with_bar, without = (
+        travel_curve(link, "opposite", travel).drawn() for link in (linkage("hatchback", "front"), bare)
+    )
+    share = 2.0 * car.front.anti_roll_bar.stiffness * with_bar["anti_roll_bar_ratio"] ** 2
+    assert with_bar["wheel_rate_left"] - without["wheel_rate_left"] == pytest.approx(share, rel=1e-6)
