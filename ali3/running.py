@@ -22,6 +22,7 @@ _EXTRAS = {
     "imageio_ffmpeg": "pictures",
     "lxml": "hosts",
     "matplotlib": "hosts",
+    "pandas": "study",
     "PIL": "roads",
     "platformdirs": "simulator",
     "psutil": "simulator",

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.aliased_fmu import AliasedFmu
 from hosts.driver import ACTS, SENSES, Driver, make_driver
 from hosts.errors import HostError
 from hosts.fmu import Fmu, StepRefusedError
 from hosts.manoeuvre import Manoeuvre, with_names_of
+from hosts.pilots.pilot import Pilot
 
 # Bytes a run may record: more would fill the memory before the disk.
 _LARGEST_RECORD = 4e9
@@ -58,7 +60,7 @@ class Result:
         return np.asarray(self.values[:, self.names.index(name)])
 
 
-def communication_step(fmu: Fmu, manoeuvre: Manoeuvre, step: float | None) -> float:
+def communication_step(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
     """The step of a run: the one that was asked for, else that of the FMU.
 
     Parameters
@@ -103,7 +105,7 @@ def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | N
         return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
 
 
-def driver_of(fmu: Fmu, manoeuvre: Manoeuvre) -> Driver | None:
+def driver_of(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
 
     Raises
@@ -117,14 +119,14 @@ def driver_of(fmu: Fmu, manoeuvre: Manoeuvre) -> Driver | None:
     return make_driver(manoeuvre.driver, fmu.constants())
 
 
-def _check_drivable(fmu: Fmu) -> None:
+def _check_drivable(fmu: Fmu | AliasedFmu) -> None:
     inputs, outputs = fmu.names("input"), fmu.names("output")
     missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
     if missing:
         raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
 
 
-def check_columns(fmu: Fmu, manoeuvre: Manoeuvre) -> None:
+def check_columns(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre) -> None:
     """Refuse a table with a column that is no input and no tunable parameter of the FMU, or not of its kind.
 
     Raises
@@ -153,7 +155,7 @@ def check_columns(fmu: Fmu, manoeuvre: Manoeuvre) -> None:
                 fmu.table[name].check(value, f"The manoeuvre '{manoeuvre.name}'")
 
 
-def _setter(fmu: Fmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+def _setter(fmu: Fmu | AliasedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
     """Sets inputs, and those of the parameters that have changed: a parameter may be dear."""
     tunable = set(fmu.tunable)
     inputs = [k for k, n in enumerate(names) if n not in tunable]
@@ -171,26 +173,39 @@ def _setter(fmu: Fmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]
     return set_values
 
 
+class _Senses(dict[str, float]):
+    """Outputs by name; one that there is not is named to the user."""
+
+    def __missing__(self, name: str) -> float:
+        raise HostError(f"Who drives needs the output '{name}', which the FMU does not have.")
+
+
 def run(
-    fmu: Fmu,
+    fmu: Fmu | AliasedFmu,
     manoeuvre: Manoeuvre,
     step: float,
-    driver: Driver | None = None,
+    driver: Pilot | None = None,
     progress: Callable[[int], None] = lambda done: None,
+    until: Callable[[float, Mapping[str, float]], bool] | None = None,
+    every: int = 1,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
     Parameters
     ----------
-    fmu : Fmu
+    fmu : Fmu or AliasedFmu
         Not yet initialised.
     manoeuvre : Manoeuvre
     step : float
         Communication step, s.
-    driver : Driver, optional
-        Overrules the inputs it acts on.
+    driver : Pilot, optional
+        Overrules the inputs it acts on, which are those of its first act.
     progress : callable
         Called with the number of finished steps from time to time.
+    until : callable, optional
+        Of the time and the outputs; the run ends with the first step after which it is true.
+    every : int
+        Steps from one recorded row to the next.
 
     Returns
     -------
@@ -201,25 +216,27 @@ def run(
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
-    if driver is not None:
-        _check_drivable(fmu)
     whole = {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
-    used = list(dict.fromkeys([*manoeuvre.inputs, *(ACTS if driver is not None else ())]))
-    set_inputs, get_outputs = _setter(fmu, used), fmu.getter(outputs)
-    senses = [outputs.index(n) for n in SENSES] if driver is not None else []
+    get_outputs = fmu.getter(outputs)
 
     first = manoeuvre.initial(whole)
     fmu.initialise({**manoeuvre.start, **first})
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
+    row = get_outputs()
+    acts = driver.act(0.0, _Senses(zip(outputs, row, strict=True))) if driver is not None else {}
+    missing = [n for n in acts if n not in inputs]
+    if missing:
+        raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+    used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
+    set_inputs = _setter(fmu, used)
     steps = max(1, round(manoeuvre.stop_time / step))
-    values = np.empty((steps + 1, len(inputs) + len(outputs)))
+    values = np.empty((steps // every + 1, len(inputs) + len(outputs)))
     columns = [inputs.index(n) for n in used]
     held = fmu.start_values(inputs)
     for name, value in {**manoeuvre.start, **first}.items():
         if name in inputs and not isinstance(value, str):
             held[inputs.index(name)] = value
-    row = get_outputs()
     values[0] = [*held, *row]
     done, failed = 0, 0
     begin = clock.perf_counter()
@@ -227,7 +244,7 @@ def run(
         t = k * step
         wanted = manoeuvre.at(t, whole)
         if driver is not None:
-            wanted |= driver.act(t, {n: row[j] for n, j in zip(SENSES, senses, strict=True)})
+            wanted |= acts if k == 0 else driver.act(t, _Senses(zip(outputs, row, strict=True)))
         now = [wanted[n] for n in used]
         if used:
             set_inputs(now)
@@ -239,18 +256,21 @@ def run(
             break
         done = k + 1
         row = get_outputs()
-        values[done, : len(inputs)] = held
-        values[done, len(inputs) :] = row
+        if done % every == 0:
+            values[done // every, : len(inputs)] = held
+            values[done // every, len(inputs) :] = row
         if done % 50 == 0:
             progress(done)
+        if until is not None and until(done * step, _Senses(zip(outputs, row, strict=True))):
+            break
     wall = clock.perf_counter() - begin
     progress(done)
     names = inputs + outputs
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
-        step * np.arange(done + 1, dtype=np.float64),
-        values[: done + 1],
+        step * every * np.arange(done // every + 1, dtype=np.float64),
+        values[: done // every + 1],
         wall,
         done * step,
         failed,

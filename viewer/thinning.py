@@ -16,20 +16,27 @@ _TURNED = np.radians(1.0)
 def chosen_times(t: NDArray[np.float64], most: int) -> NDArray[np.intp]:
     """Indices of at most so many times, the nearest to a uniform grid; the first and the last are among them.
 
+    Both sides of a step are kept too, unless steps alone would be more than half of the times: between them nothing
+    moves, the values jump.
+
     Parameters
     ----------
     t : array of shape (n,)
-        s, not decreasing.
+        s, not decreasing; a time that stands twice is a step.
     most : int
         2 or more.
     """
     if len(t) <= most:
         return np.arange(len(t))
-    grid = np.linspace(t[0], t[-1], most)
+    before = np.flatnonzero(t[1:] == t[:-1])
+    steps = np.union1d(before, before + 1)
+    if len(steps) > most // 2:
+        steps = steps[:0]
+    grid = np.linspace(t[0], t[-1], most - len(steps))
     after = np.clip(np.searchsorted(t, grid), 1, len(t) - 1)
     nearest = np.where(grid - t[after - 1] < t[after] - grid, after - 1, after)
     nearest[0], nearest[-1] = 0, len(t) - 1
-    return np.unique(nearest)
+    return np.union1d(nearest, steps)
 
 
 def largest_gap_of_motion(

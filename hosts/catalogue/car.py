@@ -3,22 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
-from typing import Protocol
 
+from hosts.aliased_fmu import AliasedFmu
 from hosts.aliases import Aliases
-from hosts.co_simulation import Result
-from hosts.manoeuvre import Manoeuvre
+from hosts.co_simulation import Result, communication_step, run
+from hosts.fmu import Fmu
+from hosts.manoeuvre import Manoeuvre, with_names_of
 from hosts.numbers import Value
+from hosts.pilots.pilot import Pilot
+
+__all__ = ["CarFacts", "Pilot", "TestedCar"]
 
 
-class Pilot(Protocol):
-    """Who drives: from what the car senses to its inputs."""
+@dataclass(frozen=True)
+class CarFacts:
+    """What an FMU tells of its car.
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """Inputs for the coming communication step; `senses` are all outputs by our names."""
-        ...
+    Parameters
+    ----------
+    inputs, outputs, parameters : tuple of str
+        By our names, in the order of the FMU; real and whole ones.
+    units : mapping of str to str
+        Of all variables by our names.
+    constants : mapping of str to float
+        Of the FMU and of the alias file, by our names.
+    step : float
+        Communication step, s.
+    """
+
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    parameters: tuple[str, ...]
+    units: Mapping[str, str]
+    constants: Mapping[str, float]
+    step: float
 
 
 @dataclass(frozen=True)
@@ -52,6 +73,7 @@ class TestedCar:
         manoeuvre: Manoeuvre,
         pilot: Pilot | None = None,
         until: Callable[[float, Mapping[str, float]], bool] | None = None,
+        record_step: float | None = None,
     ) -> Result:
         """Drive a new instance of the FMU.
 
@@ -63,10 +85,62 @@ class TestedCar:
             Overrules the inputs it acts on.
         until : callable, optional
             Of the time and the outputs; the run ends with the first step after which it is true.
+        record_step : float, optional
+            Time from one row of the record to the next, s, rounded to whole steps; by default every step.
 
         Returns
         -------
         Result
             Under our names. `failed_steps` is 1 where the FMU refused a step; the record ends before it.
+
+        Raises
+        ------
+        HostError
+            If the FMU cannot be loaded or started, a name is none of its variables, or a value is out of its range.
         """
-        raise NotImplementedError
+        with Fmu(self.path) as opened:
+            fmu = AliasedFmu(opened, self.aliases)
+            manoeuvre = with_names_of(manoeuvre, fmu.variables)
+            start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
+            step = communication_step(fmu, manoeuvre, self.step)
+            every = 1 if record_step is None else max(1, round(record_step / step))
+            result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
+            if self.aliases.derived:
+                self.aliases.with_central_rates(result.names, result.time, result.values, every > 1)
+            return result
+
+    @cached_property
+    def facts(self) -> CarFacts:
+        """What the FMU tells of its car; it is loaded once."""
+        with Fmu(self.path) as opened:
+            fmu = AliasedFmu(opened, self.aliases)
+            experiment = fmu.description.defaultExperiment
+            told = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+            return CarFacts(
+                tuple(fmu.names("input")),
+                tuple(fmu.names("output")),
+                tuple(fmu.names("parameter")),
+                {n: v.unit or "1" for n, v in fmu.variables.items()},
+                fmu.constants(),
+                told if self.step is None else self.step,
+            )
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """By our names."""
+        return self.facts.inputs
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """By our names; real and whole ones."""
+        return self.facts.outputs
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """By our names; real and whole ones."""
+        return self.facts.parameters
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """Of the FMU and of the alias file, which wins; by our names."""
+        return self.facts.constants

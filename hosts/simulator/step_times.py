@@ -225,6 +225,8 @@ class StepTimes:
             f"cost of a step: {self.cost.words()}, mean {1e3 * self.mean:.3g} ms",
         ]
         if self.paced:
+            if abs(self.scheduled - self.simulated) > 1e-6 * self.simulated:
+                rows.append(f"at the speeds that were asked for (slow motion) this takes {self.scheduled:.3f} s")
             share = 100.0 * self.missed / self.steps
             rows += [
                 f"lateness of its begin: {self.lateness.words()}",

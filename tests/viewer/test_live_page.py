@@ -327,6 +327,7 @@ def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
     opened.close()
 
 
+@pytest.mark.proof
 def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chromium: Any, tmp_path: Path) -> None:
     opened = Page(chromium, written([car], tmp_path, "--paused"))
     opened.page.locator('[data-a3="rate"]').select_option("0.1")

@@ -151,6 +151,19 @@ def test_thinning_says_how_far_the_motion_between_is_from_the_record() -> None:
     assert far == pytest.approx((0.5 + 0.25) * rate**2 * step**2 / 8.0, rel=0.15)
 
 
+def test_a_jump_is_kept_and_is_no_difference_from_the_record() -> None:
+    before, after = crank(np.linspace(0.0, 5.0, 10_001)), crank(np.linspace(5.0, 10.0, 10_001))
+    columns = {n: np.concatenate([x, after.columns[n] + 3.0]) for n, x in before.columns.items()}
+    joined = Recording(before.scene, np.concatenate([before.t, after.t]), columns)
+    shown = joined.thinned(202)
+    assert len(shown.t) <= 202
+    (step,) = np.flatnonzero(np.diff(shown.t) == 0.0)
+    assert shown.t[step] == 5.0
+    for name, values in columns.items():
+        assert shown.columns[name][step : step + 2].tolist() == values[10_000:10_002].tolist()
+    assert "place" not in "".join(shown.notes)
+
+
 def test_a_turn_that_thinning_loses_is_said() -> None:
     shown = crank(np.linspace(0.0, 10.0, 20_001), 100.0).thinned(101)
     assert "the direction of 'crank' by up to" in shown.notes[0]

@@ -163,7 +163,7 @@ def frame_is_seen(driver: Driver, camera: str, pixels: np.ndarray) -> None:
     assert red.mean() < 0.2  # and not everywhere
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 @pytest.mark.parametrize("world", WORLDS)
 def test_every_world_is_driven_and_seen(fmu, browser, world):
     with running(fmu("prototype_car"), world) as address:
@@ -185,7 +185,7 @@ def test_every_world_is_driven_and_seen(fmu, browser, world):
         driver.close()
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_a_minute_on_the_proving_ground(fmu, browser):
     """Through its places with keys: throttle, steering, brake, rewind, set upright, slow motion, all cameras."""
     with running(fmu("prototype_car"), "proving_ground") as address:

@@ -63,6 +63,9 @@ def test_text_tells_both_times_and_what_was_lost() -> None:
     text = StepTimes.of(values, 0.002, True).text()
     assert "100 steps of 2 ms: 0.200 s simulated in 0.500 s of wall time" in text
     assert "7.0 s paused" in text
+    assert "(slow motion) this takes 0.400 s" in text
+    times.add("scheduled", -0.2)
+    assert "slow motion" not in StepTimes.of(values, 0.002, True).text()
     assert "missed deadlines: 25 (25 % of the steps)" in text
     assert "moved on 2 times, by 0.100 s in all; 0.800 of the speed" in text
     assert "at the limit of iterations: 7; the largest residual left was 0.2 mm" in text

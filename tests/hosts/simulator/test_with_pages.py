@@ -63,8 +63,8 @@ class Program:
     def end(self):
         """Ctrl-C; the exit code."""
         self.process.send_signal(signal.SIGINT)
-        self.lines.append(self.process.communicate(timeout=30)[0])
-        return self.process.returncode
+        self.lines.extend(self.process.stdout)  # communicate() would pass over lines that are read ahead
+        return self.process.wait(timeout=30)
 
     @property
     def said(self):
@@ -79,7 +79,8 @@ def program(*arguments):
     finally:
         if running.process.poll() is None:
             running.process.kill()
-            running.process.communicate()
+            running.process.wait()
+        running.process.stdout.close()
 
 
 class Page:

@@ -1,0 +1,98 @@
+"""Does a test with a car, after all is checked that can be checked before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.record import StandardTest, TestRecord
+from hosts.errors import HostError
+
+Reason: TypeAlias = str
+"""Why a test of a car could not be done: a sentence."""
+
+
+def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str, float]:
+    """All settings of a test, those that are given and those by default.
+
+    Parameters
+    ----------
+    test : StandardTest
+    given : mapping of str to float
+        By the names of `test.settings`.
+
+    Raises
+    ------
+    HostError
+        If a name is not known or a value out of its range.
+    """
+    known = {s.name: s for s in test.settings}
+    for name, value in given.items():
+        if name not in known:
+            raise HostError(f"The test {test.name} has no setting '{name}'; it has: {', '.join(known) or 'none'}.")
+        s = known[name]
+        if not s.lowest <= value <= s.highest:  # nor is a NaN
+            unit = "" if s.unit == "1" else f" {s.unit}"
+            raise HostError(
+                f"The setting {name} of the test {test.name} is {value:g}{unit}; it must be from {s.lowest:g} to "
+                f"{s.highest:g}{unit}."
+            )
+    return {name: float(given.get(name, s.value)) for name, s in known.items()}
+
+
+def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float]) -> Reason | None:
+    """Why a test cannot be done with a car, from what its FMU tells; None if it can.
+
+    An entry ``a | b`` of what the test needs is there if one of its names is. A test whose needs depend on its settings
+    has a method ``why_not(car, settings)`` that gives a sentence or None.
+    """
+    there = {*car.inputs, *car.outputs, *car.parameters, *car.constants}
+    missing = [need for need in test.needs if not there & set(_names(need))]
+    if not missing:
+        why_not = getattr(test, "why_not", None)
+        return None if why_not is None else why_not(car, settings)
+    words = " and no ".join(" or ".join(_names(need)) for need in missing)
+    told = [car.aliases.why_missing(name) for need in missing for name in _names(need)]
+    hint = "where it has another name, an alias file says which (--aliases)."
+    return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, told))) or hint}"
+
+
+def _names(need: str) -> list[str]:
+    return [name.strip() for name in need.split("|")]
+
+
+def perform(
+    test: StandardTest,
+    car: TestedCar,
+    settings: Mapping[str, float] | None = None,
+    progress: Callable[[float], None] = lambda done: None,
+) -> TestRecord:
+    """Do a test.
+
+    Parameters
+    ----------
+    test : StandardTest
+    car : TestedCar
+    settings : mapping of str to float, optional
+        Those that are not by default.
+    progress : callable
+        Called with the part that is done, 0 to 1.
+
+    Returns
+    -------
+    TestRecord
+
+    Raises
+    ------
+    HostError
+        If a setting is wrong, or the car cannot do the test.
+    """
+    wanted = settings_of_test(test, settings or {})
+    missing = missing_for(test, car, wanted)
+    if missing is not None:
+        raise HostError(missing)
+    progress(0.0)
+    record = test.perform(car, wanted, progress)
+    progress(1.0)
+    return record

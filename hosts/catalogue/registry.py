@@ -1,0 +1,43 @@
+"""The tests of the catalogue by name."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import importlib.util
+
+from hosts.catalogue.record import StandardTest
+from hosts.errors import HostError
+
+_ALL = (
+    "steady_circle",
+    "step_steer",
+    "sine_steer",
+    "chirp_steer",
+    "sine_with_dwell",
+    "double_lane_change",
+    "straight_braking",
+    "braking_in_a_turn",
+    "kerb",
+    "drop",
+)
+_FOLDER = "hosts.catalogue.standard"
+
+TESTS: tuple[str, ...] = tuple(name for name in _ALL if importlib.util.find_spec(f"{_FOLDER}.{name}") is not None)
+"""In the order in which they are done."""
+
+
+def standard_test(name: str) -> StandardTest:
+    """A test by its name.
+
+    Raises
+    ------
+    HostError
+        If there is none of it, with the names that there are.
+    """
+    if name not in TESTS:
+        near = difflib.get_close_matches(name, TESTS, 1)
+        hint = f"did you mean '{near[0]}'?" if near else f"they are: {', '.join(TESTS)}."
+        raise HostError(f"There is no test '{name}' in the catalogue; {hint}")
+    test: StandardTest = importlib.import_module(f"{_FOLDER}.{name}").TEST
+    return test

@@ -1,0 +1,1 @@
+"""The standard tests, one a file; each has an instance ``TEST``."""

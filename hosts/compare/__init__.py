@@ -1,0 +1,1 @@
+"""An FMU held against the log of a test drive."""

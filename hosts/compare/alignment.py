@@ -1,0 +1,171 @@
+"""Delay and drift of measured signals against simulated ones, finer than a sample.
+
+A measured signal is a + b * simulated((t - delay) / (1 + drift)). The delay that correlates best at whole samples comes
+first; then delay, drift, a and b are found by least squares on the spline of the simulated signal.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal as sp
+from scipy.optimize import least_squares
+
+from hosts.compare.correlated import covariance
+from hosts.compare.curve import Curve
+from hosts.compare.deviations import is_constant
+from hosts.compare.log import Signal
+
+_LEAST_CORRELATION = 0.5
+_AMBIGUOUS = 0.01
+_MOST_POINTS = 20_000
+_LARGEST_DRIFT = 0.05
+
+
+@dataclass(frozen=True)
+class Alignment:
+    """How late a measured signal is.
+
+    Parameters
+    ----------
+    delay, delay_error : float
+        s, and half of its 95 % interval; what happens at t in the simulation happens at delay + (1 + drift) t in the
+        log. NaN where it cannot be found.
+    drift, drift_error : float
+        By how much the log's clock of this signal runs fast.
+    correlation : float
+        When aligned.
+    note : str
+    """
+
+    delay: float
+    delay_error: float
+    drift: float
+    drift_error: float
+    correlation: float
+    note: str = ""
+
+
+_NONE = Alignment(math.nan, math.nan, math.nan, math.nan, math.nan)
+
+
+def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = True) -> Alignment:
+    """The delay and drift that signals have in common; of one signal, its own.
+
+    Parameters
+    ----------
+    pairs : sequence of (Signal, Curve)
+        Measured and simulated.
+    longest : float
+        Largest delay that is looked for, s.
+    drift : bool
+        Whether a drift is looked for.
+    """
+    pairs = [(s, c) for s, c in pairs if not is_constant(s.values) and not is_constant(c(s.time))]
+    if not pairs:
+        return Alignment(*5 * (math.nan,), "no signal moves in both")
+    coarse, peak, other = _coarse(pairs, longest)
+    if peak < _LEAST_CORRELATION:
+        return Alignment(*4 * (math.nan,), peak, f"at best the signals correlate by {peak:.2f}: no delay can be told")
+    fine = _fine(pairs, coarse, drift)
+    note = f"a delay of {other:.3g} s fits nearly as well" if other is not None else ""
+    if abs(fine.delay) > longest:
+        note = f"it lies at the limit of {longest:g} s that was looked for"
+    return Alignment(fine.delay, fine.delay_error, fine.drift, fine.drift_error, fine.correlation, note)
+
+
+def _coarse(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[float, float, float | None]:
+    """Delay at whole samples, mean correlation there, and another delay that is nearly as good."""
+    begin, end = min(s.time[0] for s, _ in pairs), max(s.time[-1] for s, _ in pairs)
+    interval = max(min(s.interval for s, _ in pairs), (end - begin) / _MOST_POINTS)
+    lags = np.zeros(0)
+    total: NDArray[np.float64] = np.zeros(0)
+    for measured, curve in pairs:
+        grid = np.arange(measured.time[0], measured.time[-1], interval)
+        y, x = np.interp(grid, measured.time, measured.values), curve(grid)
+        lags, found = _correlations(y, x, min(int(longest / interval), len(grid) // 2))
+        if len(total) not in (0, len(found)):
+            few = min(len(total), len(found)) // 2
+            total, found = (a[len(a) // 2 - few : len(a) // 2 + few + 1] for a in (total, found))
+            lags = lags[len(lags) // 2 - few : len(lags) // 2 + few + 1]
+        total = found if not len(total) else total + found
+    total = total / len(pairs)
+    # Among equals the smallest delay: of a periodic signal a period more fits as well.
+    best = int(np.argmax(total - 1e-6 * np.abs(lags)))
+    peaks, _ = sp.find_peaks(total)
+    rivals = [k for k in peaks if abs(lags[k] - lags[best]) > 2 and total[k] > total[best] - _AMBIGUOUS]
+    rival = float(interval * lags[min(rivals, key=lambda k: abs(lags[k]))]) if rivals else None
+    return float(interval * lags[best]), float(total[best]), rival
+
+
+def _correlations(
+    y: NDArray[np.float64], x: NDArray[np.float64], most: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Pearson's coefficient of y[k + lag] and x[k] over what overlaps, for lags of -most to most."""
+    y, x, ones = y - y.mean(), x - x.mean(), np.ones(len(y))
+    lags = sp.correlation_lags(len(y), len(x))
+    chosen = np.abs(lags) <= most
+
+    def sums(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(sp.correlate(a, b, method="fft"))[chosen]
+
+    count = np.maximum(np.round(sums(ones, ones)), 1.0)
+    y1, x1 = sums(y, ones) / count, sums(ones, x) / count
+    variance = (sums(y * y, ones) / count - y1**2) * (sums(ones, x * x) / count - x1**2)
+    least = 1e-6 * float(np.var(y) * np.var(x))  # of an overlap in which nothing happens
+    found = np.where(variance > least, (sums(y, x) / count - y1 * x1) / np.sqrt(np.maximum(variance, least)), 0.0)
+    return lags[chosen].astype(float), found
+
+
+def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> Alignment:
+    # What is measured before the simulation begins, or after its end, has nothing to be held against.
+    pairs = [(_overlap(s, c, delay), c) for s, c in pairs]
+    spreads = [float(np.std(s.values)) for s, _ in pairs]
+
+    def residual(p: NDArray[np.float64]) -> NDArray[np.float64]:
+        parts = []
+        for (s, curve), spread in zip(pairs, spreads, strict=True):
+            x = curve((s.time - p[0]) / (1.0 + (p[1] if drift else 0.0)))
+            design = np.column_stack((np.ones(len(x)), x))
+            scales = np.linalg.lstsq(design, s.values, rcond=None)[0]
+            parts.append((s.values - design @ scales) / spread)
+        return np.concatenate(parts)
+
+    interval = min(s.interval for s, _ in pairs)
+    length = max(s.time[-1] for s, _ in pairs)
+    size = [interval, interval / length][: 1 + drift]
+    start = [delay, 0.0][: 1 + drift]
+    limit = _LARGEST_DRIFT
+    bounds = ([-np.inf, -limit][: 1 + drift], [np.inf, limit][: 1 + drift])
+    found = least_squares(residual, start, x_scale=size, bounds=bounds, jac=_central(residual, size))
+    rows, first = [], 0
+    for s, _ in pairs:
+        rows.append(slice(first, first + len(s.time)))
+        first += len(s.time)
+    errors = 1.96 * np.sqrt(np.diag(covariance(np.asarray(found.jac), found.fun, rows)[0]))
+    left = float(np.mean(found.fun**2))
+    correlation = math.sqrt(max(0.0, 1.0 - left))
+    if not drift:
+        return Alignment(float(found.x[0]), float(errors[0]), 0.0, 0.0, correlation)
+    return Alignment(float(found.x[0]), float(errors[0]), float(found.x[1]), float(errors[1]), correlation)
+
+
+def _overlap(signal: Signal, curve: Curve, delay: float) -> Signal:
+    margin = 2.0 * signal.interval
+    return signal.between(delay + margin, delay + curve.end - margin)
+
+
+def _central(
+    residual: Callable[[NDArray[np.float64]], NDArray[np.float64]], size: Sequence[float]
+) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """Central differences with steps of a thousandth of a sample; the spline is exact to rounding errors."""
+
+    def jacobian(p: NDArray[np.float64]) -> NDArray[np.float64]:
+        steps = 1e-3 * np.diag(size)
+        return np.column_stack([(residual(p + h) - residual(p - h)) / (2.0 * h.sum()) for h in steps])
+
+    return jacobian

@@ -1,0 +1,101 @@
+"""The signals of a log beside those of a simulation: deviations, rating and delay of each, and their common delay."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from hosts.co_simulation import Result
+from hosts.compare.alignment import Alignment, align
+from hosts.compare.curve import Curve
+from hosts.compare.deviations import Deviations, deviations
+from hosts.compare.log import Signal
+from hosts.compare.rating import Rating, on_equal_steps, rating
+from hosts.measures.measure import Measure
+
+
+@dataclass(frozen=True)
+class ComparedSignal:
+    """A signal of the log and of the simulation.
+
+    Parameters
+    ----------
+    measured : Signal
+    simulated : Curve
+    deviations : Deviations
+        At the samples of the log, as they are: no delay is taken out.
+    rating : Rating
+    alignment : Alignment
+        Of this signal alone.
+    """
+
+    measured: Signal
+    simulated: Curve
+    deviations: Deviations
+    rating: Rating
+    alignment: Alignment
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All signals.
+
+    Parameters
+    ----------
+    signals : dict of str to ComparedSignal
+    common : Alignment
+        Of all signals together.
+    """
+
+    signals: dict[str, ComparedSignal]
+    common: Alignment
+
+
+def compare(outputs: Mapping[str, Signal], result: Result, longest_delay: float, skip: float = 0.0) -> Comparison:
+    """Compare measured signals with those of a run.
+
+    Parameters
+    ----------
+    outputs : mapping of str to Signal
+    result : Result
+    longest_delay : float
+        That is looked for, s.
+    skip : float
+        Seconds at the begin that are not compared.
+    """
+    pairs = {n: (s.between(skip, float(result.time[-1])), Curve(result, n)) for n, s in outputs.items()}
+    signals = {n: _compared(s, c, longest_delay) for n, (s, c) in pairs.items()}
+    return Comparison(signals, align(list(pairs.values()), longest_delay))
+
+
+def _compared(measured: Signal, curve: Curve, longest_delay: float) -> ComparedSignal:
+    t, y, x = measured.time, measured.values, curve(measured.time)
+    _, (y_even, x_even) = on_equal_steps(t, y, x)
+    alignment = align([(measured, curve)], longest_delay, drift=False)
+    return ComparedSignal(measured, curve, deviations(t, y, x), rating(y_even, x_even), alignment)
+
+
+def measures(comparison: Comparison) -> list[Measure]:
+    """All numbers by name, such as ``chassis.wz.rms``."""
+    made = []
+    for name, s in comparison.signals.items():
+        unit, d, r, a = s.measured.unit, s.deviations, s.rating, s.alignment
+        rows: Sequence[tuple[str, float, str, str, str]] = (
+            ("rms", d.rms, unit, "root of the mean square of simulated minus measured", ""),
+            ("normalised_rms", d.normalised, "1", "rms over the standard deviation of the measured signal", d.note),
+            ("mean", d.mean, unit, "mean of simulated minus measured", ""),
+            ("largest", d.largest, unit, f"largest deviation, at {d.time_of_largest:.4g} s", ""),
+            ("correlation", d.correlation, "1", "Pearson's coefficient", d.note),
+            ("rating", r.overall, "1", "like ISO/TS 18571, 0 to 1", d.note if math.isnan(r.overall) else ""),
+            ("rating.corridor", r.corridor, "1", "score of the corridor", ""),
+            ("rating.phase", r.phase, "1", "score of the phase", ""),
+            ("rating.magnitude", r.magnitude, "1", "score of the magnitude", ""),
+            ("rating.slope", r.slope, "1", "score of the slope", ""),
+            ("delay", a.delay, "s", "of the log after the simulation", a.note),
+        )
+        made += [Measure(f"{name}.{what}", value, u, text, None, note) for what, value, u, text, note in rows]
+    c = comparison.common
+    made.append(Measure("delay", c.delay, "s", "of the log after the simulation, of all signals", None, c.note))
+    made.append(Measure("drift", c.drift, "1", "by how much the clock of the outputs runs fast", None, c.note))
+    return made

@@ -1,0 +1,101 @@
+"""Variances of least-squares parameters when the residuals are correlated in time.
+
+White noise would give s² (J'J)⁻¹, which is too small when neighbouring residuals are alike. Here (J'J)⁻¹ (J'ΩJ) (J'J)⁻¹
+is used, where Ω is the covariance of an autoregressive process fitted to the residuals of each signal (Yule and Walker;
+order by Akaike's criterion); see Ljung, System Identification, 2nd ed., 9.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import matmul_toeplitz, solve_toeplitz
+
+_MOST_LAGS = 4000
+
+
+def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Autocovariances of an autoregressive process fitted to a signal.
+
+    Parameters
+    ----------
+    residual : ndarray of shape (n,)
+        Equally spaced.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        At lags 0 to n - 1; those beyond 4000 are 0.
+    """
+    n = len(residual)
+    size = 1 << (2 * n - 1).bit_length()
+    spectrum = np.fft.rfft(residual, size)
+    sample = np.fft.irfft(spectrum * spectrum.conj(), size)[:n] / n
+    covariances = np.zeros(n)
+    if sample[0] <= 0.0:
+        return covariances
+    most = max(1, min(n // 10, int(10.0 * math.log10(n))))
+    best, a = math.inf, np.zeros(0)
+    for order in range(most + 1):
+        trial = solve_toeplitz(sample[:order], sample[1 : order + 1]) if order else np.zeros(0)
+        innovation = sample[0] - float(trial @ sample[1 : order + 1])
+        # Rounding errors of a smooth residual leave nothing, or less.
+        criterion = n * math.log(max(innovation, 1e-14 * sample[0])) + 2.0 * order
+        if criterion < best:
+            best, a = criterion, trial
+    order = len(a)
+    covariances[: order + 1] = sample[: order + 1]
+    for k in range(order + 1, min(n, _MOST_LAGS) if order else 0):
+        covariances[k] = a @ covariances[k - order : k][::-1]
+    return covariances
+
+
+def effective_samples(residual: NDArray[np.float64]) -> float:
+    """How many uncorrelated samples tell as much of a mean as these do; between 1 and their number."""
+    n = len(residual)
+    c = autocovariance(residual - residual.mean())
+    if c[0] <= 0.0:
+        return float(n)
+    inflation = 1.0 + 2.0 * float(np.sum((1.0 - np.arange(1, n) / n) * c[1:])) / c[0]
+    return float(np.clip(n / max(inflation, 1e-12), 1.0, n))
+
+
+def covariance(
+    jacobian: NDArray[np.float64], residual: NDArray[np.float64], blocks: Sequence[slice]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Covariance of parameters.
+
+    Parameters
+    ----------
+    jacobian : ndarray of shape (n, p)
+        Of the residuals at the solution.
+    residual : ndarray of shape (n,)
+    blocks : sequence of slice
+        The rows of each signal, equally spaced in time; signals are taken as independent of each other.
+
+    Returns
+    -------
+    covariance : ndarray of shape (p, p)
+        Infinite on the diagonal of parameters that are not determined.
+    lost : ndarray of bool, shape (p,)
+        Which these are.
+    """
+    n, p = jacobian.shape
+    size = np.linalg.norm(jacobian, axis=0)
+    scale = np.where(size > 0.0, size, 1.0)
+    u, s, vt = np.linalg.svd(jacobian / scale, full_matrices=False)
+    kept = s > max(s[0], 1e-300) * 1e-7
+    lost = (np.abs(vt[~kept]) > 0.1).any(axis=0) | (size == 0.0)
+    inverse = vt[kept].T / s[kept]  # of shape (p, kept)
+    middle = np.zeros((kept.sum(), kept.sum()))
+    for rows in blocks:
+        r, part = residual[rows], u[rows][:, kept]
+        c = autocovariance(r) * (n / max(n - p, 1))
+        middle += part.T @ matmul_toeplitz(c, part)
+    found = inverse @ middle @ inverse.T / np.outer(scale, scale)
+    found[lost, :], found[:, lost] = 0.0, 0.0
+    found[lost, lost] = math.inf
+    return found, lost

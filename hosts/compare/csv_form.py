@@ -1,0 +1,163 @@
+"""How a data logger has written a CSV file: delimiter, decimal sign, lines of names and units."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ali3.files import reason
+from hosts.compare.log_aliases import Form
+from hosts.errors import HostError
+
+_DELIMITERS = (";", "\t", ",", "|")
+_LINES = 60  # that are looked at: loggers write their settings first
+_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_NOT_THERE = ("", "nan", "na", "n/a", "null", "-", "#n/a", "--", "inf", "-inf")
+_DATE = re.compile(r"\d{4}-\d\d-\d\d[T ].*")
+_NAME_AND_UNIT = re.compile(r"(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]")
+
+
+@dataclass(frozen=True)
+class FoundForm:
+    """The form of a file.
+
+    Parameters
+    ----------
+    delimiter, decimal, encoding : str
+    names : list of str
+        Of the columns, without units; those without a name are empty.
+    units : dict of str to str
+        As they are written, by name.
+    first_row : int
+        Lines before the first row of values.
+    """
+
+    delimiter: str
+    decimal: str
+    encoding: str
+    names: list[str]
+    units: dict[str, str]
+    first_row: int
+
+
+def find_form(path: Path, wish: Form) -> FoundForm:
+    """Look at the first lines of a file.
+
+    Parameters
+    ----------
+    path : Path
+    wish : Form
+        What is known of it.
+
+    Raises
+    ------
+    HostError
+        If it holds no table; one sentence.
+    """
+    lines, encoding = _first_lines(path, wish.encoding)
+    if not any(line.strip() for line in lines):
+        raise HostError(f"The log {path} is empty; it needs a line of names and rows of values.")
+    found = [(d, *_rows(lines, d)) for d in ((wish.delimiter,) if wish.delimiter else _DELIMITERS)]
+    delimiter, first, width = max(found, key=lambda item: item[2])  # the first of the most columns
+    if width < 2:
+        tried = "' or '".join(repr(d)[1:-1] for d, *_ in found)
+        raise HostError(
+            f"The log {path} is no table of numbers with a time and signals, divided by '{tried}'; its first line is "
+            f'{lines[0].strip()[:60]!r}. [file] delimiter = "..." of the alias file names another.'
+        )
+    heading, unit_line = _heading(path, lines, delimiter, first, width, wish)
+    names, units = [], {}
+    for k, cell in enumerate(_cells(lines[heading], delimiter)):
+        match = _NAME_AND_UNIT.fullmatch(cell)
+        name = match["name"] if match else cell
+        names.append(name)
+        if match:
+            units[name] = match["unit"]
+        elif unit_line is not None:
+            cells = _cells(lines[unit_line], delimiter)
+            units[name] = cells[k] if k < len(cells) else ""
+    twice = next((n for k, n in enumerate(names) if n and n in names[:k]), None)
+    if twice is not None:
+        raise HostError(f"The log {path} has the column '{twice}' twice.")
+    decimal = wish.decimal or _decimal(lines[first:], delimiter)
+    return FoundForm(delimiter, decimal, encoding, names, units, first)
+
+
+def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(400_000)
+    except OSError as error:
+        raise HostError(f"The log {path} cannot be read: {reason(error)}.") from None
+    if b"\0" in content:
+        raise HostError(f"The log {path} is no text; logs are read as CSV or Parquet (MDF files can be converted).")
+    for name in (encoding,) if encoding else ("utf-8-sig", "latin-1"):
+        try:
+            text = content[: content.rfind(b"\n") + 1 or None].decode(name)
+            return text.splitlines()[:_LINES], name
+        except UnicodeDecodeError:
+            continue
+        except LookupError:
+            break
+    raise HostError(f"The log {path} is not written in {encoding}; [file] encoding of the alias file is wrong.")
+
+
+def _cells(line: str, delimiter: str) -> list[str]:
+    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
+
+
+def _is_value(cell: str) -> bool:
+    return cell.lower() in _NOT_THERE or bool(_NUMBER.fullmatch(cell)) or bool(_DATE.fullmatch(cell))
+
+
+def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int]:
+    """Where rows of values begin, and how many columns they have; 0 columns: nowhere."""
+    for k, line in enumerate(lines):
+        cells = _cells(line, delimiter)
+        following = [_cells(other, delimiter) for other in lines[k : k + 3] if other.strip()]
+        # A column may hold words; the most are values, and the first, mostly the time, is one.
+        numbers = sum(map(_is_value, cells))
+        is_row = len(cells) > 1 and any(_NUMBER.fullmatch(c) for c in cells) and 2 * numbers > len(cells)
+        if is_row and all(len(other) == len(cells) for other in following):
+            return k, len(cells)
+    return 0, 0
+
+
+def _heading(
+    path: Path, lines: Sequence[str], delimiter: str, first: int, width: int, wish: Form
+) -> tuple[int, int | None]:
+    """Lines of the names and of the units."""
+    if wish.heading is not None:
+        if wish.heading > first:
+            raise HostError(f"The log {path}: line {wish.heading} is to be the heading; values begin in {first + 1}.")
+        units = None if not wish.units else wish.units - 1
+        if wish.units is None and wish.heading < first and len(_cells(lines[wish.heading], delimiter)) == width:
+            units = wish.heading
+        return wish.heading - 1, units
+    before = [k for k in range(first) if _is_heading(_cells(lines[k], delimiter), width)]
+    if not before:
+        raise HostError(
+            f"The log {path} has no line of {width} names before its values in line {first + 1}; "
+            f"[file] heading of the alias file can name it."
+        )
+    if wish.units is not None:
+        return before[0] if wish.units == 0 else min(before[0], wish.units - 1), wish.units - 1 if wish.units else None
+    # Of the lines with as many cells the names come first and the units second.
+    return before[0], before[1] if len(before) > 1 else None
+
+
+def _is_heading(cells: Sequence[str], width: int) -> bool:
+    """Whether a line may hold names: loggers fill up lines of other words with delimiters."""
+    return len(cells) == width and 2 * sum(map(bool, cells)) > width and not cells[0].startswith("#")
+
+
+def _decimal(rows: Sequence[str], delimiter: str) -> str:
+    if delimiter == ",":
+        return "."
+    cells = [cell for row in rows for cell in _cells(row, delimiter)]
+    commas = sum("," in cell and bool(_NUMBER.fullmatch(cell)) for cell in cells)
+    points = sum("." in cell and bool(_NUMBER.fullmatch(cell)) for cell in cells)
+    return "," if commas > points else "."

@@ -1,0 +1,63 @@
+"""How far a simulated signal is from a measured one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+@dataclass(frozen=True)
+class Deviations:
+    """Simulated minus measured.
+
+    Parameters
+    ----------
+    rms : float
+        Root of the mean square.
+    normalised : float
+        `rms` over the standard deviation of the measured signal: 0 equal, 1 no better than its mean. NaN where the
+        measured signal is constant.
+    mean, largest, time_of_largest : float
+        `largest` with its sign, in the unit of the signal; s.
+    correlation : float
+        Pearson's coefficient; NaN where one of both is constant.
+    samples : int
+    note : str
+        Why something is NaN, else empty.
+    """
+
+    rms: float
+    normalised: float
+    mean: float
+    largest: float
+    time_of_largest: float
+    correlation: float
+    samples: int
+    note: str = ""
+
+
+def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> Deviations:
+    """Deviations of a signal.
+
+    Parameters
+    ----------
+    time, measured, simulated : array_like of shape (n,)
+        s and the unit of the signal.
+    """
+    t, y, x = (np.asarray(a, float) for a in (time, measured, simulated))
+    error = x - y
+    k = int(np.argmax(np.abs(error)))
+    flat = [what for what, a in (("measured", y), ("simulated", x)) if is_constant(a)]
+    correlation = math.nan if flat else float(np.corrcoef(x, y)[0, 1])
+    rms = float(np.sqrt(np.mean(error**2)))
+    normalised = math.nan if "measured" in flat else rms / float(np.std(y))
+    note = f"the {' and the '.join(flat)} signal is constant: no correlation" if flat else ""
+    return Deviations(rms, normalised, float(np.mean(error)), float(error[k]), float(t[k]), correlation, len(y), note)
+
+
+def is_constant(values: NDArray[np.float64]) -> bool:
+    """Whether a signal moves by no more than rounding errors."""
+    return bool(np.ptp(values) <= 1e-12 * max(float(np.max(np.abs(values))), 1e-300))

@@ -1,0 +1,248 @@
+"""A log under our names, in the units of the FMU, with times in seconds."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from hosts.aliased_fmu import AliasedFmu
+from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
+from hosts.compare.log_file import RawLog
+from hosts.compare.units import known_unit, unit_definition
+from hosts.errors import HostError
+from hosts.unit_of import unit_of
+
+FEWEST_SAMPLES = 10
+_TIMES = ("time", "t", "timestamp", "zeit", "time_s", "seconds", "elapsed")
+_SLOWEST = 0.5  # s between samples of a test drive, unless the user has named the unit
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A measured signal with its own samples.
+
+    Parameters
+    ----------
+    name : str
+        Ours.
+    source : str
+        Column of the log.
+    unit : str
+        Of `values`.
+    time : ndarray of shape (n,)
+        s, increasing.
+    values : ndarray of shape (n,)
+        Finite.
+    """
+
+    name: str
+    source: str
+    unit: str
+    time: NDArray[np.float64]
+    values: NDArray[np.float64]
+
+    @property
+    def interval(self) -> float:
+        """Median time between samples, s."""
+        return float(np.median(np.diff(self.time)))
+
+    def between(self, begin: float, end: float) -> Signal:
+        """The samples in a span of time."""
+        inside = (self.time >= begin - 1e-9) & (self.time <= end + 1e-9)
+        return replace(self, time=self.time[inside], values=self.values[inside])
+
+
+@dataclass(frozen=True)
+class Log:
+    """Signals by our names.
+
+    Parameters
+    ----------
+    inputs, outputs : dict of str to Signal
+        What drives the FMU, and what is compared with it.
+    notes : list of str
+        Sentences for the user.
+    """
+
+    inputs: dict[str, Signal]
+    outputs: dict[str, Signal]
+    notes: list[str]
+
+
+def log_for(fmu: AliasedFmu, raw: RawLog, aliases: LogAliases) -> Log:
+    """The signals of a log that an FMU has too.
+
+    Parameters
+    ----------
+    fmu : AliasedFmu
+    raw : RawLog
+    aliases : LogAliases
+
+    Raises
+    ------
+    HostError
+        A column is not there, is no signal of the FMU, or its unit or clock is wrong; one sentence.
+    """
+    inputs, outputs = fmu.names("input"), fmu.names("output")
+    columns = _columns(raw, aliases, fmu, inputs, outputs)
+    notes: list[str] = []
+    clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
+    signals = {}
+    origin: float | None = None
+    for ours, column in columns.items():
+        clock = column.time or _time_column(raw, aliases)
+        if clock not in clocks:
+            times, origin = _times(raw, aliases, clock, origin, notes)
+            clocks[clock] = times
+        signals[ours] = _signal(fmu, raw, ours, column, *clocks[clock])
+    for name, signal in signals.items():
+        if len(signal.time) < FEWEST_SAMPLES:
+            raise HostError(
+                f"The log {raw.path} has {len(signal.time)} samples of '{signal.source}' ({name}); at least "
+                f"{FEWEST_SAMPLES} are needed."
+            )
+    return Log(
+        {n: s for n, s in signals.items() if n in inputs}, {n: s for n, s in signals.items() if n in outputs}, notes
+    )
+
+
+def _columns(
+    raw: RawLog, aliases: LogAliases, fmu: AliasedFmu, inputs: Collection[str], outputs: Collection[str]
+) -> Mapping[str, Column]:
+    there = [str(c) for c in raw.table.columns]
+    for ours, column in aliases.columns.items():
+        where = f"{aliases.file}: '{ours}'"
+        if ours not in inputs and ours not in outputs:
+            if ours in fmu.variables:
+                causality = fmu.variables[ours].causality
+                use = ": set it by --set, or find it by --fit" if causality == "parameter" else ""
+                raise HostError(
+                    f"{where} is a {causality} of {fmu.path.name}, which a column of a log cannot be{use}; "
+                    "a column can be an input or an output."
+                )
+            raise HostError(f"{where} is no input or output of {fmu.path.name}{_near(ours, [*inputs, *outputs])}.")
+        for name in (column.name, column.time):
+            if name is not None and name not in there:
+                raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{_near(name, there)}.")
+    named = {c.name for c in aliases.columns.values()}
+    plain = {n: Column(n) for n in there if (n in inputs or n in outputs) and n not in named}
+    found = {**plain, **aliases.columns}
+    if not found:
+        clock = [n for n in there if n.lower() not in _TIMES]
+        raise HostError(
+            f"The log {raw.path} has no column with the name of an input or output of {fmu.path.name}; its columns "
+            f"are {_listed(clock)}. An alias file (--aliases) gives them names: under [signals] "
+            f'"{next(iter(outputs), "speed")}" = {{ name = "{next(iter(clock), "column")}", unit = "..." }}.'
+        )
+    return found
+
+
+def _time_column(raw: RawLog, aliases: LogAliases) -> str:
+    there = [str(c) for c in raw.table.columns]
+    name = aliases.clock.name
+    if name is not None:
+        if name not in there:
+            raise HostError(f"{aliases.file}: the log {raw.path.name} has no column '{name}'{_near(name, there)}.")
+        return name
+    found = next((n for wanted in _TIMES for n in there if n.lower() == wanted), None)
+    if found is None:
+        raise HostError(
+            f"The log {raw.path} has no column of times (one of the names {', '.join(_TIMES)}); its columns are "
+            f'{_listed(there)}. The alias file names it: [time] name = "...".'
+        )
+    return found
+
+
+def _times(
+    raw: RawLog, aliases: LogAliases, name: str, origin: float | None, notes: list[str]
+) -> tuple[tuple[NDArray[np.float64], NDArray[np.int64]], float]:
+    """Times from the first sample of the log on in s, the rows they stand in, and that first time."""
+    clock = aliases.clock
+    written = raw.units.get(name, "").strip()
+    unit = clock.unit or (written if written in TIME_UNITS else "s")
+    scale = TIME_UNITS[unit]
+    column = raw.table[name]
+    if scale is None or not pd.api.types.is_numeric_dtype(column):
+        scale, seconds = 1.0, _moments(raw, name, clock.unit)
+    else:
+        seconds = raw.numbers(name)
+    seconds = scale * (seconds - clock.offset) / clock.factor
+    rows = np.flatnonzero(np.isfinite(seconds))
+    if len(rows) < FEWEST_SAMPLES:
+        raise HostError(
+            f"The log {raw.path} has {len(rows)} times in the column '{name}'; at least {FEWEST_SAMPLES} are needed."
+        )
+    t = seconds[rows]
+    back = np.flatnonzero(np.diff(t) < 0.0)
+    if len(back):
+        k = int(back[0])
+        raise HostError(
+            f"The log {raw.path}, line {rows[k + 1] + raw.first_row + 1}: time '{name}' goes back from "
+            f"{t[k] - t[0]:.6g} s to {t[k + 1] - t[0]:.6g} s after the first sample; "
+            "cut the log there, each drive is compared by itself."
+        )
+    first = np.concatenate(([True], np.diff(t) > 0.0))
+    if not first.all():
+        notes.append(f"{np.sum(~first)} rows have the time of the row before them in '{name}'; the first is used.")
+    interval = float(np.median(np.diff(t[first]))) if first.sum() > 1 else 0.0
+    if clock.unit is None and unit == "s" and interval > _SLOWEST:
+        raise HostError(
+            f"The log {raw.path} has a sample every {interval:g} s in the column '{name}', if that is in seconds; for "
+            f'other units the alias file says [time] unit = "ms" (or {", ".join(list(TIME_UNITS)[2:])}).'
+        )
+    start = float(t[0]) if origin is None else origin
+    return (t[first] - start, rows[first]), start
+
+
+def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:
+    """Times that are written as dates, s."""
+    moments = pd.to_datetime(raw.table[name], errors="coerce", utc=True, format="ISO8601")
+    wrong = moments.isna() & raw.table[name].notna()
+    if wrong.any():
+        row = int(np.argmax(wrong.to_numpy()))
+        raise HostError(
+            f"The log {raw.path}, line {row + raw.first_row + 1}: the time {str(raw.table[name].iloc[row])[:40]!r} is "
+            f"no {'date of ISO 8601' if unit == 'iso' else 'number'}."
+        )
+    first = moments.dropna().iloc[0]
+    return np.array((moments - first) / pd.Timedelta(seconds=1), dtype=np.float64)
+
+
+def _signal(
+    fmu: AliasedFmu, raw: RawLog, ours: str, column: Column, time: NDArray[np.float64], rows: NDArray[np.int64]
+) -> Signal:
+    values = (raw.numbers(column.name)[rows] - column.offset) / column.factor
+    variable = fmu.variables[ours]
+    unit = variable.unit or unit_of(ours) or "1"
+    written = column.unit
+    if written is None:  # a heading may hold anything in brackets; only what is known as a unit counts
+        heading = raw.units.get(column.name, "").strip()
+        written = heading if heading and known_unit(heading) is not None else None
+    if written is not None and written != unit:
+        where = f"The column '{column.name}' of the log ({ours})"
+        theirs, own = unit_definition(written, where), known_unit(unit)
+        own = own or (fmu.table[ours].definition if ours in fmu.table else None)
+        if own is None or own.exponents != theirs.exponents:
+            raise HostError(f"{where} is in '{written}'; '{ours}' of {fmu.path.name} is in '{unit}'.")
+        values = (theirs.factor * values + theirs.offset - own.offset) / own.factor
+    there = np.isfinite(values)
+    t, values = time[there], values[there]
+    if unit == "rad" and len(values) and "yaw" in ours:
+        values = np.unwrap(values)
+    return Signal(ours, column.name, unit, t, values)
+
+
+def _near(name: str, names: Collection[str]) -> str:
+    near = [n for n in names if n.lower() == name.lower()] or difflib.get_close_matches(name, names, 3)
+    near = near or [n for n in names if name.lower() in n.lower() or n.lower() in name.lower()][:3]
+    return f"; did you mean {' or '.join(repr(n) for n in near)}?"[:-1] if near else f"; it has {_listed(names)}"
+
+
+def _listed(names: Collection[str]) -> str:
+    shown = ", ".join(list(names)[:12])
+    return f"{shown} and {len(names) - 12} more" if len(names) > 12 else shown or "none"

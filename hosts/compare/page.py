@@ -1,0 +1,105 @@
+"""Pictures of a comparison: signals over each other, what remains, and the inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+
+from hosts.compare.comparison import Comparison
+from hosts.compare.log import Signal
+from hosts.result_plots import BLUE, COLOURS, RED, save_picture
+
+_STYLE: dict[Any, Any] = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e3e3e3",
+    "axes.titlesize": 10,
+    "axes.titlelocation": "left",
+    "axes.titleweight": "bold",
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "lines.linewidth": 1.3,
+}
+_MEASURED = "#8a8a8a"
+_MOST = 12  # signals of a page
+_POINTS = 4000
+
+
+def comparison_figure(before: Comparison, after: Comparison | None, title: str, inputs: Mapping[str, Signal]) -> Figure:
+    """A page: a row of two plots for each signal, and the inputs below.
+
+    Parameters
+    ----------
+    before : Comparison
+        With the parameters of the FMU.
+    after : Comparison, optional
+        With fitted ones.
+    title : str
+    inputs : mapping of str to Signal
+    """
+    names = list(before.signals)[:_MOST]
+    rows = len(names) + bool(inputs)
+    height = 0.5 + 2.1 * rows
+    with plt.rc_context(_STYLE):
+        figure = plt.figure(figsize=(13.0, height), layout="constrained")
+        engine: Any = figure.get_layout_engine()
+        engine.set(rect=(0.0, 0.0, 1.0, 1.0 - 0.35 / height))
+        figure.suptitle(title, x=0.01, y=1.0 - 0.08 / height, ha="left", va="top", fontsize=12, fontweight="bold")
+        grid = figure.add_gridspec(rows, 2, width_ratios=(1.7, 1.0))
+        first = None
+        for k, name in enumerate(names):
+            s = before.signals[name]
+            every = max(1, len(s.measured.time) // _POINTS)
+            t, y = s.measured.time[::every], s.measured.values[::every]
+            over = figure.add_subplot(grid[k, 0], sharex=first)
+            first = first or over
+            rest = figure.add_subplot(grid[k, 1], sharex=first)
+            over.plot(t, y, ".", color=_MEASURED, markersize=2.5, label="measured")
+            runs = [(s, BLUE, "simulated" if after is None else "simulated before")]
+            if after is not None and name in after.signals:
+                runs.append((after.signals[name], RED, "fitted"))
+            for run, colour, label in runs:
+                x = run.simulated(t)
+                over.plot(t, x, color=colour, label=label)
+                rest.plot(t, x - y, color=colour, linewidth=0.9)
+            unit = "" if s.measured.unit == "1" else f", {s.measured.unit}"
+            last = runs[-1][0]
+            over.set_title(f"{name}{unit}")
+            rest.set_title(
+                f"simulated minus measured: rms {last.deviations.rms:.3g}{unit}, rating {last.rating.overall:.2f}"
+            )
+            rest.axhline(0.0, color="#444444", linewidth=0.8)
+            over.margins(x=0)
+            if k == 0:
+                over.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
+            if k == rows - 1:
+                over.set_xlabel("time, s")
+                rest.set_xlabel("time, s")
+        if inputs:
+            _inputs(figure, grid, rows - 1, inputs, first)
+    return figure
+
+
+def _inputs(figure: Figure, grid: Any, row: int, inputs: Mapping[str, Signal], first: Any) -> None:
+    axes = figure.add_subplot(grid[row, :1], sharex=first)
+    for k, (name, s) in enumerate(inputs.items()):
+        unit = "" if s.unit == "1" else f", {s.unit}"
+        axes.plot(s.time, s.values, color=COLOURS[k % len(COLOURS)], label=f"{name}{unit}")
+    axes.set_title("inputs, as measured")
+    axes.set_xlabel("time, s")
+    axes.margins(x=0)
+    axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
+
+
+def write_picture(figure: Figure, file: Path) -> None:
+    """Write the page as PNG."""
+    save_picture(figure, file)

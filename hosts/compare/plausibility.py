@@ -1,0 +1,125 @@
+"""What is wrong with a log can mostly be seen before anything long is done with it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from hosts.aliased_fmu import AliasedFmu
+from hosts.compare.curve import Curve
+from hosts.compare.deviations import deviations
+from hosts.compare.log import Signal
+from hosts.errors import HostError
+
+LONGEST_GAP = 0.2
+"""s between samples of an input that is bridged unless the user says otherwise."""
+_MANY = 5.0  # median intervals are a gap
+_RATIOS = (
+    (180.0 / math.pi, 'it looks like degrees where radians were taken: unit = "deg" (or "deg/s")'),
+    (math.pi / 180.0, "it looks like radians that were taken for degrees"),
+    (3.6, 'it looks like km/h where m/s was taken: unit = "km/h"'),
+    (1.0 / 3.6, "it looks like m/s that was taken for km/h"),
+    (9.80665, "it looks like m/s² that was taken for g"),
+    (1.0 / 9.80665, 'it looks like g where m/s² was taken: unit = "g"'),
+    (1000.0, 'it looks like thousandths (unit = "mm", "kN" the other way round)'),
+    (1e-3, 'it looks like thousands (unit = "kN", "kJ")'),
+    (100.0, 'it looks like percent: unit = "%"'),
+)
+_CLOSE = 1.12  # of a ratio
+_ALIKE = 0.8  # correlation
+
+
+def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, notes: list[str]) -> None:
+    """Refuse inputs with gaps and values that the FMU cannot take.
+
+    Parameters
+    ----------
+    fmu : AliasedFmu
+    inputs : mapping of str to Signal
+    longest : float
+        Gap that is bridged by a straight line, s.
+    notes : list of str
+        Gains a sentence for each gap that is bridged.
+
+    Raises
+    ------
+    HostError
+        With the input, where, and what to do.
+    """
+    for name, signal in inputs.items():
+        steps = np.diff(signal.time)
+        k, usual = int(np.argmax(steps)), signal.interval
+        begin, end, what = signal.time[k], signal.time[k + 1], f"the input '{signal.source}' ({name})"
+        if steps[k] > max(longest, 1.5 * usual):
+            raise HostError(
+                f"The log has no samples of {what} from {begin:.6g} s to {end:.6g} s ({steps[k]:.3g} s; usual are "
+                f"{usual:.3g} s): compare what lies before (--to {begin:.6g}) or after (--from {end:.6g}), or bridge "
+                f"it by a straight line with --longest-gap {math.ceil(100.0 * steps[k]) / 100.0:g}."
+            )
+        if steps[k] > _MANY * usual:
+            notes.append(
+                f"A gap of {steps[k]:.3g} s in {what}, at {begin:.6g} s, is bridged by a straight line "
+                f"(usual are {usual:.3g} s)."
+            )
+        variable = fmu.table[name]
+        low, high = float(signal.values.min()), float(signal.values.max())
+        room = 1e-6 * max(abs(variable.low), abs(variable.high), 1e-9) if math.isfinite(variable.high) else 0.0
+        if low < variable.low - room or high > variable.high + room:
+            raise HostError(
+                f"The log's {what} reaches from {low:.4g} to {high:.4g} {signal.unit}; the range of the FMU's input is "
+                f"{variable.range}{_hint(max(-low, high), max(-variable.low, variable.high))}."
+            )
+
+
+def _hint(reached: float, limit: float) -> str:
+    if not (math.isfinite(limit) and limit > 0.0):
+        return ""
+    ratio = reached / limit
+    if 1.0 < ratio <= 1.2:
+        return "; it may be clipped by a factor or an offset in the alias file"
+    if 20.0 < ratio <= 120.0:
+        return '; it looks like percent or degrees: give its unit in the alias file, such as unit = "%" or "deg"'
+    return "; is its unit in the alias file right?"
+
+
+def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
+    """Tell where signals that are compared have no samples; nothing is compared there."""
+    for name, signal in outputs.items():
+        steps = np.diff(signal.time)
+        k = int(np.argmax(steps))
+        if steps[k] > max(_MANY * signal.interval, LONGEST_GAP):
+            notes.append(
+                f"'{signal.source}' ({name}) has no samples from {signal.time[k]:.6g} s to {signal.time[k + 1]:.6g} s; "
+                "nothing is compared there."
+            )
+
+
+def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
+    """A sentence if a measured signal looks like one in another unit, or with the other sign; else empty.
+
+    Parameters
+    ----------
+    signal : Signal
+    curve : Curve
+        Simulated.
+    delay : float
+        Of the signal, s.
+    """
+    x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
+    found = deviations(signal.time, y, x)
+    if not math.isfinite(found.correlation) or abs(found.correlation) < _ALIKE:
+        return ""
+    what = f"'{signal.source}' ({signal.name})"
+    # Of the spreads, not of the regression, which noise makes smaller.
+    ratio = float(np.std(y) / np.std(x))
+    for factor, words in _RATIOS:
+        if factor / _CLOSE < ratio < factor * _CLOSE:
+            return f"{what} is {ratio:.4g} times as large as in the simulation: {words}."
+    if found.correlation < -_ALIKE:
+        return (
+            f"{what} has the opposite sign of the simulation (correlation {found.correlation:.2f}): factor = -1.0 in "
+            "the alias file turns it."
+        )
+    return ""

@@ -1,0 +1,65 @@
+"""The files of a comparison: signals side by side as CSV, all numbers as JSON."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ali3.files import whole_file, write_text
+from hosts.compare.comparison import Comparison
+from hosts.measures.measure import Measure
+
+
+def write_signals(before: Comparison, after: Comparison | None, file: Path) -> None:
+    """Signals at all times at which one of them is measured; a cell is empty where this one is not.
+
+    Parameters
+    ----------
+    before : Comparison
+    after : Comparison, optional
+        With fitted parameters.
+    file : Path
+        CSV: ``time [s]``, then of each signal ``NAME.measured``, ``NAME.simulated`` and, where parameters were fitted,
+        ``NAME.fitted``, with the unit.
+    """
+    times = np.unique(np.concatenate([s.measured.time for s in before.signals.values()]))
+    names, columns = ["time [s]"], [times]
+    for name, s in before.signals.items():
+        measured = np.full(len(times), np.nan)
+        measured[np.searchsorted(times, s.measured.time)] = s.measured.values
+        made = {"measured": measured, "simulated": s.simulated(times)}
+        if after is not None:
+            made["fitted"] = after.signals[name].simulated(times)
+        for what, values in made.items():
+            names.append(f"{name}.{what} [{s.measured.unit}]")
+            columns.append(values)
+    with whole_file(file) as path, path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(names)
+        for row in np.column_stack(columns).tolist():
+            writer.writerow(["" if math.isnan(v) else repr(v) for v in row])
+
+
+def measure_records(measures: Sequence[Measure]) -> list[dict[str, Any]]:
+    """Measures for JSON, which has no NaN."""
+    return [
+        {
+            "name": m.name,
+            "value": m.value if math.isfinite(m.value) else None,
+            "unit": m.unit,
+            "text": m.text,
+            "note": m.note,
+        }
+        for m in measures
+    ]
+
+
+def write_json(record: Mapping[str, Any], file: Path) -> None:
+    """Write a record."""
+    write_text(file, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")

@@ -1,0 +1,115 @@
+"""How a car starts that a log shows in motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from hosts.aliased_fmu import AliasedFmu
+from hosts.aliases import Aliases
+from hosts.compare.log import Signal
+from hosts.fmu import Fmu
+from hosts.numbers import Value
+
+_AVERAGED = 0.1  # s at the begin of a log
+_MOVES, _TURNS = 0.5, 0.02  # m/s, rad/s
+
+
+def measured_start(
+    fmu: AliasedFmu, signals: Mapping[str, Signal], given: Mapping[str, Value]
+) -> tuple[dict[str, Value], list[str]]:
+    """Start values of speed and pose as they are measured, where the FMU has such parameters.
+
+    Parameters
+    ----------
+    fmu : AliasedFmu
+        Not initialised.
+    signals : mapping of str to Signal
+        Of the log, which begins at time 0.
+    given : mapping of str to float, int, bool or str
+        What the user sets, which wins.
+
+    Returns
+    -------
+    start : dict
+        To be set besides `given`.
+    notes : list of str
+        What the start is, in sentences.
+    """
+    start: dict[str, Value] = {}
+    notes = []
+    speed = next((at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)
+    for name, value in (("initial.speed", speed), ("initial.yaw", _of(signals, "chassis.yaw"))):
+        if value is not None and name in fmu.variables and name not in given:
+            start[name] = value
+    for axis in "xy":
+        value = _of(signals, f"chassis.{axis}")
+        if value is not None and f"initial.{axis}" in fmu.variables and f"initial.{axis}" not in given:
+            start[f"initial.{axis}"] = value
+    if start:
+        notes.append(f"The start is as measured: {', '.join(f'{n} = {v:.4g}' for n, v in start.items())}.")
+    if speed is not None and abs(speed) > _MOVES and "initial.speed" not in (start | dict(given)):
+        notes.append(
+            f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, so that it starts as it does "
+            "by itself. Let the log begin at rest (--from), or do not compare the first seconds (--skip)."
+        )
+    if speed is None and "initial.speed" in fmu.variables and "initial.speed" not in given:
+        notes.append(
+            "The log has no 'speed': the car starts at rest; if it moved, set it by --set initial.speed=VALUE."
+        )
+    rate = _of(signals, "chassis.wz")
+    if rate is not None and abs(rate) > _TURNS:
+        notes.append(
+            f"The log begins in a turn of {rate:.3g} rad/s; the car starts straight, so that the first seconds differ "
+            "(--from begins elsewhere, --skip leaves them out of the comparison)."
+        )
+    return start, notes
+
+
+def placed(
+    fmu_path: Path, aliases: Aliases, start: Mapping[str, Value], measured: Mapping[str, Value]
+) -> dict[str, Value]:
+    """Initial place so that the reference point, not the origin of the car's drawing, starts where it was measured.
+
+    Parameters
+    ----------
+    fmu_path : Path
+    aliases : Aliases
+    start : mapping
+        All start values.
+    measured : mapping
+        Those of `measured_start`.
+
+    Returns
+    -------
+    dict
+        `start` with a corrected place.
+    """
+    axes = [a for a in "xy" if f"initial.{a}" in measured]
+    if not axes:
+        return dict(start)
+    with Fmu(fmu_path) as opened:
+        fmu = AliasedFmu(opened, aliases)
+        names = [f"chassis.{a}" for a in axes]
+        fmu.initialise(start)
+        found = fmu.getter(names)()
+    made = dict(start)
+    for axis, value in zip(axes, found, strict=True):
+        wanted = float(measured[f"initial.{axis}"])
+        if math.isfinite(value):
+            made[f"initial.{axis}"] = wanted - (value - wanted)
+    return made
+
+
+def at_start(signal: Signal) -> float:
+    """Value at time 0: of a line through the first samples, which noise moves little."""
+    few = signal.time <= max(_AVERAGED, signal.time[0] + 4.5 * signal.interval)
+    slope, value = np.polyfit(signal.time[few], signal.values[few], 1)
+    return float(value) if math.isfinite(slope) else float(signal.values[0])
+
+
+def _of(signals: Mapping[str, Signal], name: str) -> float | None:
+    return at_start(signals[name]) if name in signals else None

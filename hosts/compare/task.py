@@ -1,0 +1,182 @@
+"""What is compared: log, FMU and start, checked as far as can be before anything is driven."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from hosts.aliased_fmu import AliasedFmu
+from hosts.aliases import Aliases, read_aliases
+from hosts.co_simulation import check_columns, communication_step
+from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
+from hosts.compare.log_aliases import LogAliases, read_log_aliases
+from hosts.compare.log_file import read_log
+from hosts.compare.plausibility import check_inputs, note_gaps
+from hosts.compare.replay import inputs_of
+from hosts.compare.start_values import measured_start, placed
+from hosts.errors import HostError
+from hosts.fmu import Fmu
+from hosts.manoeuvre import Manoeuvre
+from hosts.numbers import Value
+from hosts.options import wishes
+from hosts.settings import settings_of
+from hosts.variables import Variable
+
+_STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
+
+
+@dataclass(frozen=True)
+class Task:
+    """A comparison that can be done.
+
+    Parameters
+    ----------
+    aliases : Aliases
+        Of the FMU.
+    inputs, outputs : dict of str to Signal
+        From time 0 on.
+    manoeuvre : Manoeuvre
+    step : float
+        s.
+    parameters : dict of str to Variable
+        Of the FMU, by our names.
+    set_values : dict
+        Start values that the user has set.
+    notes : list of str
+    """
+
+    aliases: Aliases
+    inputs: dict[str, Signal]
+    outputs: dict[str, Signal]
+    manoeuvre: Manoeuvre
+    step: float
+    parameters: dict[str, Variable]
+    set_values: dict[str, Value]
+    notes: list[str]
+
+
+def prepare(options: argparse.Namespace) -> Task:
+    """Read log and FMU, and check them.
+
+    Raises
+    ------
+    HostError
+        One sentence.
+    """
+    log_aliases = LogAliases() if options.aliases is None else read_log_aliases(options.aliases)
+    raw = read_log(options.log, log_aliases.form)
+    with Fmu(options.fmu) as opened:
+        aliases = Aliases() if options.fmu_aliases is None else read_aliases(options.fmu_aliases, opened.variables)
+        fmu = AliasedFmu(opened, aliases)
+        log = log_for(fmu, raw, log_aliases)
+        notes = log.notes
+        inputs, outputs = _chosen(log, fmu, options)
+        _add_steering(fmu, log, inputs, outputs, notes)
+        if not inputs:
+            raise HostError(
+                f"The log {options.log} has no input of {options.fmu.name}, so that there is nothing to replay; its "
+                f"inputs are {', '.join(fmu.names('input')) or 'none'}: the alias file of the log (--aliases) "
+                "names their columns."
+            )
+        held = [n for n in fmu.names("input") if n not in inputs]
+        if held:
+            notes.append(f"Not in the log, and held at their start values: {', '.join(held)}.")
+        inputs, outputs, end = _window(inputs, outputs, options)
+        check_inputs(fmu, inputs, options.longest_gap, notes)
+        note_gaps(outputs, notes)
+        settings = settings_of(opened.table, wishes(options), {}, "")
+        by_theirs = {n: aliases.names([n])[0] for n in settings.start}
+        given = {by_theirs[n]: v for n, v in settings.start.items()}
+        start, words = measured_start(fmu, outputs | log_at(log, options), given)
+        notes += words
+        everything = placed(options.fmu, aliases, start | given, start)
+        step = communication_step(
+            fmu, Manoeuvre("", next(iter(inputs.values())).time, {}, end), _step(fmu, inputs, options)
+        )
+        manoeuvre = inputs_of(options.log.stem, inputs, everything, end, step)
+        check_columns(fmu, manoeuvre)
+        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter"}
+    return Task(aliases, inputs, outputs, manoeuvre, step, parameters, given, notes)
+
+
+def log_at(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
+    """All outputs of the log from time 0 on: the start needs also those that are not compared."""
+    return {n: s for n, s in _shifted(log.outputs, options).items() if len(s.time) >= FEWEST_SAMPLES}
+
+
+def _step(fmu: AliasedFmu, inputs: Mapping[str, Signal], options: argparse.Namespace) -> float | None:
+    """The step that was asked for; else that of the FMU, or of the log where that is longer, up to 10 ms."""
+    if options.step is not None:
+        return float(options.step)
+    experiment = fmu.description.defaultExperiment
+    own = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+    finest = min(s.interval for s in inputs.values())
+    return own * max(1, math.floor(min(finest, 0.01) / own + 1e-6))
+
+
+def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dict[str, Signal], dict[str, Signal]]:
+    outputs, inputs = dict(log.outputs), dict(log.inputs)
+    if options.signals is not None:
+        wanted = [n.strip() for n in options.signals.split(",") if n.strip()]
+        for name in wanted:
+            if name not in outputs:
+                near = difflib.get_close_matches(name, outputs, 3)
+                hint = f"did you mean {' or '.join(near)}?"[:-1] if near else f"it has {', '.join(outputs) or 'none'}"
+                what = "is no output of the FMU" if name not in fmu.names("output") else "is not in the log"
+                raise HostError(f"--signals: '{name}' {what}; {hint}.")
+        outputs = {n: outputs[n] for n in wanted}
+    for name in [n.strip() for n in (options.ignore or "").split(",") if n.strip()]:
+        if name not in inputs:
+            raise HostError(f"--ignore: '{name}' is no input in the log; it has {', '.join(inputs) or 'none'}.")
+        del inputs[name]
+    if not outputs:
+        raise HostError(
+            f"The log {options.log} has no output of {options.fmu.name} to compare; its alias file (--aliases) can "
+            f"name some of: {', '.join(fmu.names('output')[:12])} ..."
+        )
+    return inputs, outputs
+
+
+def _add_steering(
+    fmu: AliasedFmu, log: Log, inputs: dict[str, Signal], outputs: dict[str, Signal], notes: list[str]
+) -> None:
+    """A car that is steered by a normalised input, and a log with the angle of the steering wheel."""
+    largest = fmu.constants().get(_ANGLE_MAX)
+    if _ANGLE in log.outputs and largest and _STEERING in fmu.names("input") and _STEERING not in inputs:
+        if any(n.startswith("steering_wheel_angle") for n in inputs):
+            return
+        angle = log.outputs[_ANGLE]
+        outputs.pop(_ANGLE, None)  # what drives is not compared
+        inputs[_STEERING] = replace(angle, name=_STEERING, unit="1", values=angle.values / largest)
+        notes.append(f"'{_STEERING}' is the measured {_ANGLE} over {_ANGLE_MAX} = {largest:.4g} rad.")
+
+
+def _shifted(signals: Mapping[str, Signal], options: argparse.Namespace) -> dict[str, Signal]:
+    begin = options.begin or 0.0
+    end = math.inf if options.end is None else options.end
+    cut = {n: s.between(begin, end) for n, s in signals.items()}
+    return {n: replace(s, time=s.time - begin) for n, s in cut.items()}
+
+
+def _window(
+    inputs: dict[str, Signal], outputs: dict[str, Signal], options: argparse.Namespace
+) -> tuple[dict[str, Signal], dict[str, Signal], float]:
+    """Signals between --from and --to, from time 0 on, and where the inputs end."""
+    last = max(float(s.time[-1]) for s in inputs.values())
+    for name, value in (("--from", options.begin), ("--to", options.end)):
+        if value is not None and not 0.0 <= value <= last:
+            raise HostError(f"{name} is {value:g} s; the log's inputs lie between 0 and {last:.6g} s.")
+    inputs, outputs = _shifted(inputs, options), _shifted(outputs, options)
+    for signal in (*inputs.values(), *outputs.values()):
+        if len(signal.time) < FEWEST_SAMPLES:
+            raise HostError(
+                f"The log has {len(signal.time)} samples of '{signal.source}' ({signal.name}) between --from and --to; "
+                f"at least {FEWEST_SAMPLES} are needed."
+            )
+    end = min(max(float(s.time[-1]) for s in inputs.values()), max(float(s.time[-1]) for s in outputs.values()))
+    if not 0.0 <= options.skip < 0.9 * end:
+        raise HostError(f"--skip is {options.skip:g} s; the log lasts {end:.6g} s.")
+    return inputs, outputs, end

@@ -1,0 +1,53 @@
+"""A comparison in lines for the terminal."""
+
+from __future__ import annotations
+
+import math
+
+from hosts.compare.comparison import Comparison
+
+_HEADINGS = ("signal", "unit", "rms", "nrms", "largest", "at, s", "corr.", "rating", "", "delay, ms")
+
+
+def table(comparison: Comparison) -> str:
+    """Errors of all signals as a table."""
+    rows = [list(_HEADINGS)]
+    for name, s in comparison.signals.items():
+        d, r, a = s.deviations, s.rating, s.alignment
+        rows.append(
+            [
+                name,
+                s.measured.unit,
+                f"{d.rms:.4g}",
+                _number(d.normalised, ".3f"),
+                f"{d.largest:.4g}",
+                f"{d.time_of_largest:.4g}",
+                _number(d.correlation, ".4f"),
+                _number(r.overall, ".3f"),
+                r.grade,
+                f"{1e3 * a.delay:.3g} ± {1e3 * a.delay_error:.2g}" if math.isfinite(a.delay) else "-",
+            ]
+        )
+    widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
+    return "\n".join("  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip() for row in rows)
+
+
+def common_words(comparison: Comparison, step: float) -> list[str]:
+    """Sentences on delays, drift and what could not be computed."""
+    lines = []
+    for name, s in comparison.signals.items():
+        for note in dict.fromkeys(filter(None, (s.deviations.note, s.alignment.note))):
+            lines.append(f"note: {name}: {note}.")
+    c = comparison.common
+    if math.isfinite(c.delay):
+        drift = (
+            f"; its clock runs {1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm {'fast' if c.drift > 0 else 'slow'}"
+            if abs(c.drift) > 2.0 * c.drift_error
+            else ""
+        )
+        lines.append(f"all signals: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late{drift}")
+    return lines
+
+
+def _number(value: float, form: str) -> str:
+    return format(value, form) if math.isfinite(value) else "-"

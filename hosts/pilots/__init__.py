@@ -1,0 +1,1 @@
+"""Who drives: pilots that turn what a car senses into its inputs."""

@@ -1,0 +1,34 @@
+"""What a pilot is, and several as one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+
+class Pilot(Protocol):
+    """Who drives: from what the car senses to its inputs."""
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """Inputs for the coming communication step; `senses` are all outputs by our names."""
+        ...
+
+
+class Together:
+    """Pilots that share a car, such as one who steers and one who holds the speed.
+
+    Parameters
+    ----------
+    *pilots : Pilot
+        Where two act on an input the later one does.
+    """
+
+    def __init__(self, *pilots: Pilot) -> None:
+        self.pilots = pilots
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """See `Pilot.act`."""
+        acts: dict[str, float] = {}
+        for pilot in self.pilots:
+            acts |= pilot.act(time, senses)
+        return acts

@@ -1,0 +1,77 @@
+"""Delay and drift that are known, in closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from hosts.co_simulation import Result
+from hosts.compare.alignment import align
+from hosts.compare.curve import Curve
+from hosts.compare.log import Signal
+
+END = 20.0
+
+
+def motion(t: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.sin(2.0 * t) + 0.5 * np.sin(5.3 * t + 0.7) * np.exp(-(((t - 8.0) / 5.0) ** 2))
+
+
+def simulated(values: NDArray[np.float64], t: NDArray[np.float64]) -> Curve:
+    return Curve(Result(["y"], {"y": "1"}, t, values[:, None], 0.0, END, 0, []), "y")
+
+
+@pytest.fixture(scope="module")
+def curve() -> Curve:
+    t = np.arange(0.0, END, 0.01)
+    return simulated(motion(t), t)
+
+
+def log_of(delay: float, drift: float, noise: float = 0.0, seed: int = 1) -> Signal:
+    """Samples at another interval: what happens at t is written at delay + (1 + drift) t."""
+    t = np.arange(0.0, 19.5, 0.013)
+    values = 3.0 + 1.2 * motion((t - delay) / (1.0 + drift))
+    return Signal("y", "y", "1", t, values + noise * np.random.default_rng(seed).normal(size=len(t)))
+
+
+@pytest.mark.parametrize(("delay", "drift"), [(0.1234, 0.0), (-0.057, 3e-4), (0.0, -1e-3), (0.4, 2e-3)])
+def test_known_delay_and_drift_are_found_to_a_thousandth_of_a_sample(curve: Curve, delay: float, drift: float) -> None:
+    found = align([(log_of(delay, drift), curve)], 0.6)
+    assert found.delay == pytest.approx(delay, abs=1e-5)
+    assert found.drift == pytest.approx(drift, abs=1e-6)
+    assert found.correlation == pytest.approx(1.0, abs=1e-9)
+
+
+def test_intervals_hold_under_noise(curve: Curve) -> None:
+    inside = 0
+    for seed in range(40):
+        found = align([(log_of(0.08, 0.0, 0.1, seed), curve)], 0.5, drift=False)
+        inside += abs(found.delay - 0.08) <= found.delay_error
+        assert 0.001 < found.delay_error < 0.01
+    assert inside >= 34  # of 40; fewer than 34 has a probability of 0.3 % where it is 95 %
+
+
+def test_a_delay_in_common_is_that_of_both(curve: Curve) -> None:
+    other = Signal("z", "z", "1", log_of(0.08, 0.0).time, log_of(0.08, 0.0).values)
+    assert align([(log_of(0.08, 0.0), curve), (other, curve)], 0.5).delay == pytest.approx(0.08, abs=1e-5)
+
+
+def test_what_cannot_be_told_is_said(curve: Curve) -> None:
+    noise = np.random.default_rng(2).normal(size=1000)
+    found = align([(Signal("y", "y", "1", 0.015 * np.arange(1000), noise), curve)], 0.5)
+    assert math.isnan(found.delay)
+    assert "no delay can be told" in found.note
+    flat = align([(Signal("y", "y", "1", 0.015 * np.arange(1000), np.ones(1000)), curve)], 0.5)
+    assert flat.note == "no signal moves in both"
+
+
+def test_of_a_periodic_signal_the_smallest_delay_is_taken_and_the_other_named() -> None:
+    t = np.arange(0.0, END, 0.01)
+    wave = simulated(np.sin(2.0 * np.pi * 2.0 * t), t)
+    signal = Signal("y", "y", "1", t[:-100], np.sin(2.0 * np.pi * 2.0 * (t[:-100] - 0.1)))
+    found = align([(signal, wave)], 1.0, drift=False)
+    assert found.delay == pytest.approx(0.1, abs=1e-4)
+    assert "-0.4" in found.note or "0.6" in found.note

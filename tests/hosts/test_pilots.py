@@ -1,0 +1,60 @@
+"""Pilots hold a speed and steer by a table."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hosts.errors import HostError
+from hosts.pilots.pilot import Together
+from hosts.pilots.speed_holder import SpeedHolder
+from hosts.pilots.steering import ConstantSteering, SteeringTable
+
+
+def hold(pilot: SpeedHolder, start: float, seconds: float, push: float = 4.0, step: float = 0.01) -> np.ndarray:
+    """Speeds of a car of at most `push` m/s2, slowed down by 0.1 m/s2 and 0.0005/m of the square of its speed."""
+    speed, speeds = start, []
+    for k in range(round(seconds / step)):
+        act = pilot.act(k * step, {"speed": speed})
+        speeds.append(speed)
+        speed += step * (push * act["throttle"] - 9.0 * act.get("brake", 0.0) - 0.1 - 5e-4 * speed**2)
+    return np.array(speeds)
+
+
+def test_speed_is_held_without_a_lasting_error() -> None:
+    assert hold(SpeedHolder(20.0), 18.0, 60.0)[-1] == pytest.approx(20.0, abs=0.01)
+
+
+def test_a_rising_speed_is_followed_closer_with_the_acceleration_fed_forward() -> None:
+    wanted = 10.0 + 0.5 * np.arange(2000) * 0.01
+    with_it, without = (
+        np.abs(hold(SpeedHolder(lambda t: 10.0 + 0.5 * t, acceleration_gain=g), 10.0, 20.0) - wanted).max()
+        for g in (0.25, 0.0)
+    )
+    assert with_it < 0.5 * without
+    assert with_it < 0.2
+
+
+def test_without_brakes_a_car_that_is_too_fast_rolls() -> None:
+    pilot = SpeedHolder(10.0, brakes=False)
+    assert pilot.act(0.0, {"speed": 30.0}) == {"throttle": 0.0}
+
+
+def test_tables_are_linear_between_and_step_where_a_time_stands_twice() -> None:
+    table = SteeringTable([0.0, 1.0, 1.0, 2.0], [0.0, 0.0, 0.5, 1.5], "steering_wheel_angle_demand")
+    values = [table.act(t, {})["steering_wheel_angle_demand"] for t in (-1.0, 0.999, 1.0 - 1e-12, 1.5, 3.0)]
+    assert values == pytest.approx([0.0, 0.0, 0.5, 1.0, 1.5], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("time", "values", "words"),
+    [([0.0, 1.0], [0.0], "2 times and 1 values"), ([], [], "0 times"), ([0.0, 2.0, 1.0], [0.0] * 3, "from 2 s to 1 s")],
+)
+def test_a_wrong_table_is_told(time: list[float], values: list[float], words: str) -> None:
+    with pytest.raises(HostError, match=words):
+        SteeringTable(time, values)
+
+
+def test_the_later_pilot_wins() -> None:
+    pilots = Together(ConstantSteering(0.1), SpeedHolder(5.0), ConstantSteering(0.2))
+    assert pilots.act(0.0, {"speed": 5.0}) == {"steering": 0.2, "throttle": 0.0, "brake": 0.0}
