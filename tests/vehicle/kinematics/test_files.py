@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pandas
@@ -24,9 +28,6 @@ LEVEL = FourBar((0.30, 0.15), (0.60, 0.15), (0.30, 0.385), (0.60, 0.385))
 def made(tmp_path_factory):
     """A folder of the command's files, and what it printed."""
     folder = tmp_path_factory.mktemp("made")
-    import contextlib
-    import io
-
     with contextlib.redirect_stdout(io.StringIO()) as printed:
         code = main(
             ["kinematics", "hatchback", "--points", "9", "--out", str(folder), "--json", str(folder / "k.json")]
@@ -70,6 +71,13 @@ def test_page_table_and_json(made, found):
     assert math.degrees(drawn["caster_angle"]) == pytest.approx(4.022, abs=5e-4)
     assert drawn["lock_inner"] > drawn["lock_outer"] > 0.5
     assert drawn["roll_wheel_rate"] > drawn["wheel_rate"]
+
+
+def test_the_page_of_the_documentation_prints_what_it_says(capsys):
+    text = (Path(__file__).parents[3] / "docs" / "kinematics.md").read_text(encoding="utf-8")
+    code, said = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
+    exec(compile(code, "docs/kinematics.md", "exec"), {})
+    assert capsys.readouterr().out == said
 
 
 @pytest.mark.parametrize(
