@@ -39,7 +39,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
         default=[],
         type=Path,
         metavar="FILE",
-        help="our names for the variables of FMUs that have others: one for all FMUs, or one for each in their order",
+        help="our names for the variables of FMUs that have others: one file for all FMUs, or one for each in their "
+        "order; chrono, carmaker, carsim, osi and vehicle_interfaces come with the package",
     )
     parser.add_argument(
         "--parameters",

@@ -48,12 +48,18 @@ def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float
     has a method ``why_not(car, settings)`` that gives a sentence or None.
     """
     there = {*car.inputs, *car.outputs, *car.parameters, *car.constants}
-    missing = [need for need in test.needs if not there & {name.strip() for name in need.split("|")}]
+    missing = [need for need in test.needs if not there & set(_names(need))]
     if not missing:
         why_not = getattr(test, "why_not", None)
         return None if why_not is None else why_not(car, settings)
-    words = " and no ".join(" or ".join(name.strip() for name in need.split("|")) for need in missing)
-    return f"The FMU {car.path.name} has no {words}; where it has another name, an alias file says which (--aliases)."
+    words = " and no ".join(" or ".join(_names(need)) for need in missing)
+    told = [car.aliases.why_missing(name) for need in missing for name in _names(need)]
+    hint = "where it has another name, an alias file says which (--aliases)."
+    return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, told))) or hint}"
+
+
+def _names(need: str) -> list[str]:
+    return [name.strip() for name in need.split("|")]
 
 
 def perform(
