@@ -151,12 +151,12 @@ class SteeredRun:
         """Between samples, s."""
         return float(self.time[1] - self.time[0])
 
-    def thinned(self, interval: float = 0.01) -> Result:
-        """The record with rows no closer than an interval, s: each n-th, and the last."""
+    def thinned(self, interval: float = 0.02) -> Result:
+        """The record from 1 s before the steering begins, with rows no closer than an interval, s."""
         r = self.result
         step = float(r.time[1] - r.time[0]) if len(r.time) > 1 else interval
-        each = max(1, math.floor(interval / step + 1e-9))
-        rows = np.unique(np.append(np.arange(0, len(r.time), each), len(r.time) - 1))
+        first = int(np.searchsorted(r.time, self.begin - 1.0 - 1e-9)) if math.isfinite(self.begin) else 0
+        rows = np.arange(first, len(r.time), max(1, math.floor(interval / step + 1e-9)))
         return replace(r, time=r.time[rows], values=r.values[rows])
 
 
