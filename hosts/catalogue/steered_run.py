@@ -220,14 +220,15 @@ def _signals(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
     interval = max(_INTERVAL, row)
     # the grid has a sample where the steering begins
     first = pilot.begin - interval * math.floor(min(1.0, pilot.begin) / interval)
-    blank = np.full(len(result.time), math.nan)
+    kept = result.time > first - 1.5 * row
+    time, blank = result.time[kept], np.full(len(result.time), math.nan)
+    grid = resample(time, time, interval, first)[0]
 
     def even(values: NDArray[np.float64]) -> NDArray[np.float64]:
-        if not np.isfinite(values).all():
+        if not np.isfinite(values[kept]).all():
             return np.full(len(grid), math.nan)
-        return resample(result.time, values, interval, first)[1]
+        return resample(time, values[kept], interval, first)[1]
 
-    grid = resample(result.time, result.time, interval, first)[0]
     names = ("chassis.wz", "sideslip", "chassis.roll", "speed")
     yaw_rate, sideslip, roll, speed = (even(result[n] if n in result.names else blank) for n in names)
     return SteeredRun(
