@@ -12,7 +12,6 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from ali3.errors import FileError
 from ali3.files import whole_file
 from hosts.errors import HostError
 from hosts.numbers import Value
@@ -76,7 +75,9 @@ def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
         if len(index) and not 0 <= index.min() <= index.max() < runs:
             raise HostError(f"{file} has the run {index.max()}; the study has {runs} runs.")
         if done[index].any() or len(np.unique(index)) < len(index):
-            raise HostError(f"{file} has the run {index[done[index]][:1]} a second time; remove it.")
+            raise HostError(
+                f"{file} has a run that another part has too; remove it, and its other runs are made again."
+            )
         done[index] = True
     return done
 
@@ -154,12 +155,11 @@ def _texts(values: Sequence[Value], kind: Any) -> Sequence[Value]:
 
 
 def _write(table: Any, file: Path) -> None:
-    try:
-        with whole_file(file) as made:
-            pq.write_table(table, made, compression="zstd")
-            sync(made)
-    except pa.ArrowException as error:
-        raise FileError(f"{file} cannot be written: {str(error).splitlines()[0]}.") from None
+    buffer = pa.BufferOutputStream()
+    pq.write_table(table, buffer, compression="zstd")
+    with whole_file(file) as made:
+        made.write_bytes(buffer.getvalue())
+        sync(made)
 
 
 Progress = Callable[[int, int], None]
