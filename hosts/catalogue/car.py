@@ -104,7 +104,10 @@ class TestedCar:
             start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
             step = communication_step(fmu, manoeuvre, self.step)
             every = 1 if record_step is None else max(1, round(record_step / step))
-            return run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
+            result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
+            if self.aliases.derived:
+                self.aliases.with_central_rates(result.names, result.time, result.values, every > 1)
+            return result
 
     @cached_property
     def facts(self) -> CarFacts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from hosts.aliases import Aliases, read_aliases
+from hosts.aliases import Aliases, find_aliases
 from hosts.catalogue.car import TestedCar
 from hosts.errors import HostError
 from hosts.fmu import Fmu
@@ -31,7 +31,7 @@ def cars_of(
     ----------
     fmus : sequence of Path
     alias_files : sequence of Path
-        None, one for all FMUs, or one for each.
+        None, one for all FMUs, or one for each; or names of those that come with the package, such as ``chrono``.
     sets : sequence of Path
         SSV files; `AS_IS` is none. None at all: the FMUs as they are.
     values : sequence of (str, str)
@@ -63,7 +63,7 @@ def _cars_of_one(
 ) -> list[TestedCar]:
     cars = []
     with Fmu(path) as fmu:
-        aliases = Aliases() if alias_file is None else read_aliases(alias_file, fmu.variables)
+        aliases = Aliases() if alias_file is None else find_aliases(alias_file, fmu.table)
         for one in sets:
             wishes = Wishes([] if str(one) == AS_IS else [one], list(values))
             start = settings_of(fmu.table, wishes).start

@@ -39,7 +39,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
         default=[],
         type=Path,
         metavar="FILE",
-        help="our names for the variables of FMUs that have others: one for all FMUs, or one for each in their order",
+        help="our names for the variables of FMUs that have others: one file for all FMUs, or one for each in their "
+        "order; chrono, carmaker, carsim, osi and vehicle_interfaces come with the package",
     )
     parser.add_argument(
         "--parameters",
@@ -175,11 +176,7 @@ def _report(
     settings: Mapping[str, Mapping[str, float]],
     command: Sequence[str],
 ) -> list[Path]:
-    from importlib.util import find_spec
-
-    if find_spec("hosts.catalogue.report") is None:
-        return []
-    from hosts.catalogue.report import write_report  # type: ignore[import-not-found]
+    from hosts.catalogue.report import write_report
 
     write_report(file, tests, cars, outcomes, settings, command)
     return [file]

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TypeAlias
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.errors import HostError
+
+_MOST_MESSAGES, _MOST_NAMES, _LONGEST = 10, 4, 300
 
 Reason: TypeAlias = str
 """Why a test of a car could not be done: a sentence."""
@@ -48,12 +51,18 @@ def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float
     has a method ``why_not(car, settings)`` that gives a sentence or None.
     """
     there = {*car.inputs, *car.outputs, *car.parameters, *car.constants}
-    missing = [need for need in test.needs if not there & {name.strip() for name in need.split("|")}]
+    missing = [need for need in test.needs if not there & set(_names(need))]
     if not missing:
         why_not = getattr(test, "why_not", None)
         return None if why_not is None else why_not(car, settings)
-    words = " and no ".join(" or ".join(name.strip() for name in need.split("|")) for need in missing)
-    return f"The FMU {car.path.name} has no {words}; where it has another name, an alias file says which (--aliases)."
+    words = " and no ".join(" or ".join(_names(need)) for need in missing)
+    told = [car.aliases.why_missing(name) for need in missing for name in _names(need)]
+    hint = "where it has another name, an alias file says which (--aliases)."
+    return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, told))) or hint}"
+
+
+def _names(need: str) -> list[str]:
+    return [name.strip() for name in need.split("|")]
 
 
 def perform(
@@ -89,4 +98,21 @@ def perform(
     progress(0.0)
     record = test.perform(car, wanted, progress)
     progress(1.0)
-    return record
+    return replace(record, notes=[*record.notes, *_said(record)])
+
+
+def _said(record: TestRecord) -> list[str]:
+    """What the FMU said in which runs, each sentence once."""
+    runs: dict[str, list[str]] = {}
+    for name, result in record.runs.items():
+        for message in dict.fromkeys(" ".join(m.split()) for m in result.messages):
+            runs.setdefault(message, []).append(name)
+    said = []
+    for message, names in list(runs.items())[:_MOST_MESSAGES]:
+        where = "every run" if len(names) == len(record.runs) > 1 else ", ".join(names[:_MOST_NAMES])
+        more = f" and {len(names) - _MOST_NAMES} more" if where != "every run" and len(names) > _MOST_NAMES else ""
+        words = message if len(message) <= _LONGEST else f"{message[:_LONGEST]}..."
+        said.append(f"The FMU said in {where}{more}: {words}")
+    if len(runs) > _MOST_MESSAGES:
+        said.append(f"The FMU said {len(runs) - _MOST_MESSAGES} other sentences.")
+    return said

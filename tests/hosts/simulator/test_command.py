@@ -6,6 +6,7 @@ import importlib.util
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -179,6 +180,8 @@ def renamed(fmus, tmp_path):
             if item.filename == "modelDescription.xml":
                 for ours, theirs in NAMES.items():
                     content = content.replace(f'name="{ours}"'.encode(), f'name="{theirs}"'.encode())
+                # One that is in kilometres, of which the other program says nothing.
+                content = re.sub(rb'(name="X"[^>]*>\s*<Real)[^>]*', rb"\1 /", content)
             if item.filename != "resources/geometry.json":
                 new.writestr(item, content)
     return made
