@@ -234,6 +234,10 @@ def _make(
         return Ended(folder, False, progress.failed)
     rate = progress.made / seconds
     words = f"{progress.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {progress.failed} failed"
+    if progress.incomplete:
+        words += f", {progress.incomplete} incomplete"
+    for line in progress.said():
+        print(line)
     print(f"{words}; written: {folder}")
     return Ended(folder, True, progress.failed)
 

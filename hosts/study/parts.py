@@ -34,7 +34,7 @@ def table_schema(record: Mapping[str, Any]) -> Any:
     fields = [("index", pa.int64()), ("point", pa.int64()), ("manoeuvre", pa.string()), ("seed", pa.int64())]
     fields += [(name, _TYPES.get(p["kind"], pa.string())) for name, p in record["parameters"].items()]
     fields += [(name, pa.float64()) for name in record["measures"]]
-    fields += [("status", pa.string()), ("reason", pa.string())]
+    fields += [("status", pa.string()), ("reason", pa.string()), ("messages", pa.string())]
     fields += [("simulated", pa.float64()), ("wall_seconds", pa.float64())]
     made = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
     return pa.schema(made, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
@@ -129,6 +129,7 @@ class PartWriter:
                 rows[name].append(outcome.measures.get(name, np.nan))
             for name in ("status", "reason", "simulated"):
                 rows[name].append(getattr(outcome, name))
+            rows["messages"].append(" ".join(outcome.messages))
             rows["wall_seconds"].append(outcome.wall)
         for name in self._record["parameters"]:
             rows[name].extend(_texts(chunk.values[name], self._schema.field(name).type))
@@ -162,5 +163,5 @@ def _write(table: Any, file: Path) -> None:
         sync(made)
 
 
-Progress = Callable[[int, int], None]
-"""Called with the number of rows that came, and how many of them failed."""
+Progress = Callable[[Sequence[Outcome]], None]
+"""Called with the outcomes that came."""
