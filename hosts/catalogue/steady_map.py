@@ -19,6 +19,8 @@ _FAST = math.radians(13.5)
 _SLOW_UNTIL = math.radians(60.0)
 _LARGEST = math.radians(540.0)
 _RATE_OF_INPUT = 0.005
+_LINE = (0.3, 1.2)
+_LATEST = 1.0
 
 
 @dataclass(frozen=True)
@@ -89,8 +91,9 @@ def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 
 
     Notes
     -----
-    The steering wheel turns by 2 °/s up to 60°, then by 13.5 °/s. The car is late by some tenths of a second; the
-    angles are too large by as much as it turns in this time, below 1° as long as it turns slowly.
+    The steering wheel turns by 2 °/s up to 60°, then by 13.5 °/s. The car is late by some tenths of a second, so the
+    angles are too large by what it turns in this time. That angle is where a straight line through the first part of
+    the ramp, 0.3 to 1.2 m/s², meets zero; it is taken off as long as the wheel turns slowly.
     """
     given = SteeringInput.of(car.facts)
     if given.is_angle:
@@ -119,8 +122,19 @@ def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 
         turned, lateral = turned - turned[zero].mean(), lateral - lateral[zero].mean()
     kept = run.time >= 0.0
     turned, lateral = turned[kept], lateral[kept]
+    turned = turned - _late(turned, lateral, float(angle[1] / time[1]))
     top = int(np.argmax(lateral)) + 1
     return SteadyMap(speed, turned[:top], lateral[:top], run)
+
+
+def _late(angle: NDArray[np.float64], acceleration: NDArray[np.float64], rate: float) -> NDArray[np.float64]:
+    """By how much angles of a ramp run ahead of the answer, rad, up to each."""
+    first = (acceleration >= _LINE[0]) & (acceleration <= _LINE[1]) & (np.arange(len(angle)) < np.argmax(acceleration))
+    if first.sum() < 5:
+        return np.zeros(len(angle))
+    slope, offset = np.polyfit(angle[first], acceleration[first], 1)
+    late = min(max(-offset / slope, 0.0), rate * _LATEST) if slope > 0.0 else 0.0
+    return np.asarray(np.minimum(late, angle))
 
 
 def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
@@ -139,7 +153,7 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
     HostError
         If the car reaches neither.
     """
-    found = steady_map(car, speed, acceleration)
+    found = second = steady_map(car, speed, acceleration)
     if len(found.angle):
         return found
     if lower < speed:
@@ -147,8 +161,9 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
         if len(second.angle):
             note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
             return SteadyMap(lower, second.angle, second.acceleration, second.run, (note,))
-    fastest = 3.6 * float(np.max(found.run.result["speed"]))
+    speeds = 3.6 * second.run.result["speed"]
     raise HostError(
-        f"The car does not hold {3.6 * min(speed, lower):g} km/h on a straight line; its fastest was {fastest:.3g}. "
+        f"The car does not hold {3.6 * min(speed, lower):g} km/h on a straight line: after "
+        f"{second.run.result.time[-1]:.3g} s it is at {speeds[-1]:.3g} km/h, its fastest was {speeds.max():.3g}. "
         "Choose a lower speed (--test-setting TEST.speed=...)."
     )

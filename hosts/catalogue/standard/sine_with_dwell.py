@@ -157,6 +157,8 @@ def _notes(sides: list[list[DwellRun]], wanted: list[float], a: float, given: St
                 f"({side[-1].amplitude / a:.2g} A; {how}); larger amplitudes, up to "
                 f"{math.degrees(wanted[-1]):.0f}°, are not driven."
             )
+    # one is enough: the largest amplitude is the first that a slow steering does not reach
+    notes += [s for s in (r.run.shortfall(r.amplitude) for side in sides for r in side[-1:]) if s][:1]
     if given.largest < math.radians(270.0) or wanted[-1] >= given.largest * 0.999:
         notes.append(f"The series ends at full lock, {math.degrees(given.largest):.0f}°.")
     return notes
