@@ -127,7 +127,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     begin_study(folder, plan.record, b"", plan.fmu)
     me, chunks, memory = psutil.Process(), [0], [0.0]
 
-    def came(made: int, failed: int) -> None:
+    def came(*_: object) -> None:
         memory.append(me.memory_info().rss)
 
     def counted(missing: Iterator[list[int]]) -> Iterator[list[int]]:
