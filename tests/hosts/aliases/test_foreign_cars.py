@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -87,6 +88,14 @@ def largest_errors(ours, theirs):
 
 def test_all_files_that_come_with_the_package_are_tried_here():
     assert tuple(shipped_names()) == STYLES
+
+
+def test_a_wheel_has_them():
+    builder = pytest.importorskip("hatchling.builders.wheel").WheelBuilder
+    root = Path(__file__).parents[3]
+    packed = {file.distribution_path.replace("\\", "/") for file in builder(str(root)).recurse_included_files()}
+    assert {f"hosts/alias_files/{style}.toml" for style in STYLES} <= packed
+    assert "hosts/catalogue/report/page.css" in packed
 
 
 # Rates are differences over 10 ms, in which inputs are held, and so are half a step late; CarSim's axes do not roll.
