@@ -11,6 +11,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.dwell_measures import EARLY, LATE, least_displacement, measures_of_dwell
 from hosts.catalogue.dwell_series import DwellRun, amplitudes, processed, series
 from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.steady_map import why_not_reached
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import NEED, SteeringInput
 from hosts.co_simulation import Result
@@ -130,9 +131,9 @@ def _ramp(car: TestedCar, speed: float, side: float, largest: float) -> SteeredR
 
 
 def _no_angle(ramps: list[SteeredRun], speed: float) -> str:
-    if not all(len(r.time) for r in ramps):
-        fastest = 3.6 * max(float(r.result["speed"].max()) for r in ramps)
-        return f"The car does not hold {speed:g} km/h on a straight line; its fastest was {fastest:.3g} km/h."
+    for r in ramps:
+        if not len(r.time):
+            return why_not_reached(r.result, speed / 3.6)
     reached = min(float(np.abs(r.acceleration).max()) for r in ramps) / G
     return (
         f"The car reaches {reached:.2g} g at {speed:g} km/h while the steering wheel turns slowly; the angle A at "
