@@ -41,6 +41,8 @@ class Task:
     manoeuvre : Manoeuvre
     step : float
         s.
+    slopes : bool
+        Whether inputs change during a step.
     parameters : dict of str to Variable
         Of the FMU, by our names.
     set_values : dict
@@ -53,6 +55,7 @@ class Task:
     outputs: dict[str, Signal]
     manoeuvre: Manoeuvre
     step: float
+    slopes: bool
     parameters: dict[str, Variable]
     set_values: dict[str, Value]
     notes: list[str]
@@ -96,10 +99,12 @@ def prepare(options: argparse.Namespace) -> Task:
         step = communication_step(
             fmu, Manoeuvre("", next(iter(inputs.values())).time, {}, end), _step(fmu, inputs, options)
         )
-        manoeuvre = inputs_of(options.log.stem, inputs, everything, end, step)
+        whole = {n for n in inputs if fmu.variables[n].type == "Integer"}
+        slopes = opened.follows_slopes
+        manoeuvre = inputs_of(options.log.stem, inputs, everything, end, step, not slopes, whole)
         check_columns(fmu, manoeuvre)
         parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter"}
-    return Task(aliases, inputs, outputs, manoeuvre, step, parameters, given, notes)
+    return Task(aliases, inputs, outputs, manoeuvre, step, slopes, parameters, given, notes)
 
 
 def log_at(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
